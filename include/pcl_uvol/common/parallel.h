@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The only door to OpenMP: loops over fixed blocks and fork-join tasks. Exceptions
+// leave through the caller, results do not depend on the number of threads, and no
+// global OpenMP state is changed.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The number of threads a stage uses: 0 stands for all that OpenMP offers. */
+PCL_UVOL_EXPORTS unsigned
+resolveThreads(unsigned requested);
+
+/** \brief Call body(begin, end) for consecutive blocks of [0, count), in parallel.
+ * \param block indices per call, >= 1; fixed, so that per-block results do not depend
+ * on the number of threads The first exception (by time) is rethrown when all threads
+ * are done. */
+PCL_UVOL_EXPORTS void
+parallelBlocks(std::size_t count,
+               std::size_t block,
+               unsigned threads,
+               const std::function<void(std::size_t, std::size_t)>& body);
+
+/** \brief Run a recursive computation that forks through TaskGroup::fork. */
+class PCL_UVOL_EXPORTS TaskGroup {
+public:
+  /** \brief Run root in a team of that many threads and return when it and everything
+   * it forked is done. */
+  static void
+  run(unsigned threads, const std::function<void()>& root);
+
+  /** \brief Run left and right, possibly at the same time; returns when both are done.
+   * Outside of run() they run one after the other. */
+  static void
+  fork(const std::function<void()>& left, const std::function<void()>& right);
+};
+
+/** \brief Variable output of a blocked loop: each block fills a vector of its own, and
+ * the vectors are joined in the order of the blocks. */
+template <typename T, typename Body>
+std::vector<T>
+parallelGather(std::size_t count, std::size_t block, unsigned threads, const Body& body)
+{
+  std::vector<std::vector<T>> parts((count + block - 1) / block);
+  parallelBlocks(count, block, threads, [&](std::size_t begin, std::size_t end) {
+    body(begin, end, parts[begin / block]);
+  });
+  std::size_t total = 0;
+  for (const auto& part : parts)
+    total += part.size();
+  std::vector<T> joined;
+  joined.reserve(total);
+  for (const auto& part : parts)
+    joined.insert(joined.end(), part.begin(), part.end());
+  return joined;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Field expressions resolved against the fields of a cloud.
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+namespace pcl_uvol {
+namespace {
+
+using Fields = std::vector<pcl::PCLPointField>;
+
+struct TypeInfo {
+  const char* name;
+  std::size_t size;
+};
+
+/** In the order of pcl::PCLPointField::PointFieldTypes, which starts at 1. */
+constexpr std::array<TypeInfo, 11> type_infos{{{"int8", 1},
+                                               {"uint8", 1},
+                                               {"int16", 2},
+                                               {"uint16", 2},
+                                               {"int32", 4},
+                                               {"uint32", 4},
+                                               {"float32", 4},
+                                               {"float64", 8},
+                                               {"int64", 8},
+                                               {"uint64", 8},
+                                               {"bool", 1}}};
+static_assert(pcl::PCLPointField::INT8 == 1 && pcl::PCLPointField::BOOL == 11);
+
+const TypeInfo&
+typeInfo(std::uint8_t datatype)
+{
+  if (datatype < 1 || datatype > type_infos.size())
+    throw InvalidArgument("A field has the unknown type " + std::to_string(datatype) +
+                          ".");
+  return type_infos[datatype - 1];
+}
+
+template <typename T>
+double
+readAs(const std::uint8_t* bytes)
+{
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+std::string
+trimmed(std::string_view text)
+{
+  const auto blank = [](char c) {
+    return std::isspace(static_cast<unsigned char>(c)) != 0;
+  };
+  while (!text.empty() && blank(text.front()))
+    text.remove_prefix(1);
+  while (!text.empty() && blank(text.back()))
+    text.remove_suffix(1);
+  return std::string(text);
+}
+
+std::size_t
+componentCount(const pcl::PCLPointField& field)
+{
+  return std::max<std::size_t>(field.count, 1); // PCL writes 0 for some scalars
+}
+
+FieldComponent
+componentOf(const pcl::PCLPointField& field, std::size_t index)
+{
+  return {field.offset + index * datatypeSize(field.datatype), field.datatype};
+}
+
+[[noreturn]] void
+throwUnknown(const Fields& fields, const std::string& name)
+{
+  throw InvalidArgument("There is no field '" + name + "'; the fields are " +
+                        describeFields(fields) + ".");
+}
+
+/** Components called name, or name_0, name_1, ... as files without vectors call them.
+ */
+std::vector<FieldComponent>
+allComponents(const Fields& fields, const std::string& name)
+{
+  std::vector<FieldComponent> components;
+  if (const auto* const field = findField(fields, name))
+    for (std::size_t i = 0; i < componentCount(*field); ++i)
+      components.push_back(componentOf(*field, i));
+  else
+    while (const auto* const part =
+               findField(fields, name + '_' + std::to_string(components.size())))
+      components.push_back(componentOf(*part, 0));
+  if (components.empty())
+    throwUnknown(fields, name);
+  return components;
+}
+
+/** One scalar: `density` or `vel[1]`. */
+FieldComponent
+scalarComponent(const Fields& fields, const std::string& expression)
+{
+  if (const auto* const field = findField(fields, expression)) {
+    const std::size_t count = componentCount(*field);
+    if (count > 1)
+      throw InvalidArgument("The field '" + expression + "' has " +
+                            std::to_string(count) + " components: write " + expression +
+                            "[0] to " + expression + "[" + std::to_string(count - 1) +
+                            "] for one of them or |" + expression +
+                            "| for their length.");
+    return componentOf(*field, 0);
+  }
+  const std::size_t bracket = expression.find('[');
+  if (bracket == std::string::npos || bracket == 0 || expression.back() != ']')
+    throwUnknown(fields, expression);
+  std::size_t index = 0;
+  const char* const last = expression.data() + expression.size() - 1;
+  const auto parsed = std::from_chars(expression.data() + bracket + 1, last, index, 10);
+  if (parsed.ec != std::errc() || parsed.ptr != last)
+    throw InvalidArgument("The component in '" + expression +
+                          "' is not a number from 0, as in vel[1].");
+  const auto components =
+      allComponents(fields, trimmed(std::string_view(expression).substr(0, bracket)));
+  if (index >= components.size())
+    throw InvalidArgument("The component in '" + expression +
+                          "' is too large: it may be 0 to " +
+                          std::to_string(components.size() - 1) + ".");
+  return components[index];
+}
+
+bool
+isCandidate(const pcl::PCLPointField& field)
+{
+  static constexpr std::array<std::string_view, 18> never{"",
+                                                          "_",
+                                                          "x",
+                                                          "y",
+                                                          "z",
+                                                          "normal_x",
+                                                          "normal_y",
+                                                          "normal_z",
+                                                          "nx",
+                                                          "ny",
+                                                          "nz",
+                                                          "red",
+                                                          "green",
+                                                          "blue",
+                                                          "alpha",
+                                                          "rgb",
+                                                          "rgba",
+                                                          "curvature"};
+  return std::find(never.begin(), never.end(), field.name) == never.end();
+}
+
+} // namespace
+
+double
+FieldComponent::read(const std::uint8_t* point) const
+{
+  using Type = pcl::PCLPointField;
+  const std::uint8_t* const bytes = point + offset;
+  switch (datatype) {
+  case Type::FLOAT32:
+    return readAs<float>(bytes);
+  case Type::FLOAT64:
+    return readAs<double>(bytes);
+  case Type::INT8:
+    return readAs<std::int8_t>(bytes);
+  case Type::INT16:
+    return readAs<std::int16_t>(bytes);
+  case Type::UINT16:
+    return readAs<std::uint16_t>(bytes);
+  case Type::INT32:
+    return readAs<std::int32_t>(bytes);
+  case Type::UINT32:
+    return readAs<std::uint32_t>(bytes);
+  case Type::INT64:
+    return readAs<std::int64_t>(bytes);
+  case Type::UINT64:
+    return readAs<std::uint64_t>(bytes);
+  default: // UINT8, BOOL
+    return readAs<std::uint8_t>(bytes);
+  }
+}
+
+ScalarField::ScalarField(const Fields& fields, const std::string& expression)
+    : name_(trimmed(expression))
+    , is_length_(!findField(fields, name_) && name_.size() > 1 &&
+                 name_.front() == '|' && name_.back() == '|')
+{
+  if (!is_length_) {
+    components_.push_back(scalarComponent(fields, name_));
+    return;
+  }
+  const std::string inside = name_.substr(1, name_.size() - 2);
+  if (inside.find(',') == std::string::npos) {
+    components_ = allComponents(fields, trimmed(inside));
+    return;
+  }
+  for (std::size_t start = 0; start <= inside.size();) {
+    const std::size_t end = std::min(inside.find(',', start), inside.size());
+    components_.push_back(scalarComponent(
+        fields, trimmed(std::string_view(inside).substr(start, end - start))));
+    start = end + 1;
+  }
+}
+
+std::string
+ScalarField::defaultName(const Fields& fields)
+{
+  Fields candidates, scalars;
+  for (const auto& field : fields) {
+    if (!isCandidate(field))
+      continue;
+    candidates.push_back(field);
+    if (componentCount(field) > 1)
+      continue;
+    if (field.name == "intensity")
+      return field.name;
+    scalars.push_back(field);
+  }
+  if (scalars.size() == 1)
+    return scalars.front().name;
+  if (candidates.empty())
+    throw InvalidArgument("There is no scalar field; the fields are " +
+                          describeFields(fields) + ".");
+  throw InvalidArgument("Name the scalar field to use, one of " +
+                        describeFields(candidates) + ".");
+}
+
+double
+ScalarField::read(const std::uint8_t* point) const
+{
+  if (!is_length_)
+    return components_.front().read(point);
+  double sum = 0.0;
+  for (const auto& component : components_) {
+    const double value = component.read(point);
+    sum += value * value;
+  }
+  return std::sqrt(sum);
+}
+
+bool
+ScalarField::isInteger() const
+{
+  const std::uint8_t datatype = components_.front().datatype;
+  return !is_length_ && datatype != pcl::PCLPointField::FLOAT32 &&
+         datatype != pcl::PCLPointField::FLOAT64;
+}
+
+std::string
+describeFields(const Fields& fields)
+{
+  std::string text;
+  for (const auto& field : fields) {
+    if (!text.empty())
+      text += ", ";
+    text += field.name + " (" + typeInfo(field.datatype).name;
+    if (componentCount(field) > 1)
+      text += " x " + std::to_string(field.count);
+    text += ')';
+  }
+  return text.empty() ? "none" : text;
+}
+
+const pcl::PCLPointField*
+findField(const Fields& fields, const std::string& name)
+{
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const auto& field) {
+    return field.name == name;
+  });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::size_t
+datatypeSize(std::uint8_t datatype)
+{
+  return typeInfo(datatype).size;
+}
+
+} // namespace pcl_uvol
