@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The angle criterion of thesis 2.3: no two neighbours of a sample lie behind each
+// other.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Which closer candidates can remove a farther one; Table 2.4 leaves it open.
+ */
+enum class AngleCriterion {
+  Kept, ///< only those kept so far: about 5.1 neighbours, more isopoints (default)
+  All   ///< also those that were removed: about 4.7 neighbours, shorter edges
+};
+
+/** \brief Remove every candidate whose angle to a closer one, seen from the sample, is
+ * below acos(sqrt(1/3)), 54.7 degrees (Table 2.4). Equal distances count by index. */
+class PCL_UVOL_EXPORTS AngleFilter {
+public:
+  /** \param positions must outlive the filter and be distinct */
+  AngleFilter(const std::vector<Position>& positions, AngleCriterion criterion)
+      : positions_(positions)
+      , criterion_(criterion)
+  {
+  }
+
+  /** \brief Filter in place; what stays is sorted by (squared distance, index). */
+  void
+  apply(std::uint32_t sample, std::vector<std::uint32_t>& candidates);
+
+private:
+  /** A candidate as seen from the sample; the direction is not normalised. */
+  struct Sight {
+    double direction[3];
+    double sq_dist;
+  };
+  /** What candidates are sorted by, and where their sight is. */
+  struct Key {
+    double sq_dist;
+    std::uint32_t index;
+    std::uint32_t position;
+  };
+
+  static double
+  dot(const Sight& a, const Sight& b);
+
+  const std::vector<Position>& positions_;
+  AngleCriterion criterion_;
+  std::vector<Sight> sights_, judges_; // workspace
+  std::vector<Key> keys_;              // workspace
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bit-indexed kd-tree of thesis 2.2.1: every sample has a leaf cell of its own,
+// nodes are numbered so that family relations are bit operations, touching cells are
+// found from the numbers (2.2.2 - 2.2.4).
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Three coordinates without PCL's padding. */
+struct Position {
+  float x[3];
+
+  float
+  operator[](int axis) const
+  {
+    return x[axis];
+  }
+  float&
+  operator[](int axis)
+  {
+    return x[axis];
+  }
+};
+
+/** \brief A position and where it comes from: what the tree is built from. */
+struct SampleRecord {
+  Position position;
+  std::uint32_t input_index;
+};
+
+/** \brief Total order along an axis: by that coordinate, then the other two in cyclic
+ * order. It tells distinct positions apart, so that samples with equal coordinates give
+ * one tree whatever their order in the input. */
+inline bool
+lessAlong(int axis, const Position& a, const Position& b)
+{
+  constexpr int next[3] = {1, 2, 0};
+  if (a[axis] != b[axis])
+    return a[axis] < b[axis];
+  const int second = next[axis];
+  if (a[second] != b[second])
+    return a[second] < b[second];
+  const int third = next[second];
+  return a[third] < b[third];
+}
+
+/** \brief A splitting plane: a position in the total order along its axis. */
+struct SplitPlane {
+  float coordinate;           ///< midway between the neighbours of the cut
+  std::uint32_t below_sample; ///< the last sample below the plane; decides between
+                              ///< planes of equal coordinate
+};
+
+/** \brief A node and the samples below it, which are consecutive in leaf order. */
+struct KdNode {
+  std::uint64_t number; ///< root 1, children 2j and 2j+1
+  std::uint32_t begin;  ///< first sample
+  std::uint32_t count;  ///< samples; 1 for a leaf
+  int depth;            ///< root 0
+
+  bool
+  isLeaf() const
+  {
+    return count == 1;
+  }
+  /** \brief The left half takes the odd sample. */
+  KdNode
+  left() const
+  {
+    return {number << 1, begin, (count + 1) / 2, depth + 1};
+  }
+  KdNode
+  right() const
+  {
+    const std::uint32_t half = (count + 1) / 2;
+    return {(number << 1) | 1, begin + half, count - half, depth + 1};
+  }
+};
+
+/** \brief The cell of a node: per axis the planes that bound it, infinite at the border
+ * of the domain. */
+struct KdCell {
+  std::array<SplitPlane, 3> low, high;
+};
+
+/** \brief Smallest and largest value of a scalar below every node, by node number;
+ * leaves are the values themselves. */
+struct PCL_UVOL_EXPORTS NodeRanges {
+  struct Range {
+    float min, max;
+  };
+  std::vector<Range> inner;      ///< by node number
+  const float* values = nullptr; ///< by sample, kept by the caller
+
+  Range
+  operator[](const KdNode& node) const
+  {
+    return node.isLeaf() ? Range{values[node.begin], values[node.begin]}
+                         : inner[node.number];
+  }
+};
+
+/** \brief The tree: splitting planes by node number, nothing else. Memory: 8 to 16
+ * bytes per sample. It refers to positions in leaf order, which its owner (SampleSet)
+ * keeps. */
+class PCL_UVOL_EXPORTS KdTree {
+public:
+  /** \brief Sort the records into leaf order and set the planes.
+   * \param records at least one; finite positions
+   * \return false if two records have equal positions: the tree is then of no use,
+   * since their cells cannot be told apart. Every pair of equals is parted by some cut,
+   * where it stands on both sides of the plane, so the check costs nothing. */
+  bool
+  build(std::vector<SampleRecord>& records, unsigned threads);
+
+  KdNode
+  getRoot() const
+  {
+    return {1, 0, count_, 0};
+  }
+
+  /** \brief Axis of the splits at a depth: a cycle over the axes along which the
+   * samples differ. */
+  int
+  getAxis(int depth) const
+  {
+    return axis_at_depth_[static_cast<std::size_t>(depth)];
+  }
+
+  const SplitPlane&
+  getPlane(const KdNode& node) const
+  {
+    return planes_[node.number];
+  }
+
+  /** \brief The whole space. */
+  static KdCell
+  unboundedCell();
+
+  /** \brief True if plane a lies below plane b in the total order along the axis
+   * (ranks, not coordinates: cells of samples with equal coordinates have a thickness
+   * of rank). */
+  bool
+  isBelow(const std::vector<Position>& positions,
+          int axis,
+          const SplitPlane& a,
+          const SplitPlane& b) const
+  {
+    if (a.coordinate != b.coordinate)
+      return a.coordinate < b.coordinate;
+    return lessAlong(axis, positions[a.below_sample], positions[b.below_sample]);
+  }
+
+  /** \brief All samples whose closed cell shares a point with the cell of a sample
+   * (Definition 2.4), each once, in no particular order.
+   * \param touching cleared first */
+  void
+  findTouching(const std::vector<Position>& positions,
+               std::uint32_t sample,
+               std::vector<std::uint32_t>& touching) const;
+
+  /** \brief Range of the values below every node.
+   * \param values in leaf order; must outlive the result */
+  NodeRanges
+  computeRanges(const std::vector<float>& values, unsigned threads) const;
+
+  /** \brief The samples that touch a sample on the other side of an isovalue (a value
+   * equal to it counts as above), ascending. Descends only pairs of touching nodes
+   * whose common range holds the isovalue: the cost is that of the surface, not of the
+   * data. */
+  std::vector<std::uint32_t>
+  findCrossing(const std::vector<Position>& positions,
+               const NodeRanges& ranges,
+               float isovalue,
+               unsigned threads) const;
+
+private:
+  void
+  searchSubtree(const std::vector<Position>& positions,
+                const KdNode& subtree,
+                int separating_axis,
+                bool subtree_is_above,
+                const KdCell& cell,
+                std::vector<std::uint32_t>& touching) const;
+
+  std::uint32_t count_ = 0;
+  std::array<std::int8_t, 64> axis_at_depth_{};
+  std::vector<SplitPlane> planes_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Approximate natural neighbours of every sample: touching cells of the kd-tree
+// (thesis 2.2), thinned by the angle criterion (2.3).
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/neighbors/angle_criterion.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+
+#include <pcl/pcl_base.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Neighbours of one sample after another; one object per thread. */
+class PCL_UVOL_EXPORTS NeighborhoodFinder {
+public:
+  /** \param samples must outlive the finder */
+  NeighborhoodFinder(const SampleSet& samples, AngleCriterion criterion)
+      : samples_(samples)
+      , filter_(samples.getPositions(), criterion)
+  {
+  }
+
+  /** \brief Neighbours of a sample, sorted by (squared distance, index); valid until
+   * the next call. */
+  const std::vector<std::uint32_t>&
+  find(std::uint32_t sample)
+  {
+    samples_.getTree().findTouching(samples_.getPositions(), sample, neighbors_);
+    candidate_count_ += neighbors_.size();
+    filter_.apply(sample, neighbors_);
+    return neighbors_;
+  }
+
+  /** \brief Touching cells seen by all calls so far, before the angle criterion. */
+  std::uint64_t
+  getCandidateCount() const
+  {
+    return candidate_count_;
+  }
+
+private:
+  const SampleSet& samples_;
+  AngleFilter filter_;
+  std::vector<std::uint32_t> neighbors_;
+  std::uint64_t candidate_count_ = 0;
+};
+
+/** \brief Neighbours of all samples, in leaf order.
+ * \param report gets the counts "candidates" and "neighbors" and the time of
+ * "neighborhoods". Memory: 4 bytes per neighbour (about 5 per sample) + 8 per sample,
+ * twice while they are joined. */
+PCL_UVOL_EXPORTS NeighborGraph
+computeNaturalNeighbors(const SampleSet& samples,
+                        AngleCriterion criterion,
+                        unsigned threads,
+                        Report& report);
+
+/** \brief Natural neighbours of every point of a cloud.
+ *
+ * \code
+ * pcl_uvol::NaturalNeighbors<pcl::PointXYZ> natural;
+ * natural.setInputCloud(cloud);
+ * pcl_uvol::NeighborGraph graph;
+ * natural.compute(graph);
+ * \endcode
+ * Points with a non-finite coordinate have no neighbours; of exact duplicates the first
+ * has those of all, the others none. */
+template <typename PointT>
+class NaturalNeighbors : public pcl::PCLBase<PointT> {
+public:
+  /** \brief Default: AngleCriterion::Kept. */
+  void
+  setAngleCriterion(AngleCriterion criterion)
+  {
+    criterion_ = criterion;
+  }
+
+  /** \brief 0 (default) = all cores. */
+  void
+  setNumberOfThreads(unsigned threads)
+  {
+    threads_ = threads;
+  }
+
+  /** \brief One row per point of the input cloud, indices into the input cloud.
+   * \throws InvalidArgument without an input cloud or without a finite point */
+  void
+  compute(NeighborGraph& graph);
+
+  /** \brief Counts and times of the last compute(). */
+  const Report&
+  getReport() const
+  {
+    return report_;
+  }
+
+private:
+  AngleCriterion criterion_ = AngleCriterion::Kept;
+  unsigned threads_ = 0;
+  Report report_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Neighbours of every sample as compressed sparse rows.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Row i holds the neighbours of sample i, sorted by (squared distance, index).
+ */
+struct PCL_UVOL_EXPORTS NeighborGraph {
+  std::vector<std::uint64_t> offsets; ///< one per sample, and the end of the last row
+  std::vector<std::uint32_t> indices;
+
+  /** \brief One row, for range-based loops. */
+  struct Row {
+    const std::uint32_t* first;
+    const std::uint32_t* last;
+
+    const std::uint32_t*
+    begin() const
+    {
+      return first;
+    }
+    const std::uint32_t*
+    end() const
+    {
+      return last;
+    }
+    std::size_t
+    size() const
+    {
+      return static_cast<std::size_t>(last - first);
+    }
+  };
+
+  std::size_t
+  size() const
+  {
+    return offsets.empty() ? 0 : offsets.size() - 1;
+  }
+
+  Row
+  operator[](std::size_t sample) const
+  {
+    return {indices.data() + offsets[sample], indices.data() + offsets[sample + 1]};
+  }
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building the bit-indexed kd-tree (thesis Table 2.2) and the range of a scalar per
+// node.
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Below this many samples a subtree is one task: large enough to hide the cost of a
+ * fork. */
+constexpr std::uint32_t task_samples = 1u << 14;
+
+constexpr std::size_t block_samples = 1u << 14;
+
+/** Below this many samples a pivot is the median of three, above it comes from a
+ * sample. */
+constexpr std::ptrdiff_t sampled_pivot_records = 1 << 10;
+constexpr std::ptrdiff_t pivot_sample = 128;
+/** Twice the standard error of a median of the sample, as a number of its elements. */
+constexpr std::ptrdiff_t pivot_margin = 11;
+/** Ranges this short are sorted by insertion. */
+constexpr std::ptrdiff_t insertion_records = 12;
+
+template <int axis>
+bool
+lessRecord(const SampleRecord& a, const SampleRecord& b)
+{
+  return lessAlong(axis, a.position, b.position);
+}
+
+/** Bring records below the pivot to the front; returns the first of the others. Free of
+ * branches that depend on the data: they would be mispredicted every other time. */
+template <int axis>
+SampleRecord*
+partitionBelow(SampleRecord* first, SampleRecord* last, float pivot)
+{
+  SampleRecord* boundary = first;
+  for (SampleRecord* record = first; record != last; ++record) {
+    const SampleRecord moved = *record;
+    *record = *boundary;
+    *boundary = moved;
+    boundary += moved.position[axis] < pivot ? 1 : 0;
+  }
+  return boundary;
+}
+
+/** A pivot that leaves the cut in the smaller part: sampled at the cut's quantile,
+ * moved by a margin to the far side (Floyd and Rivest 1975). */
+template <int axis>
+float
+choosePivot(const SampleRecord* first,
+            const SampleRecord* cut,
+            const SampleRecord* last)
+{
+  const std::ptrdiff_t count = last - first;
+  if (count < sampled_pivot_records) {
+    const float a = first->position[axis], b = first[count / 2].position[axis],
+                c = first[count - 1].position[axis];
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
+  float sample[pivot_sample];
+  for (std::ptrdiff_t i = 0; i < pivot_sample; ++i)
+    sample[i] = first[i * count / pivot_sample].position[axis];
+  const std::ptrdiff_t quantile = (cut - first) * pivot_sample / count;
+  const std::ptrdiff_t rank = std::clamp<std::ptrdiff_t>(
+      2 * (cut - first) < count ? quantile + pivot_margin : quantile - pivot_margin,
+      0,
+      pivot_sample - 1);
+  std::nth_element(sample, sample + rank, sample + pivot_sample);
+  return sample[rank];
+}
+
+/** Arrange records so that none before the cut has a greater coordinate than one
+ * behind. */
+template <int axis>
+void
+selectByCoordinate(SampleRecord* first, SampleRecord* cut, SampleRecord* last)
+{
+  const auto less = [](const SampleRecord& a, const SampleRecord& b) {
+    return a.position[axis] < b.position[axis];
+  };
+  while (last - first > insertion_records) {
+    SampleRecord* const boundary =
+        partitionBelow<axis>(first, last, choosePivot<axis>(first, cut, last));
+    if (boundary == first) { // nothing below the pivot: many equal coordinates
+      std::nth_element(first, cut - 1, last, less);
+      return;
+    }
+    if (boundary <= cut)
+      first = boundary;
+    else
+      last = boundary;
+    if (boundary == cut)
+      return;
+  }
+  for (SampleRecord* record = first; record < last; ++record)
+    std::rotate(std::upper_bound(first, record, *record, less), record, record + 1);
+}
+
+class Builder {
+public:
+  Builder(const KdTree& tree,
+          std::vector<SampleRecord>& records,
+          std::vector<SplitPlane>& planes)
+      : tree_(tree)
+      , records_(records)
+      , planes_(planes)
+  {
+  }
+
+  void
+  build(const KdNode& node)
+  {
+    if (node.isLeaf())
+      return;
+    switch (tree_.getAxis(node.depth)) {
+    case 0:
+      split<0>(node);
+      break;
+    case 1:
+      split<1>(node);
+      break;
+    default:
+      split<2>(node);
+    }
+    if (node.count < task_samples) {
+      build(node.left());
+      build(node.right());
+      return;
+    }
+    TaskGroup::fork([&] { build(node.left()); }, [&] { build(node.right()); });
+  }
+
+  bool
+  hasDuplicates() const
+  {
+    return has_duplicates_;
+  }
+
+private:
+  template <int axis>
+  void
+  split(const KdNode& node)
+  {
+    SampleRecord* const first = records_.data() + node.begin;
+    SampleRecord* const last = first + node.count;
+    SampleRecord* const cut = first + (node.count + 1) / 2; // first of the right half
+    selectByCoordinate<axis>(first, cut, last);
+    const SampleRecord* below = std::max_element(first, cut, lessRecord<axis>);
+    const SampleRecord* above = std::min_element(cut, last, lessRecord<axis>);
+    if (!lessRecord<axis>(*below,
+                          *above)) { // equal coordinates on both sides of the cut
+      std::nth_element(first, cut - 1, last, lessRecord<axis>);
+      below = cut - 1;
+      above = std::min_element(cut, last, lessRecord<axis>);
+      if (!lessRecord<axis>(*below, *above))
+        has_duplicates_.store(true, std::memory_order_relaxed);
+    }
+    const double middle = 0.5 * (static_cast<double>(below->position[axis]) +
+                                 static_cast<double>(above->position[axis]));
+    planes_[node.number] = {static_cast<float>(middle), below->input_index};
+  }
+
+  const KdTree& tree_;
+  std::vector<SampleRecord>& records_;
+  std::vector<SplitPlane>& planes_;
+  std::atomic<bool> has_duplicates_{false};
+};
+
+/** Smallest power of two that is not below the count: no inner node has a higher
+ * number. */
+std::size_t
+innerNodeNumbers(std::uint32_t count)
+{
+  std::size_t numbers = 1;
+  while (numbers < count)
+    numbers <<= 1;
+  return numbers;
+}
+
+NodeRanges::Range
+fillRanges(NodeRanges& ranges, const KdNode& node)
+{
+  if (node.isLeaf())
+    return ranges[node];
+  NodeRanges::Range left, right;
+  const auto fill_left = [&] { left = fillRanges(ranges, node.left()); };
+  const auto fill_right = [&] { right = fillRanges(ranges, node.right()); };
+  if (node.count < task_samples) {
+    fill_left();
+    fill_right();
+  }
+  else
+    TaskGroup::fork(fill_left, fill_right);
+  return ranges.inner[node.number] = {std::min(left.min, right.min),
+                                      std::max(left.max, right.max)};
+}
+
+} // namespace
+
+bool
+KdTree::build(std::vector<SampleRecord>& records, unsigned threads)
+{
+  count_ = static_cast<std::uint32_t>(records.size());
+  std::vector<std::int8_t> axes;
+  for (std::int8_t axis = 0; axis < 3; ++axis) {
+    const float first = records.front().position[axis];
+    // An axis along which all samples agree would only add splits by the other
+    // coordinates.
+    if (std::any_of(records.begin(), records.end(), [&](const SampleRecord& record) {
+          return record.position[axis] != first;
+        }))
+      axes.push_back(axis);
+  }
+  for (std::size_t depth = 0; depth < axis_at_depth_.size() && !axes.empty(); ++depth)
+    axis_at_depth_[depth] = axes[depth % axes.size()];
+
+  planes_.assign(innerNodeNumbers(count_), SplitPlane{0.0f, 0});
+  Builder builder(*this, records, planes_);
+  TaskGroup::run(threads, [&] { builder.build(getRoot()); });
+  if (builder.hasDuplicates())
+    return false;
+
+  // Planes were given input indices; the samples' leaf order is known only now.
+  std::uint32_t highest = 0;
+  for (const SampleRecord& record : records)
+    highest = std::max(highest, record.input_index);
+  std::vector<std::uint32_t> sample_of(static_cast<std::size_t>(highest) + 1);
+  parallelBlocks(
+      records.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          sample_of[records[i].input_index] = static_cast<std::uint32_t>(i);
+      });
+  parallelBlocks(
+      planes_.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          planes_[i].below_sample = sample_of[planes_[i].below_sample];
+      });
+  return true;
+}
+
+KdCell
+KdTree::unboundedCell()
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  KdCell cell;
+  cell.low.fill({-infinity, 0});
+  cell.high.fill({infinity, 0});
+  return cell;
+}
+
+NodeRanges
+KdTree::computeRanges(const std::vector<float>& values, unsigned threads) const
+{
+  NodeRanges ranges;
+  ranges.values = values.data();
+  ranges.inner.resize(planes_.size());
+  TaskGroup::run(threads, [&] { fillRanges(ranges, getRoot()); });
+  return ranges;
+}
+
+} // namespace pcl_uvol

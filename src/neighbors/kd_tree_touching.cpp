@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of the bit-indexed kd-tree that touch: the surrounding neighbours of one cell
+// (thesis 2.2.2 - 2.2.4) and the pairs of touching cells that an isosurface passes
+// between.
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** A node number has at most 64 bits. */
+constexpr int max_depth = 64;
+
+/** Descends pairs of touching nodes whose common range of values holds the isovalue. */
+class CrossingSearch {
+public:
+  CrossingSearch(const KdTree& tree,
+                 const std::vector<Position>& positions,
+                 const NodeRanges& ranges,
+                 float isovalue)
+      : tree_(tree)
+      , positions_(positions)
+      , ranges_(ranges)
+      , isovalue_(isovalue)
+      , is_crossing_(positions.size())
+  {
+  }
+
+  /** All pairs inside a node: those inside its halves, and those across its plane. */
+  void
+  within(const KdNode& node, const KdCell& cell)
+  {
+    if (node.isLeaf() || !crosses(ranges_[node], ranges_[node]))
+      return;
+    const int axis = tree_.getAxis(node.depth);
+    const auto [left_cell, right_cell] = halves(node, cell);
+    const KdNode left = node.left(), right = node.right();
+    const auto search_left = [&, &cell_of = left_cell] { within(left, cell_of); };
+    const auto search_right = [&, &cell_of = right_cell] { within(right, cell_of); };
+    if (node.count < task_samples) {
+      search_left();
+      search_right();
+    }
+    else
+      TaskGroup::fork(search_left, search_right);
+    across(left, left_cell, right, right_cell, axis);
+  }
+
+  std::vector<std::uint32_t>
+  collect(unsigned threads) const
+  {
+    return parallelGather<std::uint32_t>(
+        is_crossing_.size(),
+        task_samples,
+        threads,
+        [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+          for (std::size_t i = begin; i < end; ++i)
+            if (is_crossing_[i].load(std::memory_order_relaxed))
+              found.push_back(static_cast<std::uint32_t>(i));
+        });
+  }
+
+private:
+  /** Below this many samples a subtree is one task. */
+  static constexpr std::uint32_t task_samples = 1u << 14;
+
+  bool
+  crosses(const NodeRanges::Range& a, const NodeRanges::Range& b) const
+  {
+    return std::min(a.min, b.min) < isovalue_ && std::max(a.max, b.max) >= isovalue_;
+  }
+
+  std::pair<KdCell, KdCell>
+  halves(const KdNode& node, const KdCell& cell) const
+  {
+    const auto axis = static_cast<std::size_t>(tree_.getAxis(node.depth));
+    std::pair<KdCell, KdCell> result{cell, cell};
+    result.first.high[axis] = result.second.low[axis] = tree_.getPlane(node);
+    return result;
+  }
+
+  /** All pairs of a sample in lower and one in upper, two touching nodes that a plane
+   * of the given axis parts. The larger node is split; halves that do not touch the
+   * other node are left out by the same tests as in Table 2.3. */
+  void
+  across(const KdNode& lower,
+         const KdCell& lower_cell,
+         const KdNode& upper,
+         const KdCell& upper_cell,
+         int separating_axis)
+  {
+    if (!crosses(ranges_[lower], ranges_[upper]))
+      return;
+    if (lower.isLeaf() && upper.isLeaf()) {
+      is_crossing_[lower.begin].store(true, std::memory_order_relaxed);
+      is_crossing_[upper.begin].store(true, std::memory_order_relaxed);
+      return;
+    }
+    const bool split_lower = lower.count >= upper.count;
+    const KdNode& node = split_lower ? lower : upper;
+    const KdCell& other_cell = split_lower ? upper_cell : lower_cell;
+    const int axis = tree_.getAxis(node.depth);
+    const auto a = static_cast<std::size_t>(axis);
+    const auto [left_cell, right_cell] =
+        halves(node, split_lower ? lower_cell : upper_cell);
+    bool visit_left, visit_right;
+    if (axis == separating_axis) {
+      visit_right = split_lower;
+      visit_left = !split_lower;
+    }
+    else {
+      const SplitPlane& plane = tree_.getPlane(node);
+      visit_left = tree_.isBelow(positions_, axis, other_cell.low[a], plane);
+      visit_right = tree_.isBelow(positions_, axis, plane, other_cell.high[a]);
+    }
+    const auto visit = [&](const KdNode& half, const KdCell& half_cell) {
+      if (split_lower)
+        across(half, half_cell, upper, upper_cell, separating_axis);
+      else
+        across(lower, lower_cell, half, half_cell, separating_axis);
+    };
+    if (visit_left)
+      visit(node.left(), left_cell);
+    if (visit_right)
+      visit(node.right(), right_cell);
+  }
+
+  const KdTree& tree_;
+  const std::vector<Position>& positions_;
+  const NodeRanges& ranges_;
+  float isovalue_;
+  std::vector<std::atomic<bool>> is_crossing_;
+};
+
+} // namespace
+
+void
+KdTree::searchSubtree(const std::vector<Position>& positions,
+                      const KdNode& subtree,
+                      int separating_axis,
+                      bool subtree_is_above,
+                      const KdCell& cell,
+                      std::vector<std::uint32_t>& touching) const
+{
+  // Each step replaces a node by at most its two children, so a path's length is
+  // enough.
+  KdNode stack[max_depth];
+  int size = 0;
+  stack[size++] = subtree;
+  while (size > 0) {
+    const KdNode node = stack[--size];
+    if (node.isLeaf()) {
+      touching.push_back(node.begin);
+      continue;
+    }
+    const int axis = getAxis(node.depth);
+    if (axis == separating_axis) {
+      // Parallel to the separating plane: only the half next to it can touch.
+      stack[size++] = subtree_is_above ? node.left() : node.right();
+      continue;
+    }
+    const auto a = static_cast<std::size_t>(axis);
+    const SplitPlane& plane = getPlane(node);
+    if (isBelow(positions, axis, plane, cell.high[a]))
+      stack[size++] = node.right();
+    if (isBelow(positions, axis, cell.low[a], plane))
+      stack[size++] = node.left();
+  }
+}
+
+void
+KdTree::findTouching(const std::vector<Position>& positions,
+                     std::uint32_t sample,
+                     std::vector<std::uint32_t>& touching) const
+{
+  touching.clear();
+  // The path from the root: bit d of the leaf's number says on which side of the plane
+  // at depth d the cell lies. Per axis the last 0 bit names the plane above the cell
+  // and the last 1 bit the plane below it (Example 2.5); an axis without one lies at
+  // the border.
+  KdNode path[max_depth];
+  int last_below[3] = {-1, -1, -1}, last_above[3] = {-1, -1, -1};
+  KdNode node = getRoot();
+  while (!node.isLeaf()) {
+    path[node.depth] = node;
+    const int axis = getAxis(node.depth);
+    const KdNode left = node.left();
+    if (sample < left.begin + left.count) {
+      last_above[axis] = node.depth;
+      node = left;
+    }
+    else {
+      last_below[axis] = node.depth;
+      node = node.right();
+    }
+  }
+  KdCell cell = unboundedCell();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (last_below[axis] >= 0)
+      cell.low[axis] = getPlane(path[last_below[axis]]);
+    if (last_above[axis] >= 0)
+      cell.high[axis] = getPlane(path[last_above[axis]]);
+  }
+  // Cells beyond no bounding plane cannot touch, and the plane at which two paths part
+  // is unique: every touching cell is found, and once. Direct neighbours (2.2.3) are
+  // those beyond the last three planes, indirect ones (2.2.4) those beyond the others.
+  for (int axis = 0; axis < 3; ++axis) {
+    if (last_below[axis] >= 0)
+      searchSubtree(
+          positions, path[last_below[axis]].left(), axis, false, cell, touching);
+    if (last_above[axis] >= 0)
+      searchSubtree(
+          positions, path[last_above[axis]].right(), axis, true, cell, touching);
+  }
+}
+
+std::vector<std::uint32_t>
+KdTree::findCrossing(const std::vector<Position>& positions,
+                     const NodeRanges& ranges,
+                     float isovalue,
+                     unsigned threads) const
+{
+  CrossingSearch search(*this, positions, ranges, isovalue);
+  TaskGroup::run(threads, [&] { search.within(getRoot(), unboundedCell()); });
+  return search.collect(threads);
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/impl/natural_neighbors.hpp>
+
+#include <pcl/impl/pcl_base.hpp>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_samples = 1u << 12;
+
+/** The rows of consecutive samples. */
+struct Rows {
+  std::vector<std::uint32_t> sizes, indices;
+  std::uint64_t candidates = 0;
+};
+
+/** Neighbours as input indices, in rows by input index. */
+NeighborGraph
+toInputOrder(const NeighborGraph& by_sample,
+             const SampleSet& samples,
+             std::size_t points)
+{
+  NeighborGraph graph;
+  graph.offsets.assign(points + 1, 0);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    graph.offsets[samples.getInputIndex(i) + 1] = by_sample[i].size();
+  for (std::size_t i = 0; i < points; ++i)
+    graph.offsets[i + 1] += graph.offsets[i];
+  graph.indices.resize(by_sample.indices.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    std::uint64_t position = graph.offsets[samples.getInputIndex(i)];
+    for (const std::uint32_t neighbor : by_sample[i])
+      graph.indices[position++] = samples.getInputIndex(neighbor);
+  }
+  return graph;
+}
+
+} // namespace
+
+NeighborGraph
+computeNaturalNeighbors(const SampleSet& samples,
+                        AngleCriterion criterion,
+                        unsigned threads,
+                        Report& report)
+{
+  const StepTimer timer(report, "neighborhoods");
+  std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
+  parallelBlocks(
+      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+        NeighborhoodFinder finder(samples, criterion);
+        Rows& rows = blocks[begin / block_samples];
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& neighbors = finder.find(static_cast<std::uint32_t>(i));
+          rows.sizes.push_back(static_cast<std::uint32_t>(neighbors.size()));
+          rows.indices.insert(rows.indices.end(), neighbors.begin(), neighbors.end());
+        }
+        rows.candidates = finder.getCandidateCount();
+      });
+
+  NeighborGraph graph;
+  graph.offsets.reserve(samples.size() + 1);
+  graph.offsets.push_back(0);
+  std::uint64_t candidates = 0;
+  for (const Rows& rows : blocks) {
+    for (const std::uint32_t size : rows.sizes)
+      graph.offsets.push_back(graph.offsets.back() + size);
+    candidates += rows.candidates;
+  }
+  graph.indices.resize(graph.offsets.back());
+  parallelBlocks(blocks.size(), 1, threads, [&](std::size_t begin, std::size_t) {
+    std::copy(blocks[begin].indices.begin(),
+              blocks[begin].indices.end(),
+              graph.indices.begin() +
+                  static_cast<std::ptrdiff_t>(graph.offsets[begin * block_samples]));
+  });
+  report.count("candidates", candidates);
+  report.count("neighbors", graph.indices.size());
+  return graph;
+}
+
+NeighborGraph
+computeNaturalNeighbors(const CloudView& cloud,
+                        const std::vector<std::uint32_t>& use,
+                        AngleCriterion criterion,
+                        unsigned threads,
+                        Report& report)
+{
+  const auto samples = SampleSet::build(
+      cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
+  return toInputOrder(computeNaturalNeighbors(*samples, criterion, threads, report),
+                      *samples,
+                      cloud.count);
+}
+
+template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZ>;
+template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZI>;
+
+} // namespace pcl_uvol
