@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 13;
+
+/** Bytes that go from one point layout to another. */
+struct FieldCopy {
+  std::size_t from, to, size;
+  std::uint8_t datatype;
+  std::size_t count;
+  bool interpolated;
+};
+
+bool
+isPadding(const pcl::PCLPointField& field)
+{
+  return field.name == "_";
+}
+
+std::size_t
+countOf(const pcl::PCLPointField& field)
+{
+  return std::max<std::size_t>(field.count, 1);
+}
+
+/** Append a field to a packed layout and tell how to fill it. */
+FieldCopy
+append(const pcl::PCLPointField& field, pcl::PCLPointCloud2& layout)
+{
+  const bool floating = field.datatype == pcl::PCLPointField::FLOAT32 ||
+                        field.datatype == pcl::PCLPointField::FLOAT64;
+  // PCL packs colours into a float's bits.
+  const bool nominal =
+      field.name == "rgb" || field.name == "rgba" || field.name == "label";
+  const std::size_t size = datatypeSize(field.datatype) * countOf(field);
+  const FieldCopy copy{field.offset,
+                       layout.point_step,
+                       size,
+                       field.datatype,
+                       countOf(field),
+                       floating && !nominal};
+  layout.fields.push_back(field);
+  layout.fields.back().offset = layout.point_step;
+  layout.fields.back().count = static_cast<pcl::uindex_t>(copy.count);
+  layout.point_step += static_cast<pcl::uindex_t>(size);
+  return copy;
+}
+
+template <typename T>
+void
+interpolate(const std::uint8_t* a,
+            const std::uint8_t* b,
+            double t,
+            std::size_t count,
+            std::uint8_t* out)
+{
+  for (std::size_t k = 0; k < count; ++k) {
+    T first, second;
+    std::memcpy(&first, a + k * sizeof(T), sizeof(T));
+    std::memcpy(&second, b + k * sizeof(T), sizeof(T));
+    // A foot on a sample takes its value even if the other one has none.
+    const double value = t == 0.0   ? static_cast<double>(first)
+                         : t == 1.0 ? static_cast<double>(second)
+                                    : (1.0 - t) * static_cast<double>(first) +
+                                          t * static_cast<double>(second);
+    const T converted = static_cast<T>(value);
+    std::memcpy(out + k * sizeof(T), &converted, sizeof(T));
+  }
+}
+
+void
+fill(const FieldCopy& copy,
+     const std::uint8_t* first,
+     const std::uint8_t* second,
+     double t,
+     std::uint8_t* out)
+{
+  first += copy.from;
+  second += copy.from;
+  out += copy.to;
+  if (!copy.interpolated)
+    std::memcpy(out, t <= 0.5 ? first : second, copy.size);
+  else if (copy.datatype == pcl::PCLPointField::FLOAT32)
+    interpolate<float>(first, second, t, copy.count, out);
+  else
+    interpolate<double>(first, second, t, copy.count, out);
+}
+
+} // namespace
+
+void
+interpolateFields(const pcl::PCLPointCloud2& samples,
+                  const IsoEdges& edges,
+                  pcl::PCLPointCloud2& isopoints)
+{
+  const std::size_t sample_count =
+      static_cast<std::size_t>(samples.width) * samples.height;
+  if (static_cast<std::size_t>(isopoints.width) * isopoints.height != edges.size())
+    throw InvalidArgument("interpolateFields needs one edge per isopoint: got " +
+                          std::to_string(edges.size()) + " edges.");
+  for (const IsoEdge& edge : edges)
+    if (edge.first >= sample_count || edge.second >= sample_count)
+      throw InvalidArgument(
+          "An edge points outside the samples: was interpolateFields given the cloud "
+          "that the isopoints were extracted from?");
+
+  pcl::PCLPointCloud2 result;
+  result.header = isopoints.header;
+  result.height = 1;
+  result.width = static_cast<pcl::uindex_t>(edges.size());
+  result.is_dense = isopoints.is_dense;
+  result.point_step = 0;
+  std::vector<FieldCopy> own, carried;
+  for (const auto& field : isopoints.fields)
+    if (!isPadding(field))
+      own.push_back(append(field, result));
+  for (const auto& field : samples.fields)
+    if (!isPadding(field) && findField(result.fields, field.name) == nullptr)
+      carried.push_back(append(field, result));
+  result.row_step = result.point_step * result.width;
+  result.data.resize(static_cast<std::size_t>(result.point_step) * edges.size());
+  parallelBlocks(
+      edges.size(), block_points, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          std::uint8_t* const out = &result.data[i * result.point_step];
+          for (const FieldCopy& copy : own)
+            std::memcpy(out + copy.to,
+                        &isopoints.data[i * isopoints.point_step + copy.from],
+                        copy.size);
+          for (const FieldCopy& copy : carried)
+            fill(copy,
+                 &samples.data[std::size_t(edges[i].first) * samples.point_step],
+                 &samples.data[std::size_t(edges[i].second) * samples.point_step],
+                 edges[i].t,
+                 out);
+        }
+      });
+  isopoints = std::move(result);
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "isopoints.h"
+
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/natural_neighbors.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_samples = 1u << 14;
+constexpr std::size_t block_edges = 1u << 10;
+
+/** An edge by sample indices, the lower one in the upper half: sorts by (lower,
+ * higher). */
+using EdgeKey = std::uint64_t;
+
+EdgeKey
+edgeKey(std::uint32_t a, std::uint32_t b)
+{
+  return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
+}
+
+/** Neighbourhoods are not symmetric (2.4): an edge may be found from one end or from
+ * both. Only samples that touch one of the other side can have it for a neighbour. */
+std::vector<EdgeKey>
+findEdges(const IsopointInput& input,
+          const std::vector<std::uint32_t>& crossing,
+          float isovalue)
+{
+  const std::vector<float>& f = input.scalar.values;
+  auto edges = parallelGather<EdgeKey>(
+      crossing.size(),
+      block_edges,
+      input.threads,
+      [&](std::size_t begin, std::size_t end, std::vector<EdgeKey>& found) {
+        NeighborhoodFinder finder(input.samples, input.criterion);
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t x = crossing[i];
+          for (const std::uint32_t y : finder.find(x))
+            if ((f[x] >= isovalue) != (f[y] >= isovalue))
+              found.push_back(edgeKey(x, y));
+        }
+      });
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/** Linear interpolation along the edge and the outside vector (2.4), from the positions
+ * of the input cloud, not the stretched ones. */
+void
+placeIsopoint(const IsopointInput& input,
+              EdgeKey key,
+              float isovalue,
+              PointIso& point,
+              IsoEdge& edge)
+{
+  const auto x = static_cast<std::uint32_t>(key >> 32);
+  const auto y = static_cast<std::uint32_t>(key);
+  const double fx = input.scalar.values[x], fy = input.scalar.values[y];
+  const double t = (static_cast<double>(isovalue) - fx) / (fy - fx);
+  const bool towards_second = (fy < fx) == (input.outside == Outside::Lower);
+  edge = {input.scalar.sources[x], input.scalar.sources[y], static_cast<float>(t)};
+
+  const float* const a = input.cloud.xyz(edge.first);
+  const float* const b = input.cloud.xyz(edge.second);
+  double direction[3], sq_length = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    direction[axis] = static_cast<double>(b[axis]) - a[axis];
+    sq_length += direction[axis] * direction[axis];
+    point.data[axis] = static_cast<float>(a[axis] + t * direction[axis]);
+  }
+  const double length = std::sqrt(sq_length);
+  for (int axis = 0; axis < 3; ++axis)
+    point.data_n[axis] = static_cast<float>(
+        (towards_second ? direction[axis] : -direction[axis]) / length);
+  point.isovalue = isovalue;
+  point.edge_length = static_cast<float>(length);
+}
+
+/** A merged isopoint looks to the mean of the outside vectors, or where the first one
+ * looks if they cancel out. */
+void
+averageNormal(const std::vector<SampleRecord>& order,
+              std::size_t begin,
+              std::size_t end,
+              std::vector<PointIso>& points)
+{
+  // Of unit vectors: a shorter sum has no direction to speak of.
+  constexpr double smallest_sum = 1e-3;
+  double sum[3] = {0.0, 0.0, 0.0};
+  for (std::size_t i = begin; i < end; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] += points[order[i].input_index].data_n[axis];
+  const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+  if (length < smallest_sum)
+    return;
+  for (int axis = 0; axis < 3; ++axis)
+    points[order[begin].input_index].data_n[axis] =
+        static_cast<float>(sum[axis] / length);
+}
+
+/** Keep the first of isopoints that fall together: edges that meet in a sample exactly
+ * at the isovalue, or cross in one point, as on lattices. */
+std::size_t
+mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges)
+{
+  std::vector<SampleRecord> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    order[i] = {{{points[i].x, points[i].y, points[i].z}},
+                static_cast<std::uint32_t>(i)};
+  const auto less = [](const SampleRecord& a, const SampleRecord& b) {
+    if (lessAlong(0, a.position, b.position))
+      return true;
+    return !lessAlong(0, b.position, a.position) && a.input_index < b.input_index;
+  };
+  std::sort(order.begin(), order.end(), less);
+  std::vector<std::uint8_t> is_kept(points.size(), 1);
+  std::size_t merged = 0;
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    while (end < order.size() &&
+           !lessAlong(0, order[begin].position, order[end].position))
+      is_kept[order[end++].input_index] = 0;
+    if (end - begin > 1)
+      averageNormal(order, begin, end, points);
+    merged += end - begin - 1;
+    begin = end;
+  }
+  if (merged == 0)
+    return 0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_kept[i]) {
+      points[kept] = points[i];
+      edges[kept++] = edges[i];
+    }
+  points.resize(kept);
+  edges.resize(kept);
+  return merged;
+}
+
+} // namespace
+
+SampleValues
+gatherValues(const SampleSet& samples,
+             const std::vector<float>& input_values,
+             unsigned threads,
+             Report& report)
+{
+  SampleValues scalar;
+  scalar.values.resize(samples.size());
+  scalar.sources.resize(samples.size());
+  parallelBlocks(
+      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          scalar.sources[i] = samples.getInputIndex(i);
+          scalar.values[i] = input_values[scalar.sources[i]];
+        }
+      });
+  std::uint64_t conflicting = 0;
+  for (const SampleSet::Merged& merged : samples.getMerged()) {
+    std::vector<std::uint32_t> members = merged.members;
+    std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
+      return input_values[a] < input_values[b];
+    });
+    conflicting += input_values[members.front()] != input_values[members.back()];
+    const float median = input_values[members[(members.size() - 1) / 2]];
+    const auto source = *std::find_if(members.begin(), members.end(), [&](auto member) {
+      return input_values[member] == median;
+    });
+    scalar.values[merged.sample] = median;
+    scalar.sources[merged.sample] = source;
+  }
+  report.count("conflicting_duplicates", conflicting);
+  return scalar;
+}
+
+void
+appendIsopoints(const IsopointInput& input,
+                float isovalue,
+                pcl::PointCloud<PointIso>& isopoints,
+                IsoEdges& edges,
+                Report& report)
+{
+  std::vector<std::uint32_t> crossing;
+  {
+    const StepTimer timer(report, "crossing_pairs");
+    crossing = input.samples.getTree().findCrossing(
+        input.samples.getPositions(), input.ranges, isovalue, input.threads);
+  }
+  std::vector<EdgeKey> keys;
+  {
+    const StepTimer timer(report, "neighborhoods");
+    keys = findEdges(input, crossing, isovalue);
+  }
+  const StepTimer timer(report, "isopoints");
+  std::vector<PointIso> points(keys.size());
+  IsoEdges point_edges(keys.size());
+  parallelBlocks(
+      keys.size(), block_edges, input.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);
+      });
+  report.count("crossing_samples", crossing.size());
+  report.count("edges", keys.size());
+  report.count("coincident", mergeCoincident(points, point_edges));
+  isopoints.insert(isopoints.end(), points.begin(), points.end());
+  edges.insert(edges.end(), point_edges.begin(), point_edges.end());
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "isopoints.h"
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
+
+#include <pcl/impl/pcl_base.hpp>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 14;
+
+/** The scalar of every input point: NaN where float holds no finite value. */
+std::vector<float>
+readValues(const CloudView& cloud, const ScalarField& field, unsigned threads)
+{
+  std::vector<float> values(cloud.count);
+  parallelBlocks(
+      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          // Adding zero turns -0 into 0, so that medians do not depend on its sign.
+          const float value = static_cast<float>(field.read(cloud.point(i))) + 0.0f;
+          values[i] =
+              std::isfinite(value) ? value : std::numeric_limits<float>::quiet_NaN();
+        }
+      });
+  return values;
+}
+
+std::string
+emptyWarning(double isovalue, const std::string& field, const NodeRanges::Range& range)
+{
+  std::ostringstream text;
+  text << "No isopoints for " << isovalue << ": ";
+  if (range.min == range.max)
+    text << "all values of " << field << " are " << range.min << ".";
+  else if (isovalue == range.min)
+    text << "it is the lowest value of " << field
+         << ", and values equal to the isovalue count as above.";
+  else
+    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
+         << field << ".";
+  return text.str();
+}
+
+} // namespace
+
+void
+IsosurfaceExtractionBase::checkParameters() const
+{
+  if (isovalues_.empty())
+    throw InvalidArgument(
+        "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
+  for (const double isovalue : isovalues_)
+    if (!std::isfinite(static_cast<float>(isovalue)))
+      throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
+                            " is not a finite number.");
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(scale_[axis]) || scale_[axis] <= 0.0f)
+      throw InvalidArgument("The scale " + std::to_string(scale_[axis]) +
+                            " is not allowed: it must be finite and positive.");
+}
+
+void
+IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
+                                        std::vector<std::uint32_t>&& use)
+{
+  if (samples_ && use == sampled_ && (scale_ == sampled_scale_).all())
+    report_.counts = sampled_report_.counts;
+  else {
+    Report built;
+    samples_ = SampleSet::build(cloud.xyz(0),
+                                cloud.stride(),
+                                use,
+                                Position{{scale_[0], scale_[1], scale_[2]}},
+                                threads_,
+                                built);
+    report_.merge(built);
+    sampled_report_ = built;
+    sampled_ = std::move(use);
+    sampled_scale_ = scale_;
+  }
+}
+
+void
+IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
+                                      const std::vector<int>& indices,
+                                      pcl::PointCloud<PointIso>& isopoints)
+{
+  checkParameters();
+  if (indices.empty())
+    throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
+  const ScalarField field(cloud.fields, field_);
+  report_ = Report();
+
+  std::vector<float> values;
+  std::vector<std::uint32_t> use;
+  {
+    const StepTimer timer(report_, "scalar");
+    values = readValues(cloud, field, threads_);
+    use.reserve(indices.size());
+    for (const int index : indices)
+      if (!std::isnan(values[static_cast<std::size_t>(index)]))
+        use.push_back(static_cast<std::uint32_t>(index));
+  }
+  if (use.empty())
+    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
+  const std::uint64_t without_value = indices.size() - use.size();
+  updateSamples(cloud, std::move(use));
+  report_.count("no_value", without_value);
+  report_.count("samples", samples_->size());
+
+  const SampleValues scalar = gatherValues(*samples_, values, threads_, report_);
+  NodeRanges ranges;
+  {
+    const StepTimer timer(report_, "ranges");
+    ranges = samples_->getTree().computeRanges(scalar.values, threads_);
+  }
+  const NodeRanges::Range range = ranges[samples_->getTree().getRoot()];
+  const IsopointInput input{
+      cloud, *samples_, scalar, ranges, criterion_, outside_, threads_};
+  pcl::PointCloud<PointIso> found;
+  IsoEdges edges;
+  for (const double isovalue : isovalues_) {
+    const auto rounded = static_cast<float>(isovalue);
+    if (!(range.min < rounded && rounded <= range.max))
+      report_.warnings.push_back(emptyWarning(isovalue, field.getName(), range));
+    appendIsopoints(input, rounded, found, edges, report_);
+  }
+  report_.count("isopoints", found.size());
+  isopoints.swap(found);
+  edges_.swap(edges);
+}
+
+template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PointXYZI>;
+template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PCLPointCloud2>;
+
+} // namespace pcl_uvol

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isopoints against brute force and analytic truth, and what becomes of awkward input.
+#include "support/clouds.h"
+#include "support/neighbor_oracle.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+namespace {
+
+using pcl_uvol::AngleCriterion;
+using pcl_uvol::InvalidArgument;
+using Cloud = pcl::PointCloud<pcl::PointXYZI>;
+using Surface = pcl::PointCloud<PointIso>;
+using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+bool
+sameBytes(const Surface& a, const Surface& b)
+{
+  return a.size() == b.size() &&
+         (a.empty() ||
+          std::memcmp(&a.points[0], &b.points[0], a.size() * sizeof(PointIso)) == 0);
+}
+
+Surface
+extract(const Cloud::Ptr& cloud, double isovalue, unsigned threads = 0)
+{
+  Extraction extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setIsoValue(isovalue);
+  extraction.setNumberOfThreads(threads);
+  Surface surface;
+  extraction.extract(surface);
+  return surface;
+}
+
+using EdgeSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
+
+/** Edges as pairs of input indices, lower first. */
+EdgeSet
+edgeSet(const pcl_uvol::IsoEdges& edges)
+{
+  EdgeSet set;
+  for (const auto& edge : edges)
+    set.emplace(std::min(edge.first, edge.second), std::max(edge.first, edge.second));
+  return set;
+}
+
+class EdgesOnEveryShape : public testing::TestWithParam<std::string> {};
+
+TEST_P(EdgesOnEveryShape, EqualThoseOverAllNeighborhoods)
+{
+  const auto cloud = uvol_test::makeCloud(GetParam(), 3000, 11);
+  for (const auto criterion : {AngleCriterion::Kept, AngleCriterion::All}) {
+    Extraction extraction;
+    extraction.setInputCloud(cloud);
+    extraction.setIsoValue(0.41234);
+    extraction.setAngleCriterion(criterion);
+    Surface surface;
+    extraction.extract(surface);
+
+    const auto& samples = *extraction.getSamples();
+    const uvol_test::NeighborOracle oracle(samples.getPositions());
+    std::vector<float> values;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      values.push_back((*cloud)[samples.getInputIndex(i)].intensity);
+    EdgeSet expected;
+    for (const auto& [a, b] : oracle.edges(values, 0.41234f, criterion)) {
+      const auto i = samples.getInputIndex(a), j = samples.getInputIndex(b);
+      expected.emplace(std::min(i, j), std::max(i, j));
+    }
+    const EdgeSet found = edgeSet(extraction.getEdges());
+    EXPECT_EQ(expected.size(), extraction.getReport().getCount("edges"));
+    // Isopoints that fall together keep one edge only.
+    EXPECT_EQ(expected.size(),
+              found.size() + extraction.getReport().getCount("coincident"));
+    EXPECT_TRUE(
+        std::includes(expected.begin(), expected.end(), found.begin(), found.end()));
+    EXPECT_EQ(surface.size(), extraction.getEdges().size());
+    EXPECT_GT(surface.size(), 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(IsosurfaceExtraction,
+                         EdgesOnEveryShape,
+                         testing::ValuesIn(uvol_test::cloudShapes()),
+                         [](const auto& shape) {
+                           std::string name = shape.param;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+double
+meanDeviation(const Surface& surface, const uvol_test::RadialCloud& radial)
+{
+  double sum = 0.0;
+  for (const PointIso& point : surface)
+    sum += std::abs(std::hypot(point.x - radial.center,
+                               point.y - radial.center,
+                               point.z - radial.center) -
+                    radial.radius);
+  return sum / static_cast<double>(surface.size());
+}
+
+/** Thesis Table 2.9: 0.00199 where an edge found from both ends counts twice. */
+TEST(IsosurfaceExtraction, RadialTestWithFourMillionSamples)
+{
+  const auto radial = uvol_test::makeRadialCloud(4000000, 1);
+  const Surface surface = extract(radial.cloud, radial.radius);
+  EXPECT_GT(surface.size(), 50000u);
+  EXPECT_LE(meanDeviation(surface, radial), 0.0024);
+}
+
+TEST(IsosurfaceExtraction, DeviationFallsWithTheSquareOfTheSpacing)
+{
+  // The samples are scaled with their number, so deviations in units of the spacing
+  // stay of the order spacing / radius.
+  const auto coarse = uvol_test::makeRadialCloud(60000, 2);
+  const auto fine = uvol_test::makeRadialCloud(480000, 2);
+  const double in_radii_coarse =
+      meanDeviation(extract(coarse.cloud, coarse.radius), coarse) / coarse.radius;
+  const double in_radii_fine =
+      meanDeviation(extract(fine.cloud, fine.radius), fine) / fine.radius;
+  EXPECT_NEAR(2.0, std::log2(in_radii_coarse / in_radii_fine), 0.3);
+}
+
+TEST(IsosurfaceExtraction, NormalsPointToLowerValuesUnlessToldOtherwise)
+{
+  const auto radial = uvol_test::makeRadialCloud(20000, 3);
+  for (const auto outside : {pcl_uvol::Outside::Lower, pcl_uvol::Outside::Higher}) {
+    Extraction extraction;
+    extraction.setInputCloud(radial.cloud);
+    extraction.setIsoValue(radial.radius);
+    extraction.setOutside(outside);
+    Surface surface;
+    extraction.extract(surface);
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+      const auto& edge = extraction.getEdges()[i];
+      const auto& a = (*radial.cloud)[edge.first];
+      const auto& b = (*radial.cloud)[edge.second];
+      const auto along = (b.getVector3fMap() - a.getVector3fMap()).normalized().eval();
+      const float uphill = surface[i].getNormalVector3fMap().dot(along) *
+                           (b.intensity > a.intensity ? 1.0f : -1.0f);
+      EXPECT_NEAR(outside == pcl_uvol::Outside::Lower ? -1.0f : 1.0f, uphill, 1e-5f);
+      EXPECT_NEAR(surface[i].edge_length,
+                  (b.getVector3fMap() - a.getVector3fMap()).norm(),
+                  1e-5f);
+    }
+  }
+}
+
+TEST(IsosurfaceExtraction, LinearFieldsAreExact)
+{
+  const auto cloud = uvol_test::makeCloud("uniform", 5000, 4);
+  for (auto& point : *cloud)
+    point.intensity = point.x + 2.0f * point.y - point.z;
+  for (const PointIso& point : extract(cloud, 0.7)) {
+    EXPECT_NEAR(0.7, point.x + 2.0f * point.y - point.z, 2e-6);
+    EXPECT_EQ(0.7f, point.isovalue);
+  }
+}
+
+TEST(IsosurfaceExtraction, SameBytesForAnyNumberOfThreadsAndOrderOfInput)
+{
+  const auto radial = uvol_test::makeRadialCloud(100000, 5);
+  const Surface one = extract(radial.cloud, radial.radius, 1);
+  EXPECT_TRUE(sameBytes(one, extract(radial.cloud, radial.radius, 2)));
+  EXPECT_TRUE(sameBytes(one, extract(radial.cloud, radial.radius, 5)));
+  Cloud::Ptr shuffled(new Cloud(*radial.cloud));
+  std::mt19937_64 generator(3);
+  std::shuffle(shuffled->begin(), shuffled->end(), generator);
+  EXPECT_TRUE(sameBytes(one, extract(shuffled, radial.radius, 2)));
+}
+
+TEST(IsosurfaceExtraction, SeveralIsovaluesFollowOneAnother)
+{
+  const auto radial = uvol_test::makeRadialCloud(20000, 6);
+  Extraction extraction;
+  extraction.setInputCloud(radial.cloud);
+  extraction.setIsoValues({8.0, 6.0});
+  Surface both;
+  extraction.extract(both);
+  Surface expected = extract(radial.cloud, 8.0);
+  expected += extract(radial.cloud, 6.0);
+  EXPECT_TRUE(sameBytes(expected, both));
+
+  // The tree is there already: only what depends on the isovalue is done again.
+  extraction.setIsoValue(6.0);
+  extraction.extract(both);
+  EXPECT_TRUE(sameBytes(extract(radial.cloud, 6.0), both));
+  for (const auto& [step, milliseconds] : extraction.getReport().milliseconds)
+    EXPECT_NE("tree", step) << milliseconds;
+}
+
+TEST(IsosurfaceExtraction, ScaleFindsNeighborsInStretchedSpace)
+{
+  // Flattened by 1000 and stretched again: the same surface, flattened.
+  const auto radial = uvol_test::makeRadialCloud(20000, 7);
+  Cloud::Ptr flat(new Cloud(*radial.cloud));
+  for (auto& point : *flat)
+    point.z /= 1024.0f;
+  const Surface expected = extract(radial.cloud, radial.radius);
+  Extraction extraction;
+  extraction.setInputCloud(flat);
+  extraction.setIsoValue(radial.radius);
+  extraction.setScale({1.0f, 1.0f, 1024.0f});
+  Surface surface;
+  extraction.extract(surface);
+  ASSERT_EQ(expected.size(), surface.size());
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    EXPECT_NEAR(expected[i].z, surface[i].z * 1024.0f, 1e-4f);
+}
+
+TEST(IsosurfaceExtraction, SamplesAtTheIsovalueGiveOneIsopoint)
+{
+  // A lattice of 0, 1, 2: the middle layer lies exactly at the isovalue.
+  Cloud::Ptr cloud(new Cloud);
+  for (int i = 0; i < 27; ++i) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(i % 3);
+    point.y = static_cast<float>(i / 3 % 3);
+    point.z = static_cast<float>(i / 9);
+    point.intensity = point.z;
+    cloud->push_back(point);
+  }
+  Extraction extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setIsoValue(1.0);
+  Surface surface;
+  extraction.extract(surface);
+  EXPECT_EQ(9u, surface.size());
+  EXPECT_GT(extraction.getReport().getCount("coincident"), 0u);
+  for (const PointIso& point : surface) {
+    EXPECT_EQ(1.0f, point.z);
+    EXPECT_LT(point.normal_z, -0.5f);
+  }
+}
+
+TEST(IsosurfaceExtraction, DuplicatesTakeTheLowerMedian)
+{
+  Cloud::Ptr cloud(new Cloud(2, 1));
+  (*cloud)[1].x = 1.0f;
+  (*cloud)[1].intensity = 1.0f;
+  for (const float value : {0.5f, 9.0f}) { // with 0: median 0.5
+    cloud->push_back((*cloud)[0]);
+    cloud->back().intensity = value;
+  }
+  Extraction extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setIsoValue(0.75);
+  Surface surface;
+  extraction.extract(surface);
+  ASSERT_EQ(1u, surface.size());
+  EXPECT_EQ(0.5f, surface[0].x);
+  EXPECT_EQ(2u, extraction.getReport().getCount("duplicates"));
+  EXPECT_EQ(1u, extraction.getReport().getCount("conflicting_duplicates"));
+  EXPECT_EQ((EdgeSet{{1, 2}}), edgeSet(extraction.getEdges()));
+}
+
+TEST(IsosurfaceExtraction, UnusableSamplesAreDroppedAndCounted)
+{
+  const auto cloud = uvol_test::makeCloud("uniform", 500, 8);
+  Cloud::Ptr dirty(new Cloud(*cloud));
+  for (int i = 0; i < 3; ++i) {
+    dirty->push_back((*cloud)[0]);
+    (i == 0 ? dirty->back().x : dirty->back().intensity) =
+        i == 2 ? std::numeric_limits<float>::infinity() : nan_value;
+  }
+  Extraction extraction;
+  extraction.setInputCloud(dirty);
+  extraction.setIsoValue(0.4);
+  Surface surface;
+  extraction.extract(surface);
+  EXPECT_TRUE(sameBytes(extract(cloud, 0.4), surface));
+  EXPECT_EQ(1u, extraction.getReport().getCount("non_finite"));
+  EXPECT_EQ(2u, extraction.getReport().getCount("no_value"));
+}
+
+TEST(IsosurfaceExtraction, EmptyResultsAreWarned)
+{
+  for (const std::size_t n : {std::size_t(1), std::size_t(100)}) {
+    const auto cloud = uvol_test::makeCloud("uniform", n, 9);
+    for (const double isovalue : {-1.0, 5.0}) {
+      Extraction extraction;
+      extraction.setInputCloud(cloud);
+      extraction.setIsoValue(isovalue);
+      Surface surface(3, 1);
+      extraction.extract(surface);
+      EXPECT_TRUE(surface.empty());
+      EXPECT_EQ(1u, extraction.getReport().warnings.size());
+    }
+  }
+}
+
+TEST(IsosurfaceExtraction, BadInputThrowsAndLeavesTheOutputAlone)
+{
+  const auto expectThrow = [](const Cloud::Ptr& cloud, auto&& configure) {
+    Extraction extraction;
+    if (cloud)
+      extraction.setInputCloud(cloud);
+    extraction.setIsoValue(0.5);
+    configure(extraction);
+    Surface surface(3, 1);
+    EXPECT_THROW(extraction.extract(surface), InvalidArgument);
+    EXPECT_EQ(3u, surface.size());
+  };
+  const auto nothing = [](Extraction&) {};
+  const auto good = uvol_test::makeCloud("uniform", 100, 10);
+  expectThrow(nullptr, nothing);
+  expectThrow(Cloud::Ptr(new Cloud), nothing);
+  expectThrow(good, [](Extraction& e) { e.setScalarField("density"); });
+  expectThrow(good, [](Extraction& e) { e.setIsoValues({}); });
+  expectThrow(good, [](Extraction& e) { e.setIsoValue(nan_value); });
+  expectThrow(good, [](Extraction& e) { e.setScale({1.0f, 0.0f, 1.0f}); });
+  expectThrow(good, [](Extraction& e) { e.setScale({1.0f, nan_value, 1.0f}); });
+  Cloud::Ptr no_value(new Cloud(*good));
+  for (auto& point : *no_value)
+    point.intensity = nan_value;
+  expectThrow(no_value, nothing);
+  Cloud::Ptr nowhere(new Cloud(*good));
+  for (auto& point : *nowhere)
+    point.y = nan_value;
+  expectThrow(nowhere, nothing);
+}
+
+} // namespace
