@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The k nearest neighbours of every sample, by FLANN.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+
+#include <cstddef>
+
+namespace pcl_uvol {
+
+/** \brief The k nearest of every sample without the sample itself, in leaf order; all
+ * others where there are no more than k.
+ *
+ * Storage and queries in leaf order are spatially coherent, which is most of the speed,
+ * and make FLANN's choice among equally far neighbours independent of the order of the
+ * input. \param k >= 1 Memory: 4 bytes per neighbour, 8 per sample, and FLANN's copy of
+ * the positions. \throws InvalidArgument for k = 0 */
+PCL_UVOL_EXPORTS NeighborGraph
+computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned threads);
+
+} // namespace pcl_uvol

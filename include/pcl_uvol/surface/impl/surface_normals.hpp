@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+namespace pcl_uvol {
+
+template <typename PointInT, typename PointOutT>
+void
+SurfaceNormalEstimation<PointInT, PointOutT>::compute(
+    pcl::PointCloud<PointOutT>& output)
+{
+  if (!this->input_ || !this->initCompute())
+    throw InvalidArgument(
+        "SurfaceNormalEstimation has no input cloud: call setInputCloud.");
+  report_ = Report();
+  const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
+  const auto normals =
+      estimateSurfaceNormals(viewOf(*this->input_), use, parameters_, report_);
+  output.resize(normals.size());
+  const bool organized = normals.size() == this->input_->size();
+  output.width =
+      organized ? this->input_->width : static_cast<std::uint32_t>(normals.size());
+  output.height = organized ? this->input_->height : 1;
+  output.header = this->input_->header;
+  output.is_dense = report_.getCount("non_finite") == 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    output[i].normal_x = normals[i].normal[0];
+    output[i].normal_y = normals[i].normal[1];
+    output[i].normal_z = normals[i].normal[2];
+    output[i].curvature = normals[i].curvature;
+  }
+  this->deinitCompute();
+}
+
+} // namespace pcl_uvol

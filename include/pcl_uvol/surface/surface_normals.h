@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Normals of a surface given as points: principal component analysis of the nearest
+// neighbours, oriented by an outside vector (thesis 4.1); never by a spanning tree.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/report.h>
+
+#include <Eigen/Core>
+#include <pcl/pcl_base.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Unit normal and surface variation (smallest eigenvalue of the covariance over
+ * the sum of all, 0 for a plane, at most 1/3); NaN for a point with a non-finite
+ * coordinate. */
+struct SurfaceNormal {
+  float normal[3];
+  float curvature;
+};
+
+/** \brief How normals are estimated; the setters of SurfaceNormalEstimation tell more.
+ */
+struct SurfaceNormalParameters {
+  std::size_t k = 30;
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  Eigen::Vector3f view_point{0.0f, 0.0f, 0.0f};
+  unsigned threads = 0;
+};
+
+/** \brief The kernel of SurfaceNormalEstimation for any cloud.
+ * \param indices points to take part, as neighbours and in the result
+ * \return one normal per index
+ * \param report gets "non_finite", "duplicates", "degenerate_normals" and times
+ * \throws InvalidArgument as SurfaceNormalEstimation::compute */
+PCL_UVOL_EXPORTS std::vector<SurfaceNormal>
+estimateSurfaceNormals(const CloudView& cloud,
+                       const std::vector<std::uint32_t>& indices,
+                       const SurfaceNormalParameters& parameters,
+                       Report& report);
+
+/** \brief Replace the outside vectors of isopoints by normals that they orient. Every
+ * run of equal isovalues is a surface of its own: none is fitted to another one's
+ * points. */
+PCL_UVOL_EXPORTS void
+replaceNormals(pcl::PointCloud<PointIso>& isopoints,
+               const SurfaceNormalParameters& parameters,
+               Report& report);
+
+/** \brief Normals of a point cloud in the manner of pcl::NormalEstimation.
+ *
+ * The normal is the eigenvector to the smallest eigenvalue of the covariance of the
+ * point and its k nearest neighbours about their centroid. It looks to the side of the
+ * point's own normal, the outside vector, where the point type has one that is not
+ * zero, else towards the view point. Where the neighbours lie on one line or are fewer
+ * than two the outside vector itself is taken, and counted as "degenerate_normals".
+ * Exact duplicates count as one neighbour. \tparam PointInT with x, y, z \tparam
+ * PointOutT with normal_x/y/z and curvature */
+template <typename PointInT, typename PointOutT = pcl::Normal>
+class SurfaceNormalEstimation : public pcl::PCLBase<PointInT> {
+public:
+  /** \brief Nearest neighbours besides the point: at least 2, default 30. */
+  void
+  setKSearch(std::size_t k)
+  {
+    parameters_.k = k;
+  }
+
+  /** \brief Factors per axis, finite and positive: neighbours and covariance belong to
+   * the stretched space, normals to the original one. Default 1, 1, 1. */
+  void
+  setScale(const Eigen::Array3f& scale)
+  {
+    parameters_.scale = scale;
+  }
+
+  /** \brief Where points without a normal of their own are seen from. Default 0, 0, 0.
+   */
+  void
+  setViewPoint(float x, float y, float z)
+  {
+    parameters_.view_point = {x, y, z};
+  }
+
+  /** \brief 0 (default) = all cores. The result does not depend on it. */
+  void
+  setNumberOfThreads(unsigned threads)
+  {
+    parameters_.threads = threads;
+  }
+
+  /** \brief One output point per input point or index. A point with a non-finite
+   * coordinate gets NaN, and the output is then not dense. \throws InvalidArgument
+   * without an input cloud, without a finite point, for k < 2 or a bad scale; the
+   * output is then untouched */
+  void
+  compute(pcl::PointCloud<PointOutT>& output);
+
+  /** \brief Counts and times of the last compute(). */
+  const Report&
+  getReport() const
+  {
+    return report_;
+  }
+
+private:
+  SurfaceNormalParameters parameters_;
+  Report report_;
+};
+
+} // namespace pcl_uvol

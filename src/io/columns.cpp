@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From datasets to the numbers of files: as text, as bytes.
+#include "columns.h"
+
+#include "files.h"
+#include "numbers.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Type = pcl::PCLPointField;
+
+/** Puts the numbers of a point one behind the other. */
+class RecordPacker {
+public:
+  explicit RecordPacker(const std::vector<Column>& columns);
+
+  /** True if points of that step are records already. */
+  bool
+  isIdentity(std::size_t point_step) const
+  {
+    return widened_.empty() && runs_.size() == 1 && runs_[0].from == 0 &&
+           runs_[0].bytes == point_step;
+  }
+
+  std::size_t
+  size() const
+  {
+    return size_;
+  }
+
+  void
+  pack(const std::uint8_t* point, std::uint8_t* record) const;
+
+private:
+  struct Widened {
+    std::size_t from, to;
+    double addend;
+  };
+  std::vector<Run> runs_;
+  std::vector<Widened> widened_;
+  std::size_t size_ = 0;
+};
+
+RecordPacker::RecordPacker(const std::vector<Column>& columns)
+{
+  for (const auto& column : columns) {
+    const std::size_t bytes = datatypeSize(column.datatype);
+    if (column.widened)
+      widened_.push_back({column.offset, size_, column.addend});
+    else
+      appendRun(runs_, {column.offset, size_, bytes});
+    size_ += bytes;
+  }
+}
+
+void
+RecordPacker::pack(const std::uint8_t* point, std::uint8_t* record) const
+{
+  for (const Run& run : runs_)
+    std::memcpy(record + run.to, point + run.from, run.bytes);
+  for (const Widened& wide : widened_) {
+    float relative;
+    std::memcpy(&relative, point + wide.from, sizeof(relative));
+    const double value = wide.addend + relative;
+    std::memcpy(record + wide.to, &value, sizeof(value));
+  }
+}
+
+} // namespace
+
+Fields
+savedFields(const Dataset& dataset)
+{
+  const auto& cloud = dataset.cloud;
+  const auto points = static_cast<std::uint64_t>(cloud.width) * cloud.height;
+  if (cloud.data.size() / std::max<std::size_t>(cloud.point_step, 1) < points)
+    throw InvalidArgument("The cloud holds fewer bytes than its " +
+                          std::to_string(points) + " points need.");
+  const bool doubles =
+      dataset.double_coordinates || dataset.origin != std::array<double, 3>{};
+  Fields saved;
+  for (const auto& field : cloud.fields) {
+    if (field.offset + fieldBytes(field) > cloud.point_step)
+      throw InvalidArgument("The field '" + field.name + "' ends behind its point.");
+    if (isPadding(field))
+      continue;
+    saved.push_back(field);
+    saved.back().count = std::max(field.count, 1u);
+    if (axisOf(field.name) >= 0 && field.datatype == Type::FLOAT32 && doubles)
+      saved.back().datatype = Type::FLOAT64;
+  }
+  for (const char* const axis : {"x", "y", "z"}) {
+    const auto* const field = findField(cloud.fields, axis);
+    if (!field || field->datatype != Type::FLOAT32)
+      throw InvalidArgument("The cloud needs float32 fields x, y, z; it has " +
+                            describeFields(cloud.fields) + ".");
+  }
+  return saved;
+}
+
+std::vector<Column>
+columnsOf(const Dataset& dataset, const Fields& fields)
+{
+  std::vector<Column> columns;
+  for (const auto& field : fields) {
+    const int axis = axisOf(field.name);
+    const bool widened = axis >= 0 && field.datatype == Type::FLOAT64;
+    for (std::size_t i = 0; i < field.count; ++i)
+      columns.push_back(
+          {field.count > 1 ? field.name + '_' + std::to_string(i) : field.name,
+           field.datatype,
+           field.offset + i * datatypeSize(field.datatype),
+           widened,
+           widened ? dataset.origin[static_cast<std::size_t>(axis)] : 0.0});
+  }
+  return columns;
+}
+
+void
+makeWords(std::vector<std::string>& names, std::vector<std::string>& comments)
+{
+  const std::vector<std::string> originals = names;
+  for (auto& name : names)
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f')
+        c = '_';
+  makeUnique(names);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] != originals[i])
+      comments.push_back("field " + names[i] + " is '" + originals[i] + "'");
+}
+
+void
+appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
+{
+  const std::uint8_t* const bytes = point + column.offset;
+  if (!column.widened) {
+    appendNumber(text, column.datatype, bytes);
+    return;
+  }
+  float relative;
+  std::memcpy(&relative, bytes, sizeof(relative));
+  const double value = column.addend + relative;
+  std::uint8_t wide[sizeof(value)];
+  std::memcpy(wide, &value, sizeof(value));
+  appendNumber(text, column.datatype, wide);
+}
+
+void
+writeRecords(OutputFile& file,
+             const Dataset& dataset,
+             const std::vector<Column>& columns,
+             bool ascii)
+{
+  const auto& cloud = dataset.cloud;
+  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
+  const RecordPacker packer(columns);
+  if (!ascii && packer.isIdentity(cloud.point_step)) {
+    file.write(cloud.data.data(), count * cloud.point_step);
+    return;
+  }
+  std::string& buffer = file.buffer();
+  const std::uint8_t* point = cloud.data.data();
+  for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
+    if (ascii) {
+      for (const Column& column : columns) {
+        appendNumber(buffer, column, point);
+        buffer += ' ';
+      }
+      buffer.back() = '\n';
+    }
+    else {
+      const std::size_t start = buffer.size();
+      buffer.resize(start + packer.size());
+      packer.pack(point, reinterpret_cast<std::uint8_t*>(buffer.data()) + start);
+    }
+    file.flushFull();
+  }
+}
+
+void
+unpackRecords(const Dataset& dataset,
+              const std::vector<Column>& columns,
+              std::uint8_t* bytes)
+{
+  const auto& cloud = dataset.cloud;
+  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
+  const RecordPacker packer(columns);
+  const std::uint8_t* point = cloud.data.data();
+  for (std::size_t i = 0; i < count; ++i, point += cloud.point_step)
+    packer.pack(point, bytes + i * packer.size());
+}
+
+} // namespace io
+} // namespace pcl_uvol

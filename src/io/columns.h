@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers of a dataset as writers put them into files.
+#pragma once
+
+#include "records.h"
+
+namespace pcl_uvol {
+namespace io {
+
+class OutputFile;
+
+/** \brief One number per point of a file to be written. */
+struct Column {
+  std::string name;
+  std::uint8_t datatype; ///< in the file
+  std::size_t offset;    ///< in the point
+  bool widened;          ///< float32 in the point, addend + float64 in the file
+  double addend;
+};
+
+/** \brief The fields to be written: no padding, x, y, z in double if needed; offsets
+ * are those in the point.
+ * \throws InvalidArgument unless x, y, z are float32 and the data is complete */
+Fields
+savedFields(const Dataset& dataset);
+
+/** \brief The numbers of such fields; components are called name_0, name_1, ... */
+std::vector<Column>
+columnsOf(const Dataset& dataset, const Fields& fields);
+
+/** \brief Replace blanks and control characters by `_`, keep the names different.
+ * \param[out] comments gets a line per name that changed */
+void
+makeWords(std::vector<std::string>& names, std::vector<std::string>& comments);
+
+/** \brief Append the number of a column, as it is in the file, as text. */
+void
+appendNumber(std::string& text, const Column& column, const std::uint8_t* point);
+
+/** \brief Write the columns of every point: a line of numbers between blanks, or
+ * their bytes one behind the other. */
+void
+writeRecords(OutputFile& file,
+             const Dataset& dataset,
+             const std::vector<Column>& columns,
+             bool ascii);
+
+/** \brief The columns of every point as bytes one behind the other in memory. */
+void
+unpackRecords(const Dataset& dataset,
+              const std::vector<Column>& columns,
+              std::uint8_t* bytes);
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes CSV: a header line, missing values as empty cells.
+#include "columns.h"
+#include "files.h"
+#include "formats.h"
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+std::string
+quoted(const std::string& name)
+{
+  if (name.find_first_of(",;\"\t\r\n#") == std::string::npos)
+    return name;
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"')
+      text += '"';
+    text += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return text + '"';
+}
+
+} // namespace
+
+void
+writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
+{
+  const std::vector<Column> columns = columnsOf(dataset, savedFields(dataset));
+  OutputFile out(file, path);
+  std::string& text = out.buffer();
+  for (const auto& column : columns)
+    text += quoted(column.name) + ',';
+  text.back() = '\n';
+  const auto& cloud = dataset.cloud;
+  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
+  const std::uint8_t* point = cloud.data.data();
+  for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
+    for (const auto& column : columns) {
+      const std::size_t start = text.size();
+      appendNumber(text, column, point);
+      if (text.compare(start, std::string::npos, "nan") == 0)
+        text.resize(start); // a missing value is an empty cell
+      text += ',';
+    }
+    text.back() = '\n';
+    out.flushFull();
+  }
+  out.close();
+}
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading and writing of files by POSIX calls, whose errors are exact.
+#include "files.h"
+
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+constexpr std::size_t block_bytes = std::size_t(1) << 20;
+
+} // namespace
+
+void
+throwUnreadable(const std::string& path, const std::string& reason)
+{
+  throw IOError("Cannot read '" + path + "': " + reason + ".");
+}
+
+void
+throwUnreadable(const std::string& path, std::size_t line, const std::string& reason)
+{
+  throw IOError("Cannot read '" + path + "', line " + std::to_string(line) + ": " +
+                reason + ".");
+}
+
+void
+throwUnwritable(const std::string& path, const std::string& reason)
+{
+  throw IOError("Cannot write '" + path + "': " + reason + ".");
+}
+
+InputFile::InputFile(const std::string& path)
+    : path_(path)
+    , descriptor_(-1)
+    , size_(0)
+{
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    throwUnreadable(path,
+                    errno == ENOENT ? "there is no such file" : std::strerror(errno));
+  if (S_ISDIR(status.st_mode))
+    throwUnreadable(path, "it is a directory");
+  if (!S_ISREG(status.st_mode))
+    throwUnreadable(path, "it is not a regular file");
+  if (status.st_size == 0)
+    throwUnreadable(path, "the file is empty");
+  size_ = static_cast<std::uint64_t>(status.st_size);
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0)
+    throwUnreadable(path, std::strerror(errno));
+}
+
+InputFile::~InputFile()
+{
+  ::close(descriptor_);
+}
+
+void
+InputFile::read(std::uint64_t offset, void* bytes, std::size_t count) const
+{
+  auto* out = static_cast<char*>(bytes);
+  while (count > 0) {
+    const ssize_t got = ::pread(descriptor_, out, count, static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got < 0)
+      throwUnreadable(path_, std::strerror(errno));
+    if (got == 0)
+      throwUnreadable(path_, "the file became shorter while it was read");
+    out += got;
+    offset += static_cast<std::uint64_t>(got);
+    count -= static_cast<std::size_t>(got);
+  }
+}
+
+std::string
+InputFile::head(std::uint64_t count) const
+{
+  std::string bytes(std::min(count, size_), '\0');
+  read(0, bytes.data(), bytes.size());
+  return bytes;
+}
+
+OutputFile::OutputFile(const std::string& path, std::string name)
+    : name_(std::move(name))
+    , descriptor_(::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC))
+{
+  if (descriptor_ < 0)
+    throwUnwritable(name_, std::strerror(errno));
+}
+
+OutputFile::~OutputFile()
+{
+  if (descriptor_ >= 0)
+    ::close(descriptor_);
+}
+
+void
+OutputFile::flushFull()
+{
+  if (buffer_.size() >= block_bytes)
+    write(nullptr, 0);
+}
+
+void
+OutputFile::write(const void* bytes, std::size_t count)
+{
+  const auto write_out = [this](const char* from, std::size_t left) {
+    while (left > 0) {
+      const ssize_t done = ::write(descriptor_, from, left);
+      if (done < 0 && errno == EINTR)
+        continue;
+      if (done < 0)
+        throwUnwritable(name_, std::strerror(errno));
+      from += done;
+      left -= static_cast<std::size_t>(done);
+    }
+  };
+  write_out(buffer_.data(), buffer_.size());
+  buffer_.clear();
+  write_out(static_cast<const char*>(bytes), count);
+}
+
+void
+OutputFile::close()
+{
+  write(nullptr, 0);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0)
+    throwUnwritable(name_, std::strerror(errno));
+}
+
+bool
+Lines::next(std::string_view& line)
+{
+  if (rest_.empty())
+    return false;
+  ++line_;
+  const std::size_t end = rest_.find('\n');
+  line = rest_.substr(0, end);
+  rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+  if (!line.empty() && line.back() == '\r')
+    line.remove_suffix(1);
+  return true;
+}
+
+void
+splitWords(std::string_view line, std::vector<std::string_view>& words)
+{
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  words.clear();
+  const char* at = line.data();
+  const char* const last = at + line.size();
+  while (true) {
+    while (at != last && blank(*at))
+      ++at;
+    if (at == last)
+      return;
+    const char* const start = at;
+    while (at != last && !blank(*at))
+      ++at;
+    words.emplace_back(start, static_cast<std::size_t>(at - start));
+  }
+}
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files as bytes and lines, with errors that name the file in one sentence.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_uvol {
+namespace io {
+
+/** \throws IOError "Cannot read 'path': reason." */
+[[noreturn]] void
+throwUnreadable(const std::string& path, const std::string& reason);
+
+/** \throws IOError "Cannot read 'path', line n: reason." */
+[[noreturn]] void
+throwUnreadable(const std::string& path, std::size_t line, const std::string& reason);
+
+/** \throws IOError "Cannot write 'path': reason." */
+[[noreturn]] void
+throwUnwritable(const std::string& path, const std::string& reason);
+
+/** \brief A regular, non-empty file opened for reading. */
+class InputFile {
+public:
+  /** \throws IOError for a file that is missing, empty, a directory, unreadable */
+  explicit InputFile(const std::string& path);
+  InputFile(const InputFile&) = delete;
+  InputFile&
+  operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  std::uint64_t
+  getSize() const
+  {
+    return size_;
+  }
+
+  /** \brief Read exactly these bytes. \throws IOError */
+  void
+  read(std::uint64_t offset, void* bytes, std::size_t count) const;
+
+  /** \brief The bytes from the start, at most that many. */
+  std::string
+  head(std::uint64_t count) const;
+
+private:
+  std::string path_;
+  int descriptor_;
+  std::uint64_t size_;
+};
+
+/** \brief A file written through a buffer. */
+class OutputFile {
+public:
+  /** \param name the name that errors give */
+  OutputFile(const std::string& path, std::string name);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile&
+  operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  /** \brief Where text is appended; write it out by flush() when it has grown. */
+  std::string&
+  buffer()
+  {
+    return buffer_;
+  }
+
+  /** \brief Write the buffer out if it is larger than a block. */
+  void
+  flushFull();
+
+  /** \brief Write the buffer out, then these bytes. */
+  void
+  write(const void* bytes, std::size_t count);
+
+  /** \brief Write all out and close. \throws IOError */
+  void
+  close();
+
+private:
+  std::string name_, buffer_;
+  int descriptor_;
+};
+
+/** \brief Lines of a text, counted from 1, without their end (LF or CRLF). */
+class Lines {
+public:
+  explicit Lines(std::string_view text, std::size_t line = 0)
+      : rest_(text)
+      , line_(line)
+  {
+  }
+
+  /** \return false after the last line */
+  bool
+  next(std::string_view& line);
+
+  std::size_t
+  lineNumber() const
+  {
+    return line_;
+  }
+
+  /** \brief What follows the lines taken so far. */
+  std::string_view
+  rest() const
+  {
+    return rest_;
+  }
+
+private:
+  std::string_view rest_;
+  std::size_t line_;
+};
+
+/** \brief The words of a line between blanks and tabs. */
+void
+splitWords(std::string_view line, std::vector<std::string_view>& words);
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The file formats behind loadDataset and saveDataset.
+#pragma once
+
+#include <pcl_uvol/io/dataset.h>
+
+#include <string>
+
+namespace pcl_uvol {
+namespace io {
+
+Dataset
+readPcd(const std::string& path);
+
+Dataset
+readPly(const std::string& path);
+
+/** \brief Text with a header line; the separator is found in it. */
+Dataset
+readText(const std::string& path, const LoadOptions& options);
+
+/** \brief .vtk, .vtp, .vtu or .vts. \param ending in lower case, with its dot */
+Dataset
+readVtk(const std::string& path, const std::string& ending);
+
+/** Writers write to `file`, which exists; errors call it `path`. @{ */
+void
+writePcd(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options);
+
+void
+writePly(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options);
+
+void
+writeCsv(const std::string& file, const std::string& path, const Dataset& dataset);
+
+void
+writeVtp(const std::string& file, const std::string& path, const Dataset& dataset);
+/** @} */
+
+} // namespace io
+} // namespace pcl_uvol

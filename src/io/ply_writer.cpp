@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Writes points as vertices of PLY files, with the names and types of that format.
+#include "columns.h"
+#include "files.h"
+#include "formats.h"
+#include "ply_types.h"
+
+#include <algorithm>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Type = pcl::PCLPointField;
+
+/** Packed colours are three or four numbers to every program but PCL. */
+std::vector<Column>
+unpackColors(const std::vector<Column>& columns)
+{
+  std::vector<Column> unpacked;
+  for (const auto& column : columns) {
+    const bool alpha = column.name == "rgba";
+    if ((column.name != "rgb" && !alpha) ||
+        (column.datatype != Type::FLOAT32 && column.datatype != Type::UINT32)) {
+      unpacked.push_back(column);
+      continue;
+    }
+    // PCL keeps them as the bytes blue, green, red, alpha
+    unpacked.push_back({"red", Type::UINT8, column.offset + 2, false, 0.0});
+    unpacked.push_back({"green", Type::UINT8, column.offset + 1, false, 0.0});
+    unpacked.push_back({"blue", Type::UINT8, column.offset, false, 0.0});
+    if (alpha)
+      unpacked.push_back({"alpha", Type::UINT8, column.offset + 3, false, 0.0});
+  }
+  return unpacked;
+}
+
+} // namespace
+
+std::uint8_t
+plyDatatype(std::string_view name)
+{
+  constexpr struct {
+    const char *name, *other_name;
+    Type::PointFieldTypes datatype;
+  } types[] = {{"char", "int8", Type::INT8},
+               {"uchar", "uint8", Type::UINT8},
+               {"short", "int16", Type::INT16},
+               {"ushort", "uint16", Type::UINT16},
+               {"int", "int32", Type::INT32},
+               {"uint", "uint32", Type::UINT32},
+               {"float", "float32", Type::FLOAT32},
+               {"double", "float64", Type::FLOAT64}};
+  for (const auto& known : types)
+    if (name == known.name || name == known.other_name)
+      return static_cast<std::uint8_t>(known.datatype);
+  return 0;
+}
+
+const char*
+plyTypeName(std::uint8_t datatype)
+{
+  switch (datatype) {
+  case Type::INT8:
+    return "char";
+  case Type::UINT8:
+  case Type::BOOL:
+    return "uchar";
+  case Type::INT16:
+    return "short";
+  case Type::UINT16:
+    return "ushort";
+  case Type::INT32:
+    return "int";
+  case Type::UINT32:
+    return "uint";
+  case Type::FLOAT32:
+    return "float";
+  case Type::FLOAT64:
+    return "double";
+  default:
+    return nullptr;
+  }
+}
+
+void
+writePly(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options)
+{
+  Fields fields = savedFields(dataset);
+  renameFields(fields, cloud_normals, ply_normals);
+  std::vector<Column> columns = unpackColors(columnsOf(dataset, fields));
+  std::vector<std::string> names, comments = options.comments;
+  for (const auto& column : columns)
+    names.push_back(column.name);
+  makeWords(names, comments);
+  OutputFile out(file, path);
+  std::string& header = out.buffer();
+  header = std::string("ply\nformat ") +
+           (options.ascii ? "ascii" : "binary_little_endian") + " 1.0\n";
+  for (std::string comment : comments) {
+    std::replace(comment.begin(), comment.end(), '\n', ' ');
+    header += "comment " + comment + '\n';
+  }
+  const std::size_t count =
+      static_cast<std::size_t>(dataset.cloud.width) * dataset.cloud.height;
+  header += "element vertex " + std::to_string(count) + '\n';
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const char* const type = plyTypeName(columns[i].datatype);
+    if (!type)
+      throwUnwritable(path,
+                      "PLY has no 64-bit integers as the field '" + columns[i].name +
+                          "' needs; write .pcd, .vtp or .csv");
+    header += std::string("property ") + type + ' ' + names[i] + '\n';
+  }
+  header += "end_header\n";
+  writeRecords(out, dataset, columns, options.ascii);
+  out.close();
+}
+
+} // namespace io
+} // namespace pcl_uvol

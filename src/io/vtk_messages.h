@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What VTK would print, kept while it reads or writes a file.
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <mutex>
+#include <string>
+
+class vtkOutputWindow;
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief Collects VTK's errors instead of printing them. Parts inside VTK's readers
+ * report to its global output window only, so that is exchanged; one at a time, calls
+ * of other threads wait. */
+class VtkMessages {
+public:
+  VtkMessages();
+  VtkMessages(const VtkMessages&) = delete;
+  VtkMessages&
+  operator=(const VtkMessages&) = delete;
+  ~VtkMessages();
+
+  /** \brief The first error, its words only; empty if there was none. */
+  const std::string&
+  getError() const
+  {
+    return error_;
+  }
+
+private:
+  static std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_;
+  vtkSmartPointer<vtkOutputWindow> previous_;
+  std::string error_;
+  int verbosity_;
+};
+
+} // namespace io
+} // namespace pcl_uvol

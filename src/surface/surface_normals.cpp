@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/neighbors/nearest_neighbors.h>
+#include <pcl_uvol/surface/impl/surface_normals.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <pcl/impl/pcl_base.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 10;
+/** Middle over largest eigenvalue: below it the neighbours lie on one line, to float's
+ * resolution of coordinates and with room for some digits that offsets cost. */
+constexpr double collinear_ratio = 1e-9;
+/** Cosine between normal and outside vector below which the neighbours vote as well: an
+ * edge that grazes the surface may look to the wrong side of the fitted plane. */
+constexpr float clear_side = 0.3f;
+constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
+
+/** Fit of a sample in the stretched space. */
+struct Fit {
+  Eigen::Vector3f normal;
+  float curvature;
+  bool degenerate;
+};
+
+Fit
+fitPlane(const std::vector<Position>& positions,
+         std::uint32_t sample,
+         const NeighborGraph::Row& neighbors)
+{
+  // Differences to the sample: far from the origin, sums of squares would lose all
+  // digits.
+  const Position& x = positions[sample];
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (const std::uint32_t neighbor : neighbors) {
+    const Position& y = positions[neighbor];
+    const Eigen::Vector3d d(static_cast<double>(y[0]) - x[0],
+                            static_cast<double>(y[1]) - x[1],
+                            static_cast<double>(y[2]) - x[2]);
+    sum += d;
+    products += d * d.transpose();
+  }
+  const double count = static_cast<double>(neighbors.size() + 1);
+  const Eigen::Matrix3d covariance = products - sum * sum.transpose() / count;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
+  const Eigen::Vector3d& values = solver.eigenvalues(); // ascending
+  const Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+  const bool degenerate = neighbors.size() < 2 ||
+                          !(values[1] > collinear_ratio * values[2]) ||
+                          !normal.allFinite();
+  const double smallest = std::max(values[0], 0.0);
+  return {normal,
+          degenerate
+              ? 0.0f
+              : static_cast<float>(smallest / (smallest + values[1] + values[2])),
+          degenerate};
+}
+
+/** The side that a point's normal shall look to. */
+class Orientation {
+public:
+  Orientation(const CloudView& cloud, const Eigen::Vector3f& view_point)
+      : cloud_(cloud)
+      , view_point_(view_point)
+  {
+    constexpr const char* names[] = {"normal_x", "normal_y", "normal_z"};
+    for (const char* name : names)
+      if (findField(cloud.fields, name) != nullptr)
+        own_normal_.emplace_back(cloud.fields, name);
+  }
+
+  Eigen::Vector3f
+  at(std::uint32_t index) const
+  {
+    if (own_normal_.size() == 3) {
+      const std::uint8_t* const point = cloud_.point(index);
+      const Eigen::Vector3f own(static_cast<float>(own_normal_[0].read(point)),
+                                static_cast<float>(own_normal_[1].read(point)),
+                                static_cast<float>(own_normal_[2].read(point)));
+      if (own.allFinite() && !own.isZero(0.0f))
+        return own;
+    }
+    return view_point_ - Eigen::Vector3f(cloud_.xyz(index));
+  }
+
+private:
+  const CloudView& cloud_;
+  Eigen::Vector3f view_point_;
+  std::vector<ScalarField> own_normal_;
+};
+
+void
+checkParameters(const SurfaceNormalParameters& parameters)
+{
+  if (parameters.k < 2)
+    throw InvalidArgument("Normals from " + std::to_string(parameters.k) +
+                          " neighbours are not possible: k must be at least 2.");
+  if (!parameters.scale.allFinite() || !(parameters.scale > 0.0f).all())
+    throw InvalidArgument(
+        "The scale of a normal estimation must be finite and positive "
+        "along every axis.");
+}
+
+/** The sample that stands for each input point. */
+std::vector<std::uint32_t>
+samplesOf(const SampleSet& samples, std::size_t points)
+{
+  std::vector<std::uint32_t> sample_of(points, no_sample);
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    sample_of[samples.getInputIndex(i)] = i;
+  for (const SampleSet::Merged& merged : samples.getMerged())
+    for (const std::uint32_t member : merged.members)
+      sample_of[member] = merged.sample;
+  return sample_of;
+}
+
+} // namespace
+
+std::vector<SurfaceNormal>
+estimateSurfaceNormals(const CloudView& cloud,
+                       const std::vector<std::uint32_t>& indices,
+                       const SurfaceNormalParameters& parameters,
+                       Report& report)
+{
+  checkParameters(parameters);
+  if (indices.empty())
+    throw InvalidArgument("The normal estimation was given an empty cloud.");
+  const Eigen::Array3f& scale = parameters.scale;
+  const auto samples = SampleSet::build(cloud.xyz(0),
+                                        cloud.stride(),
+                                        indices,
+                                        Position{{scale[0], scale[1], scale[2]}},
+                                        parameters.threads,
+                                        report);
+  NeighborGraph graph;
+  {
+    const StepTimer timer(report, "nearest_neighbors");
+    graph = computeNearestNeighbors(*samples, parameters.k, parameters.threads);
+  }
+  const StepTimer timer(report, "normals");
+  std::vector<Fit> fits(samples->size());
+  parallelBlocks(fits.size(),
+                 block_points,
+                 parameters.threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i)
+                     fits[i] = fitPlane(samples->getPositions(),
+                                        static_cast<std::uint32_t>(i),
+                                        graph[i]);
+                 });
+  const std::vector<std::uint32_t> sample_of = samplesOf(*samples, cloud.count);
+  const Orientation orientation(cloud, parameters.view_point);
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
+  std::uint64_t degenerate = 0;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::uint32_t sample = sample_of[indices[i]];
+    if (sample == no_sample)
+      continue;
+    const Fit& fit = fits[sample];
+    const Eigen::Vector3f outside = orientation.at(indices[i]);
+    Eigen::Vector3f normal = outside;
+    degenerate += fit.degenerate ? 1 : 0;
+    if (!fit.degenerate) {
+      // A normal is a covector: it is stretched where positions are shrunk.
+      normal = (fit.normal.array() * scale).matrix().normalized();
+      float side = normal.dot(outside.normalized());
+      if (std::abs(side) < clear_side)
+        for (const std::uint32_t neighbor : graph[sample])
+          side +=
+              normal.dot(orientation.at(samples->getInputIndex(neighbor)).normalized());
+      if (side < 0.0f)
+        normal = -normal;
+    }
+    normal.stableNormalize();
+    normals[i] = {{normal[0], normal[1], normal[2]}, fit.curvature};
+  }
+  report.count("degenerate_normals", degenerate);
+  return normals;
+}
+
+void
+replaceNormals(pcl::PointCloud<PointIso>& isopoints,
+               const SurfaceNormalParameters& parameters,
+               Report& report)
+{
+  const CloudView cloud = viewOf(isopoints);
+  for (std::size_t begin = 0; begin < isopoints.size();) {
+    std::size_t end = begin + 1;
+    while (end < isopoints.size() &&
+           isopoints[end].isovalue == isopoints[begin].isovalue)
+      ++end;
+    std::vector<std::uint32_t> surface(end - begin);
+    std::iota(surface.begin(), surface.end(), static_cast<std::uint32_t>(begin));
+    Report own;
+    const auto normals = estimateSurfaceNormals(cloud, surface, parameters, own);
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      isopoints[begin + i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
+    report.count("degenerate_normals", own.getCount("degenerate_normals"));
+    begin = end;
+  }
+}
+
+template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointXYZ, pcl::Normal>;
+template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointNormal, pcl::Normal>;
+
+} // namespace pcl_uvol

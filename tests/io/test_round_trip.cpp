@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is saved comes back: every format, encoding, type; large coordinates; no points.
+#include "random_dataset.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+
+using namespace pcl_uvol;
+using namespace uvol_test;
+
+namespace {
+
+struct Format {
+  std::string file;
+  bool ascii;
+};
+
+const std::vector<Format> formats{{"a.pcd", false},
+                                  {"t.PCD", true},
+                                  {"a.ply", false},
+                                  {"t.ply", true},
+                                  {"a.vtp", false},
+                                  {"a.csv", true}};
+
+Dataset
+roundTrip(const Dataset& dataset, const Format& format)
+{
+  const TemporaryFolder folder;
+  SaveOptions options;
+  options.ascii = format.ascii;
+  saveDataset(folder / format.file, dataset, options);
+  EXPECT_EQ(folder.list(), std::vector<std::string>{format.file});
+  return loadDataset(folder / format.file);
+}
+
+/** Random fields; components and 64-bit integers where the format has them. */
+std::vector<FieldSpec>
+randomSchema(Random& random, bool vectors, bool wide_integers)
+{
+  std::vector<FieldSpec> specs;
+  const auto count = static_cast<std::size_t>(8 * random.uniform());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& types = allDatatypes();
+    const std::uint8_t type =
+        types[static_cast<std::size_t>(random.uniform() * double(types.size()))];
+    if (!wide_integers && (type == Type::INT64 || type == Type::UINT64))
+      continue;
+    specs.push_back({"f" + std::to_string(i),
+                     type,
+                     vectors ? 1 + static_cast<unsigned>(4 * random.uniform()) : 1});
+  }
+  return specs;
+}
+
+std::vector<double>
+largeCoordinates(const std::array<double, 3>& shift, std::size_t count)
+{
+  Random random(5);
+  std::vector<double> xyz;
+  for (std::size_t i = 0; i < 3 * count; ++i)
+    xyz.push_back(100.0 * random.uniform() + shift[i % 3]);
+  return xyz;
+}
+
+} // namespace
+
+TEST(RoundTrip, RandomSchemasKeepEveryBit)
+{
+  Random random(1);
+  for (int round = 0; round < 20; ++round)
+    for (const auto& format : formats) {
+      if (format.file == "a.csv")
+        continue;
+      SCOPED_TRACE(format.file + " " + std::to_string(round));
+      const bool ply = format.file.find("ply") != std::string::npos;
+      const auto dataset = makeDataset(randomSchema(random, !ply, !ply), 37, 7);
+      expectSameFields(roundTrip(dataset, format), dataset);
+    }
+}
+
+TEST(RoundTrip, CsvKeepsNumbersAndMissingOnes)
+{
+  const auto dataset = makeDataset({{"a", Type::FLOAT32},
+                                    {"b, c", Type::FLOAT64},
+                                    {"id", Type::INT16},
+                                    {"#q", Type::INT32}},
+                                   50,
+                                   3);
+  const auto loaded = roundTrip(dataset, {"a.csv", true});
+  ASSERT_EQ(describeFields(loaded.cloud.fields),
+            "x (float32), y (float32), z (float32), a (float32), b, c (float64), id "
+            "(int32), #q (int32)");
+  ASSERT_EQ(loaded.cloud.width, 50u);
+  for (const char* const name : {"x", "y", "z", "a", "b, c", "id", "#q"})
+    for (std::size_t i = 0; i < 50; ++i)
+      expectSame(valueOf(loaded, name, i), valueOf(dataset, name, i), name);
+}
+
+TEST(RoundTrip, NormalsHaveTheNamesOfTheFormat)
+{
+  const auto dataset = makeDataset({{"normal_x", Type::FLOAT32},
+                                    {"normal_y", Type::FLOAT32},
+                                    {"normal_z", Type::FLOAT32},
+                                    {"q", Type::FLOAT64}},
+                                   9,
+                                   2);
+  for (const auto& format : formats)
+    if (format.file != "a.csv")
+      expectSameFields(roundTrip(dataset, format), dataset);
+  const TemporaryFolder folder;
+  saveDataset(folder / "a.ply", dataset);
+  EXPECT_NE(readFile(folder / "a.ply").find("property float nz\n"), std::string::npos);
+  saveDataset(folder / "a.vtp", dataset);
+  EXPECT_NE(readFile(folder / "a.vtp").find("Normals=\"Normals\""), std::string::npos);
+}
+
+TEST(RoundTrip, PackedColorsAreNumbersInPly)
+{
+  auto dataset = makeDataset({{"rgb", Type::FLOAT32}}, 1, 2);
+  put(&dataset.cloud.data[12], std::uint32_t{0xff102030});
+  for (const bool ascii : {false, true}) {
+    const auto ply = roundTrip(dataset, {"a.ply", ascii});
+    EXPECT_EQ(valueOf(ply, "red", 0), 0x10);
+    EXPECT_EQ(valueOf(ply, "green", 0), 0x20);
+    EXPECT_EQ(valueOf(ply, "blue", 0), 0x30);
+    const auto pcd = roundTrip(dataset, {"a.pcd", ascii});
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &pcd.cloud.data[12], sizeof(bits));
+    EXPECT_EQ(bits, 0xff102030u);
+  }
+  dataset.cloud.fields.back().name = "rgba";
+  EXPECT_EQ(valueOf(roundTrip(dataset, {"a.ply", false}), "alpha", 0), 0xff);
+}
+
+TEST(RoundTrip, NamesAndCommentsThatFormatsLack)
+{
+  const auto dataset = makeDataset(
+      {{"a b", Type::INT16}, {"a_b", Type::INT16}, {"v", Type::INT8, 2}}, 3, 2);
+  for (const char* const name : {"a.pcd", "a.ply"}) {
+    const TemporaryFolder folder;
+    SaveOptions options;
+    options.comments = {"made by\na test"};
+    saveDataset(folder / name, dataset, options);
+    const std::string text = readFile(folder / name);
+    EXPECT_NE(text.find("made by a test\n"), std::string::npos);
+    EXPECT_NE(text.find("'a b'"), std::string::npos);
+    const auto loaded = loadDataset(folder / name);
+    EXPECT_EQ(valueOf(loaded, "a_b", 1), valueOf(dataset, "a b", 1));
+    EXPECT_EQ(valueOf(loaded, "a_b_2", 1), valueOf(dataset, "a_b", 1));
+    EXPECT_EQ(valueOf(loaded, "v[1]", 2), valueOf(dataset, "v[1]", 2));
+  }
+}
+
+TEST(RoundTrip, TypesThatPlyLacksAreRefusedByName)
+{
+  const TemporaryFolder folder;
+  const auto dataset = makeDataset({{"id", Type::INT64}}, 3, 2);
+  EXPECT_NE(
+      messageOf<IOError>([&] { saveDataset(folder / "a.ply", dataset); }).find("'id'"),
+      std::string::npos);
+  EXPECT_TRUE(folder.list().empty());
+}
+
+TEST(RoundTrip, NoPoints)
+{
+  const auto dataset = makeDataset({{"a", Type::FLOAT32}, {"v", Type::INT16}}, 0, 2);
+  for (const auto& format : formats) {
+    SCOPED_TRACE(format.file);
+    const auto loaded = roundTrip(dataset, format);
+    EXPECT_EQ(loaded.cloud.width, 0u);
+    EXPECT_NE(findField(loaded.cloud.fields, "a"), nullptr);
+  }
+}
+
+TEST(RoundTrip, PaddingAndOrderOfFieldsDoNotMatter)
+{
+  auto dataset = makeDataset({{"_", Type::UINT8, 7}, {"a", Type::INT16}}, 5, 2);
+  std::rotate(dataset.cloud.fields.begin(),
+              dataset.cloud.fields.begin() + 1,
+              dataset.cloud.fields.end());
+  for (const auto& format : formats) {
+    SCOPED_TRACE(format.file);
+    const auto loaded = roundTrip(dataset, format);
+    EXPECT_EQ(loaded.cloud.fields[0].name, "x");
+    EXPECT_EQ(loaded.cloud.fields[2].offset, 8u);
+    EXPECT_EQ(findField(loaded.cloud.fields, "_"), nullptr);
+    for (std::size_t i = 0; i < 5; ++i)
+      for (const char* const name : {"x", "y", "z", "a"})
+        EXPECT_EQ(valueOf(loaded, name, i), valueOf(dataset, name, i));
+  }
+}
+
+TEST(Coordinates, LargeOnesKeepTheirDigits)
+{
+  const std::array<double, 3> shift{{500000.0, 5500000.0, 100.0}};
+  const auto xyz = largeCoordinates({{0.0, 0.0, 0.0}}, 100);
+  const auto far = largeCoordinates(shift, 100);
+  Dataset dataset = makeDataset({{"a", Type::FLOAT32}}, 100, 2);
+  setCoordinates(dataset, far);
+  EXPECT_NE(dataset.origin[0], 0.0);
+  for (const auto& format : formats) {
+    SCOPED_TRACE(format.file);
+    const auto loaded = roundTrip(dataset, format);
+    EXPECT_TRUE(loaded.double_coordinates);
+    for (std::size_t i = 0; i < 300; ++i)
+      EXPECT_NEAR(
+          coordinateOf(loaded, i % 3, i / 3) - shift[i % 3], xyz[i], 100.0 * 1e-7);
+    EXPECT_EQ(valueOf(loaded, "a", 7), valueOf(dataset, "a", 7));
+  }
+}
+
+TEST(Coordinates, OriginOnlyWhereFloatNeedsIt)
+{
+  Dataset near;
+  setCoordinates(near, largeCoordinates({{-50.0, 10.0, 0.0}}, 100));
+  EXPECT_EQ(near.origin, (std::array<double, 3>{}));
+  Dataset lattice; // far away, but float holds it exactly
+  setCoordinates(lattice, {500000.0, 0.0, 1.0, 500001.0, 1.0, 2.0});
+  EXPECT_EQ(lattice.origin, (std::array<double, 3>{}));
+  Dataset flat; // noise of a plane is no extent
+  setCoordinates(flat, {0.0, 0.0, 0.1, 1.0, 1.0, 0.1 + 1e-9});
+  EXPECT_EQ(flat.origin, (std::array<double, 3>{}));
+  Dataset place; // a single point keeps its digits as well
+  setCoordinates(place, {500000.123456789, 5500000.1, 0.1});
+  EXPECT_NEAR(coordinateOf(place, 0, 0), 500000.123456789, 1e-7);
+  Dataset empty;
+  setCoordinates(empty, {});
+  EXPECT_EQ(empty.cloud.width, 0u);
+  EXPECT_EQ(describeFields(empty.cloud.fields),
+            "x (float32), y (float32), z (float32)");
+}
+
+TEST(Coordinates, NonFiniteOnesStay)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Dataset dataset;
+  setCoordinates(dataset, {nan, 5500000.25, 1.0, 1.0, 5500000.125, HUGE_VAL});
+  EXPECT_TRUE(std::isnan(coordinateOf(dataset, 0, 0)));
+  EXPECT_EQ(coordinateOf(dataset, 2, 1), HUGE_VAL);
+  EXPECT_EQ(coordinateOf(dataset, 1, 0), 5500000.25);
+}
+
+TEST(Coordinates, BadArguments)
+{
+  Dataset dataset = makeDataset({}, 3, 1);
+  EXPECT_THROW(setCoordinates(dataset, {1.0, 2.0, 3.0}), InvalidArgument);
+  EXPECT_THROW(setCoordinates(dataset, {1.0, 2.0}), InvalidArgument);
+  Dataset huge;
+  EXPECT_THROW(setCoordinates(huge, {1e300, 0.0, 0.0}), InvalidArgument);
+}

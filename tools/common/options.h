@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One table of options per tool, in PCL's manner (one dash, positional files), strict:
+// an unknown option, a missing or malformed value and a leftover argument are errors.
+#pragma once
+
+#include <pcl_uvol/common/report.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief A wrong command line: exit code 2. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief The options of a tool. Targets keep their value (the default) where the
+ * option is absent. -h, -version, -threads and -json are in every table. */
+class Options {
+public:
+  /** \param synopsis what stands behind the tool's name: "in.pcd out.ply [options]"
+   * \param purpose one or two sentences for -h */
+  Options(std::string tool, std::string synopsis, std::string purpose);
+
+  /** \brief Positional arguments, in this order; optional ones last. */
+  void
+  file(const std::string& name, std::string& target, bool required = true);
+
+  void
+  flag(const std::string& name, bool& target, const std::string& help);
+  void
+  text(const std::string& name,
+       const std::string& placeholder,
+       std::string& target,
+       const std::string& help);
+  /** \brief One of several words. */
+  void
+  choice(const std::string& name,
+         const std::vector<std::string>& words,
+         std::string& target,
+         const std::string& help);
+  /** \brief A finite number in [minimum, maximum]. */
+  void
+  number(const std::string& name,
+         double& target,
+         double minimum,
+         double maximum,
+         const std::string& help);
+  void
+  integer(const std::string& name,
+          std::uint64_t& target,
+          std::uint64_t minimum,
+          std::uint64_t maximum,
+          const std::string& help);
+  /** \brief Finite numbers joined by commas; count 0 takes one or more. */
+  void
+  numbers(const std::string& name,
+          const std::string& placeholder,
+          std::size_t count,
+          std::vector<double>& target,
+          const std::string& help);
+
+  /** \brief Parse; -h and -version print and return false (the tool then returns 0).
+   * \throws UsageError */
+  bool
+  parse(int argc, const char* const* argv);
+
+  /** \brief True if the option was given. */
+  bool
+  given(const std::string& name) const;
+
+  /** \brief Value of -threads: 0 = all cores. */
+  unsigned
+  threads() const
+  {
+    return static_cast<unsigned>(threads_);
+  }
+  bool
+  json() const
+  {
+    return json_;
+  }
+
+private:
+  struct Option {
+    std::string name, placeholder, help;
+    std::function<void(const std::string&)> assign; // empty for flags
+    bool* flag = nullptr;
+    bool given = false;
+  };
+  struct Positional {
+    std::string name;
+    std::string* target;
+    bool required;
+  };
+
+  Option&
+  find(const std::string& argument);
+
+  void
+  printHelp() const;
+
+  std::string tool_, synopsis_, purpose_;
+  std::vector<Option> options_;
+  std::vector<Positional> positionals_;
+  std::uint64_t threads_ = 0;
+  bool json_ = false;
+};
+
+/** \brief Finite numbers joined by commas, as an option's value; count 0 takes one or
+ * more.
+ * \throws UsageError that names the option */
+std::vector<double>
+parseNumbers(const std::string& option, const std::string& value, std::size_t count);
+
+/** \brief Print counts, times and warnings: PCL's colours on a terminal, plain in a
+ * pipe, one JSON object with -json (keys: counts, milliseconds, warnings, plus facts as
+ * strings).
+ */
+void
+printReport(const Options& options,
+            const pcl_uvol::Report& report,
+            const std::vector<std::pair<std::string, std::string>>& facts = {});
+
+/** \brief Run a tool's body: 0, or 1 with one sentence on stderr for a failure, or 2
+ * for a UsageError. Signals that would kill a writer (SIGXFSZ, SIGPIPE) become write
+ * errors. */
+int
+runTool(const char* tool, const std::function<int()>& body);
+
+} // namespace uvol_tools

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/anisotropy.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <pcl/conversions.h>
+
+#include <memory>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+
+struct Arguments {
+  std::string input, output, field, where;
+  std::vector<double> isovalues, xyz, scale;
+  std::string scale_text, outside = "lower", criterion = "kept", normals = "pca";
+  std::uint64_t k = 30;
+  bool ascii = false;
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  options.file("in", arguments.input);
+  options.file("out", arguments.output);
+  options.numbers("iso", "v,...", 0, arguments.isovalues, "isovalues (required)");
+  options.text("field",
+               "name",
+               arguments.field,
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
+               "else the only candidate)");
+  options.text("where",
+               "expr",
+               arguments.where,
+               "use only the points for which it holds: \"experiment=1 && T>4\"");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               arguments.scale_text,
+               "measure distances in a stretched space; auto: equal spread per axis");
+  options.numbers("xyz",
+                  "ix,iy,iz",
+                  3,
+                  arguments.xyz,
+                  "columns of a text file that hold the coordinates, from 0");
+  options.choice("outside",
+                 {"lower", "higher"},
+                 arguments.outside,
+                 "the side normals point to: where values are lower or higher");
+  options.choice("criterion",
+                 {"kept", "all"},
+                 arguments.criterion,
+                 "angle criterion against kept or against all closer candidates");
+  options.choice("normals",
+                 {"pca", "edge"},
+                 arguments.normals,
+                 "by principal components of the isopoints, or along the edges");
+  options.integer(
+      "k", arguments.k, 2, 1000, "isopoints that a normal by pca is fitted to");
+  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+}
+
+pcl_uvol::Dataset
+load(const Arguments& arguments, Report& report)
+{
+  const StepTimer timer(report, "read");
+  pcl_uvol::LoadOptions options;
+  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
+    options.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
+    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
+      throw UsageError("-xyz takes three column numbers from 0.");
+  }
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, options);
+  report.count("points", dataset.cloud.width);
+  report.warnings.insert(
+      report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  if (!arguments.where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(
+        arguments.input + " has no points" +
+        (arguments.where.empty() ? "." : " for which " + arguments.where + "."));
+  return dataset;
+}
+
+Eigen::Array3f
+scaleOf(const Arguments& arguments, const pcl_uvol::CloudView& cloud)
+{
+  if (arguments.scale_text.empty())
+    return Eigen::Array3f::Ones();
+  if (arguments.scale_text == "auto")
+    return pcl_uvol::equalizingScale(cloud);
+  return Eigen::Array3f(static_cast<float>(arguments.scale[0]),
+                        static_cast<float>(arguments.scale[1]),
+                        static_cast<float>(arguments.scale[2]));
+}
+
+template <typename T>
+std::string
+joined(const T& numbers)
+{
+  std::ostringstream text;
+  for (const auto number : numbers)
+    text << (text.tellp() > 0 ? "," : "") << number;
+  return text.str();
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options(
+      "uvol_isosurface",
+      "in.pcd out.ply -iso v[,v...] [options]",
+      "Extracts the isosurface of a scalar field given at scattered points, as "
+      "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
+      "pcd ply vtp csv.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  if (arguments.isovalues.empty())
+    throw UsageError(
+        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  if (!arguments.scale_text.empty() && arguments.scale_text != "auto")
+    arguments.scale = uvol_tools::parseNumbers("scale", arguments.scale_text, 3);
+  pcl_uvol::checkSavePath(arguments.output);
+
+  Report report;
+  auto total = std::make_unique<StepTimer>(report, "total");
+  const pcl_uvol::Dataset input = load(arguments, report);
+  const std::string field = arguments.field.empty()
+                                ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
+                                : arguments.field;
+  const pcl::PCLPointCloud2::ConstPtr samples(&input.cloud, [](const void*) {});
+  const Eigen::Array3f scale = scaleOf(arguments, pcl_uvol::viewOf(input.cloud));
+
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(samples);
+  extraction.setScalarField(field);
+  extraction.setIsoValues(arguments.isovalues);
+  extraction.setScale(scale);
+  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
+                                                     : pcl_uvol::Outside::Higher);
+  extraction.setAngleCriterion(arguments.criterion == "kept"
+                                   ? pcl_uvol::AngleCriterion::Kept
+                                   : pcl_uvol::AngleCriterion::All);
+  extraction.setNumberOfThreads(options.threads());
+  pcl::PointCloud<PointIso> isopoints;
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+
+  if (arguments.normals == "pca" && !isopoints.empty()) {
+    const StepTimer timer(report, "normals");
+    pcl_uvol::SurfaceNormalParameters parameters;
+    parameters.k = arguments.k;
+    parameters.scale = scale;
+    parameters.threads = options.threads();
+    pcl_uvol::replaceNormals(isopoints, parameters, report);
+  }
+
+  pcl_uvol::Dataset output;
+  output.origin = input.origin;
+  output.double_coordinates = input.double_coordinates;
+  {
+    const StepTimer timer(report, "fields");
+    pcl::toPCLPointCloud2(isopoints, output.cloud);
+    pcl_uvol::interpolateFields(input.cloud, extraction.getEdges(), output.cloud);
+  }
+  {
+    const StepTimer timer(report, "write");
+    pcl_uvol::SaveOptions save;
+    save.ascii = arguments.ascii;
+    save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
+    pcl_uvol::saveDataset(arguments.output, output, save);
+  }
+  total.reset();
+  uvol_tools::printReport(options,
+                          report,
+                          {{"input", arguments.input},
+                           {"output", arguments.output},
+                           {"field", field},
+                           {"isovalues", joined(arguments.isovalues)},
+                           {"scale", joined(scale)}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_isosurface", [&] { return run(argc, argv); });
+}
