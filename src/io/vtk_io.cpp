@@ -16,7 +16,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
-#include <vtkXMLDataParser.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLStructuredGridReader.h>
@@ -45,15 +44,6 @@ readBy(const std::string& path)
   return reader->GetOutputDataObject(0);
 }
 
-/** VTK's readers crash on some files that are no XML, for which its parser knows. */
-bool
-isXml(const std::string& path)
-{
-  vtkNew<vtkXMLDataParser> parser;
-  parser->SetFileName(path.c_str());
-  return parser->Parse() != 0 && parser->GetRootElement();
-}
-
 /** VTK does not miss the end of a truncated file if it had found the points before. */
 void
 checkEnd(const InputFile& file, const std::string& path)
@@ -76,9 +66,7 @@ readPoints(const std::string& path, const std::string& ending)
   std::string error;
   {
     const VtkMessages messages;
-    if (ending != ".vtk" && !isXml(path))
-      object = nullptr;
-    else if (ending == ".vtp")
+    if (ending == ".vtp")
       object = readBy<vtkXMLPolyDataReader>(path);
     else if (ending == ".vtu")
       object = readBy<vtkXMLUnstructuredGridReader>(path);

@@ -21,7 +21,8 @@ namespace pcl_uvol {
  * added back when they are written. */
 struct PCL_UVOL_EXPORTS Dataset {
   /** Fields x, y, z are float32, relative to the origin; all others as in the file.
-   * Height is 1, points are densely packed, padding fields ("_") are removed. */
+   * Height is 1, padding fields ("_") are removed, x, y, z come first and the others
+   * follow without gaps; point_step is a multiple of 4, so that viewOf() takes it. */
   pcl::PCLPointCloud2 cloud;
   /** Added to x, y, z when the dataset is written; multiples of a power of two, or 0.
    */
@@ -68,14 +69,19 @@ PCL_UVOL_EXPORTS void
 checkSavePath(const std::string& path);
 
 /** \brief Put float32 x, y, z relative to a common origin into a dataset, in front of
- * its other fields, from coordinates in double. \param xyz three numbers per point The
- * origin is 0 where float holds every coordinate to 1e-7 of the extent. */
+ * its other fields, from coordinates in double; double_coordinates stays as it is.
+ *
+ * The origin of an axis is 0 where float holds every coordinate to 1e-7 of the extent
+ * of that axis (of the cloud, for an axis that is flat beside it).
+ * \param xyz three numbers per point
+ * \throws InvalidArgument unless there are three per point, none beyond float */
 PCL_UVOL_EXPORTS void
 setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
 
 /** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
  * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right
- * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added.
+ * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added,
+ * float32 fields with the float nearest to the number.
  * \return the number of points removed
  * \throws InvalidArgument for a malformed expression or an unknown field */
 PCL_UVOL_EXPORTS std::size_t

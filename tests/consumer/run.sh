@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Installs a build into a prefix of its own and builds and runs a project that finds it there.
+# usage: run.sh BUILD_FOLDER
+set -euo pipefail
+source_dir=$(cd "$(dirname "$0")" && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cmake --install "$1" --prefix "$folder/prefix" >"$folder/install.log"
+cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_BUILD_TYPE=Release
+cmake --build "$folder/build"
+"$folder/build/consumer" | tee "$folder/out"
+grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
+"$folder/prefix/bin/uvol_isosurface" -version

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The layers of the house: includes go downwards only, and the check notices if one
+// does not.
+#include "support/test_support.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+const std::string check = "bash '" PCL_UVOL_SOURCE_DIR "/tests/tools/check_layers.sh' ";
+
+TEST(Layers, IncludesGoDownwards)
+{
+  const auto result = uvol_test::runCommand(check + PCL_UVOL_SOURCE_DIR);
+  EXPECT_EQ(0, result.exit_code) << result.out << result.err;
+}
+
+TEST(Layers, ABreachIsNoticed)
+{
+  for (const char* include : {"pcl_uvol/isosurface/iso_edges.h", "vtkPolyData.h"}) {
+    const uvol_test::TemporaryFolder folder;
+    const std::string header = "include/pcl_uvol/neighbors";
+    uvol_test::runCommand("mkdir -p '" + (folder / header) + "'");
+    uvol_test::writeFile(folder / (header + "/bad.h"),
+                         "#include <" + std::string(include) + ">\n");
+    EXPECT_EQ(1, uvol_test::runCommand(check + (folder / "")).exit_code) << include;
+  }
+}
+
+} // namespace
