@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regular scalar volumes, to be resampled at scattered positions as the thesis did
+// (2.5).
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Values at the points of an axis-aligned grid. */
+struct PCL_UVOL_EXPORTS Volume {
+  std::array<std::size_t, 3> dims{};              ///< points per axis
+  std::array<double, 3> origin{{0.0, 0.0, 0.0}};  ///< position of point (0, 0, 0)
+  std::array<double, 3> spacing{{1.0, 1.0, 1.0}}; ///< distance of points, positive
+  std::vector<float> values;                      ///< x runs fastest, then y, then z
+  std::string name = "intensity";                 ///< of the scalar
+
+  /** \brief Trilinear interpolation; positions outside are taken to the border. */
+  double
+  sample(const std::array<double, 3>& position) const;
+
+  /** \brief Position of the last point. */
+  std::array<double, 3>
+  upper() const;
+};
+
+/** \brief True if loadVolume knows the ending of that name (any case). */
+PCL_UVOL_EXPORTS bool
+isVolumePath(const std::string& path);
+
+/** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip; data attached or
+ * not) by Teem, .vti, .mha and .mhd by VTK. \throws IOError in one sentence that names
+ * the file */
+PCL_UVOL_EXPORTS Volume
+loadVolume(const std::string& path);
+
+} // namespace pcl_uvol

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/io/dataset_info.h>
+#include <pcl_uvol/neighbors/nearest_neighbors.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Quantiles of sorted values strictly between the extremes. */
+std::vector<double>
+suggestIsovalues(const std::vector<double>& sorted)
+{
+  const auto first = std::upper_bound(sorted.begin(), sorted.end(), sorted.front());
+  const auto last = std::lower_bound(first, sorted.end(), sorted.back());
+  std::vector<double> isovalues;
+  for (const double quantile : {0.25, 0.5, 0.75, 0.95})
+    if (first != last) {
+      const auto rank =
+          static_cast<std::ptrdiff_t>(quantile * static_cast<double>(last - first - 1));
+      isovalues.push_back(first[rank]);
+    }
+  isovalues.erase(std::unique(isovalues.begin(), isovalues.end()), isovalues.end());
+  return isovalues;
+}
+
+} // namespace
+
+ValueStatistics
+describeValues(const std::vector<double>& values)
+{
+  ValueStatistics statistics;
+  std::vector<double> sorted;
+  sorted.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted), [](double v) {
+    return std::isfinite(v);
+  });
+  statistics.finite = sorted.size();
+  statistics.missing = values.size() - sorted.size();
+  if (sorted.empty())
+    return statistics;
+  std::sort(sorted.begin(), sorted.end());
+  statistics.min = sorted.front();
+  statistics.max = sorted.back();
+  statistics.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) /
+                    static_cast<double>(sorted.size());
+  const double width = statistics.max - statistics.min;
+  const auto bins = statistics.histogram.size();
+  for (const double value : sorted) {
+    const double place = width > 0.0 ? (value - statistics.min) / width : 0.0;
+    const auto bin = static_cast<std::size_t>(place * static_cast<double>(bins));
+    ++statistics.histogram[std::min(bin, bins - 1)];
+  }
+  statistics.isovalues = suggestIsovalues(sorted);
+  return statistics;
+}
+
+std::vector<double>
+valuesOf(const Dataset& dataset, const ScalarField& field)
+{
+  std::vector<double> values(dataset.cloud.width);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = field.read(&dataset.cloud.data[i * dataset.cloud.point_step]);
+  return values;
+}
+
+PositionStatistics
+describePositions(const Dataset& dataset, unsigned threads)
+{
+  const CloudView cloud = viewOf(dataset.cloud);
+  std::vector<std::uint32_t> all(cloud.count);
+  std::iota(all.begin(), all.end(), 0u);
+  Report report;
+  const auto samples = SampleSet::build(
+      cloud.xyz(0), cloud.stride(), all, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
+  PositionStatistics statistics;
+  statistics.non_finite = report.getCount("non_finite");
+  statistics.duplicates = report.getCount("duplicates");
+  const auto& positions = samples->getPositions();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    const auto [low, high] = std::minmax_element(
+        positions.begin(), positions.end(), [&](const Position& p, const Position& q) {
+          return p[a] < q[a];
+        });
+    statistics.lower[axis] = dataset.origin[axis] + (*low)[a];
+    statistics.upper[axis] = dataset.origin[axis] + (*high)[a];
+  }
+  if (positions.size() < 2)
+    return statistics;
+  const NeighborGraph nearest = computeNearestNeighbors(*samples, 1, threads);
+  std::vector<double> spacing(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Position &p = positions[i], &q = positions[*nearest[i].begin()];
+    spacing[i] = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+  std::sort(spacing.begin(), spacing.end());
+  statistics.spacing_min = spacing.front();
+  statistics.spacing_median = spacing[spacing.size() / 2];
+  statistics.spacing_max = spacing.back();
+  return statistics;
+}
+
+} // namespace pcl_uvol

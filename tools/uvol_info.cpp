@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a file of samples or a volume holds, before work is done with it.
+#include "common/options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/dataset_info.h>
+#include <pcl_uvol/io/volume.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using Facts = std::vector<std::pair<std::string, std::string>>;
+using pcl_uvol::Report;
+using pcl_uvol::ValueStatistics;
+
+struct Arguments {
+  std::string input, field, where;
+  std::vector<double> xyz;
+};
+
+template <typename Numbers>
+std::string
+joined(const Numbers& numbers, const char* separator)
+{
+  std::ostringstream text;
+  text.precision(10);
+  bool first = true;
+  for (const auto& number : numbers) {
+    text << (first ? "" : separator) << number;
+    first = false;
+  }
+  return text.str();
+}
+
+std::string
+rangeOf(const ValueStatistics& statistics)
+{
+  if (statistics.finite == 0)
+    return "no finite value";
+  std::ostringstream text;
+  text << statistics.min << " to " << statistics.max << ", mean " << statistics.mean;
+  if (statistics.missing > 0)
+    text << ", " << statistics.missing << " missing";
+  return text.str();
+}
+
+/** A bar per bin, as long as its share of the fullest one. */
+void
+addHistogram(const ValueStatistics& statistics, Facts& facts)
+{
+  constexpr double longest = 40.0;
+  const auto fullest =
+      *std::max_element(statistics.histogram.begin(), statistics.histogram.end());
+  const double width = (statistics.max - statistics.min) /
+                       static_cast<double>(statistics.histogram.size());
+  for (std::size_t bin = 0; bin < statistics.histogram.size() && fullest > 0; ++bin) {
+    std::ostringstream from;
+    from << "  from " << statistics.min + width * static_cast<double>(bin);
+    const std::uint64_t count = statistics.histogram[bin];
+    const auto length = static_cast<std::size_t>(longest * static_cast<double>(count) /
+                                                 static_cast<double>(fullest));
+    facts.emplace_back(from.str(),
+                       std::string(length, '#') + (length > 0 ? " " : "") +
+                           std::to_string(count));
+    if (width == 0.0)
+      break;
+  }
+  if (!statistics.isovalues.empty())
+    facts.emplace_back(
+        "suggested isovalues (quantiles 0.25, 0.5, 0.75, 0.95 of the values "
+        "between the extremes)",
+        joined(statistics.isovalues, ","));
+}
+
+Facts
+describeVolume(const std::string& path, Report& report)
+{
+  const pcl_uvol::Volume volume = pcl_uvol::loadVolume(path);
+  Facts facts{{"file", path},
+              {"size", joined(volume.dims, " x ")},
+              {"spacing", joined(volume.spacing, " ")},
+              {"origin", joined(volume.origin, " ")}};
+  const auto statistics = pcl_uvol::describeValues(
+      std::vector<double>(volume.values.begin(), volume.values.end()));
+  facts.emplace_back(volume.name, rangeOf(statistics));
+  addHistogram(statistics, facts);
+  report.count("points", volume.values.size());
+  return facts;
+}
+
+/** The field to look at closely: the one named, else the default where there is one. */
+std::string
+chosenField(const Arguments& arguments, const pcl_uvol::Dataset& dataset)
+{
+  if (!arguments.field.empty())
+    return arguments.field;
+  try {
+    return pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
+  }
+  catch (const pcl_uvol::InvalidArgument&) {
+    return {}; // none, or several: the list of ranges tells
+  }
+}
+
+Facts
+describeCloud(const Arguments& arguments, unsigned threads, Report& report)
+{
+  pcl_uvol::LoadOptions load;
+  for (std::size_t i = 0; i < arguments.xyz.size(); ++i)
+    load.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
+  report.warnings = dataset.notes;
+  if (!arguments.where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
+  Facts facts{{"file", arguments.input},
+              {"fields", pcl_uvol::describeFields(dataset.cloud.fields)}};
+  report.count("points", dataset.cloud.width);
+  const std::string chosen = chosenField(arguments, dataset);
+  if (dataset.cloud.width == 0) {
+    report.warnings.push_back(arguments.input + " has no points.");
+    return facts;
+  }
+  const auto positions = pcl_uvol::describePositions(dataset, threads);
+  facts.emplace_back("lower corner", joined(positions.lower, " "));
+  facts.emplace_back("upper corner", joined(positions.upper, " "));
+  facts.emplace_back("distance to the nearest sample (min, median, max)",
+                     joined(std::vector<double>{positions.spacing_min,
+                                                positions.spacing_median,
+                                                positions.spacing_max},
+                            ", "));
+  report.count("non_finite", positions.non_finite);
+  report.count("duplicates", positions.duplicates);
+  for (const auto& field : dataset.cloud.fields)
+    if (field.name != "x" && field.name != "y" && field.name != "z")
+      for (std::size_t k = 0; k < field.count; ++k) {
+        const std::string name =
+            field.count > 1 ? field.name + "[" + std::to_string(k) + "]" : field.name;
+        facts.emplace_back(
+            name,
+            rangeOf(pcl_uvol::describeValues(pcl_uvol::valuesOf(
+                dataset, pcl_uvol::ScalarField(dataset.cloud.fields, name)))));
+      }
+  if (!chosen.empty()) {
+    const auto statistics = pcl_uvol::describeValues(pcl_uvol::valuesOf(
+        dataset, pcl_uvol::ScalarField(dataset.cloud.fields, chosen)));
+    facts.emplace_back("histogram of " + chosen, rangeOf(statistics));
+    addHistogram(statistics, facts);
+  }
+  return facts;
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  uvol_tools::Options options("uvol_info",
+                              "in.pcd [options]",
+                              "Tells what a file of samples (pcd ply csv txt vtk vtp "
+                              "vtu vts) or a volume (nrrd "
+                              "nhdr vti mha mhd) holds.");
+  options.file("in", arguments.input);
+  options.text("field", "name", arguments.field, "scalar field to draw a histogram of");
+  options.text(
+      "where", "expr", arguments.where, "look only at the points it holds for");
+  options.numbers("xyz",
+                  "ix,iy,iz",
+                  3,
+                  arguments.xyz,
+                  "columns of a text file that hold the coordinates, from 0");
+  if (!options.parse(argc, argv))
+    return 0;
+  Report report;
+  const Facts facts = pcl_uvol::isVolumePath(arguments.input)
+                          ? describeVolume(arguments.input, report)
+                          : describeCloud(arguments, options.threads(), report);
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_info", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Normals of a surface given as points (thesis 4.1).
+#include "common/options.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <pcl/conversions.h>
+
+#include <numeric>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+
+/** The cloud with new normals and curvature; all other fields as they were. */
+pcl::PCLPointCloud2
+withNormals(const pcl_uvol::CloudView& view,
+            const pcl::PCLPointCloud2& cloud,
+            const std::vector<pcl_uvol::SurfaceNormal>& normals)
+{
+  pcl::PointCloud<pcl::PointNormal> points;
+  points.resize(normals.size());
+  pcl_uvol::IsoEdges same;
+  for (std::uint32_t i = 0; i < normals.size(); ++i) {
+    points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
+    points[i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
+    points[i].curvature = normals[i].curvature;
+    same.push_back({i, i, 0.0f});
+  }
+  pcl::PCLPointCloud2 result;
+  pcl::toPCLPointCloud2(points, result);
+  pcl_uvol::interpolateFields(cloud, same, result);
+  return result;
+}
+
+int
+run(int argc, char** argv)
+{
+  std::string input, output;
+  std::vector<double> view_point, scale;
+  std::uint64_t k = 30;
+  bool ascii = false;
+  uvol_tools::Options options(
+      "uvol_normals",
+      "in.ply out.ply [options]",
+      "Estimates normals of a surface given as points, from the principal components "
+      "of the "
+      "nearest neighbours.\nNormals that the file has orient the new ones.");
+  options.file("in", input);
+  options.file("out", output);
+  options.integer("k", k, 2, 10000, "nearest neighbours besides the point");
+  options.numbers("viewpoint",
+                  "x,y,z",
+                  3,
+                  view_point,
+                  "points without a normal look there (default 0,0,0)");
+  options.numbers(
+      "scale", "sx,sy,sz", 3, scale, "measure distances in a stretched space");
+  options.flag("ascii", ascii, "write PCD and PLY as text");
+  if (!options.parse(argc, argv))
+    return 0;
+  pcl_uvol::checkSavePath(output);
+
+  Report report;
+  pcl_uvol::Dataset dataset;
+  {
+    const StepTimer timer(report, "read");
+    dataset = pcl_uvol::loadDataset(input);
+    report.warnings = dataset.notes;
+  }
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(input + " has no points.");
+  pcl_uvol::SurfaceNormalParameters parameters;
+  parameters.k = k;
+  parameters.threads = options.threads();
+  if (!scale.empty())
+    parameters.scale = Eigen::Array3d(scale.data()).cast<float>();
+  if (view_point.empty())
+    view_point.assign(3, 0.0);
+  parameters.view_point =
+      (Eigen::Array3d(view_point.data()) - Eigen::Array3d(dataset.origin.data()))
+          .cast<float>();
+  if (pcl_uvol::findField(dataset.cloud.fields, "normal_x") == nullptr &&
+      !options.given("viewpoint"))
+    report.warnings.push_back(
+        "The file has no normals to orient by: the new ones look to 0,0,0; -viewpoint "
+        "chooses another place.");
+
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  std::vector<std::uint32_t> all(view.count);
+  std::iota(all.begin(), all.end(), 0u);
+  const auto normals = pcl_uvol::estimateSurfaceNormals(view, all, parameters, report);
+  pcl_uvol::Dataset result = dataset;
+  result.cloud = withNormals(view, dataset.cloud, normals);
+  {
+    const StepTimer timer(report, "write");
+    pcl_uvol::SaveOptions save;
+    save.ascii = ascii;
+    pcl_uvol::saveDataset(output, result, save);
+  }
+  report.count("points", normals.size());
+  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_normals", [&] { return run(argc, argv); });
+}
