@@ -1,119 +1,181 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formulas of the analytic fields.
+// The formulas of the analytic fields, and random numbers by counting.
 #include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/common/exceptions.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace pcl_uvol {
 
 namespace {
 
+using Position = std::array<double, 3>;
+
 constexpr double pi = 3.141592653589793;
 
-AnalyticField
-radial(std::size_t samples)
+double
+radius(const Position& p)
 {
-  const double side = 160.0 * std::cbrt(static_cast<double>(samples) / 4e6);
-  const double c = side / 2;
-  const auto value = [c](double x, double y, double z) {
-    return std::hypot(x - c, y - c, z - c);
-  };
-  return {"radial", value, {{{0, 0, 0}}, {{side, side, side}}}, 46.0 / 160.0 * side};
+  return std::hypot(p[0], p[1], p[2]);
 }
 
 double
-sphere(double x, double y, double z)
+sphere(const Position& p)
 {
-  return 1.0 - (x * x + y * y + z * z);
+  return 1.0 - radius(p);
 }
 
 double
-torus(double x, double y, double z)
+torus(const Position& p)
 {
-  return 0.35 - std::hypot(std::hypot(x, y) - 1.0, z);
+  return 0.25 - std::hypot(std::hypot(p[0], p[1]) - 0.65, p[2]);
 }
 
 double
-gyroid(double x, double y, double z)
+gyroid(const Position& p)
 {
-  return std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) +
-         std::sin(z) * std::cos(x);
+  return std::sin(p[0]) * std::cos(p[1]) + std::sin(p[1]) * std::cos(p[2]) +
+         std::sin(p[2]) * std::cos(p[0]);
 }
 
 double
-marschnerLobb(double x, double y, double z)
+marschnerLobb(const Position& p)
 {
-  constexpr double alpha = 0.25, f_m = 6.0;
-  const double rho = std::cos(2 * pi * f_m * std::cos(pi / 2 * std::hypot(x, y)));
-  return (1.0 - std::sin(pi / 2 * z) + alpha * (1.0 + rho)) / (2 * (1.0 + alpha));
+  constexpr double alpha = 0.25, frequency = 6.0;
+  const double rho =
+      std::cos(2 * pi * frequency * std::cos(pi * std::hypot(p[0], p[1]) / 2));
+  return (1.0 - std::sin(pi * p[2] / 2) + alpha * (1.0 + rho)) / (2 * (1.0 + alpha));
 }
 
+/** Electron density of the orbital 3d_z2 in 1e-4 per cubic Bohr radius. */
 double
-hydrogen(double x, double y, double z)
+hydrogen(const Position& p)
 {
-  const double r_sq = x * x + y * y + z * z;
-  const double angular = 3 * z * z - r_sq;
-  // The maximum lies on the z axis at r = 6: (2 * 36)^2 exp(-4).
-  return angular * angular * std::exp(4.0 - 2.0 / 3.0 * std::sqrt(r_sq)) / 5184.0;
+  const double r = radius(p);
+  const double norm = 81.0 * std::sqrt(6 * pi);
+  const double amplitude = (3 * p[2] * p[2] - r * r) * std::exp(-r / 3) / norm;
+  return 1e4 * amplitude * amplitude;
 }
 
+/** A dense core and two thin arms wound around it, over four powers of ten. */
 double
-star(double x, double y, double z)
+star(const Position& p)
 {
-  constexpr double core = 0.5;  // Plummer's radius
-  constexpr double twist = 2.0; // angle by which the arms turn per factor e of radius
-  const double r_sq = x * x + y * y;
-  const double plummer = std::pow(1.0 + (r_sq + z * z) / (core * core), -2.5);
-  const double r = std::sqrt(r_sq);
-  const double angle = twist * std::log1p(r);
-  const double cx = r * std::cos(angle), cy = r * std::sin(angle);
-  const double width = 0.2 + 0.08 * r;
-  const auto arm = [&](double sign) {
-    const double dx = x - sign * cx, dy = y - sign * cy;
-    return std::exp(-(dx * dx + dy * dy + z * z) / (2 * width * width));
-  };
-  const double ends = r_sq / (1.0 + r_sq) * std::exp(-r_sq / 32.0);
-  return plummer + 0.04 * ends * (arm(1.0) + arm(-1.0));
+  const double r = std::hypot(p[0], p[1]);
+  const double winding = std::atan2(p[1], p[0]) - 1.2 * r;
+  const double core = std::exp(-6 * radius(p));
+  const double flat = std::exp(-20 * p[2] * p[2] / (0.05 + 0.2 * r));
+  return core + 0.05 * std::exp(-2 * r) * std::pow(std::cos(winding), 8) * flat;
 }
 
-Box
-centered(double x, double y, double z)
+/** splitmix64's step: neighbouring arguments give unrelated results. */
+std::uint64_t
+mix(std::uint64_t z)
 {
-  return {{{-x, -y, -z}}, {{x, y, z}}};
+  z += 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+/** Cells per axis of the largest lattice of no more than n. */
+std::uint64_t
+latticeSide(std::uint64_t n)
+{
+  auto side = static_cast<std::uint64_t>(std::cbrt(static_cast<double>(n)));
+  while ((side + 1) * (side + 1) * (side + 1) <= n)
+    ++side; // the root of a cube number may come out a little too small
+  return side;
+}
+
+Position
+clusteredAt(std::uint64_t seed, std::uint64_t index, double lower, double upper)
+{
+  const double r = 0.5 * (upper - lower) * uniformAt(seed, index, 0);
+  const double z = 2 * uniformAt(seed, index, 1) - 1.0;
+  const double angle = 2 * pi * uniformAt(seed, index, 2);
+  const double flat = std::sqrt(1.0 - z * z) * r;
+  const double center = 0.5 * (lower + upper);
+  return {{center + flat * std::cos(angle),
+           center + flat * std::sin(angle),
+           center + r * z}};
 }
 
 } // namespace
 
-const std::vector<std::string>&
-analyticFieldNames()
+const std::vector<AnalyticField>&
+analyticFields()
 {
-  static const std::vector<std::string> names = {
-      "radial", "sphere", "torus", "gyroid", "marschner_lobb", "hydrogen", "star"};
-  return names;
+  static const std::vector<AnalyticField> fields = {
+      {"radial", -80, 80, radius, {46}, "distance to the centre (thesis Table 2.9)"},
+      {"sphere", -1.2, 1.2, sphere, {0}, "1 - distance to the centre"},
+      {"torus", -1, 1, torus, {0}, "radii 0.65 and 0.25"},
+      {"gyroid", -2 * pi, 2 * pi, gyroid, {0, 0.8}, "two periods per axis"},
+      {"marschner_lobb", -1, 1, marschnerLobb, {0.5}, "Marschner and Lobb 1994"},
+      {"hydrogen", -20, 20, hydrogen, {0.05, 0.3}, "3d orbital of hydrogen"},
+      {"star", -2, 2, star, {0.001, 0.01, 0.1}, "tidally torn star"}};
+  return fields;
 }
 
-AnalyticField
-makeAnalyticField(const std::string& name, std::size_t samples)
+const AnalyticField&
+findAnalyticField(const std::string& name)
 {
-  static const std::vector<AnalyticField> fixed = {
-      {"sphere", sphere, centered(1.5, 1.5, 1.5), 0.0},
-      {"torus", torus, centered(1.5, 1.5, 0.6), 0.0},
-      {"gyroid", gyroid, centered(2 * pi, 2 * pi, 2 * pi), 0.0},
-      {"marschner_lobb", marschnerLobb, centered(1.0, 1.0, 1.0), 0.5},
-      {"hydrogen", hydrogen, centered(25.0, 25.0, 25.0), 0.1},
-      {"star", star, centered(8.0, 8.0, 3.0), 0.01}};
-  if (name == "radial")
-    return radial(samples);
-  for (const AnalyticField& field : fixed)
-    if (field.name == name)
+  std::string names;
+  for (const AnalyticField& field : analyticFields()) {
+    if (name == field.name)
       return field;
-  std::string list;
-  for (const std::string& known : analyticFieldNames())
-    list += (list.empty() ? "" : ", ") + known;
-  throw InvalidArgument("There is no analytic field '" + name + "', only " + list +
-                        ".");
+    names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  throw InvalidArgument("There is no analytic field '" + name + "'; there are " +
+                        names + ".");
+}
+
+std::uint64_t
+scatterCount(Scatter scatter, std::uint64_t n)
+{
+  if (scatter == Scatter::Uniform || scatter == Scatter::Clustered)
+    return n;
+  const std::uint64_t side = latticeSide(n);
+  return side * side * side;
+}
+
+std::array<double, 3>
+scatterAt(Scatter scatter,
+          std::uint64_t seed,
+          std::uint64_t index,
+          std::uint64_t n,
+          double lower,
+          double upper)
+{
+  if (scatter == Scatter::Clustered)
+    return clusteredAt(seed, index, lower, upper);
+  Position position;
+  const std::uint64_t side = scatter == Scatter::Uniform ? 1 : latticeSide(n);
+  const std::uint64_t cell[3] = {
+      index % side, index / side % side, index / side / side};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double first =
+        scatter == Scatter::Uniform ? 0.0 : static_cast<double>(cell[axis]);
+    const double within =
+        scatter == Scatter::Lattice ? 0.5 : uniformAt(seed, index, axis);
+    position[axis] =
+        lower + (first + within) * (upper - lower) / static_cast<double>(side);
+  }
+  return position;
+}
+
+double
+uniformAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw)
+{
+  return static_cast<double>(mix(mix(mix(seed) ^ index) ^ draw) >> 11) * 0x1.0p-53;
+}
+
+double
+normalAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw)
+{
+  // Box and Muller; 1 - u is never zero.
+  return std::sqrt(-2 * std::log(1.0 - uniformAt(seed, index, 2 * draw))) *
+         std::cos(2 * pi * uniformAt(seed, index, 2 * draw + 1));
 }
 
 } // namespace pcl_uvol

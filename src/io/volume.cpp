@@ -78,6 +78,9 @@ readByVtk(const std::string& path)
 {
   const io::VtkMessages messages;
   vtkNew<Reader> reader;
+  // MetaIO prints its complaints itself, so what is no MetaImage must not reach it.
+  if (reader->CanReadFile(path.c_str()) == 0)
+    io::throwUnreadable(path, "it is no volume of the kind that its ending promises");
   reader->SetFileName(path.c_str());
   reader->Update();
   if (!messages.getError().empty())

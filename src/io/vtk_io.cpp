@@ -9,6 +9,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataReader.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkPointData.h>
@@ -23,6 +24,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 namespace pcl_uvol {
 namespace io {
@@ -38,6 +40,16 @@ readBy(const std::string& path)
 {
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
+  if constexpr (std::is_base_of_v<vtkDataReader, Reader>) {
+    // Legacy files: without these the reader takes the first array of each kind only.
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->ReadAllNormalsOn();
+    reader->ReadAllTensorsOn();
+    reader->ReadAllTCoordsOn();
+    reader->ReadAllColorScalarsOn();
+    reader->ReadAllFieldsOn();
+  }
   reader->Update();
   if (reader->GetErrorCode() != 0)
     return nullptr;

@@ -1,41 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scalar fields given by formulas: truth for tests and data to try things on.
+// Scalar fields given by formulas, and scattered positions to sample them at: truth for
+// tests and data to try things on.
 #pragma once
 
-#include <pcl_uvol/common/sample_positions.h>
+#include <pcl_uvol/common/export.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
-/** \brief A scalar field with the box it is meant for. */
+/** \brief A scalar field on a cube. */
 struct AnalyticField {
-  std::string name;
-  ScalarFunction value;
-  Box domain;
-  double isovalue; ///< one that gives a surface worth looking at
+  const char* name;
+  double lower, upper; ///< of the cube it is meant for, along every axis
+  double (*value)(const std::array<double, 3>& position);
+  std::vector<double> isovalues; ///< surfaces worth looking at
+  const char* description;
 };
 
-/** \brief radial, sphere, torus, gyroid, marschner_lobb, hydrogen, star. */
-PCL_UVOL_EXPORTS const std::vector<std::string>&
-analyticFieldNames();
+/** \brief All there are: radial, sphere, torus, gyroid, marschner_lobb, hydrogen, star.
+ */
+PCL_UVOL_EXPORTS const std::vector<AnalyticField>&
+analyticFields();
 
-/** \brief A field by name.
- *
- * | name | value | domain |
- * |---|---|---|
- * | radial | distance to the centre (the thesis's test, Table 2.9) | [0, L]^3 with L =
- * 160 (samples / 4e6)^(1/3), where samples are spaced by 1 on average |
- * | sphere | 1 - r^2 | [-1.5, 1.5]^3 |
- * | torus | depth below a torus of radii 1 and 0.35 | [-1.5, 1.5]^2 x [-0.6, 0.6] |
- * | gyroid | sin x cos y + sin y cos z + sin z cos x | two periods: [-2 pi, 2 pi]^3 |
- * | marschner_lobb | the test signal of Marschner and Lobb 1994, alpha = 0.25, f_M = 6 |
- * [-1, 1]^3 |
- * | hydrogen | electron density of the orbital 3d_z2, its maximum being 1; lengths in
- * Bohr radii | [-25, 25]^3 |
- * | star | density of a star torn by tides: a core, maximum about 1, and two arms 30
- * times thinner, over a vacuum of 1e-5 and less | [-8, 8]^2 x [-3, 3] |
- * \param samples number of samples the field will get: radial's domain depends on it
- * \throws InvalidArgument that lists the names */
-PCL_UVOL_EXPORTS AnalyticField
-makeAnalyticField(const std::string& name, std::size_t samples);
+/** \brief The field of that name. \throws InvalidArgument that lists the names */
+PCL_UVOL_EXPORTS const AnalyticField&
+findAnalyticField(const std::string& name);
+
+/** \brief How samples are spread over a cube. */
+enum class Scatter {
+  Uniform,  ///< independent
+  Jittered, ///< one at random in every cell of a lattice
+  Lattice,  ///< the centres of these cells
+  Clustered ///< density falls with the squared distance from the centre, in a ball
+};
+
+/** \brief Number of samples: Jittered and Lattice round down to a cube number. */
+PCL_UVOL_EXPORTS std::uint64_t
+scatterCount(Scatter scatter, std::uint64_t n);
+
+/** \brief Position of the sample of that index among n in the cube [lower, upper]^3. */
+PCL_UVOL_EXPORTS std::array<double, 3>
+scatterAt(Scatter scatter,
+          std::uint64_t seed,
+          std::uint64_t index,
+          std::uint64_t n,
+          double lower,
+          double upper);
+
+/** \brief A number in [0, 1) that depends on its three arguments only: the same for any
+ * number of threads. \param draw tells the numbers of one index apart */
+PCL_UVOL_EXPORTS double
+uniformAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw);
+
+/** \brief A number of the normal distribution of mean 0 and standard deviation 1, made
+ * of the uniform draws 2 draw and 2 draw + 1. */
+PCL_UVOL_EXPORTS double
+normalAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw);
 
 } // namespace pcl_uvol

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// PCA normals on surfaces whose normals are known, and where there is no surface.
+#include "support/test_support.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+using Estimation = pcl_uvol::SurfaceNormalEstimation<pcl::PointNormal>;
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
+
+/** Points on a sphere; own normals are rough outside vectors of any length. */
+Cloud::Ptr
+makeSphere(std::size_t n, float radius, const Eigen::Vector3f& center, float side)
+{
+  uvol_test::Random random(1);
+  Cloud::Ptr cloud(new Cloud);
+  while (cloud->size() < n) {
+    const Eigen::Vector3f p(static_cast<float>(2 * random.uniform() - 1),
+                            static_cast<float>(2 * random.uniform() - 1),
+                            static_cast<float>(2 * random.uniform() - 1));
+    if (p.norm() > 1.0f || p.norm() < 0.1f)
+      continue;
+    pcl::PointNormal point;
+    point.getVector3fMap() = center + radius * p.normalized();
+    point.getNormalVector3fMap() =
+        side * (3.0f * p.normalized() + Eigen::Vector3f(0.3f, 0.2f, 0.1f));
+    cloud->push_back(point);
+  }
+  return cloud;
+}
+
+pcl::PointCloud<pcl::Normal>
+estimate(const Cloud::Ptr& cloud, std::size_t k = 30, unsigned threads = 0)
+{
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setKSearch(k);
+  estimation.setNumberOfThreads(threads);
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  return normals;
+}
+
+TEST(SurfaceNormals, OfASphereAreRadialAndLookToTheOutsideVectors)
+{
+  for (const float side : {1.0f, -1.0f})
+    for (const Eigen::Vector3f& center :
+         {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(1e4f, -1e4f, 50.0f)}) {
+      const auto cloud = makeSphere(20000, 10.0f, center, side);
+      const auto normals = estimate(cloud);
+      ASSERT_EQ(cloud->size(), normals.size());
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const Eigen::Vector3f radial =
+            side * ((*cloud)[i].getVector3fMap() - center).normalized();
+        // neighbours reach 0.4 of radius 10: the plane tilts by a few hundredths at
+        // most
+        EXPECT_GT(radial.dot(normals[i].getNormalVector3fMap()), 0.998f);
+        EXPECT_LT(normals[i].curvature, 0.01f);
+      }
+    }
+}
+
+TEST(SurfaceNormals, TwoNearLayersKeepTheirSides)
+{
+  const auto outer = makeSphere(20000, 10.0f, {0, 0, 0}, 1.0f);
+  const auto inner = makeSphere(20000, 9.0f, {0, 0, 0}, -1.0f);
+  Cloud::Ptr both(new Cloud(*outer));
+  *both += *inner;
+  const auto normals = estimate(both, 12);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    EXPECT_GT((*both)[i].getNormalVector3fMap().normalized().dot(
+                  normals[i].getNormalVector3fMap()),
+              0.8f);
+}
+
+TEST(SurfaceNormals, WithoutNormalsTheViewPointDecides)
+{
+  pcl::PointCloud<pcl::PointXYZ>::Ptr plane(new pcl::PointCloud<pcl::PointXYZ>);
+  for (int i = 0; i < 100; ++i)
+    plane->push_back({static_cast<float>(i % 10), static_cast<float>(i / 10), 5.0f});
+  pcl_uvol::SurfaceNormalEstimation<pcl::PointXYZ> estimation;
+  estimation.setInputCloud(plane);
+  for (const float z : {9.0f, 0.0f}) {
+    estimation.setViewPoint(4.0f, 4.0f, z);
+    pcl::PointCloud<pcl::Normal> normals;
+    estimation.compute(normals);
+    for (const auto& normal : normals) {
+      EXPECT_NEAR(z > 5.0f ? 1.0f : -1.0f, normal.normal_z, 1e-6f);
+      EXPECT_NEAR(0.0f, normal.curvature, 1e-6f);
+    }
+  }
+}
+
+TEST(SurfaceNormals, ScaleGivesTheNormalsOfTheOriginalSpace)
+{
+  // An ellipsoid that the scale turns into a sphere.
+  const auto sphere = makeSphere(20000, 10.0f, {0, 0, 0}, 1.0f);
+  Cloud::Ptr ellipsoid(new Cloud(*sphere));
+  for (auto& point : *ellipsoid)
+    point.z /= 8.0f;
+  Estimation estimation;
+  estimation.setInputCloud(ellipsoid);
+  estimation.setScale({1.0f, 1.0f, 8.0f});
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    Eigen::Vector3f gradient = (*ellipsoid)[i].getVector3fMap();
+    gradient[2] *= 64.0f;
+    EXPECT_GT(gradient.normalized().dot(normals[i].getNormalVector3fMap()), 0.98f);
+  }
+}
+
+TEST(SurfaceNormals, SameForAnyNumberOfThreads)
+{
+  const auto cloud = makeSphere(5000, 1.0f, {0, 0, 0}, 1.0f);
+  const auto one = estimate(cloud, 20, 1), two = estimate(cloud, 20, 2);
+  for (std::size_t i = 0; i < one.size(); ++i)
+    EXPECT_EQ(one[i].getNormalVector4fMap(), two[i].getNormalVector4fMap());
+}
+
+TEST(SurfaceNormals, DegenerateNeighborhoodsTakeTheOutsideVector)
+{
+  for (const int n : {1, 2, 50}) { // one point, two, a line
+    Cloud::Ptr cloud(new Cloud);
+    for (int i = 0; i < n; ++i) {
+      pcl::PointNormal point;
+      point.x = point.y = point.z = static_cast<float>(i);
+      point.normal_y = 2.0f;
+      cloud->push_back(point);
+    }
+    Estimation estimation;
+    estimation.setInputCloud(cloud);
+    pcl::PointCloud<pcl::Normal> normals;
+    estimation.compute(normals);
+    EXPECT_EQ(static_cast<std::uint64_t>(n),
+              estimation.getReport().getCount("degenerate_normals"));
+    for (const auto& normal : normals)
+      EXPECT_EQ(Eigen::Vector3f(0, 1, 0),
+                Eigen::Vector3f(normal.getNormalVector3fMap()));
+  }
+}
+
+TEST(SurfaceNormals, DuplicatesAndNonFinitePointsStayInLine)
+{
+  const auto cloud = makeSphere(1000, 1.0f, {0, 0, 0}, 1.0f);
+  const auto expected = estimate(cloud);
+  cloud->push_back((*cloud)[7]);
+  cloud->push_back((*cloud)[7]);
+  cloud->back().x = nan_value;
+  const auto normals = estimate(cloud);
+  EXPECT_FALSE(normals.is_dense);
+  EXPECT_TRUE(std::isnan(normals.back().normal_x));
+  EXPECT_EQ(normals[7].getNormalVector4fMap(), normals[1000].getNormalVector4fMap());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(expected[i].getNormalVector4fMap(), normals[i].getNormalVector4fMap());
+}
+
+TEST(SurfaceNormals, OfSeveralIsosurfacesAreFittedOneByOne)
+{
+  pcl::PointCloud<PointIso> isopoints;
+  for (const float z : {0.0f, 0.5f}) // as near to each other as their points
+    for (int i = 0; i < 400; ++i) {
+      PointIso point;
+      point.x = static_cast<float>(i % 20);
+      point.y = static_cast<float>(i / 20);
+      point.z = z;
+      point.isovalue = z;
+      point.normal_x = 0.6f;
+      point.normal_z = z == 0.0f ? 0.8f : -0.8f;
+      isopoints.push_back(point);
+    }
+  pcl_uvol::Report report;
+  pcl_uvol::replaceNormals(isopoints, {}, report);
+  for (const PointIso& point : isopoints)
+    EXPECT_NEAR(point.isovalue == 0.0f ? 1.0f : -1.0f, point.normal_z, 1e-6f);
+}
+
+TEST(SurfaceNormals, BadInputThrows)
+{
+  const auto good = makeSphere(100, 1.0f, {0, 0, 0}, 1.0f);
+  const auto expectThrow = [](const Cloud::Ptr& cloud, auto&& configure) {
+    Estimation estimation;
+    if (cloud)
+      estimation.setInputCloud(cloud);
+    configure(estimation);
+    pcl::PointCloud<pcl::Normal> normals(2, 1);
+    EXPECT_THROW(estimation.compute(normals), pcl_uvol::InvalidArgument);
+    EXPECT_EQ(2u, normals.size());
+  };
+  const auto nothing = [](Estimation&) {};
+  expectThrow(nullptr, nothing);
+  expectThrow(Cloud::Ptr(new Cloud), nothing);
+  expectThrow(good, [](Estimation& e) { e.setKSearch(1); });
+  expectThrow(good, [](Estimation& e) { e.setScale({0.0f, 1.0f, 1.0f}); });
+  expectThrow(good, [](Estimation& e) { e.setScale({nan_value, 1.0f, 1.0f}); });
+  Cloud::Ptr nowhere(new Cloud(*good));
+  for (auto& point : *nowhere)
+    point.x = nan_value;
+  expectThrow(nowhere, nothing);
+}
+
+} // namespace
