@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-demo_output}
 
-bash tools/build.sh
+bash tools/build.sh tools
 mkdir -p "$out"
 bin=build/release/bin
 run() { printf '\n$ %s\n' "$*"; "$@"; }

@@ -8,6 +8,8 @@
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -48,7 +50,7 @@ makeDataset(const std::vector<std::string>& names, std::uint64_t n)
   return dataset;
 }
 
-/** Fill every point by fill(index, floats of the point). */
+/** Change every point by fill(index, floats of the point). */
 template <typename Fill>
 void
 fillPoints(pcl_uvol::Dataset& dataset, unsigned threads, const Fill& fill)
@@ -58,11 +60,28 @@ fillPoints(pcl_uvol::Dataset& dataset, unsigned threads, const Fill& fill)
       cloud.width, block_points, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<float> point(cloud.fields.size());
         for (std::size_t i = begin; i < end; ++i) {
+          std::uint8_t* const bytes = &cloud.data[i * cloud.point_step];
+          std::memcpy(point.data(), bytes, cloud.point_step);
           fill(i, point);
-          std::memcpy(
-              &cloud.data[i * cloud.point_step], point.data(), cloud.point_step);
+          std::memcpy(bytes, point.data(), cloud.point_step);
         }
       });
+}
+
+/** Give every point the scalar of the place that is written. Not in one pass with the
+ * positions: g++ 12 then leaves their rounding to float out. */
+template <typename Function>
+void
+fillValues(pcl_uvol::Dataset& dataset,
+           const Arguments& arguments,
+           unsigned threads,
+           const Function& value)
+{
+  fillPoints(dataset, threads, [&](std::size_t i, std::vector<float>& point) {
+    const std::array<double, 3> position{{point[0], point[1], point[2]}};
+    point[3] = static_cast<float>(
+        value(position) + arguments.noise * pcl_uvol::normalAt(arguments.seed, i, 7));
+  });
 }
 
 pcl_uvol::Scatter
@@ -85,16 +104,14 @@ generateField(const Arguments& arguments, unsigned threads)
       arguments.field == "radial" ? std::cbrt(static_cast<double>(n) / 4e6) : 1.0;
   auto dataset = makeDataset({"x", "y", "z", field.name}, n);
   fillPoints(dataset, threads, [&](std::size_t i, std::vector<float>& point) {
-    std::array<double, 3> position = pcl_uvol::scatterAt(
+    const auto position = pcl_uvol::scatterAt(
         scatter, arguments.seed, i, n, factor * field.lower, factor * field.upper);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      point[axis] = static_cast<float>(position[axis]);
-      position[axis] = point[axis]; // the value belongs to the place that is written
-    }
-    point[3] =
-        static_cast<float>(field.value(position) +
-                           arguments.noise * pcl_uvol::normalAt(arguments.seed, i, 7));
+    std::transform(position.begin(),
+                   position.end(),
+                   point.begin(),
+                   [](double coordinate) { return static_cast<float>(coordinate); });
   });
+  fillValues(dataset, arguments, threads, field.value);
   return dataset;
 }
 
@@ -105,16 +122,13 @@ resampleVolume(const Arguments& arguments, unsigned threads)
   const auto upper = volume.upper();
   auto dataset = makeDataset({"x", "y", "z", volume.name}, arguments.n);
   fillPoints(dataset, threads, [&](std::size_t i, std::vector<float>& point) {
-    std::array<double, 3> position;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
       point[axis] = static_cast<float>(
           volume.origin[axis] + (upper[axis] - volume.origin[axis]) *
                                     pcl_uvol::uniformAt(arguments.seed, i, axis));
-      position[axis] = point[axis];
-    }
-    point[3] =
-        static_cast<float>(volume.sample(position) +
-                           arguments.noise * pcl_uvol::normalAt(arguments.seed, i, 7));
+  });
+  fillValues(dataset, arguments, threads, [&](const std::array<double, 3>& position) {
+    return volume.sample(position);
   });
   return dataset;
 }
@@ -122,10 +136,11 @@ resampleVolume(const Arguments& arguments, unsigned threads)
 pcl_uvol::Dataset
 scatterMesh(const Arguments& arguments, unsigned threads)
 {
-  const auto points = pcl_uvol::scatterOverMesh(
-      pcl_uvol::loadMesh(arguments.input), arguments.n, arguments.seed);
+  const pcl_uvol::Mesh mesh = pcl_uvol::loadMesh(arguments.input);
+  const auto points = pcl_uvol::scatterOverMesh(mesh, arguments.n, arguments.seed);
   auto dataset =
       makeDataset({"x", "y", "z", "normal_x", "normal_y", "normal_z"}, points.size());
+  dataset.origin = mesh.origin;
   fillPoints(dataset, threads, [&](std::size_t i, std::vector<float>& point) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       point[axis] = points[i].position[axis] +
@@ -189,7 +204,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "generate");
     dataset = arguments.input.empty() ? generateField(arguments, options.threads())
-              : pcl_uvol::isVolumePath(arguments.input)
+              : pcl_uvol::isVolumeFile(arguments.input)
                   ? resampleVolume(arguments, options.threads())
                   : scatterMesh(arguments, options.threads());
   }

@@ -109,8 +109,11 @@ Facts
 describeCloud(const Arguments& arguments, unsigned threads, Report& report)
 {
   pcl_uvol::LoadOptions load;
-  for (std::size_t i = 0; i < arguments.xyz.size(); ++i)
+  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
     load.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
+    if (load.xyz_columns[i] < 0 || load.xyz_columns[i] != arguments.xyz[i])
+      throw uvol_tools::UsageError("-xyz takes three column numbers from 0.");
+  }
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
   report.warnings = dataset.notes;
   if (!arguments.where.empty())
@@ -124,13 +127,17 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
     return facts;
   }
   const auto positions = pcl_uvol::describePositions(dataset, threads);
-  facts.emplace_back("lower corner", joined(positions.lower, " "));
-  facts.emplace_back("upper corner", joined(positions.upper, " "));
-  facts.emplace_back("distance to the nearest sample (min, median, max)",
-                     joined(std::vector<double>{positions.spacing_min,
-                                                positions.spacing_median,
-                                                positions.spacing_max},
-                            ", "));
+  if (positions.non_finite == dataset.cloud.width)
+    report.warnings.push_back(arguments.input + " has no point with finite x, y, z.");
+  else {
+    facts.emplace_back("lower corner", joined(positions.lower, " "));
+    facts.emplace_back("upper corner", joined(positions.upper, " "));
+    facts.emplace_back("distance to the nearest sample (min, median, max)",
+                       joined(std::vector<double>{positions.spacing_min,
+                                                  positions.spacing_median,
+                                                  positions.spacing_max},
+                              ", "));
+  }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
   for (const auto& field : dataset.cloud.fields)
@@ -173,7 +180,7 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   Report report;
-  const Facts facts = pcl_uvol::isVolumePath(arguments.input)
+  const Facts facts = pcl_uvol::isVolumeFile(arguments.input)
                           ? describeVolume(arguments.input, report)
                           : describeCloud(arguments, options.threads(), report);
   uvol_tools::printReport(options, report, facts);

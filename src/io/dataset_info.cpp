@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Ranges, histograms and isovalues by sorting, spacing by nearest neighbours.
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset_info.h>
 #include <pcl_uvol/neighbors/nearest_neighbors.h>
@@ -72,13 +73,23 @@ PositionStatistics
 describePositions(const Dataset& dataset, unsigned threads)
 {
   const CloudView cloud = viewOf(dataset.cloud);
-  std::vector<std::uint32_t> all(cloud.count);
-  std::iota(all.begin(), all.end(), 0u);
-  Report report;
-  const auto samples = SampleSet::build(
-      cloud.xyz(0), cloud.stride(), all, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
   PositionStatistics statistics;
-  statistics.non_finite = report.getCount("non_finite");
+  std::vector<std::uint32_t> finite;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const float* const p = cloud.xyz(i);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+      finite.push_back(static_cast<std::uint32_t>(i));
+  }
+  statistics.non_finite = cloud.count - finite.size();
+  if (finite.empty())
+    return statistics;
+  Report report;
+  const auto samples = SampleSet::build(cloud.xyz(0),
+                                        cloud.stride(),
+                                        finite,
+                                        Position{{1.0f, 1.0f, 1.0f}},
+                                        threads,
+                                        report);
   statistics.duplicates = report.getCount("duplicates");
   const auto& positions = samples->getPositions();
   for (std::size_t axis = 0; axis < 3; ++axis) {

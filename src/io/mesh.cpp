@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Triangles of PLY files, and points spread over them.
 #include "files.h"
-#include "vtk_messages.h"
 #include <pcl_uvol/common/analytic_fields.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
 #include <Eigen/Geometry>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPLYReader.h>
-#include <vtkPolyData.h>
+#include <pcl/PolygonMesh.h>
+#include <pcl/console/print.h>
+#include <pcl/io/ply_io.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,43 +26,70 @@ vertexOf(const Mesh& mesh, std::size_t triangle, std::size_t corner)
   return {vertex[0], vertex[1], vertex[2]};
 }
 
+/** Switches PCL's own messages off for its lifetime. */
+class QuietPcl {
+public:
+  QuietPcl()
+      : level_(pcl::console::getVerbosityLevel())
+  {
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl&
+  operator=(const QuietPcl&) = delete;
+  ~QuietPcl()
+  {
+    pcl::console::setVerbosityLevel(level_);
+  }
+
+private:
+  pcl::console::VERBOSITY_LEVEL level_;
+};
+
+/** By PCL, because VTK's reader crashes on truncated files. */
+std::vector<pcl::Vertices>
+readPolygons(const std::string& path)
+{
+  const QuietPcl quiet;
+  pcl::PolygonMesh mesh;
+  int result = -1;
+  try {
+    result = pcl::PLYReader().read(path, mesh);
+  }
+  catch (const pcl::PCLException&) {
+    // told like every other failure
+  }
+  if (result != 0)
+    io::throwUnreadable(path, "its faces are truncated or damaged");
+  return std::move(mesh.polygons);
+}
+
 } // namespace
 
 Mesh
 loadMesh(const std::string& path)
 {
-  { // missing, empty or a directory: said in our words
-    const io::InputFile exists(path);
-  }
-  const io::VtkMessages messages;
-  vtkNew<vtkPLYReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (!messages.getError().empty())
-    io::throwUnreadable(path, "VTK says: " + messages.getError());
-  vtkPolyData* const data = reader->GetOutput();
+  // Our reader checks the vertices, and keeps the digits of large coordinates.
+  const io::InputFile file(path);
+  if (file.head(3) != "ply")
+    io::throwUnreadable(path, "meshes are read from PLY files, and this is none");
+  const Dataset dataset = loadDataset(path);
+  const CloudView cloud = viewOf(dataset.cloud);
   Mesh mesh;
-  mesh.vertices.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    double position[3];
-    data->GetPoint(static_cast<vtkIdType>(i), position);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      mesh.vertices[i][axis] = static_cast<float>(position[axis]);
+  mesh.origin = dataset.origin;
+  mesh.vertices.resize(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    std::copy_n(cloud.xyz(i), 3, mesh.vertices[i].begin());
+  for (const pcl::Vertices& polygon : readPolygons(path)) {
+    const auto& corners = polygon.vertices;
+    for (const auto corner : corners)
+      if (static_cast<std::size_t>(corner) >= mesh.vertices.size())
+        io::throwUnreadable(path, "a face names a vertex that is not there");
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      mesh.triangles.push_back({{static_cast<std::uint32_t>(corners[0]),
+                                 static_cast<std::uint32_t>(corners[k - 1]),
+                                 static_cast<std::uint32_t>(corners[k])}});
   }
-  vtkIdType size = 0;
-  const vtkIdType* corners = nullptr;
-  vtkCellArray* const polygons = data->GetPolys();
-  for (polygons->InitTraversal(); polygons->GetNextCell(size, corners) != 0;)
-    for (vtkIdType k = 2; k < size; ++k) {
-      std::array<std::uint32_t, 3> triangle{};
-      const vtkIdType ids[3] = {corners[0], corners[k - 1], corners[k]};
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (ids[c] < 0 || ids[c] >= data->GetNumberOfPoints())
-          io::throwUnreadable(path, "a face names a vertex that is not there");
-        triangle[c] = static_cast<std::uint32_t>(ids[c]);
-      }
-      mesh.triangles.push_back(triangle);
-    }
   if (mesh.triangles.empty())
     io::throwUnreadable(path, "it has no faces to spread points over");
   return mesh;

@@ -7,6 +7,7 @@
 #include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
@@ -16,14 +17,30 @@ namespace {
 constexpr int leaf_samples = 15; // PCL's choice, and the fastest here
 constexpr std::size_t block_samples = 256;
 
+void
+checkCount(std::size_t k)
+{
+  if (k == 0)
+    throw InvalidArgument(
+        "The number of nearest neighbours is 0: it must be at least 1.");
+}
+
+pcl::PointCloud<pcl::PointXYZ>::Ptr
+cloudOf(const SampleSet& samples)
+{
+  pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
+  cloud->reserve(samples.size());
+  for (const Position& x : samples.getPositions())
+    cloud->push_back({x[0], x[1], x[2]});
+  return cloud;
+}
+
 } // namespace
 
 NeighborGraph
 computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned threads)
 {
-  if (k == 0)
-    throw InvalidArgument(
-        "The number of nearest neighbours is 0: it must be at least 1.");
+  checkCount(k);
   const std::size_t count = samples.size();
   const std::size_t row = std::min(k, count - 1);
   NeighborGraph graph;
@@ -70,6 +87,45 @@ computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned thread
             graph.indices[i * row + j] = sorted[j].second;
         }
       });
+  return graph;
+}
+
+NeighborGraph
+computeNearestNeighbors(const SampleSet& samples,
+                        std::size_t k,
+                        unsigned threads,
+                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
+{
+  checkCount(k);
+  if (!search)
+    throw InvalidArgument("The search method for nearest neighbours is null.");
+  const std::size_t count = samples.size();
+  const std::size_t row = std::min(k, count - 1);
+  search->setInputCloud(cloudOf(samples));
+  NeighborGraph graph;
+  graph.offsets.assign(count + 1, 0);
+  graph.indices = parallelGather<std::uint32_t>(
+      count, block_samples, threads, [&](auto begin, auto end, auto& block) {
+        pcl::Indices found;
+        std::vector<float> sq_dists;
+        std::vector<std::pair<float, std::uint32_t>> sorted;
+        for (std::size_t i = begin; i < end; ++i) {
+          // each sample finds itself as well
+          search->nearestKSearch(
+              static_cast<pcl::index_t>(i), static_cast<int>(row + 1), found, sq_dists);
+          sorted.clear();
+          for (std::size_t j = 0; j < found.size(); ++j)
+            if (const auto neighbor = static_cast<std::uint32_t>(found[j]);
+                neighbor != i)
+              sorted.emplace_back(sq_dists[j], neighbor);
+          std::sort(sorted.begin(), sorted.end());
+          sorted.resize(std::min(row, sorted.size()));
+          for (const auto& entry : sorted)
+            block.push_back(entry.second);
+          graph.offsets[i + 1] = sorted.size();
+        }
+      });
+  std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   return graph;
 }
 

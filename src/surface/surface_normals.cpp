@@ -145,7 +145,10 @@ estimateSurfaceNormals(const CloudView& cloud,
   NeighborGraph graph;
   {
     const StepTimer timer(report, "nearest_neighbors");
-    graph = computeNearestNeighbors(*samples, parameters.k, parameters.threads);
+    graph = parameters.search
+                ? computeNearestNeighbors(
+                      *samples, parameters.k, parameters.threads, parameters.search)
+                : computeNearestNeighbors(*samples, parameters.k, parameters.threads);
   }
   const StepTimer timer(report, "normals");
   std::vector<Fit> fits(samples->size());

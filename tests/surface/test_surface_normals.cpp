@@ -5,7 +5,9 @@
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <gtest/gtest.h>
+#include <pcl/search/kdtree.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -180,6 +182,87 @@ TEST(SurfaceNormals, OfSeveralIsosurfacesAreFittedOneByOne)
   pcl_uvol::replaceNormals(isopoints, {}, report);
   for (const PointIso& point : isopoints)
     EXPECT_NEAR(point.isovalue == 0.0f ? 1.0f : -1.0f, point.normal_z, 1e-6f);
+}
+
+TEST(SurfaceNormals, AllEqualPointsAreOneDegenerateSample)
+{
+  const auto one = makeSphere(1, 1.0f, {0, 0, 0}, 1.0f);
+  Cloud::Ptr equal(new Cloud);
+  for (int i = 0; i < 40; ++i)
+    equal->push_back((*one)[0]);
+  const Eigen::Vector3f outside = (*one)[0].getNormalVector3fMap().normalized();
+  for (const auto& normal : estimate(equal))
+    EXPECT_LT((outside - normal.getNormalVector3fMap()).norm(), 1e-6f);
+}
+
+TEST(SurfaceNormals, TurnWithTheCloud)
+{
+  const auto cloud = makeSphere(5000, 1.0f, {0, 0, 0}, 1.0f);
+  for (auto& point : *cloud)
+    point.z *= 0.5f; // curvatures differ from place to place
+  const Eigen::Matrix3f turn =
+      (Eigen::AngleAxisf(0.7f, Eigen::Vector3f(1, 2, 3).normalized())).matrix();
+  Cloud::Ptr turned(new Cloud(*cloud));
+  for (auto& point : *turned) {
+    point.getVector3fMap() = 100.0f * (turn * point.getVector3fMap());
+    point.getNormalVector3fMap() = turn * point.getNormalVector3fMap();
+  }
+  const auto before = estimate(cloud), after = estimate(turned);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_GT(
+        (turn * before[i].getNormalVector3fMap()).dot(after[i].getNormalVector3fMap()),
+        0.9999f);
+}
+
+TEST(SurfaceNormals, OfIndicesAreThoseOfTheCloudOfThesePoints)
+{
+  const auto cloud = makeSphere(2000, 1.0f, {0, 0, 0}, 1.0f);
+  const pcl::IndicesPtr indices(new pcl::Indices);
+  Cloud::Ptr chosen(new Cloud);
+  for (int i = 1999; i >= 0; i -= 3) {
+    indices->push_back(i);
+    chosen->push_back((*cloud)[static_cast<std::size_t>(i)]);
+  }
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setIndices(indices);
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  const auto expected = estimate(chosen);
+  ASSERT_EQ(expected.size(), normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    EXPECT_EQ(expected[i].getNormalVector4fMap(), normals[i].getNormalVector4fMap());
+}
+
+/** Counts its queries. */
+class CountingSearch : public pcl::search::KdTree<pcl::PointXYZ> {
+public:
+  using KdTree::nearestKSearch;
+  int
+  nearestKSearch(const pcl::PointXYZ& point,
+                 int k,
+                 pcl::Indices& indices,
+                 std::vector<float>& sq_dists) const override
+  {
+    ++queries;
+    return KdTree::nearestKSearch(point, k, indices, sq_dists);
+  }
+  mutable std::atomic<std::size_t> queries{0};
+};
+
+TEST(SurfaceNormals, TheSearchOfTheUserIsHonoured)
+{
+  const auto cloud = makeSphere(2000, 1.0f, {0, 0, 0}, 1.0f);
+  const pcl::shared_ptr<CountingSearch> search(new CountingSearch);
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setSearchMethod(search);
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  EXPECT_EQ(cloud->size(), search->queries);
+  const auto expected = estimate(cloud);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    EXPECT_EQ(expected[i].getNormalVector4fMap(), normals[i].getNormalVector4fMap());
 }
 
 TEST(SurfaceNormals, BadInputThrows)

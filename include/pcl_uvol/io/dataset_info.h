@@ -35,14 +35,14 @@ valuesOf(const Dataset& dataset, const ScalarField& field);
 struct PositionStatistics {
   std::uint64_t non_finite = 0;
   std::uint64_t duplicates = 0;           ///< points at a position that came before
-  std::array<double, 3> lower{}, upper{}; ///< with the origin added
+  std::array<double, 3> lower{}, upper{}; ///< with the origin added, 0 without points
   /** Distance to the nearest other position: smallest, median, largest; 0 for fewer
    * than two positions. */
   double spacing_min = 0.0, spacing_median = 0.0, spacing_max = 0.0;
 };
 
-/** \brief Bounds, duplicates and spacing.
- * \throws InvalidArgument if no position is finite */
+/** \brief Bounds, duplicates and spacing; nothing but the count where no position is
+ * finite. */
 PCL_UVOL_EXPORTS PositionStatistics
 describePositions(const Dataset& dataset, unsigned threads);
 

@@ -15,6 +15,7 @@ namespace pcl_uvol {
 /** \brief Vertices and triangles, wound counter-clockwise as seen from outside. */
 struct Mesh {
   std::vector<std::array<float, 3>> vertices;
+  std::array<double, 3> origin{{0.0, 0.0, 0.0}}; ///< to be added to the vertices
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -23,7 +24,7 @@ struct Mesh {
 PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
 
-/** \brief A point on a mesh and the normal of its triangle. */
+/** \brief A point on a mesh, relative to its origin, and the normal of its triangle. */
 struct MeshPoint {
   std::array<float, 3> position, normal;
 };

@@ -29,13 +29,17 @@ struct PCL_UVOL_EXPORTS Volume {
   upper() const;
 };
 
-/** \brief True if loadVolume knows the ending of that name (any case). */
+/** \brief True if loadVolume is the one to read that file: by the ending of its name
+ * (any case), for .vtk by its header as well. \throws IOError for a .vtk file that
+ * cannot be opened */
 PCL_UVOL_EXPORTS bool
-isVolumePath(const std::string& path);
+isVolumeFile(const std::string& path);
 
 /** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip; data attached or
- * not) by Teem, .vti, .mha and .mhd by VTK. \throws IOError in one sentence that names
- * the file */
+ * not) by Teem, .vti, .mha, .mhd and structured points in .vtk by VTK. Axes that
+ * descend are turned. \throws IOError in one sentence that names the file, also where
+ * the axes are not parallel to x, y and z (the TransformMatrix of a MetaImage is
+ * beyond VTK and left out) */
 PCL_UVOL_EXPORTS Volume
 loadVolume(const std::string& path);
 

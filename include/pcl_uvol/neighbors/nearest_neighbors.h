@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The k nearest neighbours of every sample, by FLANN.
+// The k nearest neighbours of every sample, by FLANN or by a search of the user's.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/neighbors/sample_set.h>
+
+#include <pcl/point_types.h>
+#include <pcl/search/search.h>
 
 #include <cstddef>
 
@@ -19,5 +22,15 @@ namespace pcl_uvol {
  * the positions. \throws InvalidArgument for k = 0 */
 PCL_UVOL_EXPORTS NeighborGraph
 computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned threads);
+
+/** \brief The same by a search of the user's, whose input cloud becomes the samples in
+ * leaf order. It is called from several threads at once, as by
+ * pcl::NormalEstimationOMP, unless threads is 1; an approximate search may give fewer
+ * than k. \throws InvalidArgument for k = 0 or a null search */
+PCL_UVOL_EXPORTS NeighborGraph
+computeNearestNeighbors(const SampleSet& samples,
+                        std::size_t k,
+                        unsigned threads,
+                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search);
 
 } // namespace pcl_uvol

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <pcl/pcl_base.h>
+#include <pcl/search/search.h>
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,7 @@ struct SurfaceNormalParameters {
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
   Eigen::Vector3f view_point{0.0f, 0.0f, 0.0f};
   unsigned threads = 0;
+  pcl::search::Search<pcl::PointXYZ>::Ptr search; ///< null: FLANN
 };
 
 /** \brief The kernel of SurfaceNormalEstimation for any cloud.
@@ -69,6 +71,15 @@ public:
   setKSearch(std::size_t k)
   {
     parameters_.k = k;
+  }
+
+  /** \brief How neighbours are found. The search gets the distinct finite points,
+   * stretched by the scale, as its input cloud and is called from several threads.
+   * Default: null, which is FLANN's exact search. */
+  void
+  setSearchMethod(const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
+  {
+    parameters_.search = search;
   }
 
   /** \brief Factors per axis, finite and positive: neighbours and covariance belong to

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_generate from the outside: values, bytes, real volumes, wrong command lines.
+#include "support/test_support.h"
+#include <pcl_uvol/common/analytic_fields.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/volume.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace {
+
+using uvol_test::runCommand;
+using uvol_test::TemporaryFolder;
+
+/** Numbers of some fields, point by point. */
+std::vector<std::vector<double>>
+columnsOf(const std::string& path, const std::vector<std::string>& names)
+{
+  const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
+  std::vector<std::vector<double>> columns;
+  for (const auto& name : names) {
+    const pcl_uvol::ScalarField field(dataset.cloud.fields, name);
+    columns.emplace_back();
+    for (std::size_t i = 0; i < dataset.cloud.width; ++i)
+      columns.back().push_back(
+          field.read(&dataset.cloud.data[i * dataset.cloud.point_step]));
+  }
+  return columns;
+}
+
+TEST(UvolGenerate, ValuesAreThoseOfTheFieldAtTheWrittenPlace)
+{
+  const TemporaryFolder folder;
+  for (const auto& field : pcl_uvol::analyticFields())
+    for (const char* samples : {"uniform", "jittered", "lattice", "clustered"}) {
+      SCOPED_TRACE(field.name + std::string(" ") + samples);
+      const std::string file = folder / "out.pcd";
+      const auto result = runCommand("uvol_generate '" + file + "' -n 1000 -field " +
+                                     field.name + " -samples " + samples);
+      ASSERT_EQ(0, result.exit_code) << result.err;
+      EXPECT_EQ("", result.err);
+      const auto columns = columnsOf(file, {"x", "y", "z", field.name});
+      ASSERT_EQ(1000u, columns[3].size());
+      for (std::size_t i = 0; i < 1000; ++i)
+        EXPECT_EQ(static_cast<float>(
+                      field.value({columns[0][i], columns[1][i], columns[2][i]})),
+                  static_cast<float>(columns[3][i]));
+    }
+}
+
+TEST(UvolGenerate, RadialSamplesHaveTheMeanSpacingOfTheThesis)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder / "out.pcd";
+  ASSERT_EQ(0, runCommand("uvol_generate '" + file + "' -n 64000").exit_code);
+  const auto x = columnsOf(file, {"x"}).front();
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  EXPECT_NEAR(40.317, *high - *low, 0.02); // 160 (64000 / 4e6)^(1/3)
+}
+
+TEST(UvolGenerate, NoiseHasTheGivenStandardDeviation)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder / "out.pcd";
+  ASSERT_EQ(0,
+            runCommand("uvol_generate '" + file +
+                       "' -n 40000 -field sphere -noise 0.25 -seed 3")
+                .exit_code);
+  const auto columns = columnsOf(file, {"x", "y", "z", "sphere"});
+  double sum = 0.0, sum_sq = 0.0;
+  for (std::size_t i = 0; i < 40000; ++i) {
+    const double noise =
+        columns[3][i] - 1.0 + std::hypot(columns[0][i], columns[1][i], columns[2][i]);
+    sum += noise;
+    sum_sq += noise * noise;
+  }
+  EXPECT_NEAR(0.0, sum / 40000, 0.00625); // five standard errors
+  EXPECT_NEAR(0.25, std::sqrt(sum_sq / 40000), 0.0045);
+}
+
+TEST(UvolGenerate, BytesDependOnTheSeedButNotOnThreads)
+{
+  const TemporaryFolder folder;
+  const std::string a = folder / "a.pcd", b = folder / "b.pcd";
+  const std::string job = " -n 50000 -field gyroid -noise 0.1";
+  ASSERT_EQ(0, runCommand("uvol_generate '" + a + "'" + job + " -threads 1").exit_code);
+  ASSERT_EQ(0, runCommand("uvol_generate '" + b + "'" + job + " -threads 2").exit_code);
+  EXPECT_TRUE(uvol_test::readFile(a) == uvol_test::readFile(b));
+  ASSERT_EQ(0, runCommand("uvol_generate '" + b + "'" + job + " -seed 2").exit_code);
+  EXPECT_FALSE(uvol_test::readFile(a) == uvol_test::readFile(b));
+}
+
+TEST(UvolGenerate, ResamplesEveryRealVolume)
+{
+  const std::string data = uvol_test::dataFolder();
+  if (data.empty())
+    GTEST_SKIP() << "no real data";
+  const TemporaryFolder folder;
+  const std::string file = folder / "out.pcd";
+  std::size_t volumes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(data + "/volumes")) {
+    const std::string path = entry.path().string(),
+                      ending = entry.path().extension().string();
+    if (ending != ".nhdr" && ending != ".vtk")
+      continue;
+    SCOPED_TRACE(path);
+    ++volumes;
+    const auto result =
+        runCommand("uvol_generate '" + path + "' '" + file + "' -n 200000");
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    const auto volume = pcl_uvol::loadVolume(path);
+    const auto columns = columnsOf(file, {"x", "y", "z", volume.name});
+    ASSERT_EQ(200000u, columns[3].size());
+    for (std::size_t i = 0; i < columns[3].size(); i += 1000)
+      EXPECT_EQ(static_cast<float>(
+                    volume.sample({columns[0][i], columns[1][i], columns[2][i]})),
+                static_cast<float>(columns[3][i]));
+  }
+  EXPECT_EQ(9u, volumes);
+}
+
+TEST(UvolGenerate, RefusesWrongCommandLines)
+{
+  const TemporaryFolder folder;
+  const std::string out = "'" + (folder / "out.pcd") + "'";
+  const std::pair<std::string, std::string> lines[] = {
+      {"", "missing"},
+      {out + " -n", "-n"},
+      {out + " -n 0", "-n"},
+      {out + " -n 1.5", "1.5"},
+      {out + " -n -3", "-3"},
+      {out + " -noise -1", "-noise"},
+      {out + " -noise nan", "nan"},
+      {out + " -noise 1.5m", "1.5m"},
+      {out + " -samples some", "some"},
+      {out + " -sample uniform", "did you mean -samples"},
+      {out + " -seed 1 -seed 2", "twice"},
+      {"a.nhdr " + out + " leftover", "leftover"},
+      {"a.nhdr " + out + " -field star", "-field"}};
+  for (const auto& [line, text] : lines) {
+    const auto result = runCommand("uvol_generate " + line);
+    EXPECT_EQ(2, result.exit_code) << line;
+    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+  EXPECT_TRUE(folder.list().empty());
+}
+
+TEST(UvolGenerate, FailuresLeaveNoFile)
+{
+  const TemporaryFolder folder;
+  const std::string out = "'" + (folder / "out.pcd") + "'";
+  for (const std::string& command :
+       {"uvol_generate " + out + " -field blob",
+        "uvol_generate '" + (folder / "none.nhdr") + "' " + out,
+        "uvol_generate '" + (folder / "none.ply") + "' " + out,
+        "uvol_generate '" + (folder / "out.unknown") + "'",
+        "ulimit -f 8; uvol_generate " + out + " -n 10000"}) {
+    const auto result = runCommand(command);
+    EXPECT_EQ(1, result.exit_code) << command;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+  EXPECT_TRUE(folder.list().empty());
+}
+
+TEST(UvolGenerate, AFullStandardOutputIsAFailure)
+{
+  const TemporaryFolder folder;
+  const auto result =
+      runCommand("uvol_generate '" + (folder / "out.pcd") + "' -n 10 >/dev/full");
+  EXPECT_EQ(1, result.exit_code);
+}
+
+} // namespace

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_info from the outside: what it tells of clouds and volumes, and what it refuses.
+#include "support/test_support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+using uvol_test::runCommand;
+
+class UvolInfo : public testing::Test {
+protected:
+  uvol_test::CommandResult
+  runOn(const std::string& content, const std::string& options = "")
+  {
+    const std::string file = folder_ / "in.csv";
+    uvol_test::writeFile(file, content);
+    return runCommand("uvol_info '" + file + "' " + options);
+  }
+
+  void
+  expectTold(const uvol_test::CommandResult& result,
+             const std::vector<std::string>& texts) const
+  {
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    for (const auto& text : texts)
+      EXPECT_NE(std::string::npos, (result.out + result.err).find(text))
+          << text << " in\n"
+          << result.out << result.err;
+  }
+
+  uvol_test::TemporaryFolder folder_;
+};
+
+const std::string cloud = "x,y,z,rho\n500000.5,0,0,1\n500001.5,0,0,2\n500001.5,0,0,3\n"
+                          "500003.5,0,0,nan\nnan,0,0,10\n";
+
+TEST_F(UvolInfo, TellsRangesSpacingAndWhatIsMissing)
+{
+  const auto result = runOn(cloud);
+  expectTold(result,
+             {"lower corner: 500000.5 0 0",
+              "upper corner: 500003.5 0 0",
+              "1, 1, 2", // spacing
+              "1 to 10, mean 4, 1 missing",
+              "suggested isovalues",
+              "histogram of rho"});
+  EXPECT_EQ("", result.err);
+}
+
+TEST_F(UvolInfo, SelectsRowsFieldsAndColumns)
+{
+  expectTold(runOn(cloud, "-where 'rho>=2'"), {"2 to 10", "removed_by_where"});
+  expectTold(runOn(cloud, "-field x"), {"histogram of x"});
+  expectTold(runOn("a,b,c,d\n1,2,3,4\n5,6,7,8\n", "-xyz 1,2,3 -field a"),
+             {"lower corner: 2 3 4"});
+}
+
+TEST_F(UvolInfo, DegenerateCloudsAreTold)
+{
+  expectTold(runOn("x,y,z,f\n"), {"has no points"});
+  expectTold(runOn("x,y,z,f\n1,2,3,4\n"), {"lower corner: 1 2 3"});
+  expectTold(runOn("x,y,z,f\nnan,0,0,4\n0,nan,0,5\n"), {"no point with finite"});
+  expectTold(runOn("x,y,z,f\n0,0,0,\n1,0,0,\n"), {"no finite value"});
+  expectTold(runOn("x,y,z\n0,0,0\n0,0,0\n"), {"duplicates"});
+}
+
+TEST_F(UvolInfo, JsonIsOneObject)
+{
+  const auto result = runOn(cloud, "-json");
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_EQ('{', result.out.front());
+  EXPECT_EQ("}\n", result.out.substr(result.out.size() - 2));
+}
+
+TEST_F(UvolInfo, RefusesWhatIsWrong)
+{
+  const std::tuple<const char*, int, const char*> cases[] = {
+      {"-field mass", 1, "rho"},
+      {"-where 'mass>1'", 1, "mass"},
+      {"-where 'rho>>1'", 1, "rho>>1"},
+      {"-xyz 0,1", 2, "-xyz"},
+      {"-xyz 0,1,1.5", 2, "-xyz"},
+      {"-xyz 0,1,9", 1, "column"},
+      {"-bins 3", 2, "-bins"},
+      {"leftover", 2, "leftover"}};
+  for (const auto& [options, exit_code, text] : cases) {
+    const auto result = runOn(cloud, options);
+    EXPECT_EQ(exit_code, result.exit_code) << options;
+    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+  EXPECT_EQ(2, runCommand("uvol_info").exit_code);
+  EXPECT_EQ(1, runCommand("uvol_info none.nhdr").exit_code);
+  EXPECT_EQ(1, runCommand("uvol_info none.vtk").exit_code);
+}
+
+TEST_F(UvolInfo, DamagedMetaImagesFailQuietly)
+{
+  const std::string header = "ObjectType = Image\nNDims = 3\nDimSize = 3 2 2\n";
+  const std::string type = "ElementType = MET_UCHAR\nElementDataFile = ";
+  const std::string files[] = {header + type + "LOCAL\nabc",
+                               header + "CompressedData = True\n" + type + "LOCAL\nabc",
+                               header + type + "gone.raw\n",
+                               "not a volume\n"};
+  for (const auto& content : files) {
+    const std::string file = folder_ / "in.mha";
+    uvol_test::writeFile(file, content);
+    const auto result = runCommand("uvol_info '" + file + "'");
+    EXPECT_EQ(1, result.exit_code) << content;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+}
+
+TEST_F(UvolInfo, DescribesEveryRealVolume)
+{
+  const std::string data = uvol_test::dataFolder();
+  if (data.empty())
+    GTEST_SKIP() << "no real data";
+  for (const auto& entry : std::filesystem::directory_iterator(data + "/volumes"))
+    if (entry.path().extension() == ".nhdr" || entry.path().extension() == ".vtk")
+      expectTold(runCommand("uvol_info '" + entry.path().string() + "'"),
+                 {"size: ", "spacing: 1 1 1", "suggested isovalues"});
+}
+
+} // namespace
