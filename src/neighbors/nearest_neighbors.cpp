@@ -53,7 +53,7 @@ computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned thread
 
   // FLANN's interface takes mutable data, which it only reads.
   auto* const positions = const_cast<float*>(samples.getPositions().front().x);
-  using Index = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
+  using Index = flann::KDTreeSingleIndex<flann::L2_3D<float>>;
   Index index(flann::Matrix<float>(positions, count, 3),
               flann::KDTreeSingleIndexParams(leaf_samples));
   index.buildIndex();

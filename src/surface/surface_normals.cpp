@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <pcl/impl/pcl_base.hpp>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -124,6 +125,44 @@ samplesOf(const SampleSet& samples, std::size_t points)
   return sample_of;
 }
 
+NeighborGraph
+findNeighbors(const SampleSet& samples,
+              const SurfaceNormalParameters& parameters,
+              Report& report)
+{
+  const StepTimer timer(report, "nearest_neighbors");
+  const std::size_t k = parameters.k;
+  return parameters.search ? computeNearestNeighbors(
+                                 samples, k, parameters.threads, parameters.search)
+                           : computeNearestNeighbors(samples, k, parameters.threads);
+}
+
+/** Turns the fit of a sample to the side of one of its points. */
+SurfaceNormal
+orient(const Fit& fit,
+       std::uint32_t point,
+       const NeighborGraph::Row& neighbors,
+       const SampleSet& samples,
+       const Orientation& orientation,
+       const Eigen::Array3f& scale)
+{
+  const Eigen::Vector3f outside = orientation.at(point);
+  Eigen::Vector3f normal = outside;
+  if (!fit.degenerate) {
+    // A normal is a covector: it is stretched where positions are shrunk.
+    normal = (fit.normal.array() * scale).matrix().normalized();
+    float side = normal.dot(outside.normalized());
+    if (std::abs(side) < clear_side)
+      for (const std::uint32_t neighbor : neighbors)
+        side +=
+            normal.dot(orientation.at(samples.getInputIndex(neighbor)).normalized());
+    if (side < 0.0f)
+      normal = -normal;
+  }
+  normal.stableNormalize();
+  return {{normal[0], normal[1], normal[2]}, fit.curvature};
+}
+
 } // namespace
 
 std::vector<SurfaceNormal>
@@ -136,58 +175,37 @@ estimateSurfaceNormals(const CloudView& cloud,
   if (indices.empty())
     throw InvalidArgument("The normal estimation was given an empty cloud.");
   const Eigen::Array3f& scale = parameters.scale;
+  const unsigned threads = parameters.threads;
   const auto samples = SampleSet::build(cloud.xyz(0),
                                         cloud.stride(),
                                         indices,
                                         Position{{scale[0], scale[1], scale[2]}},
-                                        parameters.threads,
+                                        threads,
                                         report);
-  NeighborGraph graph;
-  {
-    const StepTimer timer(report, "nearest_neighbors");
-    graph = parameters.search
-                ? computeNearestNeighbors(
-                      *samples, parameters.k, parameters.threads, parameters.search)
-                : computeNearestNeighbors(*samples, parameters.k, parameters.threads);
-  }
+  const NeighborGraph graph = findNeighbors(*samples, parameters, report);
   const StepTimer timer(report, "normals");
   std::vector<Fit> fits(samples->size());
-  parallelBlocks(fits.size(),
-                 block_points,
-                 parameters.threads,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i)
-                     fits[i] = fitPlane(samples->getPositions(),
-                                        static_cast<std::uint32_t>(i),
-                                        graph[i]);
-                 });
+  parallelBlocks(fits.size(), block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i)
+      fits[i] =
+          fitPlane(samples->getPositions(), static_cast<std::uint32_t>(i), graph[i]);
+  });
   const std::vector<std::uint32_t> sample_of = samplesOf(*samples, cloud.count);
   const Orientation orientation(cloud, parameters.view_point);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
-  std::uint64_t degenerate = 0;
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    const std::uint32_t sample = sample_of[indices[i]];
-    if (sample == no_sample)
-      continue;
-    const Fit& fit = fits[sample];
-    const Eigen::Vector3f outside = orientation.at(indices[i]);
-    Eigen::Vector3f normal = outside;
-    degenerate += fit.degenerate ? 1 : 0;
-    if (!fit.degenerate) {
-      // A normal is a covector: it is stretched where positions are shrunk.
-      normal = (fit.normal.array() * scale).matrix().normalized();
-      float side = normal.dot(outside.normalized());
-      if (std::abs(side) < clear_side)
-        for (const std::uint32_t neighbor : graph[sample])
-          side +=
-              normal.dot(orientation.at(samples->getInputIndex(neighbor)).normalized());
-      if (side < 0.0f)
-        normal = -normal;
+  std::atomic<std::uint64_t> degenerate{0};
+  parallelBlocks(indices.size(), block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t sample = sample_of[indices[i]];
+      if (sample == no_sample)
+        continue;
+      normals[i] =
+          orient(fits[sample], indices[i], graph[sample], *samples, orientation, scale);
+      if (fits[sample].degenerate)
+        ++degenerate;
     }
-    normal.stableNormalize();
-    normals[i] = {{normal[0], normal[1], normal[2]}, fit.curvature};
-  }
+  });
   report.count("degenerate_normals", degenerate);
   return normals;
 }
