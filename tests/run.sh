@@ -3,5 +3,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-bash tools/build.sh all gzip clang-format
+bash tools/build.sh all gzip clang-format valgrind
 ctest --preset release --parallel "$(nproc)"

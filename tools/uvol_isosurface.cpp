@@ -137,6 +137,7 @@ run(int argc, char** argv)
   Report report;
   auto total = std::make_unique<StepTimer>(report, "total");
   const pcl_uvol::Dataset input = load(arguments, report);
+  pcl_uvol::checkSavePath(arguments.output, input.cloud.fields);
   const std::string field = arguments.field.empty()
                                 ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
                                 : arguments.field;

@@ -73,6 +73,7 @@ run(int argc, char** argv)
     dataset = pcl_uvol::loadDataset(input);
     report.warnings = dataset.notes;
   }
+  pcl_uvol::checkSavePath(output, dataset.cloud.fields);
   if (dataset.cloud.width == 0)
     throw pcl_uvol::InvalidArgument(input + " has no points.");
   pcl_uvol::SurfaceNormalParameters parameters;

@@ -8,60 +8,101 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <memory>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace pcl_uvol {
 namespace {
 
-/** Removes its file unless told that it has been renamed. */
-class TemporaryFile {
+/** A file that is nobody's until it is whole. Where the file system allows it has no
+ * name, so that even a killed process leaves nothing behind; elsewhere it has a name of
+ * its own and is removed unless it took its place. */
+class UnfinishedFile {
 public:
-  explicit TemporaryFile(const std::string& target);
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile&
-  operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile()
+  /** \param target the file that it shall become
+   * \param name the name that errors give */
+  UnfinishedFile(std::string target, std::string name);
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile&
+  operator=(const UnfinishedFile&) = delete;
+  ~UnfinishedFile()
   {
-    if (!path_.empty())
-      ::unlink(path_.c_str());
+    if (!linked_as_.empty())
+      ::unlink(linked_as_.c_str());
+    ::close(descriptor_);
   }
 
-  const std::string&
+  /** A path to write it by. */
+  std::string
   getPath() const
   {
-    return path_;
+    return linked_as_.empty() ? "/proc/self/fd/" + std::to_string(descriptor_)
+                              : linked_as_;
   }
 
+  /** Flush it to the disk and let it replace the target. */
   void
-  release()
-  {
-    path_.clear();
-  }
+  finish();
 
 private:
-  std::string path_;
+  [[noreturn]] void
+  fail() const
+  {
+    io::throwUnwritable(name_, std::strerror(errno));
+  }
+
+  std::string
+  freshName() const
+  {
+    static std::atomic<unsigned> serial{0};
+    return target_ + '.' + std::to_string(::getpid()) + '-' + std::to_string(serial++) +
+           ".tmp";
+  }
+
+  std::string target_, name_, linked_as_;
+  int descriptor_ = -1;
 };
 
-TemporaryFile::TemporaryFile(const std::string& target)
+UnfinishedFile::UnfinishedFile(std::string target, std::string name)
+    : target_(std::move(target))
+    , name_(std::move(name))
 {
-  static std::atomic<unsigned> serial{0};
-  int descriptor = -1;
-  do {
-    path_ = target + '.' + std::to_string(::getpid()) + '-' + std::to_string(serial++) +
-            ".tmp";
-    descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor < 0 && errno == EEXIST);
-  if (descriptor < 0) {
-    const int reason = errno;
-    path_.clear(); // nothing to remove
-    io::throwUnwritable(target, std::strerror(reason));
+  std::string folder = std::filesystem::path(target_).parent_path().string();
+  if (folder.empty())
+    folder = ".";
+  if (::access("/proc/self/fd", X_OK) == 0)
+    descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  while (descriptor_ < 0) {
+    linked_as_ = freshName();
+    descriptor_ =
+        ::open(linked_as_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST)
+      fail();
   }
   struct stat status {};
-  if (::stat(target.c_str(), &status) == 0) // a replaced file keeps its permissions
-    ::fchmod(descriptor, status.st_mode & 07777);
-  ::close(descriptor);
+  if (::stat(target_.c_str(), &status) == 0) // a replaced file keeps its permissions
+    ::fchmod(descriptor_, status.st_mode & 07777);
+}
+
+void
+UnfinishedFile::finish()
+{
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) // some file systems know no fsync
+    fail();
+  while (linked_as_.empty()) { // linking cannot replace a file, renaming can
+    const std::string path = getPath(), fresh = freshName();
+    if (::linkat(AT_FDCWD, path.c_str(), AT_FDCWD, fresh.c_str(), AT_SYMLINK_FOLLOW) ==
+        0)
+      linked_as_ = fresh;
+    else if (errno != EEXIST)
+      fail();
+  }
+  if (::rename(linked_as_.c_str(), target_.c_str()) != 0)
+    fail();
+  linked_as_.clear();
 }
 
 /** The file behind symbolic links, so that a link stays a link. */
@@ -71,18 +112,6 @@ resolveLinks(const std::string& path)
   const std::unique_ptr<char, decltype(&std::free)> real(
       ::realpath(path.c_str(), nullptr), &std::free);
   return real ? real.get() : path;
-}
-
-void
-flushToDisk(const std::string& file, const std::string& name)
-{
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-    io::throwUnwritable(name, std::strerror(errno));
-  const int failed = ::fsync(descriptor) != 0 ? errno : 0;
-  ::close(descriptor);
-  if (failed != 0 && failed != EINVAL) // some file systems know no fsync
-    io::throwUnwritable(name, std::strerror(failed));
 }
 
 } // namespace
@@ -96,13 +125,9 @@ writeAtomically(const std::string& path,
     io::throwUnwritable(path,
                         S_ISDIR(status.st_mode) ? "it is a directory"
                                                 : "it is not a regular file");
-  const std::string target = resolveLinks(path);
-  TemporaryFile temporary(target);
-  writer(temporary.getPath());
-  flushToDisk(temporary.getPath(), path);
-  if (::rename(temporary.getPath().c_str(), target.c_str()) != 0)
-    io::throwUnwritable(path, std::strerror(errno));
-  temporary.release();
+  UnfinishedFile file(resolveLinks(path), path);
+  writer(file.getPath());
+  file.finish();
 }
 
 } // namespace pcl_uvol

@@ -148,7 +148,7 @@ loadDataset(const std::string& path, const LoadOptions& options)
 void
 saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& options)
 {
-  checkSavePath(path);
+  checkSavePath(path, dataset.cloud.fields);
   const std::string ending = endingOf(path);
   writeAtomically(path, [&](const std::string& file) {
     if (ending == ".pcd")
@@ -163,7 +163,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
 }
 
 void
-checkSavePath(const std::string& path)
+checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
   constexpr const char* endings[] = {".pcd", ".ply", ".vtp", ".csv"};
   const std::string ending = endingOf(path);
@@ -185,6 +185,8 @@ checkSavePath(const std::string& path)
     io::throwUnwritable(path, "'" + folder.string() + "' is not a folder");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     io::throwUnwritable(path, std::strerror(errno));
+  if (ending == ".ply")
+    io::checkPlyFields(path, fields);
 }
 
 void

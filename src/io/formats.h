@@ -5,6 +5,7 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <string>
+#include <vector>
 
 namespace pcl_uvol {
 namespace io {
@@ -29,6 +30,10 @@ writePcd(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
          const SaveOptions& options);
+
+/** \brief \throws IOError if PLY lacks the type of a field */
+void
+checkPlyFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields);
 
 void
 writePly(const std::string& file,

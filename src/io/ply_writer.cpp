@@ -84,6 +84,16 @@ plyTypeName(std::uint8_t datatype)
 }
 
 void
+checkPlyFields(const std::string& path, const std::vector<Type>& fields)
+{
+  for (const auto& field : fields)
+    if (!plyTypeName(field.datatype))
+      throwUnwritable(path,
+                      "PLY has no 64-bit integers as the field '" + field.name +
+                          "' needs; write .pcd, .vtp or .csv");
+}
+
+void
 writePly(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
@@ -107,14 +117,9 @@ writePly(const std::string& file,
   const std::size_t count =
       static_cast<std::size_t>(dataset.cloud.width) * dataset.cloud.height;
   header += "element vertex " + std::to_string(count) + '\n';
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const char* const type = plyTypeName(columns[i].datatype);
-    if (!type)
-      throwUnwritable(path,
-                      "PLY has no 64-bit integers as the field '" + columns[i].name +
-                          "' needs; write .pcd, .vtp or .csv");
-    header += std::string("property ") + type + ' ' + names[i] + '\n';
-  }
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    header += std::string("property ") + plyTypeName(columns[i].datatype) + ' ' +
+              names[i] + '\n';
   header += "end_header\n";
   writeRecords(out, dataset, columns, options.ascii);
   out.close();

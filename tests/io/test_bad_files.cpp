@@ -312,6 +312,34 @@ TEST(AtomicWriting, FullDisk)
   }
 }
 
+TEST(AtomicWriting, AKilledWriterLeavesNothing)
+{
+  const TemporaryFolder folder;
+  writeFile(folder / "old.csv", "the old one");
+  const auto killWhileWriting = [](const std::string& path) {
+    writeAtomically(path, [](const std::string& file) {
+      writeFile(file, "half of");
+      std::raise(SIGKILL);
+    });
+  };
+  EXPECT_EXIT(
+      killWhileWriting(folder / "new.csv"), testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EXIT(
+      killWhileWriting(folder / "old.csv"), testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EQ(folder.list(), (std::vector<std::string>{"old.csv"}));
+  EXPECT_EQ(readFile(folder / "old.csv"), "the old one");
+}
+
+TEST(AtomicWriting, TypesThatTheFormatLacksAreRefusedBeforeTheWork)
+{
+  pcl::PCLPointField id;
+  id.name = "id";
+  id.datatype = pcl::PCLPointField::INT64; // as VTK's global ids
+  const std::string message = messageOf<IOError>([&] { checkSavePath("a.ply", {id}); });
+  EXPECT_NE(message.find("'id'"), std::string::npos) << message;
+  EXPECT_NO_THROW(checkSavePath("a.pcd", {id}));
+}
+
 TEST(AtomicWriting, PathsThatCannotBe)
 {
   const TemporaryFolder folder;

@@ -179,6 +179,13 @@ TEST_P(OnSmallRealData, EdgesEqualBruteForce)
       std::includes(expected.begin(), expected.end(), found.begin(), found.end()));
 }
 
+/** What GoogleTest calls a parameter; else it prints bytes. */
+void
+PrintTo(const RealData& data, std::ostream* out)
+{
+  *out << data.file << ' ' << data.field;
+}
+
 INSTANTIATE_TEST_SUITE_P(RealData, OnRealData, testing::ValuesIn(data_sets), nameOf);
 INSTANTIATE_TEST_SUITE_P(RealData,
                          OnSmallRealData,

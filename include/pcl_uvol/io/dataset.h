@@ -63,10 +63,12 @@ saveDataset(const std::string& path,
             const Dataset& dataset,
             const SaveOptions& options = {});
 
-/** \brief Throw IOError unless saveDataset knows the ending of that name: to be called
- * before work whose result would be lost. */
+/** \brief Throw IOError unless saveDataset knows the ending of that name, its folder
+ * can be written to and the format holds fields of these types: to be called before
+ * work whose result would be lost. */
 PCL_UVOL_EXPORTS void
-checkSavePath(const std::string& path);
+checkSavePath(const std::string& path,
+              const std::vector<pcl::PCLPointField>& fields = {});
 
 /** \brief Put float32 x, y, z relative to a common origin into a dataset, in front of
  * its other fields, from coordinates in double; double_coordinates stays as it is.
