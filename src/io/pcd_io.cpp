@@ -268,7 +268,7 @@ readAscii(const InputFile& file, const std::string& path, Header& header)
   std::uint64_t numbers = 0;
   for (const auto& field : header.fields)
     numbers += field.count;
-  if (header.count > (left + 1) / (2 * numbers)) // a digit and a blank each
+  if (numbers > 0 && header.count > (left + 1) / (2 * numbers)) // a digit and a blank
     throwTruncated(path, header.count, left);
   auto records = makeRecords(path, std::move(header.fields), header.count);
   std::string text(left, '\0');

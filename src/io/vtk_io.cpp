@@ -218,7 +218,11 @@ PointCollector::addPointData()
     else {
       const bool taken = name == "x" || name == "y" || name == "z" || name == "_";
       if (taken)
-        notes_.push_back("The array '" + name + "' is called '" + name + "_2'.");
+        notes_.emplace_back("The array '")
+            .append(name)
+            .append("' is called '")
+            .append(name)
+            .append("_2'.");
       appendField(fields_,
                   taken ? name + "_2" : name,
                   datatypeOf(*plain),
@@ -239,8 +243,8 @@ PointCollector::collect()
       path_, fields_, static_cast<std::uint64_t>(points_.GetNumberOfPoints()));
   std::size_t offset = 0;
   for (const auto& array : arrays_) {
-    const auto bytes = static_cast<std::size_t>(array->GetDataTypeSize() *
-                                                array->GetNumberOfComponents());
+    const std::size_t bytes = static_cast<std::size_t>(array->GetDataTypeSize()) *
+                              static_cast<std::size_t>(array->GetNumberOfComponents());
     const auto* from = static_cast<const std::uint8_t*>(array->GetVoidPointer(0));
     std::uint8_t* to = records.data.data() + offset;
     for (std::size_t i = 0; i < records.width; ++i) {
@@ -306,7 +310,7 @@ vtkSmartPointer<vtkCellArray>
 verticesOf(std::size_t count)
 {
   vtkNew<vtkTypeInt64Array> offsets, points;
-  offsets->SetNumberOfValues(static_cast<vtkIdType>(count + 1));
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(count) + 1);
   points->SetNumberOfValues(static_cast<vtkIdType>(count));
   for (std::size_t i = 0; i <= count; ++i)
     offsets->SetValue(static_cast<vtkIdType>(i), static_cast<vtkTypeInt64>(i));

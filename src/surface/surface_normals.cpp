@@ -85,9 +85,9 @@ public:
   {
     if (own_normal_.size() == 3) {
       const std::uint8_t* const point = cloud_.point(index);
-      const Eigen::Vector3f own(static_cast<float>(own_normal_[0].read(point)),
-                                static_cast<float>(own_normal_[1].read(point)),
-                                static_cast<float>(own_normal_[2].read(point)));
+      Eigen::Vector3f own(static_cast<float>(own_normal_[0].read(point)),
+                          static_cast<float>(own_normal_[1].read(point)),
+                          static_cast<float>(own_normal_[2].read(point)));
       if (own.allFinite() && !own.isZero(0.0f))
         return own;
     }

@@ -170,8 +170,8 @@ public:
 
   /** \brief The cloud must not change until the next call. */
   void
-  setInputCloud(
-      const typename Cloud::ConstPtr& cloud) // NOLINT: not virtual in one base
+  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
+  setInputCloud(const typename Cloud::ConstPtr& cloud)
   {
     pcl::PCLBase<PointT>::setInputCloud(cloud);
     forgetSamples();
