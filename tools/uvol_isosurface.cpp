@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/options.h"
+#include "common/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
@@ -135,6 +136,8 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output);
 
   Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
   const pcl_uvol::Dataset input = load(arguments, report);
   pcl_uvol::checkSavePath(arguments.output, input.cloud.fields);
@@ -155,6 +158,7 @@ run(int argc, char** argv)
                                    ? pcl_uvol::AngleCriterion::Kept
                                    : pcl_uvol::AngleCriterion::All);
   extraction.setNumberOfThreads(options.threads());
+  extraction.setProgressCallback(report.progress);
   pcl::PointCloud<PointIso> isopoints;
   extraction.extract(isopoints);
   report.merge(extraction.getReport());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
 #include "common/options.h"
+#include "common/progress_bar.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
@@ -67,6 +68,8 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(output);
 
   Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
   pcl_uvol::Dataset dataset;
   {
     const StepTimer timer(report, "read");

@@ -50,6 +50,32 @@ Report::merge(const Report& other)
   warnings.insert(warnings.end(), other.warnings.begin(), other.warnings.end());
 }
 
+StepTimer::StepTimer(Report& report, std::string step, std::uint64_t total)
+    : report_(report)
+    , step_(std::move(step))
+    , total_(total)
+    , start_(std::chrono::steady_clock::now())
+{
+  if (report_.progress && total_ > 0)
+    report_.progress(step_, 0.0);
+}
+
+void
+StepTimer::advance(std::uint64_t work)
+{
+  if (!report_.progress || total_ == 0)
+    return;
+  constexpr double smallest_step = 0.005;
+  done_ += work;
+  const std::lock_guard<std::mutex> lock(telling_);
+  const std::uint64_t done = done_;
+  if (done < total_ &&
+      static_cast<double>(done - told_) < smallest_step * static_cast<double>(total_))
+    return;
+  told_ = done;
+  report_.progress(step_, static_cast<double>(done) / static_cast<double>(total_));
+}
+
 StepTimer::~StepTimer()
 {
   report_.time(step_,

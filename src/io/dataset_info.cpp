@@ -103,7 +103,7 @@ describePositions(const Dataset& dataset, unsigned threads)
   }
   if (positions.size() < 2)
     return statistics;
-  const NeighborGraph nearest = computeNearestNeighbors(*samples, 1, threads);
+  const NeighborGraph nearest = computeNearestNeighbors(*samples, 1, threads, report);
   std::vector<double> spacing(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Position &p = positions[i], &q = positions[*nearest[i].begin()];

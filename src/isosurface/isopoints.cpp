@@ -29,8 +29,10 @@ edgeKey(std::uint32_t a, std::uint32_t b)
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,
-          float isovalue)
+          float isovalue,
+          Report& report)
 {
+  StepTimer step(report, "neighborhoods", crossing.size());
   const std::vector<float>& f = input.scalar.values;
   auto edges = parallelGather<EdgeKey>(
       crossing.size(),
@@ -44,6 +46,7 @@ findEdges(const IsopointInput& input,
             if ((f[x] >= isovalue) != (f[y] >= isovalue))
               found.push_back(edgeKey(x, y));
         }
+        step.advance(end - begin);
       });
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -193,11 +196,7 @@ appendIsopoints(const IsopointInput& input,
     crossing = input.samples.getTree().findCrossing(
         input.samples.getPositions(), input.ranges, isovalue, input.threads);
   }
-  std::vector<EdgeKey> keys;
-  {
-    const StepTimer timer(report, "neighborhoods");
-    keys = findEdges(input, crossing, isovalue);
-  }
+  const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
   const StepTimer timer(report, "isopoints");
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());

@@ -75,6 +75,7 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
     report_.counts = sampled_report_.counts;
   else {
     Report built;
+    built.progress = progress_;
     samples_ = SampleSet::build(cloud.xyz(0),
                                 cloud.stride(),
                                 use,
@@ -98,6 +99,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
   const ScalarField field(cloud.fields, field_);
   report_ = Report();
+  report_.progress = progress_;
 
   std::vector<float> values;
   std::vector<std::uint32_t> use;

@@ -107,33 +107,24 @@ class Builder {
 public:
   Builder(const KdTree& tree,
           std::vector<SampleRecord>& records,
-          std::vector<SplitPlane>& planes)
+          std::vector<SplitPlane>& planes,
+          StepTimer& step)
       : tree_(tree)
       , records_(records)
       , planes_(planes)
+      , step_(step)
   {
   }
 
   void
   build(const KdNode& node)
   {
-    if (node.isLeaf())
-      return;
-    switch (tree_.getAxis(node.depth)) {
-    case 0:
-      split<0>(node);
-      break;
-    case 1:
-      split<1>(node);
-      break;
-    default:
-      split<2>(node);
-    }
     if (node.count < task_samples) {
-      build(node.left());
-      build(node.right());
+      buildAlone(node);
+      step_.advance(node.count);
       return;
     }
+    split(node);
     TaskGroup::fork([&] { build(node.left()); }, [&] { build(node.right()); });
   }
 
@@ -144,6 +135,32 @@ public:
   }
 
 private:
+  /** A subtree by one task. */
+  void
+  buildAlone(const KdNode& node)
+  {
+    if (node.isLeaf())
+      return;
+    split(node);
+    buildAlone(node.left());
+    buildAlone(node.right());
+  }
+
+  void
+  split(const KdNode& node)
+  {
+    switch (tree_.getAxis(node.depth)) {
+    case 0:
+      split<0>(node);
+      break;
+    case 1:
+      split<1>(node);
+      break;
+    default:
+      split<2>(node);
+    }
+  }
+
   template <int axis>
   void
   split(const KdNode& node)
@@ -170,6 +187,7 @@ private:
   const KdTree& tree_;
   std::vector<SampleRecord>& records_;
   std::vector<SplitPlane>& planes_;
+  StepTimer& step_;
   std::atomic<bool> has_duplicates_{false};
 };
 
@@ -205,7 +223,7 @@ fillRanges(NodeRanges& ranges, const KdNode& node)
 } // namespace
 
 bool
-KdTree::build(std::vector<SampleRecord>& records, unsigned threads)
+KdTree::build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step)
 {
   count_ = static_cast<std::uint32_t>(records.size());
   std::vector<std::int8_t> axes;
@@ -222,7 +240,7 @@ KdTree::build(std::vector<SampleRecord>& records, unsigned threads)
     axis_at_depth_[depth] = axes[depth % axes.size()];
 
   planes_.assign(innerNodeNumbers(count_), SplitPlane{0.0f, 0});
-  Builder builder(*this, records, planes_);
+  Builder builder(*this, records, planes_, step);
   TaskGroup::run(threads, [&] { builder.build(getRoot()); });
   if (builder.hasDuplicates())
     return false;

@@ -48,7 +48,7 @@ computeNaturalNeighbors(const SampleSet& samples,
                         unsigned threads,
                         Report& report)
 {
-  const StepTimer timer(report, "neighborhoods");
+  StepTimer step(report, "neighborhoods", samples.size());
   std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
   parallelBlocks(
       samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
@@ -60,6 +60,7 @@ computeNaturalNeighbors(const SampleSet& samples,
           rows.indices.insert(rows.indices.end(), neighbors.begin(), neighbors.end());
         }
         rows.candidates = finder.getCandidateCount();
+        step.advance(end - begin);
       });
 
   NeighborGraph graph;

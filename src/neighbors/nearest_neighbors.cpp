@@ -38,10 +38,14 @@ cloudOf(const SampleSet& samples)
 } // namespace
 
 NeighborGraph
-computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned threads)
+computeNearestNeighbors(const SampleSet& samples,
+                        std::size_t k,
+                        unsigned threads,
+                        Report& report)
 {
   checkCount(k);
   const std::size_t count = samples.size();
+  StepTimer step(report, "nearest_neighbors", count);
   const std::size_t row = std::min(k, count - 1);
   NeighborGraph graph;
   graph.offsets.resize(count + 1);
@@ -86,6 +90,7 @@ computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned thread
           for (std::size_t j = 0; j < row; ++j)
             graph.indices[i * row + j] = sorted[j].second;
         }
+        step.advance(end - begin);
       });
   return graph;
 }
@@ -94,13 +99,15 @@ NeighborGraph
 computeNearestNeighbors(const SampleSet& samples,
                         std::size_t k,
                         unsigned threads,
-                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
+                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                        Report& report)
 {
   checkCount(k);
   if (!search)
     throw InvalidArgument("The search method for nearest neighbours is null.");
   const std::size_t count = samples.size();
   const std::size_t row = std::min(k, count - 1);
+  StepTimer step(report, "nearest_neighbors", count);
   search->setInputCloud(cloudOf(samples));
   NeighborGraph graph;
   graph.offsets.assign(count + 1, 0);
@@ -124,6 +131,7 @@ computeNearestNeighbors(const SampleSet& samples,
             block.push_back(entry.second);
           graph.offsets[i + 1] = sorted.size();
         }
+        step.advance(end - begin);
       });
   std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   return graph;

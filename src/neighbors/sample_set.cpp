@@ -114,7 +114,7 @@ SampleSet::build(const float* xyz,
                  unsigned threads,
                  Report& report)
 {
-  const StepTimer timer(report, "tree");
+  StepTimer step(report, "tree", use.size());
   std::vector<SampleRecord> records = gatherRecords(xyz, stride, use, scale, threads);
   report.count("non_finite", use.size() - records.size());
   if (records.empty())
@@ -125,9 +125,9 @@ SampleSet::build(const float* xyz,
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);
   const std::size_t finite = records.size();
-  if (!set->tree_.build(records, threads)) {
+  if (!set->tree_.build(records, threads, step)) {
     set->merged_ = mergeDuplicates(records);
-    set->tree_.build(records, threads);
+    set->tree_.build(records, threads, step);
     renumberMerged(set->merged_, records);
   }
   report.count("duplicates", finite - records.size());

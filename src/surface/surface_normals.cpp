@@ -130,11 +130,11 @@ findNeighbors(const SampleSet& samples,
               const SurfaceNormalParameters& parameters,
               Report& report)
 {
-  const StepTimer timer(report, "nearest_neighbors");
   const std::size_t k = parameters.k;
-  return parameters.search ? computeNearestNeighbors(
-                                 samples, k, parameters.threads, parameters.search)
-                           : computeNearestNeighbors(samples, k, parameters.threads);
+  const unsigned threads = parameters.threads;
+  return parameters.search
+             ? computeNearestNeighbors(samples, k, threads, parameters.search, report)
+             : computeNearestNeighbors(samples, k, threads, report);
 }
 
 /** Turns the fit of a sample to the side of one of its points. */
@@ -224,6 +224,7 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
     std::vector<std::uint32_t> surface(end - begin);
     std::iota(surface.begin(), surface.end(), static_cast<std::uint32_t>(begin));
     Report own;
+    own.progress = report.progress;
     const auto normals = estimateSurfaceNormals(cloud, surface, parameters, own);
     for (std::size_t i = 0; i < normals.size(); ++i)
       isopoints[begin + i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);

@@ -34,13 +34,21 @@ sqDist(const SampleSet& samples, std::size_t i, std::size_t j)
   return sum;
 }
 
+/** Neighbours whose report is of no interest. */
+pcl_uvol::NeighborGraph
+nearest(const SampleSet& samples, std::size_t k, unsigned threads)
+{
+  pcl_uvol::Report report;
+  return pcl_uvol::computeNearestNeighbors(samples, k, threads, report);
+}
+
 class NearestOnEveryShape : public testing::TestWithParam<std::string> {};
 
 TEST_P(NearestOnEveryShape, DistancesEqualBruteForce)
 {
   const auto samples = buildSamples(*uvol_test::makeCloud(GetParam(), 700, 3));
   for (const std::size_t k : {std::size_t(1), std::size_t(26), samples->size() + 5}) {
-    const auto graph = pcl_uvol::computeNearestNeighbors(*samples, k, 0);
+    const auto graph = nearest(*samples, k, 0);
     ASSERT_EQ(samples->size(), graph.size());
     for (std::size_t i = 0; i < samples->size(); i += 11) {
       std::vector<float> expected, found;
@@ -72,16 +80,14 @@ INSTANTIATE_TEST_SUITE_P(NearestNeighbors,
 TEST(NearestNeighbors, SameForAnyNumberOfThreads)
 {
   const auto samples = buildSamples(*uvol_test::makeCloud("lattice", 8000, 1));
-  EXPECT_EQ(pcl_uvol::computeNearestNeighbors(*samples, 10, 1).indices,
-            pcl_uvol::computeNearestNeighbors(*samples, 10, 2).indices);
+  EXPECT_EQ(nearest(*samples, 10, 1).indices, nearest(*samples, 10, 2).indices);
 }
 
 TEST(NearestNeighbors, OnePointHasNoneAndZeroIsRefused)
 {
   const auto samples = buildSamples(*uvol_test::makeCloud("uniform", 1, 1));
-  EXPECT_EQ(0u, pcl_uvol::computeNearestNeighbors(*samples, 5, 0)[0].size());
-  EXPECT_THROW(pcl_uvol::computeNearestNeighbors(*samples, 0, 0),
-               pcl_uvol::InvalidArgument);
+  EXPECT_EQ(0u, nearest(*samples, 5, 0)[0].size());
+  EXPECT_THROW(nearest(*samples, 0, 0), pcl_uvol::InvalidArgument);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace {
@@ -95,6 +96,25 @@ TEST_F(NormalsTool, SaysThatTheOriginOrientsByDefault)
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, (result.out + result.err).find("-viewpoint chooses"));
   expectNormals(0);
+}
+
+TEST_F(NormalsTool, DrawsABarOnATerminalAndIsQuietInAPipe)
+{
+  const std::string cloud = folder_ / "cloud.pcd", log = folder_ / "log";
+  ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + cloud + " -n 60000").exit_code);
+  const std::string arguments =
+      "uvol_normals " + cloud + " " + out_ + " -k 300 -threads 1";
+  const auto piped = uvol_test::runCommand(arguments);
+  ASSERT_EQ(0, piped.exit_code) << piped.err;
+  EXPECT_EQ(std::string::npos, piped.err.find("s left")) << piped.err;
+  // script(1) runs a command on a terminal of its own.
+  const std::string command = std::string(PCL_UVOL_TOOL_DIR) + "/" + arguments;
+  ASSERT_EQ(0,
+            std::system(
+                ("script -qec '" + command + "' " + log + " > " + log + "2").c_str()));
+  const std::string drawn = uvol_test::readFile(log);
+  EXPECT_NE(std::string::npos, drawn.find("nearest_neighbors [=")) << drawn;
+  EXPECT_NE(std::string::npos, drawn.find("s left\r\033[K")) << drawn;
 }
 
 TEST_F(NormalsTool, RefusesWhatItCannotDo)

@@ -81,6 +81,13 @@ public:
     threads_ = threads;
   }
 
+  /** \brief Told while extract() runs; see ProgressCallback. Default: nobody is. */
+  void
+  setProgressCallback(const ProgressCallback& progress)
+  {
+    progress_ = progress;
+  }
+
   /** \brief The edge of each isopoint of the last extract(): indices into the input
    * cloud.
    */
@@ -136,6 +143,7 @@ private:
   AngleCriterion criterion_ = AngleCriterion::Kept;
   Eigen::Array3f scale_{1.0f, 1.0f, 1.0f};
   unsigned threads_ = 0;
+  ProgressCallback progress_;
 
   SampleSet::ConstPtr samples_;
   std::vector<std::uint32_t> sampled_;             // input points behind samples_

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
 
 #include <array>
 #include <cstddef>
@@ -116,9 +117,10 @@ public:
    * \param records at least one; finite positions
    * \return false if two records have equal positions: the tree is then of no use,
    * since their cells cannot be told apart. Every pair of equals is parted by some cut,
-   * where it stands on both sides of the plane, so the check costs nothing. */
+   * where it stands on both sides of the plane, so the check costs nothing.
+   * \param step is advanced by the number of records */
   bool
-  build(std::vector<SampleRecord>& records, unsigned threads);
+  build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step);
 
   KdNode
   getRoot() const

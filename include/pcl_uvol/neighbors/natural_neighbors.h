@@ -88,6 +88,13 @@ public:
     threads_ = threads;
   }
 
+  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
+  void
+  setProgressCallback(const ProgressCallback& progress)
+  {
+    progress_ = progress;
+  }
+
   /** \brief One row per point of the input cloud, indices into the input cloud.
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
@@ -103,6 +110,7 @@ public:
 private:
   AngleCriterion criterion_ = AngleCriterion::Kept;
   unsigned threads_ = 0;
+  ProgressCallback progress_;
   Report report_;
 };
 

@@ -18,10 +18,14 @@ namespace pcl_uvol {
  *
  * Storage and queries in leaf order are spatially coherent, which is most of the speed,
  * and make FLANN's choice among equally far neighbours independent of the order of the
- * input. \param k >= 1 Memory: 4 bytes per neighbour, 8 per sample, and FLANN's copy of
- * the positions. \throws InvalidArgument for k = 0 */
+ * input. \param k >= 1 \param report gets the time of "nearest_neighbors". Memory: 4
+ * bytes per neighbour, 8 per sample, and FLANN's copy of the positions. \throws
+ * InvalidArgument for k = 0 */
 PCL_UVOL_EXPORTS NeighborGraph
-computeNearestNeighbors(const SampleSet& samples, std::size_t k, unsigned threads);
+computeNearestNeighbors(const SampleSet& samples,
+                        std::size_t k,
+                        unsigned threads,
+                        Report& report);
 
 /** \brief The same by a search of the user's, whose input cloud becomes the samples in
  * leaf order. It is called from several threads at once, as by
@@ -31,6 +35,7 @@ PCL_UVOL_EXPORTS NeighborGraph
 computeNearestNeighbors(const SampleSet& samples,
                         std::size_t k,
                         unsigned threads,
-                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search);
+                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                        Report& report);
 
 } // namespace pcl_uvol

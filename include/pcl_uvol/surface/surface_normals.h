@@ -105,6 +105,13 @@ public:
     parameters_.threads = threads;
   }
 
+  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
+  void
+  setProgressCallback(const ProgressCallback& progress)
+  {
+    progress_ = progress;
+  }
+
   /** \brief One output point per input point or index. A point with a non-finite
    * coordinate gets NaN, and the output is then not dense. \throws InvalidArgument
    * without an input cloud, without a finite point, for k < 2 or a bad scale; the
@@ -121,6 +128,7 @@ public:
 
 private:
   SurfaceNormalParameters parameters_;
+  ProgressCallback progress_;
   Report report_;
 };
 

@@ -15,6 +15,7 @@ SurfaceNormalEstimation<PointInT, PointOutT>::compute(
     throw InvalidArgument(
         "SurfaceNormalEstimation has no input cloud: call setInputCloud.");
   report_ = Report();
+  report_.progress = progress_;
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   const auto normals =
       estimateSurfaceNormals(viewOf(*this->input_), use, parameters_, report_);
