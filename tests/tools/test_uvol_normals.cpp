@@ -101,9 +101,9 @@ TEST_F(NormalsTool, SaysThatTheOriginOrientsByDefault)
 TEST_F(NormalsTool, DrawsABarOnATerminalAndIsQuietInAPipe)
 {
   const std::string cloud = folder_ / "cloud.pcd", log = folder_ / "log";
-  ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + cloud + " -n 60000").exit_code);
+  ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + cloud + " -n 30000").exit_code);
   const std::string arguments =
-      "uvol_normals " + cloud + " " + out_ + " -k 300 -threads 1";
+      "uvol_normals " + cloud + " " + out_ + " -k 250 -threads 1";
   const auto piped = uvol_test::runCommand(arguments);
   ASSERT_EQ(0, piped.exit_code) << piped.err;
   EXPECT_EQ(std::string::npos, piped.err.find("s left")) << piped.err;
