@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isopoints.h"
 
+#include "smooth_roots.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 
@@ -197,17 +198,20 @@ appendIsopoints(const IsopointInput& input,
         input.samples.getPositions(), input.ranges, isovalue, input.threads);
   }
   const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
-  const StepTimer timer(report, "isopoints");
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
-  parallelBlocks(
-      keys.size(), block_edges, input.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);
-      });
-  report.count("crossing_samples", crossing.size());
-  report.count("edges", keys.size());
-  report.count("coincident", mergeCoincident(points, point_edges));
+  {
+    const StepTimer timer(report, "isopoints");
+    parallelBlocks(keys.size(), block_edges, input.threads, [&](auto begin, auto end) {
+      for (std::size_t i = begin; i < end; ++i)
+        placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);
+    });
+    report.count("crossing_samples", crossing.size());
+    report.count("edges", keys.size());
+    report.count("coincident", mergeCoincident(points, point_edges));
+  }
+  if (input.interpolation == Interpolation::Smooth)
+    smoothIsopoints(input, isovalue, points, point_edges, report);
   isopoints.insert(isopoints.end(), points.begin(), points.end());
   edges.insert(edges.end(), point_edges.begin(), point_edges.end());
 }

@@ -36,6 +36,7 @@ struct IsopointInput {
   const NodeRanges& ranges;
   AngleCriterion criterion;
   Outside outside;
+  Interpolation interpolation;
   unsigned threads;
 };
 

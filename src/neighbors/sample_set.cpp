@@ -124,6 +124,7 @@ SampleSet::build(const float* xyz,
 
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);
+  set->scale_ = scale;
   const std::size_t finite = records.size();
   if (!set->tree_.build(records, threads, step)) {
     set->merged_ = mergeDuplicates(records);

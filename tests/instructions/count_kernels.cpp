@@ -57,7 +57,8 @@ main(int argc, char** argv)
        [&] {
          computeNaturalNeighbors(*samples, AngleCriterion::Kept, threads, report);
        }},
-      {"nearest_neighbors", [&] { computeNearestNeighbors(*samples, 26, threads, report); }},
+      {"nearest_neighbors",
+       [&] { computeNearestNeighbors(*samples, 26, threads, report); }},
       {"isovalue", [&] { extraction.extract(isopoints); }}};
   const auto kernel = kernels.find(argc == 2 ? argv[1] : "");
   if (kernel == kernels.end()) {

@@ -5,29 +5,51 @@
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
 
-/** \brief One point of an isosurface.
+#include <cstdint>
+#include <limits>
+
+namespace pcl_uvol {
+
+/** \brief What an isopoint stands on. */
+enum class IsoSupport : std::uint8_t {
+  Unknown = 0,  ///< not examined: linear interpolation
+  Measured = 1, ///< samples all around
+  Bridged = 2,  ///< in a gap of the sampling that its edge reaches across
+  Rim = 3       ///< beside a wide cone without samples: border of a gap or of the cloud
+};
+
+} // namespace pcl_uvol
+
+/** \brief One point of an isosurface. Lengths are in units of the coordinates.
  *
  * normal_x/y/z: unit vector to the outside, where values are lower (as for densities
  * and in VTK) unless the extraction was told otherwise; isovalue: the value the surface
- * was extracted for, in units of the scalar field; edge_length: distance of the two
- * samples the point lies between, in units of the coordinates. */
+ * was extracted for, in units of the scalar field; mean_curvature: 1/length, positive
+ * where the enclosed side is convex, NaN where no fit gave one; error: estimated
+ * distance to the true surface, NaN where there is no estimate; edge_length: distance
+ * of the two samples the point lies between; support: a pcl_uvol::IsoSupport. */
 struct EIGEN_ALIGN16 PointIso {
   PCL_ADD_POINT4D;
   PCL_ADD_NORMAL4D;
   union {
     struct {
       float isovalue;
+      float mean_curvature;
+      float error;
       float edge_length;
     };
     float data_c[4];
   };
+  std::uint8_t support;
 
   PointIso()
   {
     x = y = z = 0.0f;
     data[3] = 1.0f;
     normal_x = normal_y = normal_z = data_n[3] = 0.0f;
-    data_c[0] = data_c[1] = data_c[2] = data_c[3] = 0.0f;
+    isovalue = edge_length = 0.0f;
+    mean_curvature = error = std::numeric_limits<float>::quiet_NaN();
+    support = static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Unknown);
   }
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
@@ -36,5 +58,7 @@ struct EIGEN_ALIGN16 PointIso {
 POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
     (float, x, x)(float, y, y)(float, z, z)
     (float, normal_x, normal_x)(float, normal_y, normal_y)(float, normal_z, normal_z)
-    (float, isovalue, isovalue)(float, edge_length, edge_length))
+    (float, isovalue, isovalue)(float, mean_curvature, mean_curvature)
+    (float, error, error)(float, edge_length, edge_length)
+    (std::uint8_t, support, support))
 // clang-format on

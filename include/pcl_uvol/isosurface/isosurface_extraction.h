@@ -27,6 +27,12 @@ enum class Outside {
   Higher ///< where values are higher: the thesis's v = (f(x) - f(y)) (x - y)
 };
 
+/** \brief How isopoints are found between two samples. */
+enum class Interpolation {
+  Linear, ///< thesis 2.4: along the edge, normal along the edge
+  Smooth  ///< the zero level of a local cubic or quadratic fit (default)
+};
+
 /** \brief Parameters and the kernel of IsosurfaceExtraction, for any point type. */
 class PCL_UVOL_EXPORTS IsosurfaceExtractionBase {
 public:
@@ -57,6 +63,13 @@ public:
   setOutside(Outside outside)
   {
     outside_ = outside;
+  }
+
+  /** \brief Default: Interpolation::Smooth. */
+  void
+  setInterpolation(Interpolation interpolation)
+  {
+    interpolation_ = interpolation;
   }
 
   /** \brief Default: AngleCriterion::Kept. */
@@ -140,6 +153,7 @@ private:
   std::string field_ = "intensity";
   std::vector<double> isovalues_;
   Outside outside_ = Outside::Lower;
+  Interpolation interpolation_ = Interpolation::Smooth;
   AngleCriterion criterion_ = AngleCriterion::Kept;
   Eigen::Array3f scale_{1.0f, 1.0f, 1.0f};
   unsigned threads_ = 0;

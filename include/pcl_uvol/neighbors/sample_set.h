@@ -56,6 +56,13 @@ public:
     return tree_;
   }
 
+  /** \brief Factors per axis from the input's coordinates to those of the samples. */
+  const Position&
+  getScale() const
+  {
+    return scale_;
+  }
+
   /** \brief Index in the input cloud of a sample: of several merged points the lowest.
    */
   std::uint32_t
@@ -80,6 +87,7 @@ public:
 private:
   SampleSet() = default;
 
+  Position scale_{{1.0f, 1.0f, 1.0f}};
   std::vector<Position> positions_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<Merged> merged_;

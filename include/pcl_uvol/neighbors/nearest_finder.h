@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The k nearest samples of points that lie anywhere, without an index of their own: the
+// bit-indexed kd-tree hands out the samples of a box, which a run of close points
+// shares.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Nearest samples of one point after another; one object per thread.
+ *
+ * The answer depends on the point alone; the speed lives on points in spatial order.
+ * Memory: some kilobytes. */
+class PCL_UVOL_EXPORTS NearestFinder {
+public:
+  struct Neighbor {
+    float sq_dist;
+    std::uint32_t sample;
+  };
+
+  /** \param samples must outlive the finder \param k >= 1 */
+  NearestFinder(const SampleSet& samples, std::size_t k)
+      : samples_(samples)
+      , k_(k)
+  {
+  }
+
+  /** \brief The k nearest, all samples where there are no more; of equally far ones
+   * those of lower index. In leaf order, valid until the next call. A sample at the
+   * point itself counts.
+   * \param length about the distance of a neighbour, > 0; it only sets where the first
+   * search starts */
+  const std::vector<Neighbor>&
+  find(const Position& point, float length);
+
+private:
+  void
+  gather(const Position& center, float half_width);
+
+  void
+  gatherBelow(const KdNode& node);
+
+  /** Distance to the next face of the box: all samples within it are candidates. */
+  float
+  marginAt(const Position& point) const;
+
+  void
+  keepWithin(float sq_limit);
+
+  void
+  select(const Position& point);
+
+  const SampleSet& samples_;
+  std::size_t k_;
+  std::vector<Neighbor> found_;
+  float reach_ = 0.0f; ///< distance of the farthest neighbour found last
+
+  // Candidates: all samples in a box, and some more.
+  Position low_{}, high_{};
+  float half_width_ = -1.0f;              ///< negative: there is no box yet
+  std::vector<std::uint32_t> candidates_; ///< ascending
+  std::vector<float> x_[3], sq_dist_, ordered_;
+};
+
+} // namespace pcl_uvol

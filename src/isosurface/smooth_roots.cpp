@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smooth_roots.h"
+
+#include "../derivatives/fit_kernel.h"
+#include "empty_cone_kernel.h"
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 256;
+
+/** Samples with a weight in a fit; the next farther one sets the radius of the support.
+ * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
+constexpr std::size_t fitted_samples = 40;
+
+/** Error over standard error: covers 95 % of the deviations of analytic fields, whose
+ * truncation errors have longer tails than noise. */
+constexpr double error_factor = 3.5;
+
+/** Of the range of values among the fitted samples: a larger residual means a step (a
+ * label, a jump, a clipped value), which no polynomial follows. */
+constexpr double step_residual = 0.15;
+
+/** Of the radius of the support: a shift beyond it and beyond the edge's own length
+ * leaves the surroundings of the edge. */
+constexpr double farthest_shift = 0.5;
+
+/** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
+ * Uniform samples leave no such cone at 99.8 % of the isopoints. */
+constexpr float empty_cone = 0.5446f;
+
+/** Of the radius of the support: a nearest sample that far away lies on the border of a
+ * gap. */
+constexpr double empty_ball = 0.5;
+
+/** Of the radius of the support: a longer edge reaches across a gap. */
+constexpr double bridging_edge = 1.0;
+
+const KernelTable<FitKernel> fit_kernels{
+    baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
+const KernelTable<EmptyConeKernel> cone_kernels{
+    baseline::emptiestCone, avx2::emptiestCone, avx512::emptiestCone};
+
+/** The 74 directions of small whole numbers, about 15 degrees apart, and six of them
+ * once more to fill the lanes. */
+class ConeDirections {
+public:
+  ConeDirections()
+  {
+    std::size_t count = 0;
+    for (int a = -2; a <= 2; ++a)
+      for (int b = -2; b <= 2; ++b)
+        for (int c = -2; c <= 2; ++c) {
+          const int sq_length = a * a + b * b + c * c;
+          const bool primitive = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
+          if (!primitive || sq_length == 9)
+            continue;
+          const float length = std::sqrt(static_cast<float>(sq_length));
+          x_[0][count] = static_cast<float>(a) / length;
+          x_[1][count] = static_cast<float>(b) / length;
+          x_[2][count++] = static_cast<float>(c) / length;
+        }
+    for (std::size_t i = 0; count < direction_count; ++i, ++count)
+      for (auto& coordinate : x_)
+        coordinate[count] = coordinate[i];
+  }
+
+  UnitVectors
+  get() const
+  {
+    return {x_[0].data(), x_[1].data(), x_[2].data(), direction_count};
+  }
+
+private:
+  static constexpr std::size_t direction_count = 80;
+  alignas(64) std::array<std::array<float, direction_count>, 3> x_;
+};
+
+/** The neighbourhood of one isopoint, beside what the fit is made from. */
+struct Surroundings {
+  Position center;    ///< the linear root, in the stretched space
+  double radius;      ///< of the support, in the stretched space
+  double value_range; ///< of the fitted samples
+  IsoSupport support;
+};
+
+/** Why a linear root stayed. */
+enum class Outcome { Cubic, Quadratic, Singular, Step, Far };
+
+/** Fits of consecutive isopoints; one object per thread. */
+class RootSmoother {
+public:
+  RootSmoother(const IsopointInput& input, float isovalue)
+      : input_(input)
+      , isovalue_(isovalue)
+      , finder_(input.samples, fitted_samples + 1)
+      , samples_(fitted_samples + 1)
+      , fit_(fit_kernels.get())
+      , cone_(cone_kernels.get())
+  {
+  }
+
+  /** At most fit_lanes points. */
+  void
+  smooth(PointIso* points, IsoEdge* edges, std::size_t count, Outcome* outcomes)
+  {
+    Surroundings surroundings[fit_lanes];
+    int weighted[fit_lanes] = {};
+    for (std::size_t lane = 0; lane < fit_lanes; ++lane)
+      weighted[lane] = lane < count ? gather(points[lane], lane, surroundings[lane])
+                                    : clear(lane, 0);
+    FitResult result;
+    fit_(samples_.data(), samples_.size(), weighted, result);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      outcomes[lane] = judge(result, lane, surroundings[lane], points[lane]);
+      finish(result,
+             lane,
+             surroundings[lane],
+             outcomes[lane] <= Outcome::Quadratic,
+             points[lane],
+             edges[lane]);
+    }
+  }
+
+private:
+  /** Leave a lane without samples from the given one on. */
+  int
+  clear(std::size_t lane, std::size_t first)
+  {
+    constexpr double outside = 2.0; // no weight there
+    for (std::size_t j = first; j < samples_.size(); ++j) {
+      samples_[j].x[lane] = outside;
+      samples_[j].y[lane] = samples_[j].z[lane] = samples_[j].value[lane] = 0.0;
+    }
+    return 0;
+  }
+
+  /** Fill a lane; returns the number of samples with a weight. */
+  int
+  gather(const PointIso& point, std::size_t lane, Surroundings& surroundings)
+  {
+    const Position& scale = input_.samples.getScale();
+    Position& center = surroundings.center;
+    center = {{point.x * scale[0], point.y * scale[1], point.z * scale[2]}};
+    const auto& neighbors = finder_.find(center, point.edge_length);
+    const auto& positions = input_.samples.getPositions();
+    float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
+    for (const auto& neighbor : neighbors) {
+      sq_nearest = std::min(sq_nearest, neighbor.sq_dist);
+      sq_farthest = std::max(sq_farthest, neighbor.sq_dist);
+    }
+    surroundings.radius = std::sqrt(static_cast<double>(sq_farthest));
+    const double per_radius = 1.0 / surroundings.radius;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    std::size_t directions = 0;
+    for (std::size_t j = 0; j < neighbors.size(); ++j) {
+      const Position& x = positions[neighbors[j].sample];
+      const double d[3] = {(static_cast<double>(x[0]) - center[0]) * per_radius,
+                           (static_cast<double>(x[1]) - center[1]) * per_radius,
+                           (static_cast<double>(x[2]) - center[2]) * per_radius};
+      const double value =
+          static_cast<double>(input_.scalar.values[neighbors[j].sample]) - isovalue_;
+      samples_[j].x[lane] = d[0];
+      samples_[j].y[lane] = d[1];
+      samples_[j].z[lane] = d[2];
+      samples_[j].value[lane] = value;
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+      const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      if (length > 0.0) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          direction_[axis][directions] = static_cast<float>(d[axis] / length);
+        ++directions;
+      }
+    }
+    clear(lane, neighbors.size());
+    surroundings.value_range = highest - lowest;
+    surroundings.support = supportOf(point.edge_length,
+                                     std::sqrt(static_cast<double>(sq_nearest)),
+                                     surroundings.radius,
+                                     directions);
+    return static_cast<int>(neighbors.size()) - 1;
+  }
+
+  IsoSupport
+  supportOf(double edge_length, double nearest, double radius, std::size_t directions)
+  {
+    const float cosine = cone_(
+        cone_directions_.get(),
+        {direction_[0].data(), direction_[1].data(), direction_[2].data(), directions});
+    if (cosine >= empty_cone && nearest <= empty_ball * radius)
+      return IsoSupport::Measured;
+    return edge_length > bridging_edge * radius ? IsoSupport::Bridged : IsoSupport::Rim;
+  }
+
+  static Outcome
+  judge(const FitResult& result,
+        std::size_t lane,
+        const Surroundings& surroundings,
+        const PointIso& point)
+  {
+    if (result.order[lane] == fit_failed)
+      return Outcome::Singular;
+    if (!(result.residual[lane] <= step_residual * surroundings.value_range))
+      return Outcome::Step;
+    const double shift = surroundings.radius *
+                         std::sqrt(result.offset[0][lane] * result.offset[0][lane] +
+                                   result.offset[1][lane] * result.offset[1][lane] +
+                                   result.offset[2][lane] * result.offset[2][lane]);
+    if (!(shift <= std::max(static_cast<double>(point.edge_length),
+                            farthest_shift * surroundings.radius)))
+      return Outcome::Far;
+    return result.order[lane] == fit_cubic ? Outcome::Cubic : Outcome::Quadratic;
+  }
+
+  void
+  finish(const FitResult& result,
+         std::size_t lane,
+         const Surroundings& surroundings,
+         bool is_smooth,
+         PointIso& point,
+         IsoEdge& edge) const
+  {
+    point.support = static_cast<std::uint8_t>(surroundings.support);
+    if (!is_smooth) {
+      // The surface crosses the edge somewhere.
+      point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
+      return;
+    }
+    // Derivatives by original coordinates: the fit was made in the stretched space.
+    const Position& scale = input_.samples.getScale();
+    double stretch[3], gradient[3], sq_slope = 0.0, sq_fit_slope = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      point.data[axis] =
+          static_cast<float>((surroundings.center[axis] +
+                              surroundings.radius * result.offset[axis][lane]) /
+                             scale[axis]);
+      stretch[axis] = scale[axis] / surroundings.radius;
+      gradient[axis] = stretch[axis] * result.gradient[axis][lane];
+      sq_slope += gradient[axis] * gradient[axis];
+      sq_fit_slope += result.gradient[axis][lane] * result.gradient[axis][lane];
+    }
+    const double slope = std::sqrt(sq_slope);
+    const double side = input_.outside == Outside::Lower ? -1.0 : 1.0;
+    constexpr int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
+    double trace = 0.0, along = 0.0; // of the Hessian, and along the gradient
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double entry =
+          stretch[row[i]] * stretch[column[i]] * result.hessian[i][lane];
+      if (row[i] == column[i])
+        trace += entry;
+      along += (row[i] == column[i] ? 1.0 : 2.0) * entry * gradient[row[i]] *
+               gradient[column[i]] / sq_slope;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      point.data_n[axis] = static_cast<float>(side * gradient[axis] / slope);
+    point.mean_curvature = static_cast<float>(side * (trace - along) / (2.0 * slope));
+    const double rounding =
+        std::sqrt(3.0) * 0x1p-24 *
+        std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+    const double standard_error = result.error[lane] * std::sqrt(sq_fit_slope) / slope;
+    point.error =
+        static_cast<float>(std::hypot(error_factor * standard_error, rounding));
+    edge.t = footOf(point, edge);
+  }
+
+  /** Parameter of the point of the edge that is next to a point. */
+  float
+  footOf(const PointIso& point, const IsoEdge& edge) const
+  {
+    const float* const a = input_.cloud.xyz(edge.first);
+    const float* const b = input_.cloud.xyz(edge.second);
+    double product = 0.0, sq_length = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double along = static_cast<double>(b[axis]) - a[axis];
+      product += along * (static_cast<double>(point.data[axis]) - a[axis]);
+      sq_length += along * along;
+    }
+    return static_cast<float>(std::clamp(product / sq_length, 0.0, 1.0));
+  }
+
+  const IsopointInput& input_;
+  double isovalue_;
+  NearestFinder finder_;
+  std::vector<FitSample> samples_;
+  std::array<std::array<float, fitted_samples + 1>, 3> direction_{};
+  ConeDirections cone_directions_;
+  FitKernel fit_;
+  EmptyConeKernel cone_;
+};
+
+} // namespace
+
+void
+smoothIsopoints(const IsopointInput& input,
+                float isovalue,
+                std::vector<PointIso>& points,
+                IsoEdges& edges,
+                Report& report)
+{
+  StepTimer step(report, "smooth_roots", points.size());
+  std::vector<Outcome> outcomes(points.size());
+  parallelBlocks(points.size(),
+                 block_points,
+                 input.threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   RootSmoother smoother(input, isovalue);
+                   for (std::size_t i = begin; i < end; i += fit_lanes)
+                     smoother.smooth(&points[i],
+                                     &edges[i],
+                                     std::min(fit_lanes, end - i),
+                                     &outcomes[i]);
+                   step.advance(end - begin);
+                 });
+  constexpr std::pair<const char*, Outcome> names[] = {
+      {"cubic_roots", Outcome::Cubic},
+      {"quadratic_roots", Outcome::Quadratic},
+      {"linear_singular", Outcome::Singular},
+      {"linear_step", Outcome::Step},
+      {"linear_far", Outcome::Far}};
+  for (const auto& [name, outcome] : names)
+    report.count(name,
+                 static_cast<std::uint64_t>(
+                     std::count(outcomes.begin(), outcomes.end(), outcome)));
+  for (const auto& [name, support] :
+       {std::pair("bridged", IsoSupport::Bridged), std::pair("rim", IsoSupport::Rim)})
+    report.count(
+        name,
+        static_cast<std::uint64_t>(std::count_if(
+            points.begin(), points.end(), [support = support](const auto& point) {
+              return point.support == static_cast<std::uint8_t>(support);
+            })));
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The k nearest samples of points anywhere, against brute force.
+#include "support/clouds.h"
+#include "support/test_support.h"
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace {
+
+using pcl_uvol::NearestFinder;
+using pcl_uvol::Position;
+using pcl_uvol::SampleSet;
+
+SampleSet::ConstPtr
+buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud)
+{
+  std::vector<std::uint32_t> use(cloud.size());
+  std::iota(use.begin(), use.end(), 0u);
+  pcl_uvol::Report report;
+  return SampleSet::build(&cloud[0].x, 8, use, {{1.0f, 1.0f, 1.0f}}, 0, report);
+}
+
+/** Indices of the k nearest, ascending; of equally far ones the lower index. */
+std::vector<std::uint32_t>
+bruteForce(const SampleSet& samples, const Position& point, std::size_t k)
+{
+  std::vector<std::pair<float, std::uint32_t>> all;
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    float sum = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float d = samples.getPositions()[i][axis] - point[axis];
+      sum += d * d;
+    }
+    all.emplace_back(sum, i);
+  }
+  std::sort(all.begin(), all.end());
+  all.resize(std::min(k, all.size()));
+  std::vector<std::uint32_t> indices;
+  for (const auto& entry : all)
+    indices.push_back(entry.second);
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+std::vector<std::uint32_t>
+indicesOf(const std::vector<NearestFinder::Neighbor>& neighbors)
+{
+  std::vector<std::uint32_t> indices;
+  for (const auto& neighbor : neighbors)
+    indices.push_back(neighbor.sample);
+  return indices;
+}
+
+class NearestFinderOnEveryShape : public testing::TestWithParam<std::string> {};
+
+TEST_P(NearestFinderOnEveryShape, EqualsBruteForce)
+{
+  const auto samples = buildSamples(*uvol_test::makeCloud(GetParam(), 2000, 5));
+  uvol_test::Random random(1);
+  for (const std::size_t k : {std::size_t(1), std::size_t(41), samples->size() + 1}) {
+    NearestFinder finder(*samples, k);
+    for (int i = 0; i < 60; ++i) {
+      // samples themselves, points beside them, points far outside
+      Position point = samples->getPositions()[static_cast<std::size_t>(
+          random.uniform() * static_cast<double>(samples->size()))];
+      const float scatter = i % 3 == 0 ? 0.0f : i % 3 == 1 ? 0.02f : 3.0f;
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] += scatter * static_cast<float>(random.uniform() - 0.5);
+      ASSERT_EQ(bruteForce(*samples, point, k), indicesOf(finder.find(point, 0.05f)))
+          << "k " << k << ", point " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(NearestFinder,
+                         NearestFinderOnEveryShape,
+                         testing::ValuesIn(uvol_test::cloudShapes()),
+                         [](const auto& shape) {
+                           std::string name = shape.param;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
+
+TEST(NearestFinder, AnyStartGivesTheSame)
+{
+  const auto samples = buildSamples(*uvol_test::makeCloud("uniform", 5000, 2));
+  const Position point{{0.3f, 0.6f, 0.5f}};
+  const auto expected = bruteForce(*samples, point, 26);
+  for (const float length : {1e-30f, 1e-6f, 0.1f, 1.0f, 1e6f, 1e38f})
+    EXPECT_EQ(expected, indicesOf(NearestFinder(*samples, 26).find(point, length)));
+}
+
+} // namespace
