@@ -7,8 +7,16 @@ namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
 
-/** One number per fit; compilers map it to the registers they have. */
-using Lanes = double __attribute__((vector_size(fit_lanes * sizeof(double))));
+#if defined(__AVX512F__)
+constexpr std::size_t register_lanes = 8;
+#elif defined(__AVX2__)
+constexpr std::size_t register_lanes = 4;
+#else
+constexpr std::size_t register_lanes = 2;
+#endif
+
+/** One number per fit, as many as a register holds. */
+using Lanes = double __attribute__((vector_size(register_lanes * sizeof(double))));
 using Mask = decltype(Lanes{} < Lanes{});
 
 constexpr int quadratic_terms = 10;
@@ -83,7 +91,7 @@ inline Lanes
 squareRoot(const Lanes& a)
 {
   Lanes root;
-  for (std::size_t lane = 0; lane < fit_lanes; ++lane)
+  for (std::size_t lane = 0; lane < register_lanes; ++lane)
     root[lane] = std::sqrt(a[lane]);
   return root;
 }
@@ -120,12 +128,12 @@ struct NormalEquations {
   Mask quadratic_regular, cubic_regular;
 
   void
-  accumulate(const FitSample* samples, std::size_t count)
+  accumulate(const FitSample* samples, std::size_t count, std::size_t first)
   {
     for (std::size_t j = 0; j < count; ++j) {
-      const Lanes x = load(samples[j].x), y = load(samples[j].y),
-                  z = load(samples[j].z);
-      const Lanes value = load(samples[j].value);
+      const Lanes x = load(samples[j].x + first), y = load(samples[j].y + first),
+                  z = load(samples[j].z + first);
+      const Lanes value = load(samples[j].value + first);
       Lanes term[moment_count];
       evaluateMonomials<moment_count>(weightOf(x, y, z), x, y, z, term);
 #pragma GCC unroll 84
@@ -234,28 +242,33 @@ evaluateHessian(
 }
 
 Lanes
-squaredResiduals(const FitSample* samples, std::size_t count, const Lanes* coefficient)
+squaredResiduals(const FitSample* samples,
+                 std::size_t count,
+                 std::size_t first,
+                 const Lanes* coefficient)
 {
   Lanes sum{};
   for (std::size_t j = 0; j < count; ++j) {
-    const Lanes x = load(samples[j].x), y = load(samples[j].y), z = load(samples[j].z);
-    const Lanes residual = load(samples[j].value) - evaluate(coefficient, x, y, z);
+    const Lanes x = load(samples[j].x + first), y = load(samples[j].y + first),
+                z = load(samples[j].z + first);
+    const Lanes residual =
+        load(samples[j].value + first) - evaluate(coefficient, x, y, z);
     sum += weightOf(x, y, z) * residual * residual;
   }
   return sum;
 }
 
-} // namespace
-
+/** The fits of one register, from the given lane on. */
 void
-fitZeroLevel(const FitSample* samples,
-             std::size_t count,
-             const int* weighted,
-             FitResult& result)
+fitRegister(const FitSample* samples,
+            std::size_t count,
+            const int* weighted,
+            std::size_t first,
+            FitResult& result)
 {
   const Lanes zero{}, one = zero + 1.0;
   NormalEquations equations;
-  equations.accumulate(samples, count);
+  equations.accumulate(samples, count, first);
   equations.factorize();
 
   Lanes reduced[cubic_terms];
@@ -267,12 +280,12 @@ fitZeroLevel(const FitSample* samples,
   equations.backward(reduced, quadratic_terms, quadratic);
 
   // Squared residuals of the quadratic: what the cubic terms explain comes on top.
-  const Lanes cubic_residuals = squaredResiduals(samples, count, coefficient);
+  const Lanes cubic_residuals = squaredResiduals(samples, count, first, coefficient);
   const Lanes quadratic_residuals =
       cubic_residuals + sumOfSquares(reduced, quadratic_terms, cubic_terms);
   Lanes neighbors;
-  for (std::size_t lane = 0; lane < fit_lanes; ++lane)
-    neighbors[lane] = weighted[lane];
+  for (std::size_t lane = 0; lane < register_lanes; ++lane)
+    neighbors[lane] = weighted[first + lane];
   const Lanes cubic_variance = cubic_residuals / (neighbors - cubic_terms);
   const Lanes quadratic_variance = quadratic_residuals / (neighbors - quadratic_terms);
 
@@ -316,21 +329,33 @@ fitZeroLevel(const FitSample* samples,
       sumOfSquares(influence, 0, quadratic_terms) +
       (is_cubic ? sumOfSquares(influence, quadratic_terms, cubic_terms) : zero);
   const Lanes variance = is_cubic ? cubic_variance : quadratic_variance;
-  store(x, result.offset[0]);
-  store(y, result.offset[1]);
-  store(z, result.offset[2]);
+  store(x, result.offset[0] + first);
+  store(y, result.offset[1] + first);
+  store(z, result.offset[2] + first);
   for (int axis = 0; axis < 3; ++axis)
-    store(gradient[axis], result.gradient[axis]);
+    store(gradient[axis], result.gradient[axis] + first);
   for (int i = 0; i < 6; ++i)
-    store(hessian[i], result.hessian[i]);
-  store(squareRoot(leverage * variance) / slope, result.error);
+    store(hessian[i], result.hessian[i] + first);
+  store(squareRoot(leverage * variance) / slope, result.error + first);
   store(squareRoot((is_cubic ? cubic_residuals : quadratic_residuals) /
                    equations.moment[0]),
-        result.residual);
-  for (std::size_t lane = 0; lane < fit_lanes; ++lane)
-    result.order[lane] = !found[lane]     ? fit_failed
-                         : is_cubic[lane] ? fit_cubic
-                                          : fit_quadratic;
+        result.residual + first);
+  for (std::size_t lane = 0; lane < register_lanes; ++lane)
+    result.order[first + lane] = !found[lane]     ? fit_failed
+                                 : is_cubic[lane] ? fit_cubic
+                                                  : fit_quadratic;
+}
+
+} // namespace
+
+void
+fitZeroLevel(const FitSample* samples,
+             std::size_t count,
+             const int* weighted,
+             FitResult& result)
+{
+  for (std::size_t first = 0; first < fit_lanes; first += register_lanes)
+    fitRegister(samples, count, weighted, first, result);
 }
 
 } // namespace pcl_uvol::PCL_UVOL_SIMD

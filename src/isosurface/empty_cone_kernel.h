@@ -7,8 +7,8 @@
 
 namespace pcl_uvol {
 
-/** Directions per step, whatever the instruction set. */
-constexpr std::size_t cone_lanes = 16;
+/** Directions that are looked into: a multiple of every register's width. */
+constexpr std::size_t cone_directions = 80;
 
 /** \brief Unit vectors, coordinate by coordinate. */
 struct UnitVectors {
@@ -18,21 +18,21 @@ struct UnitVectors {
 
 /** \brief Of all directions the one that is farthest from any neighbour: the cosine of
  * its angle to the nearest one; -1 without neighbours.
- * \param directions aligned to 64 bytes, their count a multiple of cone_lanes */
-using EmptyConeKernel = float (*)(const UnitVectors& directions,
+ * \param directions unit vectors: all x, all y, all z; aligned to 64 bytes */
+using EmptyConeKernel = float (*)(const float (*directions)[cone_directions],
                                   const UnitVectors& neighbors);
 
 namespace baseline {
 float
-emptiestCone(const UnitVectors&, const UnitVectors&);
+emptiestCone(const float (*)[cone_directions], const UnitVectors&);
 }
 namespace avx2 {
 float
-emptiestCone(const UnitVectors&, const UnitVectors&);
+emptiestCone(const float (*)[cone_directions], const UnitVectors&);
 }
 namespace avx512 {
 float
-emptiestCone(const UnitVectors&, const UnitVectors&);
+emptiestCone(const float (*)[cone_directions], const UnitVectors&);
 }
 
 } // namespace pcl_uvol

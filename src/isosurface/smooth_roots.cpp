@@ -52,9 +52,10 @@ const KernelTable<EmptyConeKernel> cone_kernels{
     baseline::emptiestCone, avx2::emptiestCone, avx512::emptiestCone};
 
 /** The 74 directions of small whole numbers, about 15 degrees apart, and six of them
- * once more to fill the lanes. */
-class ConeDirections {
-public:
+ * once more to fill the table. */
+struct ConeDirections {
+  alignas(64) float x[3][cone_directions];
+
   ConeDirections()
   {
     std::size_t count = 0;
@@ -66,24 +67,14 @@ public:
           if (!primitive || sq_length == 9)
             continue;
           const float length = std::sqrt(static_cast<float>(sq_length));
-          x_[0][count] = static_cast<float>(a) / length;
-          x_[1][count] = static_cast<float>(b) / length;
-          x_[2][count++] = static_cast<float>(c) / length;
+          x[0][count] = static_cast<float>(a) / length;
+          x[1][count] = static_cast<float>(b) / length;
+          x[2][count++] = static_cast<float>(c) / length;
         }
-    for (std::size_t i = 0; count < direction_count; ++i, ++count)
-      for (auto& coordinate : x_)
+    for (std::size_t i = 0; count < cone_directions; ++i, ++count)
+      for (auto& coordinate : x)
         coordinate[count] = coordinate[i];
   }
-
-  UnitVectors
-  get() const
-  {
-    return {x_[0].data(), x_[1].data(), x_[2].data(), direction_count};
-  }
-
-private:
-  static constexpr std::size_t direction_count = 80;
-  alignas(64) std::array<std::array<float, direction_count>, 3> x_;
 };
 
 /** The neighbourhood of one isopoint, beside what the fit is made from. */
@@ -114,6 +105,10 @@ public:
   void
   smooth(PointIso* points, IsoEdge* edges, std::size_t count, Outcome* outcomes)
   {
+    Position centers[fit_lanes];
+    for (std::size_t lane = 0; lane < count; ++lane)
+      centers[lane] = centerOf(points[lane]);
+    finder_.expect(centers, count);
     Surroundings surroundings[fit_lanes];
     int weighted[fit_lanes] = {};
     for (std::size_t lane = 0; lane < fit_lanes; ++lane)
@@ -133,6 +128,14 @@ public:
   }
 
 private:
+  /** The linear root in the stretched space. */
+  Position
+  centerOf(const PointIso& point) const
+  {
+    const Position& scale = input_.samples.getScale();
+    return {{point.x * scale[0], point.y * scale[1], point.z * scale[2]}};
+  }
+
   /** Leave a lane without samples from the given one on. */
   int
   clear(std::size_t lane, std::size_t first)
@@ -149,10 +152,8 @@ private:
   int
   gather(const PointIso& point, std::size_t lane, Surroundings& surroundings)
   {
-    const Position& scale = input_.samples.getScale();
-    Position& center = surroundings.center;
-    center = {{point.x * scale[0], point.y * scale[1], point.z * scale[2]}};
-    const auto& neighbors = finder_.find(center, point.edge_length);
+    const Position& center = surroundings.center = centerOf(point);
+    const auto neighbors = finder_.find(center, point.edge_length);
     const auto& positions = input_.samples.getPositions();
     float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
     for (const auto& neighbor : neighbors) {
@@ -195,8 +196,9 @@ private:
   IsoSupport
   supportOf(double edge_length, double nearest, double radius, std::size_t directions)
   {
+    static const ConeDirections cone_directions;
     const float cosine = cone_(
-        cone_directions_.get(),
+        cone_directions.x,
         {direction_[0].data(), direction_[1].data(), direction_[2].data(), directions});
     if (cosine >= empty_cone && nearest <= empty_ball * radius)
       return IsoSupport::Measured;
@@ -294,7 +296,6 @@ private:
   NearestFinder finder_;
   std::vector<FitSample> samples_;
   std::array<std::array<float, fitted_samples + 1>, 3> direction_{};
-  ConeDirections cone_directions_;
   FitKernel fit_;
   EmptyConeKernel cone_;
 };

@@ -5,46 +5,45 @@
 
 namespace pcl_uvol {
 
-double
-AngleFilter::dot(const Sight& a, const Sight& b)
-{
-  return a.direction[0] * b.direction[0] + a.direction[1] * b.direction[1] +
-         a.direction[2] * b.direction[2];
-}
-
 void
 AngleFilter::apply(std::uint32_t sample, std::vector<std::uint32_t>& candidates)
 {
   // Double: differences of floats and their squares neither overflow nor lose ties.
   const Position& x = positions_[sample];
-  sights_.resize(candidates.size());
-  keys_.resize(candidates.size());
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-    Sight& sight = sights_[i];
-    for (int axis = 0; axis < 3; ++axis)
-      sight.direction[axis] =
-          static_cast<double>(positions_[candidates[i]][axis]) - x[axis];
-    sight.sq_dist = dot(sight, sight);
-    keys_[i] = {sight.sq_dist, candidates[i], i};
+  if (sights_.size() < candidates.size())
+    sights_.resize(candidates.size());
+  Sight* const open = sights_.data();
+  Sight* end = open;
+  for (const std::uint32_t candidate : candidates) {
+    const Position& y = positions_[candidate];
+    const double dx = static_cast<double>(y[0]) - x[0];
+    const double dy = static_cast<double>(y[1]) - x[1];
+    const double dz = static_cast<double>(y[2]) - x[2];
+    *end++ = {dx, dy, dz, dx * dx + dy * dy + dz * dz, candidate, 0};
   }
-  std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
-    return a.sq_dist != b.sq_dist ? a.sq_dist < b.sq_dist : a.index < b.index;
-  });
 
+  // The nearest of the open candidates judges the others, which are all farther.
+  const std::uint32_t out = criterion_ == AngleCriterion::Kept ? 1 : 2;
   candidates.clear();
-  judges_.clear();
-  for (const Key& key : keys_) {
-    const Sight& y = sights_[key.position];
-    const bool hidden =
-        std::any_of(judges_.begin(), judges_.end(), [&](const Sight& z) {
-          // cos > sqrt(1/3), squared to save the roots
-          const double product = dot(y, z);
-          return product > 0.0 && 3.0 * product * product > y.sq_dist * z.sq_dist;
-        });
-    if (!hidden)
-      candidates.push_back(key.index);
-    if (!hidden || criterion_ == AngleCriterion::All)
-      judges_.push_back(y);
+  while (end != open) {
+    const Sight* nearest = open;
+    for (const Sight* sight = open + 1; sight != end; ++sight)
+      nearest = sight->isBefore(*nearest) ? sight : nearest;
+    const Sight judge = *nearest;
+    if (judge.hidden == 0)
+      candidates.push_back(judge.index);
+    Sight* kept = open;
+    for (const Sight* sight = open; sight != end; ++sight) {
+      Sight next = *sight;
+      // cos > sqrt(1/3), squared to save the roots
+      const double product = next.x * judge.x + next.y * judge.y + next.z * judge.z;
+      next.hidden |= static_cast<std::uint32_t>(
+          (product > 0.0) & (3.0 * product * product > next.sq_dist * judge.sq_dist));
+      *kept = next;
+      // The judge hides itself, and goes whatever the criterion.
+      kept += static_cast<std::ptrdiff_t>((next.hidden < out) & (sight != nearest));
+    }
+    end = kept;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 namespace pcl_uvol {
 
@@ -146,29 +147,33 @@ KdTree::searchSubtree(const std::vector<Position>& positions,
                       const KdCell& cell,
                       std::vector<std::uint32_t>& touching) const
 {
-  // Each step replaces a node by at most its two children, so a path's length is
-  // enough.
-  KdNode stack[max_depth];
+  // Parallel to the separating plane only the half next to it can touch. An infinite
+  // extent of the cell says so without a branch: beyond all planes, or before them.
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  KdCell extent = cell;
+  const auto separating = static_cast<std::size_t>(separating_axis);
+  extent.low[separating] =
+      extent.high[separating] = {subtree_is_above ? -infinity : infinity, 0};
+  // A path leaves at most one half behind per level, and one more that is put down but
+  // not counted.
+  KdNode left_behind[max_depth + 1];
   int size = 0;
-  stack[size++] = subtree;
-  while (size > 0) {
-    const KdNode node = stack[--size];
-    if (node.isLeaf()) {
-      touching.push_back(node.begin);
-      continue;
+  for (KdNode node = subtree;;) {
+    while (!node.isLeaf()) {
+      const int axis = getAxis(node.depth);
+      const auto a = static_cast<std::size_t>(axis);
+      const SplitPlane& plane = getPlane(node);
+      // One of the halves touches at least.
+      const bool visit_right = isBelow(positions, axis, plane, extent.high[a]);
+      const bool visit_left = isBelow(positions, axis, extent.low[a], plane);
+      left_behind[size] = node.right();
+      size += static_cast<int>(visit_left & visit_right);
+      node = visit_left ? node.left() : node.right();
     }
-    const int axis = getAxis(node.depth);
-    if (axis == separating_axis) {
-      // Parallel to the separating plane: only the half next to it can touch.
-      stack[size++] = subtree_is_above ? node.left() : node.right();
-      continue;
-    }
-    const auto a = static_cast<std::size_t>(axis);
-    const SplitPlane& plane = getPlane(node);
-    if (isBelow(positions, axis, plane, cell.high[a]))
-      stack[size++] = node.right();
-    if (isBelow(positions, axis, cell.low[a], plane))
-      stack[size++] = node.left();
+    touching.push_back(node.begin);
+    if (size == 0)
+      return;
+    node = left_behind[--size];
   }
 }
 

@@ -47,7 +47,7 @@ bruteForce(const SampleSet& samples, const Position& point, std::size_t k)
 }
 
 std::vector<std::uint32_t>
-indicesOf(const std::vector<NearestFinder::Neighbor>& neighbors)
+indicesOf(const NearestFinder::Row& neighbors)
 {
   std::vector<std::uint32_t> indices;
   for (const auto& neighbor : neighbors)
@@ -84,6 +84,22 @@ INSTANTIATE_TEST_SUITE_P(NearestFinder,
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });
+
+TEST_P(NearestFinderOnEveryShape, ExpectingPointsChangesNothing)
+{
+  const auto samples = buildSamples(*uvol_test::makeCloud(GetParam(), 2000, 6));
+  uvol_test::Random random(2);
+  NearestFinder finder(*samples, 20);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Position> points(8);
+    for (Position& point : points)
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] = 0.05f * static_cast<float>(i + random.uniform());
+    finder.expect(points.data(), points.size());
+    for (const Position& point : points)
+      ASSERT_EQ(bruteForce(*samples, point, 20), indicesOf(finder.find(point, 0.05f)));
+  }
+}
 
 TEST(NearestFinder, AnyStartGivesTheSame)
 {

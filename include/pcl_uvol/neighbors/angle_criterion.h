@@ -36,23 +36,21 @@ public:
 private:
   /** A candidate as seen from the sample; the direction is not normalised. */
   struct Sight {
-    double direction[3];
-    double sq_dist;
-  };
-  /** What candidates are sorted by, and where their sight is. */
-  struct Key {
-    double sq_dist;
+    double x, y, z, sq_dist;
     std::uint32_t index;
-    std::uint32_t position;
-  };
+    std::uint32_t hidden; ///< 1 if a closer candidate hides it
 
-  static double
-  dot(const Sight& a, const Sight& b);
+    bool
+    isBefore(const Sight& other) const
+    {
+      return (sq_dist < other.sq_dist) |
+             ((sq_dist == other.sq_dist) & (index < other.index));
+    }
+  };
 
   const std::vector<Position>& positions_;
   AngleCriterion criterion_;
-  std::vector<Sight> sights_, judges_; // workspace
-  std::vector<Key> keys_;              // workspace
+  std::vector<Sight> sights_; // workspace
 };
 
 } // namespace pcl_uvol

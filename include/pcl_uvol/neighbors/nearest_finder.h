@@ -24,6 +24,32 @@ public:
     std::uint32_t sample;
   };
 
+  /** \brief Neighbours in leaf order. */
+  struct Row {
+    const Neighbor *first, *last;
+
+    const Neighbor*
+    begin() const
+    {
+      return first;
+    }
+    const Neighbor*
+    end() const
+    {
+      return last;
+    }
+    std::size_t
+    size() const
+    {
+      return static_cast<std::size_t>(last - first);
+    }
+    const Neighbor&
+    operator[](std::size_t i) const
+    {
+      return first[i];
+    }
+  };
+
   /** \param samples must outlive the finder \param k >= 1 */
   NearestFinder(const SampleSet& samples, std::size_t k)
       : samples_(samples)
@@ -32,16 +58,20 @@ public:
   }
 
   /** \brief The k nearest, all samples where there are no more; of equally far ones
-   * those of lower index. In leaf order, valid until the next call. A sample at the
-   * point itself counts.
-   * \param length about the distance of a neighbour, > 0; it only sets where the first
-   * search starts */
-  const std::vector<Neighbor>&
+   * those of lower index. Valid until the next call. A sample at the point itself
+   * counts. \param length about the distance of a neighbour, > 0; it only sets where
+   * the first search starts */
+  Row
   find(const Position& point, float length);
+
+  /** \brief Prepare for points that are looked up next: close ones then share one box.
+   */
+  void
+  expect(const Position* points, std::size_t count);
 
 private:
   void
-  gather(const Position& center, float half_width);
+  gather(const Position& low, const Position& high, float margin);
 
   void
   gatherBelow(const KdNode& node);
@@ -51,6 +81,9 @@ private:
   marginAt(const Position& point) const;
 
   void
+  appendInside(std::uint32_t begin, std::uint32_t end);
+
+  void
   keepWithin(float sq_limit);
 
   void
@@ -58,14 +91,15 @@ private:
 
   const SampleSet& samples_;
   std::size_t k_;
-  std::vector<Neighbor> found_;
   float reach_ = 0.0f; ///< distance of the farthest neighbour found last
 
-  // Candidates: all samples in a box, and some more.
+  // Candidates: all samples in a box. Arrays keep their greatest size.
   Position low_{}, high_{};
-  float half_width_ = -1.0f;              ///< negative: there is no box yet
+  float margin_ = -1.0f; ///< of the box around its points; negative: there is none yet
+  std::size_t candidate_count_ = 0, found_count_ = 0;
   std::vector<std::uint32_t> candidates_; ///< ascending
   std::vector<float> x_[3], sq_dist_, ordered_;
+  std::vector<Neighbor> found_;
 };
 
 } // namespace pcl_uvol
