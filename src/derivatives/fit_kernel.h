@@ -16,7 +16,7 @@ struct alignas(64) FitSample {
   double x[fit_lanes], y[fit_lanes], z[fit_lanes]; ///< relative to the centre, divided
                                                    ///< by the radius of the support;
                                                    ///< length 1 and more has no weight
-  double value[fit_lanes]; ///< minus the isovalue
+  double value[fit_lanes];                         ///< minus the isovalue
 };
 
 /** \brief What became of a fit. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "empty_cone_kernel.h"
 
+#include <cmath>
+
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
@@ -26,20 +28,28 @@ load(const float* values)
 } // namespace
 
 float
-emptiestCone(const float (*directions)[cone_directions], const UnitVectors& neighbors)
+emptiestCone(const float (*directions)[cone_directions],
+             float* x,
+             float* y,
+             float* z,
+             std::size_t count)
 {
+  for (std::size_t j = 0; j < count; ++j) {
+    const float scale = 1.0f / std::sqrt(x[j] * x[j] + y[j] * y[j] + z[j] * z[j]);
+    x[j] *= scale;
+    y[j] *= scale;
+    z[j] *= scale;
+  }
   Lanes nearest[group];
   for (Lanes& cosine : nearest)
     cosine = Lanes{} - 1.0f;
-  for (std::size_t j = 0; j < neighbors.count; ++j) {
-    const float x = neighbors.x[j], y = neighbors.y[j], z = neighbors.z[j];
+  for (std::size_t j = 0; j < count; ++j)
     for (std::size_t i = 0; i < group; ++i) {
-      const Lanes cosine = load(directions[0] + i * register_lanes) * x +
-                           load(directions[1] + i * register_lanes) * y +
-                           load(directions[2] + i * register_lanes) * z;
+      const Lanes cosine = load(directions[0] + i * register_lanes) * x[j] +
+                           load(directions[1] + i * register_lanes) * y[j] +
+                           load(directions[2] + i * register_lanes) * z[j];
       nearest[i] = cosine > nearest[i] ? cosine : nearest[i];
     }
-  }
   float emptiest = 1.0f;
   for (const Lanes& cosine : nearest)
     for (std::size_t lane = 0; lane < register_lanes; ++lane)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pcl_uvol {
 
@@ -49,7 +50,7 @@ findEdges(const IsopointInput& input,
         }
         step.advance(end - begin);
       });
-  std::sort(edges.begin(), edges.end());
+  parallelSort(edges.begin(), edges.end(), input.threads, std::less<EdgeKey>());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
@@ -111,7 +112,7 @@ averageNormal(const std::vector<SampleRecord>& order,
 /** Keep the first of isopoints that fall together: edges that meet in a sample exactly
  * at the isovalue, or cross in one point, as on lattices. */
 std::size_t
-mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges)
+mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads)
 {
   std::vector<SampleRecord> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -122,7 +123,7 @@ mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges)
       return true;
     return !lessAlong(0, b.position, a.position) && a.input_index < b.input_index;
   };
-  std::sort(order.begin(), order.end(), less);
+  parallelSort(order.begin(), order.end(), threads, less);
   std::vector<std::uint8_t> is_kept(points.size(), 1);
   std::size_t merged = 0;
   for (std::size_t begin = 0; begin < order.size();) {
@@ -208,7 +209,7 @@ appendIsopoints(const IsopointInput& input,
     });
     report.count("crossing_samples", crossing.size());
     report.count("edges", keys.size());
-    report.count("coincident", mergeCoincident(points, point_edges));
+    report.count("coincident", mergeCoincident(points, point_edges, input.threads));
   }
   if (input.interpolation == Interpolation::Smooth)
     smoothIsopoints(input, isovalue, points, point_edges, report);

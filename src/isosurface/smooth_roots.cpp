@@ -8,8 +8,6 @@
 #include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -163,7 +161,6 @@ private:
     surroundings.radius = std::sqrt(static_cast<double>(sq_farthest));
     const double per_radius = 1.0 / surroundings.radius;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    std::size_t directions = 0;
     for (std::size_t j = 0; j < neighbors.size(); ++j) {
       const Position& x = positions[neighbors[j].sample];
       const double d[3] = {(static_cast<double>(x[0]) - center[0]) * per_radius,
@@ -177,13 +174,13 @@ private:
       samples_[j].value[lane] = value;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
-      const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-      if (length > 0.0) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          direction_[axis][directions] = static_cast<float>(d[axis] / length);
-        ++directions;
-      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        direction_[axis][j] = static_cast<float>(d[axis]);
     }
+    const std::size_t directions =
+        (neighbors.size() + cone_lanes - 1) / cone_lanes * cone_lanes;
+    for (auto& coordinate : direction_)
+      std::fill(coordinate + neighbors.size(), coordinate + directions, 0.0f);
     clear(lane, neighbors.size());
     surroundings.value_range = highest - lowest;
     surroundings.support = supportOf(point.edge_length,
@@ -198,8 +195,7 @@ private:
   {
     static const ConeDirections cone_directions;
     const float cosine = cone_(
-        cone_directions.x,
-        {direction_[0].data(), direction_[1].data(), direction_[2].data(), directions});
+        cone_directions.x, direction_[0], direction_[1], direction_[2], directions);
     if (cosine >= empty_cone && nearest <= empty_ball * radius)
       return IsoSupport::Measured;
     return edge_length > bridging_edge * radius ? IsoSupport::Bridged : IsoSupport::Rim;
@@ -295,7 +291,9 @@ private:
   double isovalue_;
   NearestFinder finder_;
   std::vector<FitSample> samples_;
-  std::array<std::array<float, fitted_samples + 1>, 3> direction_{};
+  // to the neighbours, filled up to whole lanes
+  alignas(
+      64) float direction_[3][(fitted_samples + cone_lanes) / cone_lanes * cone_lanes];
   FitKernel fit_;
   EmptyConeKernel cone_;
 };

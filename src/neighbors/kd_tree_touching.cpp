@@ -38,17 +38,20 @@ public:
     if (node.isLeaf() || !crosses(ranges_[node], ranges_[node]))
       return;
     const int axis = tree_.getAxis(node.depth);
-    const auto [left_cell, right_cell] = halves(node, cell);
     const KdNode left = node.left(), right = node.right();
-    const auto search_left = [&, &cell_of = left_cell] { within(left, cell_of); };
-    const auto search_right = [&, &cell_of = right_cell] { within(right, cell_of); };
+    KdCell left_cell = cell, right_cell = cell;
+    left_cell.high[static_cast<std::size_t>(axis)] = tree_.getPlane(node);
+    right_cell.low[static_cast<std::size_t>(axis)] = tree_.getPlane(node);
+    const auto search_left = [&] { within(left, left_cell); };
+    const auto search_right = [&] { within(right, right_cell); };
     if (node.count < task_samples) {
       search_left();
       search_right();
     }
     else
       TaskGroup::fork(search_left, search_right);
-    across(left, left_cell, right, right_cell, axis);
+    if (crosses(ranges_[left], ranges_[right]))
+      across(left, left_cell, right, right_cell, axis);
   }
 
   std::vector<std::uint32_t>
@@ -75,27 +78,17 @@ private:
     return std::min(a.min, b.min) < isovalue_ && std::max(a.max, b.max) >= isovalue_;
   }
 
-  std::pair<KdCell, KdCell>
-  halves(const KdNode& node, const KdCell& cell) const
-  {
-    const auto axis = static_cast<std::size_t>(tree_.getAxis(node.depth));
-    std::pair<KdCell, KdCell> result{cell, cell};
-    result.first.high[axis] = result.second.low[axis] = tree_.getPlane(node);
-    return result;
-  }
-
   /** All pairs of a sample in lower and one in upper, two touching nodes that a plane
-   * of the given axis parts. The larger node is split; halves that do not touch the
-   * other node are left out by the same tests as in Table 2.3. */
+   * of the given axis parts and whose common range holds the isovalue. The larger node
+   * is split; halves that do not touch the other node are left out by the same tests as
+   * in Table 2.3. Cells are as they were when it returns. */
   void
   across(const KdNode& lower,
-         const KdCell& lower_cell,
+         KdCell& lower_cell,
          const KdNode& upper,
-         const KdCell& upper_cell,
+         KdCell& upper_cell,
          int separating_axis)
   {
-    if (!crosses(ranges_[lower], ranges_[upper]))
-      return;
     if (lower.isLeaf() && upper.isLeaf()) {
       is_crossing_[lower.begin].store(true, std::memory_order_relaxed);
       is_crossing_[upper.begin].store(true, std::memory_order_relaxed);
@@ -103,31 +96,31 @@ private:
     }
     const bool split_lower = lower.count >= upper.count;
     const KdNode& node = split_lower ? lower : upper;
+    const KdNode& other = split_lower ? upper : lower;
+    KdCell& cell = split_lower ? lower_cell : upper_cell;
     const KdCell& other_cell = split_lower ? upper_cell : lower_cell;
     const int axis = tree_.getAxis(node.depth);
     const auto a = static_cast<std::size_t>(axis);
-    const auto [left_cell, right_cell] =
-        halves(node, split_lower ? lower_cell : upper_cell);
-    bool visit_left, visit_right;
-    if (axis == separating_axis) {
-      visit_right = split_lower;
-      visit_left = !split_lower;
-    }
-    else {
-      const SplitPlane& plane = tree_.getPlane(node);
-      visit_left = tree_.isBelow(positions_, axis, other_cell.low[a], plane);
-      visit_right = tree_.isBelow(positions_, axis, plane, other_cell.high[a]);
-    }
-    const auto visit = [&](const KdNode& half, const KdCell& half_cell) {
+    const SplitPlane& plane = tree_.getPlane(node);
+    const bool parallel = axis == separating_axis;
+    const auto visit = [&](const KdNode& half, SplitPlane& bound) {
+      if (!crosses(ranges_[half], ranges_[other]))
+        return;
+      const SplitPlane outer = bound;
+      bound = plane;
       if (split_lower)
-        across(half, half_cell, upper, upper_cell, separating_axis);
+        across(half, lower_cell, upper, upper_cell, separating_axis);
       else
-        across(lower, lower_cell, half, half_cell, separating_axis);
+        across(lower, lower_cell, half, upper_cell, separating_axis);
+      bound = outer;
     };
-    if (visit_left)
-      visit(node.left(), left_cell);
-    if (visit_right)
-      visit(node.right(), right_cell);
+    // Parallel to the separating plane only the half next to it touches.
+    if (parallel ? !split_lower
+                 : tree_.isBelow(positions_, axis, other_cell.low[a], plane))
+      visit(node.left(), cell.high[a]);
+    if (parallel ? split_lower
+                 : tree_.isBelow(positions_, axis, plane, other_cell.high[a]))
+      visit(node.right(), cell.low[a]);
   }
 
   const KdTree& tree_;

@@ -16,8 +16,8 @@ constexpr std::uint32_t whole_subtree = 16;
 constexpr float expected_margin = 1.2f;
 /** Points farther apart, in multiples of the reach, are not worth a box in common. */
 constexpr float shared_extent = 3.0f;
-/** Squared distances up to this multiple of the last search's are tried first. */
-constexpr float sq_reach_hint = 1.3f;
+/** Guesses of a limit between two distances before they are taken for equal. */
+constexpr int most_guesses = 16;
 /** Room for rounding, where a box must not be too small by one bit. */
 constexpr float slack = 1.0001f;
 
@@ -108,26 +108,53 @@ NearestFinder::marginAt(const Position& point) const
   return margin;
 }
 
-void
-NearestFinder::keepWithin(float sq_limit)
+std::size_t
+NearestFinder::countWithin(float sq_limit) const
 {
-  found_.resize(std::max(found_.size(), candidate_count_));
   const float* const sq_dist = sq_dist_.data();
-  const std::uint32_t* const candidates = candidates_.data();
-  Neighbor* const found = found_.data();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    found[kept] = {sq_dist[i], candidates[i]};
-    kept += static_cast<std::size_t>(sq_dist[i] <= sq_limit);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < candidate_count_; ++i)
+    count += static_cast<std::uint32_t>(sq_dist[i] <= sq_limit);
+  return count;
+}
+
+float
+NearestFinder::limitOfNearest()
+{
+  // Counting is cheap and the number grows as the volume, so a few guesses find a limit
+  // between the k-th and the next distance; only equal distances leave no room for one.
+  float low = 0.0f, high = std::numeric_limits<float>::max();
+  float limit = reach_ * reach_;
+  const auto wanted = static_cast<float>(k_);
+  for (int guess = 0; guess < most_guesses; ++guess) {
+    const std::size_t count = countWithin(limit);
+    if (count == k_)
+      return limit;
+    (count < k_ ? low : high) = limit;
+    const float growth =
+        std::cbrt((wanted + 0.5f) / (static_cast<float>(count) + 0.5f));
+    limit *= growth * growth;
+    if (!(limit > low && limit < high))
+      limit =
+          high == std::numeric_limits<float>::max() ? 2.0f * low : 0.5f * (low + high);
+    if (!(limit > low && limit < high))
+      break;
   }
-  found_count_ = kept;
+  ordered_.assign(sq_dist_.begin(),
+                  sq_dist_.begin() + static_cast<std::ptrdiff_t>(candidate_count_));
+  const auto last = ordered_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+  std::nth_element(ordered_.begin(), last, ordered_.end());
+  return *last;
 }
 
 void
 NearestFinder::select(const Position& point)
 {
   const std::size_t count = candidate_count_;
-  sq_dist_.resize(std::max(sq_dist_.size(), candidates_.size()));
+  if (found_.size() < candidates_.size()) {
+    sq_dist_.resize(candidates_.size());
+    found_.resize(candidates_.size());
+  }
   const float px = point[0], py = point[1], pz = point[2];
   const float *x = x_[0].data(), *y = x_[1].data(), *z = x_[2].data();
   float* const sq_dist = sq_dist_.data();
@@ -135,29 +162,21 @@ NearestFinder::select(const Position& point)
     const float dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
     sq_dist[i] = dx * dx + dy * dy + dz * dz;
   }
-  // Most candidates are far: try those within the reach of the last search first.
-  keepWithin(sq_reach_hint * reach_ * reach_);
-  if (found_count_ < k_)
-    keepWithin(std::numeric_limits<float>::infinity());
-  if (found_count_ <= k_)
-    return;
-  // The k-th distance; of equal ones the lower indices stay.
-  ordered_.resize(std::max(ordered_.size(), found_count_));
-  for (std::size_t i = 0; i < found_count_; ++i)
-    ordered_[i] = found_[i].sq_dist;
-  const auto first = ordered_.begin();
-  const auto last = first + static_cast<std::ptrdiff_t>(k_ - 1);
-  std::nth_element(first, last, first + static_cast<std::ptrdiff_t>(found_count_));
-  const float limit = *last;
-  auto ties = std::count(first, last + 1, limit);
+  const float limit =
+      count <= k_ ? std::numeric_limits<float>::infinity() : limitOfNearest();
+  const std::uint32_t* const candidates = candidates_.data();
+  Neighbor* const found = found_.data();
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < found_count_; ++i) {
-    const Neighbor neighbor = found_[i];
-    found_[kept] = neighbor;
-    const bool tie = neighbor.sq_dist == limit && ties > 0;
-    ties -= static_cast<int>(tie);
-    kept += static_cast<std::size_t>(neighbor.sq_dist < limit || tie);
+  for (std::size_t i = 0; i < count; ++i) {
+    found[kept] = {sq_dist[i], candidates[i]};
+    kept += static_cast<std::size_t>(sq_dist[i] <= limit);
   }
+  // Of neighbours equally far as the k-th the lower indices stay.
+  for (std::size_t i = kept; kept > k_; --i)
+    if (found[i - 1].sq_dist == limit) {
+      std::copy(found + i, found + kept, found + i - 1);
+      --kept;
+    }
   found_count_ = kept;
 }
 

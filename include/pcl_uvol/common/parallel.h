@@ -6,6 +6,7 @@
 
 #include <pcl_uvol/common/export.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -58,6 +59,25 @@ parallelGather(std::size_t count, std::size_t block, unsigned threads, const Bod
   for (const auto& part : parts)
     joined.insert(joined.end(), part.begin(), part.end());
   return joined;
+}
+
+/** \brief Sort by a strict total order, so that the result is the same for any number
+ * of threads. */
+template <typename Iterator, typename Less>
+void
+parallelSort(Iterator first, Iterator last, unsigned threads, const Less& less)
+{
+  // Below this many elements sorting costs less than forking.
+  constexpr std::ptrdiff_t block = 1 << 13;
+  const std::function<void(Iterator, Iterator)> sort = [&](Iterator begin,
+                                                           Iterator end) {
+    if (end - begin <= block)
+      return std::sort(begin, end, less);
+    const Iterator middle = begin + (end - begin) / 2;
+    TaskGroup::fork([&] { sort(begin, middle); }, [&] { sort(middle, end); });
+    std::inplace_merge(begin, middle, end, less);
+  };
+  TaskGroup::run(threads, [&] { sort(first, last); });
 }
 
 } // namespace pcl_uvol

@@ -83,8 +83,14 @@ private:
   void
   appendInside(std::uint32_t begin, std::uint32_t end);
 
-  void
-  keepWithin(float sq_limit);
+  std::size_t
+  countWithin(float sq_limit) const;
+
+  /** A squared distance that k candidates do not exceed, or more if the k-th has
+   * equals.
+   */
+  float
+  limitOfNearest();
 
   void
   select(const Position& point);
