@@ -21,7 +21,8 @@ using Mask = decltype(Lanes{} < Lanes{});
 
 constexpr int quadratic_terms = 10;
 constexpr int cubic_terms = 20;
-constexpr int moment_count = 84; // monomials up to degree 6: products of two cubic ones
+constexpr int degree = 3;
+constexpr int moment_count = 84; // monomials up to twice the degree: products of terms
 constexpr int newton_steps = 6;
 
 /** Of a term's own diagonal entry: a smaller pivot is rounding, and the term cannot be
@@ -35,41 +36,33 @@ constexpr double converged_step = 1e-7;
 /** Monomials x^a y^b z^c by degree, then falling powers of x and y; those of a lower
  * degree come first, so that the quadratic fit is the leading part of the cubic one. */
 struct Monomials {
-  int power[moment_count][3]{};
-  int parent[moment_count]{}; ///< the monomial without one factor ...
-  int axis[moment_count]{};   ///< ... and the coordinate that this factor is
+  int index[2 * degree + 1][2 * degree + 1][2 * degree + 1]{}; ///< by the three powers
+  int parent[cubic_terms]{}; ///< the term without one factor ...
+  int axis[cubic_terms]{};   ///< ... and the coordinate that this factor is
   int product[cubic_terms][cubic_terms]{};
-
-  constexpr int
-  find(int a, int b, int c) const
-  {
-    for (int i = 0; i < moment_count; ++i)
-      if (power[i][0] == a && power[i][1] == b && power[i][2] == c)
-        return i;
-    return -1;
-  }
 
   constexpr Monomials()
   {
-    int i = 0;
-    for (int degree = 0; degree <= 6; ++degree)
-      for (int a = degree; a >= 0; --a)
-        for (int b = degree - a; b >= 0; --b, ++i) {
-          power[i][0] = a;
-          power[i][1] = b;
-          power[i][2] = degree - a - b;
+    int power[moment_count][3]{};
+    int count = 0;
+    for (int sum = 0; sum <= 2 * degree; ++sum)
+      for (int a = sum; a >= 0; --a)
+        for (int b = sum - a; b >= 0; --b) {
+          index[a][b][sum - a - b] = count;
+          power[count][0] = a;
+          power[count][1] = b;
+          power[count++][2] = sum - a - b;
         }
-    for (i = 1; i < moment_count; ++i) {
-      axis[i] = power[i][0] > 0 ? 0 : power[i][1] > 0 ? 1 : 2;
-      parent[i] = find(power[i][0] - (axis[i] == 0),
-                       power[i][1] - (axis[i] == 1),
-                       power[i][2] - (axis[i] == 2));
+    for (int i = 1; i < cubic_terms; ++i) {
+      const int* const p = power[i];
+      axis[i] = p[0] > 0 ? 0 : p[1] > 0 ? 1 : 2;
+      parent[i] =
+          index[p[0] - (axis[i] == 0)][p[1] - (axis[i] == 1)][p[2] - (axis[i] == 2)];
     }
-    for (i = 0; i < cubic_terms; ++i)
+    for (int i = 0; i < cubic_terms; ++i)
       for (int j = 0; j < cubic_terms; ++j)
-        product[i][j] = find(power[i][0] + power[j][0],
-                             power[i][1] + power[j][1],
-                             power[i][2] + power[j][2]);
+        product[i][j] = index[power[i][0] + power[j][0]][power[i][1] + power[j][1]]
+                             [power[i][2] + power[j][2]];
   }
 };
 
@@ -97,51 +90,78 @@ squareRoot(const Lanes& a)
 }
 
 inline Lanes
-weightOf(const Lanes& x, const Lanes& y, const Lanes& z)
+atLeastZero(const Lanes& a)
 {
   const Lanes zero{};
-  const Lanes rest = 1.0 - (x * x + y * y + z * z);
-  const Lanes positive = rest > zero ? rest : zero;
-  return positive * positive;
+  return a > zero ? a : zero;
 }
 
-/** All monomials up to a count, times a factor. */
-template <int count>
+/** The terms of a cubic. */
 inline void
-evaluateMonomials(
-    const Lanes& factor, const Lanes& x, const Lanes& y, const Lanes& z, Lanes* value)
+evaluateTerms(const Lanes& x, const Lanes& y, const Lanes& z, Lanes* value)
 {
-  value[0] = factor;
-#pragma GCC unroll 84
-  for (int i = 1; i < count; ++i)
+  value[0] = Lanes{} + 1.0;
+#pragma GCC unroll 20
+  for (int i = 1; i < cubic_terms; ++i)
     value[i] = value[monomials.parent[i]] * (monomials.axis[i] == 0   ? x
                                              : monomials.axis[i] == 1 ? y
                                                                       : z);
 }
 
+/** A sample of every fit, and its weight. */
+struct Term {
+  Lanes x, y, z, value, weight;
+
+  Term(const FitSample& sample, std::size_t first)
+      : x(load(sample.x + first))
+      , y(load(sample.y + first))
+      , z(load(sample.z + first))
+      , value(load(sample.value + first))
+  {
+    const Lanes rest = atLeastZero(1.0 - (x * x + y * y + z * z));
+    weight = rest * rest;
+  }
+};
+
 /** The normal equations of the cubic fit and their Cholesky factor, row by row. */
 struct NormalEquations {
   Lanes moment[moment_count]{};
   Lanes right[cubic_terms]{};
+  Lanes squares{};                        // of the values
   Lanes factor[cubic_terms][cubic_terms]; // lower triangle
   Lanes inverse_pivot[cubic_terms];
   Mask quadratic_regular, cubic_regular;
 
+  /** Two samples at a time, for half the traffic of the sums; along x in registers. */
   void
   accumulate(const FitSample* samples, std::size_t count, std::size_t first)
   {
-    for (std::size_t j = 0; j < count; ++j) {
-      const Lanes x = load(samples[j].x + first), y = load(samples[j].y + first),
-                  z = load(samples[j].z + first);
-      const Lanes value = load(samples[j].value + first);
-      Lanes term[moment_count];
-      evaluateMonomials<moment_count>(weightOf(x, y, z), x, y, z, term);
-#pragma GCC unroll 84
-      for (int i = 0; i < moment_count; ++i)
-        moment[i] += term[i];
-#pragma GCC unroll 20
-      for (int i = 0; i < cubic_terms; ++i)
-        right[i] += term[i] * value;
+    for (std::size_t j = 0; j < count; j += 2) {
+      const Term one(samples[j], first), two(samples[j + 1], first);
+      squares +=
+          one.weight * one.value * one.value + two.weight * two.value * two.value;
+      Lanes one_z = one.weight, two_z = two.weight;
+#pragma GCC unroll 7
+      for (int c = 0; c <= 2 * degree; ++c) {
+        Lanes one_yz = one_z, two_yz = two_z;
+#pragma GCC unroll 7
+        for (int b = 0; b <= 2 * degree - c; ++b) {
+          Lanes one_xyz = one_yz, two_xyz = two_yz;
+#pragma GCC unroll 7
+          for (int a = 0; a <= 2 * degree - c - b; ++a) {
+            const int i = monomials.index[a][b][c];
+            moment[i] += one_xyz + two_xyz;
+            if (a + b + c <= degree)
+              right[i] += one_xyz * one.value + two_xyz * two.value;
+            one_xyz *= one.x;
+            two_xyz *= two.x;
+          }
+          one_yz *= one.y;
+          two_yz *= two.y;
+        }
+        one_z *= one.z;
+        two_z *= two.z;
+      }
     }
   }
 
@@ -205,9 +225,8 @@ sumOfSquares(const Lanes* values, int begin, int end)
 inline Lanes
 evaluate(const Lanes* coefficient, const Lanes& x, const Lanes& y, const Lanes& z)
 {
-  const Lanes one = Lanes{} + 1.0;
   Lanes term[cubic_terms];
-  evaluateMonomials<cubic_terms>(one, x, y, z, term);
+  evaluateTerms(x, y, z, term);
   Lanes sum = coefficient[0];
   for (int i = 1; i < cubic_terms; ++i)
     sum += coefficient[i] * term[i];
@@ -241,23 +260,6 @@ evaluateHessian(
   hessian[5] = 2.0 * (c[9] + c[15] * x + c[18] * y + 3.0 * c[19] * z);
 }
 
-Lanes
-squaredResiduals(const FitSample* samples,
-                 std::size_t count,
-                 std::size_t first,
-                 const Lanes* coefficient)
-{
-  Lanes sum{};
-  for (std::size_t j = 0; j < count; ++j) {
-    const Lanes x = load(samples[j].x + first), y = load(samples[j].y + first),
-                z = load(samples[j].z + first);
-    const Lanes residual =
-        load(samples[j].value + first) - evaluate(coefficient, x, y, z);
-    sum += weightOf(x, y, z) * residual * residual;
-  }
-  return sum;
-}
-
 /** The fits of one register, from the given lane on. */
 void
 fitRegister(const FitSample* samples,
@@ -279,10 +281,12 @@ fitRegister(const FitSample* samples,
   equations.backward(reduced, cubic_terms, coefficient);
   equations.backward(reduced, quadratic_terms, quadratic);
 
-  // Squared residuals of the quadratic: what the cubic terms explain comes on top.
-  const Lanes cubic_residuals = squaredResiduals(samples, count, first, coefficient);
+  // Squared residuals are what the terms leave of the squares. The difference is good
+  // to 1e-7 of the values' range, where single precision of the values ends.
   const Lanes quadratic_residuals =
-      cubic_residuals + sumOfSquares(reduced, quadratic_terms, cubic_terms);
+      atLeastZero(equations.squares - sumOfSquares(reduced, 0, quadratic_terms));
+  const Lanes cubic_residuals = atLeastZero(
+      quadratic_residuals - sumOfSquares(reduced, quadratic_terms, cubic_terms));
   Lanes neighbors;
   for (std::size_t lane = 0; lane < register_lanes; ++lane)
     neighbors[lane] = weighted[first + lane];
@@ -323,7 +327,7 @@ fitRegister(const FitSample* samples,
   const Mask found = (rest < converged_step) & (rest > -converged_step) &
                      (x * x + y * y + z * z < one) & (is_cubic | quadratic_possible);
 
-  evaluateMonomials<cubic_terms>(one, x, y, z, influence);
+  evaluateTerms(x, y, z, influence);
   equations.forward(influence);
   const Lanes leverage =
       sumOfSquares(influence, 0, quadratic_terms) +

@@ -41,7 +41,7 @@ struct alignas(64) FitResult {
  * terms that the polynomial lacks alike. A fit fails where the normal equations are
  * singular, no degree of freedom is left, or the zero level is not found within the
  * radius.
- * \param count neighbours per centre, those without weight included
+ * \param count neighbours per centre, those without weight included; even
  * \param weighted neighbours with a weight, per lane */
 using FitKernel = void (*)(const FitSample* samples,
                            std::size_t count,

@@ -55,8 +55,7 @@ findEdges(const IsopointInput& input,
   return edges;
 }
 
-/** Linear interpolation along the edge and the outside vector (2.4), from the positions
- * of the input cloud, not the stretched ones. */
+/** Linear interpolation along the edge and the outside vector (2.4). */
 void
 placeIsopoint(const IsopointInput& input,
               EdgeKey key,
@@ -69,22 +68,16 @@ placeIsopoint(const IsopointInput& input,
   const double fx = input.scalar.values[x], fy = input.scalar.values[y];
   const double t = (static_cast<double>(isovalue) - fx) / (fy - fx);
   const bool towards_second = (fy < fx) == (input.outside == Outside::Lower);
-  edge = {input.scalar.sources[x], input.scalar.sources[y], static_cast<float>(t)};
+  edge = {x, y, static_cast<float>(t)};
 
-  const float* const a = input.cloud.xyz(edge.first);
-  const float* const b = input.cloud.xyz(edge.second);
-  double direction[3], sq_length = 0.0;
+  const EdgeLine line(input.samples, edge);
   for (int axis = 0; axis < 3; ++axis) {
-    direction[axis] = static_cast<double>(b[axis]) - a[axis];
-    sq_length += direction[axis] * direction[axis];
-    point.data[axis] = static_cast<float>(a[axis] + t * direction[axis]);
+    point.data[axis] = static_cast<float>(line.start[axis] + t * line.direction[axis]);
+    point.data_n[axis] = static_cast<float>((towards_second ? 1.0 : -1.0) *
+                                            line.direction[axis] / line.length);
   }
-  const double length = std::sqrt(sq_length);
-  for (int axis = 0; axis < 3; ++axis)
-    point.data_n[axis] = static_cast<float>(
-        (towards_second ? direction[axis] : -direction[axis]) / length);
   point.isovalue = isovalue;
-  point.edge_length = static_cast<float>(length);
+  point.edge_length = static_cast<float>(line.length);
 }
 
 /** A merged isopoint looks to the mean of the outside vectors, or where the first one
@@ -151,6 +144,20 @@ mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads
 
 } // namespace
 
+EdgeLine::EdgeLine(const SampleSet& samples, const IsoEdge& edge)
+{
+  const Position &a = samples.getPositions()[edge.first],
+                 &b = samples.getPositions()[edge.second];
+  double sq_length = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double scale = samples.getScale()[axis];
+    start[axis] = a[axis] / scale;
+    direction[axis] = b[axis] / scale - start[axis];
+    sq_length += direction[axis] * direction[axis];
+  }
+  length = std::sqrt(sq_length);
+}
+
 SampleValues
 gatherValues(const SampleSet& samples,
              const std::vector<float>& input_values,
@@ -213,6 +220,10 @@ appendIsopoints(const IsopointInput& input,
   }
   if (input.interpolation == Interpolation::Smooth)
     smoothIsopoints(input, isovalue, points, point_edges, report);
+  for (IsoEdge& edge : point_edges) {
+    edge.first = input.scalar.sources[edge.first];
+    edge.second = input.scalar.sources[edge.second];
+  }
   isopoints.insert(isopoints.end(), points.begin(), points.end());
   edges.insert(edges.end(), point_edges.begin(), point_edges.end());
 }

@@ -126,7 +126,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   }
   const NodeRanges::Range range = ranges[samples_->getTree().getRoot()];
   const IsopointInput input{
-      cloud, *samples_, scalar, ranges, criterion_, outside_, interpolation_, threads_};
+      *samples_, scalar, ranges, criterion_, outside_, interpolation_, threads_};
   pcl::PointCloud<PointIso> found;
   IsoEdges edges;
   for (const double isovalue : isovalues_) {

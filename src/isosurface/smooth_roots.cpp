@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 256;
+constexpr std::size_t block_points = 1024;
 
 /** Samples with a weight in a fit; the next farther one sets the radius of the support.
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
@@ -93,7 +93,7 @@ public:
       : input_(input)
       , isovalue_(isovalue)
       , finder_(input.samples, fitted_samples + 1)
-      , samples_(fitted_samples + 1)
+      , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , cone_(cone_kernels.get())
   {
@@ -276,15 +276,13 @@ private:
   float
   footOf(const PointIso& point, const IsoEdge& edge) const
   {
-    const float* const a = input_.cloud.xyz(edge.first);
-    const float* const b = input_.cloud.xyz(edge.second);
-    double product = 0.0, sq_length = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double along = static_cast<double>(b[axis]) - a[axis];
-      product += along * (static_cast<double>(point.data[axis]) - a[axis]);
-      sq_length += along * along;
-    }
-    return static_cast<float>(std::clamp(product / sq_length, 0.0, 1.0));
+    const EdgeLine line(input_.samples, edge);
+    double product = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      product += line.direction[axis] *
+                 (static_cast<double>(point.data[axis]) - line.start[axis]);
+    return static_cast<float>(
+        std::clamp(product / (line.length * line.length), 0.0, 1.0));
   }
 
   const IsopointInput& input_;

@@ -10,6 +10,7 @@
 namespace pcl_uvol {
 
 /** \brief Move isopoints onto fits through their nearest samples.
+ * \param edges between sample indices
  * \param points linear isopoints in the order of their edges; where a fit does not
  * serve, the point and its outside vector stay
  * \param report gets "cubic_roots", "quadratic_roots", "linear_singular",
