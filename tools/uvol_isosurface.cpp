@@ -11,6 +11,9 @@
 
 #include <pcl/conversions.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -24,9 +27,11 @@ using uvol_tools::UsageError;
 struct Arguments {
   std::string input, output, field, where;
   std::vector<double> isovalues, xyz, scale;
-  std::string scale_text, outside = "lower", criterion = "kept", normals = "pca";
+  std::string scale_text, outside = "lower", criterion = "kept";
+  std::string interpolation = "smooth", normals = "auto";
+  double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
-  bool ascii = false;
+  bool drop_bridged = false, ascii = false;
 };
 
 void
@@ -61,12 +66,25 @@ declare(Options& options, Arguments& arguments)
                  {"kept", "all"},
                  arguments.criterion,
                  "angle criterion against kept or against all closer candidates");
+  options.choice("interpolation",
+                 {"linear", "smooth"},
+                 arguments.interpolation,
+                 "isopoints along the edges, or on local polynomial fits");
   options.choice("normals",
-                 {"pca", "edge"},
+                 {"auto", "fit", "pca", "edge"},
                  arguments.normals,
-                 "by principal components of the isopoints, or along the edges");
+                 "of the fits, by principal components of the isopoints, or along the "
+                 "edges; auto: fit with smooth, pca with linear interpolation");
   options.integer(
       "k", arguments.k, 2, 1000, "isopoints that a normal by pca is fitted to");
+  options.number("max-error",
+                 arguments.max_error,
+                 0.0,
+                 std::numeric_limits<double>::max(),
+                 "leave out isopoints of a larger estimated error, in units of length");
+  options.flag("drop-bridged",
+               arguments.drop_bridged,
+               "leave out isopoints in gaps of the sampling");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -115,6 +133,62 @@ joined(const T& numbers)
   return text.str();
 }
 
+/** What only some combinations of options allow. */
+void
+checkCombinations(const Options& options, Arguments& arguments)
+{
+  if (arguments.isovalues.empty())
+    throw UsageError(
+        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  const bool smooth = arguments.interpolation == "smooth";
+  if (arguments.normals == "auto")
+    arguments.normals = smooth ? "fit" : "pca";
+  if (arguments.normals == "fit" && !smooth)
+    throw UsageError("-normals fit needs -interpolation smooth.");
+  if (arguments.normals == "edge" && smooth)
+    throw UsageError("-normals edge needs -interpolation linear.");
+  if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
+    throw UsageError("-max-error and -drop-bridged need -interpolation smooth.");
+}
+
+void
+replaceNormals(const Options& options,
+               const Arguments& arguments,
+               const Eigen::Array3f& scale,
+               pcl::PointCloud<PointIso>& isopoints,
+               Report& report)
+{
+  if (arguments.normals == "edge" || isopoints.empty())
+    return;
+  const StepTimer timer(report, "normals");
+  pcl_uvol::SurfaceNormalParameters parameters;
+  parameters.k = arguments.k;
+  parameters.scale = scale;
+  parameters.threads = options.threads();
+  if (arguments.normals == "pca")
+    pcl_uvol::replaceNormals(isopoints, parameters, report);
+  else
+    pcl_uvol::replaceMissingNormals(isopoints, parameters, report);
+}
+
+/** Median, 95 % and maximum of the estimated errors. */
+std::string
+describeErrors(const pcl::PointCloud<PointIso>& isopoints)
+{
+  std::vector<float> errors;
+  for (const PointIso& point : isopoints)
+    if (!std::isnan(point.error))
+      errors.push_back(point.error);
+  if (errors.empty())
+    return "not estimated";
+  std::sort(errors.begin(), errors.end());
+  std::ostringstream text;
+  text.precision(3);
+  text << "median " << errors[errors.size() / 2] << ", 95 % within "
+       << errors[errors.size() * 95 / 100] << ", largest " << errors.back();
+  return text.str();
+}
+
 int
 run(int argc, char** argv)
 {
@@ -128,9 +202,7 @@ run(int argc, char** argv)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  if (arguments.isovalues.empty())
-    throw UsageError(
-        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  checkCombinations(options, arguments);
   if (!arguments.scale_text.empty() && arguments.scale_text != "auto")
     arguments.scale = uvol_tools::parseNumbers("scale", arguments.scale_text, 3);
   pcl_uvol::checkSavePath(arguments.output);
@@ -154,6 +226,9 @@ run(int argc, char** argv)
   extraction.setScale(scale);
   extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
                                                      : pcl_uvol::Outside::Higher);
+  extraction.setInterpolation(arguments.interpolation == "smooth"
+                                  ? pcl_uvol::Interpolation::Smooth
+                                  : pcl_uvol::Interpolation::Linear);
   extraction.setAngleCriterion(arguments.criterion == "kept"
                                    ? pcl_uvol::AngleCriterion::Kept
                                    : pcl_uvol::AngleCriterion::All);
@@ -163,14 +238,20 @@ run(int argc, char** argv)
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
 
-  if (arguments.normals == "pca" && !isopoints.empty()) {
-    const StepTimer timer(report, "normals");
-    pcl_uvol::SurfaceNormalParameters parameters;
-    parameters.k = arguments.k;
-    parameters.scale = scale;
-    parameters.threads = options.threads();
-    pcl_uvol::replaceNormals(isopoints, parameters, report);
-  }
+  replaceNormals(options, arguments, scale, isopoints, report);
+  pcl_uvol::IsoEdges edges = extraction.getEdges();
+  if (options.given("max-error"))
+    report.count(
+        "removed_by_error",
+        pcl_uvol::filterIsopoints(isopoints, edges, [&](const PointIso& point) {
+          return point.error <= arguments.max_error;
+        }));
+  if (arguments.drop_bridged)
+    report.count("removed_bridged",
+                 pcl_uvol::filterIsopoints(isopoints, edges, [](const PointIso& point) {
+                   return point.support !=
+                          static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
+                 }));
 
   pcl_uvol::Dataset output;
   output.origin = input.origin;
@@ -178,7 +259,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    pcl_uvol::interpolateFields(input.cloud, extraction.getEdges(), output.cloud);
+    pcl_uvol::interpolateFields(input.cloud, edges, output.cloud);
   }
   {
     const StepTimer timer(report, "write");
@@ -194,7 +275,9 @@ run(int argc, char** argv)
                            {"output", arguments.output},
                            {"field", field},
                            {"isovalues", joined(arguments.isovalues)},
-                           {"scale", joined(scale)}});
+                           {"scale", joined(scale)},
+                           {"interpolation", arguments.interpolation},
+                           {"estimated error", describeErrors(isopoints)}});
   return 0;
 }
 

@@ -98,6 +98,26 @@ fill(const FieldCopy& copy,
 
 } // namespace
 
+std::size_t
+filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
+                IsoEdges& edges,
+                const std::function<bool(const PointIso&)>& keep)
+{
+  if (isopoints.size() != edges.size())
+    throw InvalidArgument(std::to_string(isopoints.size()) + " isopoints cannot have " +
+                          std::to_string(edges.size()) + " edges.");
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (keep(isopoints[i])) {
+      isopoints[kept] = isopoints[i];
+      edges[kept++] = edges[i];
+    }
+  const std::size_t gone = edges.size() - kept;
+  isopoints.resize(kept);
+  edges.resize(kept);
+  return gone;
+}
+
 void
 interpolateFields(const pcl::PCLPointCloud2& samples,
                   const IsoEdges& edges,

@@ -70,14 +70,21 @@ placeIsopoint(const IsopointInput& input,
   const bool towards_second = (fy < fx) == (input.outside == Outside::Lower);
   edge = {x, y, static_cast<float>(t)};
 
-  const EdgeLine line(input.samples, edge);
+  const Position &a = input.samples.getPositions()[x],
+                 &b = input.samples.getPositions()[y];
+  double direction[3], sq_length = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    point.data[axis] = static_cast<float>(line.start[axis] + t * line.direction[axis]);
-    point.data_n[axis] = static_cast<float>((towards_second ? 1.0 : -1.0) *
-                                            line.direction[axis] / line.length);
+    const double scale = input.samples.getScale()[axis];
+    direction[axis] = (static_cast<double>(b[axis]) - a[axis]) / scale;
+    sq_length += direction[axis] * direction[axis];
+    point.data[axis] = static_cast<float>(a[axis] / scale + t * direction[axis]);
   }
+  const double length = std::sqrt(sq_length);
+  for (int axis = 0; axis < 3; ++axis)
+    point.data_n[axis] = static_cast<float>(
+        (towards_second ? direction[axis] : -direction[axis]) / length);
   point.isovalue = isovalue;
-  point.edge_length = static_cast<float>(line.length);
+  point.edge_length = static_cast<float>(length);
 }
 
 /** A merged isopoint looks to the mean of the outside vectors, or where the first one
@@ -144,20 +151,6 @@ mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads
 
 } // namespace
 
-EdgeLine::EdgeLine(const SampleSet& samples, const IsoEdge& edge)
-{
-  const Position &a = samples.getPositions()[edge.first],
-                 &b = samples.getPositions()[edge.second];
-  double sq_length = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double scale = samples.getScale()[axis];
-    start[axis] = a[axis] / scale;
-    direction[axis] = b[axis] / scale - start[axis];
-    sq_length += direction[axis] * direction[axis];
-  }
-  length = std::sqrt(sq_length);
-}
-
 SampleValues
 gatherValues(const SampleSet& samples,
              const std::vector<float>& input_values,
@@ -219,7 +212,7 @@ appendIsopoints(const IsopointInput& input,
     report.count("coincident", mergeCoincident(points, point_edges, input.threads));
   }
   if (input.interpolation == Interpolation::Smooth)
-    smoothIsopoints(input, isovalue, points, point_edges, report);
+    smoothIsopoints(input, isovalue, point_edges, points, report);
   for (IsoEdge& edge : point_edges) {
     edge.first = input.scalar.sources[edge.first];
     edge.second = input.scalar.sources[edge.second];

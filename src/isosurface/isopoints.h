@@ -28,14 +28,6 @@ gatherValues(const SampleSet& samples,
              unsigned threads,
              Report& report);
 
-/** \brief An edge in the input's space, out of samples in the stretched one. */
-struct EdgeLine {
-  double start[3], direction[3], length;
-
-  /** \param edge between sample indices */
-  EdgeLine(const SampleSet& samples, const IsoEdge& edge);
-};
-
 /** \brief What the isopoints of one isovalue are made from. */
 struct IsopointInput {
   const SampleSet& samples;

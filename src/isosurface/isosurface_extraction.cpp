@@ -89,18 +89,33 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
   }
 }
 
-void
-IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
-                                      const std::vector<int>& indices,
-                                      pcl::PointCloud<PointIso>& isopoints)
-{
-  checkParameters();
-  if (indices.empty())
-    throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
-  const ScalarField field(cloud.fields, field_);
-  report_ = Report();
-  report_.progress = progress_;
+struct IsosurfaceExtractionBase::Scalar {
+  std::string field;
+  std::vector<int> indices;
+  Eigen::Array3f scale;
+  SampleValues samples;
+  NodeRanges ranges; // refers to the values of samples
+  Report counts;     // of what was read
+};
 
+void
+IsosurfaceExtractionBase::forgetSamples()
+{
+  samples_.reset();
+  scalar_.reset();
+}
+
+void
+IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
+                                       const std::vector<int>& indices)
+{
+  if (scalar_ && scalar_->field == field_ && scalar_->indices == indices &&
+      (scalar_->scale == scale_).all()) {
+    report_.counts = scalar_->counts.counts;
+    return;
+  }
+  scalar_.reset(); // of other samples, should what follows fail
+  const ScalarField field(cloud.fields, field_);
   std::vector<float> values;
   std::vector<std::uint32_t> use;
   {
@@ -118,21 +133,43 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   report_.count("no_value", without_value);
   report_.count("samples", samples_->size());
 
-  const SampleValues scalar = gatherValues(*samples_, values, threads_, report_);
-  NodeRanges ranges;
-  {
-    const StepTimer timer(report_, "ranges");
-    ranges = samples_->getTree().computeRanges(scalar.values, threads_);
-  }
-  const NodeRanges::Range range = ranges[samples_->getTree().getRoot()];
-  const IsopointInput input{
-      *samples_, scalar, ranges, criterion_, outside_, interpolation_, threads_};
+  const StepTimer timer(report_, "ranges");
+  auto scalar = std::make_shared<Scalar>();
+  scalar->field = field_;
+  scalar->indices = indices;
+  scalar->scale = scale_;
+  scalar->samples = gatherValues(*samples_, values, threads_, report_);
+  scalar->ranges = samples_->getTree().computeRanges(scalar->samples.values, threads_);
+  scalar->counts.counts = report_.counts;
+  scalar_ = scalar;
+}
+
+void
+IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
+                                      const std::vector<int>& indices,
+                                      pcl::PointCloud<PointIso>& isopoints)
+{
+  checkParameters();
+  if (indices.empty())
+    throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
+  report_ = Report();
+  report_.progress = progress_;
+  updateScalar(cloud, indices);
+
+  const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];
+  const IsopointInput input{*samples_,
+                            scalar_->samples,
+                            scalar_->ranges,
+                            criterion_,
+                            outside_,
+                            interpolation_,
+                            threads_};
   pcl::PointCloud<PointIso> found;
   IsoEdges edges;
   for (const double isovalue : isovalues_) {
     const auto rounded = static_cast<float>(isovalue);
     if (!(range.min < rounded && rounded <= range.max))
-      report_.warnings.push_back(emptyWarning(isovalue, field.getName(), range));
+      report_.warnings.push_back(emptyWarning(isovalue, field_, range));
     appendIsopoints(input, rounded, found, edges, report_);
   }
   report_.count("isopoints", found.size());

@@ -23,11 +23,16 @@ constexpr std::size_t fitted_samples = 40;
 
 /** Error over standard error: covers 95 % of the deviations of analytic fields, whose
  * truncation errors have longer tails than noise. */
-constexpr double error_factor = 3.5;
+constexpr double error_factor = 4.0;
 
-/** Of the range of values among the fitted samples: a larger residual means a step (a
- * label, a jump, a clipped value), which no polynomial follows. */
-constexpr double step_residual = 0.15;
+/** Of the range of values among the fitted samples: a larger residual is no noise on a
+ * slope any more, but all there is. */
+constexpr double largest_residual = 0.15;
+
+/** A step (a label, a jump, a clipped value), which no polynomial follows, shows by a
+ * residual above the first part of the range where the edge spans more than the second;
+ * a smooth function has no such residual, and noise no such edges. */
+constexpr double step_residual = 0.06, step_span = 0.6;
 
 /** Of the radius of the support: a shift beyond it and beyond the edge's own length
  * leaves the surroundings of the edge. */
@@ -80,6 +85,7 @@ struct Surroundings {
   Position center;    ///< the linear root, in the stretched space
   double radius;      ///< of the support, in the stretched space
   double value_range; ///< of the fitted samples
+  double edge_span;   ///< part of the range between the values at the ends of the edge
   IsoSupport support;
 };
 
@@ -101,7 +107,7 @@ public:
 
   /** At most fit_lanes points. */
   void
-  smooth(PointIso* points, IsoEdge* edges, std::size_t count, Outcome* outcomes)
+  smooth(const IsoEdge* edges, std::size_t count, PointIso* points, Outcome* outcomes)
   {
     Position centers[fit_lanes];
     for (std::size_t lane = 0; lane < count; ++lane)
@@ -110,8 +116,9 @@ public:
     Surroundings surroundings[fit_lanes];
     int weighted[fit_lanes] = {};
     for (std::size_t lane = 0; lane < fit_lanes; ++lane)
-      weighted[lane] = lane < count ? gather(points[lane], lane, surroundings[lane])
-                                    : clear(lane, 0);
+      weighted[lane] = lane < count
+                           ? gather(points[lane], edges[lane], lane, surroundings[lane])
+                           : clear(lane, 0);
     FitResult result;
     fit_(samples_.data(), samples_.size(), weighted, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -120,8 +127,8 @@ public:
              lane,
              surroundings[lane],
              outcomes[lane] <= Outcome::Quadratic,
-             points[lane],
-             edges[lane]);
+             edges[lane],
+             points[lane]);
     }
   }
 
@@ -148,7 +155,10 @@ private:
 
   /** Fill a lane; returns the number of samples with a weight. */
   int
-  gather(const PointIso& point, std::size_t lane, Surroundings& surroundings)
+  gather(const PointIso& point,
+         const IsoEdge& edge,
+         std::size_t lane,
+         Surroundings& surroundings)
   {
     const Position& center = surroundings.center = centerOf(point);
     const auto neighbors = finder_.find(center, point.edge_length);
@@ -183,6 +193,10 @@ private:
       std::fill(coordinate + neighbors.size(), coordinate + directions, 0.0f);
     clear(lane, neighbors.size());
     surroundings.value_range = highest - lowest;
+    const std::vector<float>& values = input_.scalar.values;
+    surroundings.edge_span =
+        std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
+        surroundings.value_range;
     surroundings.support = supportOf(point.edge_length,
                                      std::sqrt(static_cast<double>(sq_nearest)),
                                      surroundings.radius,
@@ -209,7 +223,9 @@ private:
   {
     if (result.order[lane] == fit_failed)
       return Outcome::Singular;
-    if (!(result.residual[lane] <= step_residual * surroundings.value_range))
+    const double residual = result.residual[lane] / surroundings.value_range;
+    if (!(residual <=
+          (surroundings.edge_span > step_span ? step_residual : largest_residual)))
       return Outcome::Step;
     const double shift = surroundings.radius *
                          std::sqrt(result.offset[0][lane] * result.offset[0][lane] +
@@ -226,8 +242,8 @@ private:
          std::size_t lane,
          const Surroundings& surroundings,
          bool is_smooth,
-         PointIso& point,
-         IsoEdge& edge) const
+         const IsoEdge& edge,
+         PointIso& point) const
   {
     point.support = static_cast<std::uint8_t>(surroundings.support);
     if (!is_smooth) {
@@ -269,20 +285,6 @@ private:
     const double standard_error = result.error[lane] * std::sqrt(sq_fit_slope) / slope;
     point.error =
         static_cast<float>(std::hypot(error_factor * standard_error, rounding));
-    edge.t = footOf(point, edge);
-  }
-
-  /** Parameter of the point of the edge that is next to a point. */
-  float
-  footOf(const PointIso& point, const IsoEdge& edge) const
-  {
-    const EdgeLine line(input_.samples, edge);
-    double product = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-      product += line.direction[axis] *
-                 (static_cast<double>(point.data[axis]) - line.start[axis]);
-    return static_cast<float>(
-        std::clamp(product / (line.length * line.length), 0.0, 1.0));
   }
 
   const IsopointInput& input_;
@@ -301,8 +303,8 @@ private:
 void
 smoothIsopoints(const IsopointInput& input,
                 float isovalue,
+                const IsoEdges& edges,
                 std::vector<PointIso>& points,
-                IsoEdges& edges,
                 Report& report)
 {
   StepTimer step(report, "smooth_roots", points.size());
@@ -313,9 +315,9 @@ smoothIsopoints(const IsopointInput& input,
                  [&](std::size_t begin, std::size_t end) {
                    RootSmoother smoother(input, isovalue);
                    for (std::size_t i = begin; i < end; i += fit_lanes)
-                     smoother.smooth(&points[i],
-                                     &edges[i],
+                     smoother.smooth(&edges[i],
                                      std::min(fit_lanes, end - i),
+                                     &points[i],
                                      &outcomes[i]);
                    step.advance(end - begin);
                  });

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <pcl/impl/pcl_base.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -231,6 +232,23 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
     report.count("degenerate_normals", own.getCount("degenerate_normals"));
     begin = end;
   }
+}
+
+void
+replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
+                      const SurfaceNormalParameters& parameters,
+                      Report& report)
+{
+  const auto has_none = [](const PointIso& point) {
+    return std::isnan(point.mean_curvature);
+  };
+  if (std::none_of(isopoints.begin(), isopoints.end(), has_none))
+    return;
+  pcl::PointCloud<PointIso> replaced = isopoints;
+  replaceNormals(replaced, parameters, report);
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    if (has_none(isopoints[i]))
+      isopoints[i] = replaced[i];
 }
 
 template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointXYZ, pcl::Normal>;

@@ -4,6 +4,8 @@
 set -euo pipefail
 bin=$1
 here=$(cd "$(dirname "$0")" && pwd)
+# The instruction set must not depend on the machine.
+export PCL_UVOL_SIMD=baseline
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

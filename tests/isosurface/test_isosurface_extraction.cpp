@@ -13,10 +13,12 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <set>
 
 namespace {
 
 using pcl_uvol::AngleCriterion;
+using pcl_uvol::Interpolation;
 using pcl_uvol::InvalidArgument;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Surface = pcl::PointCloud<PointIso>;
@@ -33,9 +35,13 @@ sameBytes(const Surface& a, const Surface& b)
 }
 
 Surface
-extract(const Cloud::Ptr& cloud, double isovalue, unsigned threads = 0)
+extract(const Cloud::Ptr& cloud,
+        double isovalue,
+        unsigned threads = 0,
+        Interpolation interpolation = Interpolation::Smooth)
 {
   Extraction extraction;
+  extraction.setInterpolation(interpolation);
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(isovalue);
   extraction.setNumberOfThreads(threads);
@@ -116,7 +122,8 @@ meanDeviation(const Surface& surface, const uvol_test::RadialCloud& radial)
 TEST(IsosurfaceExtraction, RadialTestWithFourMillionSamples)
 {
   const auto radial = uvol_test::makeRadialCloud(4000000, 1);
-  const Surface surface = extract(radial.cloud, radial.radius);
+  const Surface surface =
+      extract(radial.cloud, radial.radius, 0, Interpolation::Linear);
   EXPECT_GT(surface.size(), 50000u);
   EXPECT_LE(meanDeviation(surface, radial), 0.0024);
 }
@@ -127,14 +134,15 @@ TEST(IsosurfaceExtraction, DeviationFallsWithTheSquareOfTheSpacing)
   // stay of the order spacing / radius.
   const auto coarse = uvol_test::makeRadialCloud(60000, 2);
   const auto fine = uvol_test::makeRadialCloud(480000, 2);
-  const double in_radii_coarse =
-      meanDeviation(extract(coarse.cloud, coarse.radius), coarse) / coarse.radius;
-  const double in_radii_fine =
-      meanDeviation(extract(fine.cloud, fine.radius), fine) / fine.radius;
-  EXPECT_NEAR(2.0, std::log2(in_radii_coarse / in_radii_fine), 0.3);
+  const auto in_radii = [](const uvol_test::RadialCloud& radial) {
+    return meanDeviation(extract(radial.cloud, radial.radius, 0, Interpolation::Linear),
+                         radial) /
+           radial.radius;
+  };
+  EXPECT_NEAR(2.0, std::log2(in_radii(coarse) / in_radii(fine)), 0.2);
 }
 
-TEST(IsosurfaceExtraction, NormalsPointToLowerValuesUnlessToldOtherwise)
+TEST(IsosurfaceExtraction, LinearNormalsPointToLowerValuesUnlessToldOtherwise)
 {
   const auto radial = uvol_test::makeRadialCloud(20000, 3);
   for (const auto outside : {pcl_uvol::Outside::Lower, pcl_uvol::Outside::Higher}) {
@@ -142,6 +150,7 @@ TEST(IsosurfaceExtraction, NormalsPointToLowerValuesUnlessToldOtherwise)
     extraction.setInputCloud(radial.cloud);
     extraction.setIsoValue(radial.radius);
     extraction.setOutside(outside);
+    extraction.setInterpolation(Interpolation::Linear);
     Surface surface;
     extraction.extract(surface);
     for (std::size_t i = 0; i < surface.size(); ++i) {
@@ -193,13 +202,61 @@ TEST(IsosurfaceExtraction, SeveralIsovaluesFollowOneAnother)
   Surface expected = extract(radial.cloud, 8.0);
   expected += extract(radial.cloud, 6.0);
   EXPECT_TRUE(sameBytes(expected, both));
+}
 
-  // The tree is there already: only what depends on the isovalue is done again.
+TEST(IsosurfaceExtraction, KeepsWhatDoesNotDependOnTheIsovalue)
+{
+  auto radial = uvol_test::makeRadialCloud(20000, 6);
+  const auto steps = [](const Extraction& extraction) {
+    std::set<std::string> names;
+    for (const auto& [step, milliseconds] : extraction.getReport().milliseconds)
+      names.insert(step);
+    return names;
+  };
+  Extraction extraction;
+  extraction.setInputCloud(radial.cloud);
+  extraction.setIsoValue(8.0);
+  Surface surface;
+  extraction.extract(surface);
+  EXPECT_EQ(1u, steps(extraction).count("tree"));
+  const auto samples = extraction.getReport().getCount("samples");
+
   extraction.setIsoValue(6.0);
-  extraction.extract(both);
-  EXPECT_TRUE(sameBytes(extract(radial.cloud, 6.0), both));
-  for (const auto& [step, milliseconds] : extraction.getReport().milliseconds)
-    EXPECT_NE("tree", step) << milliseconds;
+  extraction.extract(surface);
+  EXPECT_TRUE(sameBytes(extract(radial.cloud, 6.0), surface));
+  for (const char* step : {"scalar", "tree", "ranges"})
+    EXPECT_EQ(0u, steps(extraction).count(step)) << step;
+  EXPECT_EQ(samples, extraction.getReport().getCount("samples"));
+
+  // Another field of the same samples keeps the tree.
+  extraction.setScalarField("x");
+  extraction.extract(surface);
+  EXPECT_EQ(0u, steps(extraction).count("tree"));
+  EXPECT_EQ(1u, steps(extraction).count("ranges"));
+  for (const PointIso& point : surface)
+    ASSERT_NEAR(6.0, point.x, 1e-4);
+
+  // A failed extraction leaves nothing behind that a later one would take for its own.
+  extraction.setScalarField("nothing");
+  EXPECT_THROW(extraction.extract(surface), InvalidArgument);
+  extraction.setScalarField("intensity");
+  pcl::IndicesPtr half(new pcl::Indices);
+  for (int i = 0; i < 10000; ++i)
+    half->push_back(i);
+  extraction.setIndices(half);
+  extraction.extract(surface);
+  EXPECT_EQ(10000u, extraction.getReport().getCount("samples"));
+  Cloud::Ptr first(new Cloud(*radial.cloud, *half));
+  EXPECT_TRUE(sameBytes(extract(first, 6.0), surface));
+
+  // A cloud that was handed over again is read again.
+  for (auto& point : *first)
+    point.intensity += 1.0f;
+  extraction.setInputCloud(first);
+  half->resize(5000);
+  extraction.extract(surface);
+  Cloud::Ptr quarter(new Cloud(*first, *half));
+  EXPECT_TRUE(sameBytes(extract(quarter, 6.0), surface));
 }
 
 TEST(IsosurfaceExtraction, ScaleFindsNeighborsInStretchedSpace)
@@ -217,8 +274,16 @@ TEST(IsosurfaceExtraction, ScaleFindsNeighborsInStretchedSpace)
   Surface surface;
   extraction.extract(surface);
   ASSERT_EQ(expected.size(), surface.size());
-  for (std::size_t i = 0; i < surface.size(); ++i)
+  for (std::size_t i = 0; i < surface.size(); ++i) {
     EXPECT_NEAR(expected[i].z, surface[i].z * 1024.0f, 1e-4f);
+    // Lengths and directions are those of the flat space.
+    const Eigen::Vector3f normal = (expected[i].getNormalVector3fMap().array() *
+                                    Eigen::Array3f(1.0f, 1.0f, 1024.0f))
+                                       .matrix()
+                                       .normalized();
+    EXPECT_NEAR(1.0f, normal.dot(surface[i].getNormalVector3fMap()), 1e-5f);
+    EXPECT_LE(surface[i].error, expected[i].error);
+  }
 }
 
 TEST(IsosurfaceExtraction, SamplesAtTheIsovalueGiveOneIsopoint)

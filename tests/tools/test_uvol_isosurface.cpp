@@ -97,7 +97,8 @@ protected:
 
 TEST_F(Isosurface, WritesOrientedPointsWithEveryField)
 {
-  const auto result = run(in_ + " " + out_ + " -field density -iso 14,16");
+  const auto result =
+      run(in_ + " " + out_ + " -field density -iso 14,16 -interpolation linear");
   ASSERT_EQ(0, result.exit_code) << result.err;
   for (const char* word :
        {"read", "tree", "neighborhoods", "write", "total", "isopoints"})

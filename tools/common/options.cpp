@@ -157,7 +157,10 @@ Options::number(const std::string& name,
     target = number;
   };
   options_.push_back(
-      {name, "number", help + " (default " + shortest(target) + ")", assign});
+      {name,
+       "number",
+       std::isfinite(target) ? help + " (default " + shortest(target) + ")" : help,
+       assign});
 }
 
 void

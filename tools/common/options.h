@@ -45,7 +45,7 @@ public:
          const std::vector<std::string>& words,
          std::string& target,
          const std::string& help);
-  /** \brief A finite number in [minimum, maximum]. */
+  /** \brief A finite number in [minimum, maximum]; an infinite default is not shown. */
   void
   number(const std::string& name,
          double& target,

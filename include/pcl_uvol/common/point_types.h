@@ -40,7 +40,10 @@ struct EIGEN_ALIGN16 PointIso {
     };
     float data_c[4];
   };
-  std::uint8_t support;
+  union {
+    std::uint8_t support;
+    float data_s[4];
+  };
 
   PointIso()
   {
@@ -49,6 +52,7 @@ struct EIGEN_ALIGN16 PointIso {
     normal_x = normal_y = normal_z = data_n[3] = 0.0f;
     isovalue = edge_length = 0.0f;
     mean_curvature = error = std::numeric_limits<float>::quiet_NaN();
+    data_s[0] = data_s[1] = data_s[2] = data_s[3] = 0.0f;
     support = static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Unknown);
   }
   PCL_MAKE_ALIGNED_OPERATOR_NEW

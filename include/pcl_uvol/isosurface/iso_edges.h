@@ -4,16 +4,22 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/point_types.h>
 
 #include <pcl/PCLPointCloud2.h>
+#include <pcl/point_cloud.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief The edge of one isopoint: two points of the input cloud and the parameter of
- * the foot, 0 at the first and 1 at the second. */
+/** \brief The edge of one isopoint: two points of the input cloud and the place between
+ * them where the scalar, interpolated linearly, has the isovalue: 0 at the first, 1 at
+ * the second. A smooth isopoint lies beside it, but all fields that are carried along
+ * agree there, the scalar with its isovalue among them. */
 struct IsoEdge {
   std::uint32_t first, second; ///< indices into the input cloud
   float t;                     ///< in [0, 1]
@@ -21,6 +27,13 @@ struct IsoEdge {
 
 /** \brief One edge per isopoint, in the order of the isopoints. */
 using IsoEdges = std::vector<IsoEdge>;
+
+/** \brief Leave only the isopoints, and their edges, that keep says yes to.
+ * \return how many went \throws InvalidArgument if sizes disagree */
+PCL_UVOL_EXPORTS std::size_t
+filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
+                IsoEdges& edges,
+                const std::function<bool(const PointIso&)>& keep);
 
 /** \brief Add to a cloud of isopoints every field of the samples' cloud that it lacks,
  * under its own name, type and count.

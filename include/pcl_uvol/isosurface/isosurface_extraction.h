@@ -15,6 +15,7 @@
 #include <pcl/pcl_base.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -136,12 +137,9 @@ protected:
               const std::vector<int>& indices,
               pcl::PointCloud<PointIso>& isopoints);
 
-  /** \brief The next extraction builds its tree anew. */
+  /** \brief The next extraction reads the cloud anew. */
   void
-  forgetSamples()
-  {
-    samples_.reset();
-  }
+  forgetSamples();
 
 private:
   void
@@ -149,6 +147,9 @@ private:
 
   void
   updateSamples(const CloudView& cloud, std::vector<std::uint32_t>&& use);
+
+  void
+  updateScalar(const CloudView& cloud, const std::vector<int>& indices);
 
   std::string field_ = "intensity";
   std::vector<double> isovalues_;
@@ -159,6 +160,10 @@ private:
   unsigned threads_ = 0;
   ProgressCallback progress_;
 
+  /** The scalar in leaf order and its range per node, and what they were read from. */
+  struct Scalar;
+
+  std::shared_ptr<const Scalar> scalar_;
   SampleSet::ConstPtr samples_;
   std::vector<std::uint32_t> sampled_;             // input points behind samples_
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
@@ -190,7 +195,8 @@ public:
                                    pcl::PCLPointCloud2,
                                    pcl::PointCloud<PointT>>;
 
-  /** \brief The cloud must not change until the next call. */
+  /** \brief The cloud must not change until the next call: values and tree are kept.
+   */
   void
   // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
   setInputCloud(const typename Cloud::ConstPtr& cloud)

@@ -54,6 +54,13 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
                const SurfaceNormalParameters& parameters,
                Report& report);
 
+/** \brief The same for those isopoints only that no fit gave a normal, which are those
+ * without a mean curvature. */
+PCL_UVOL_EXPORTS void
+replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
+                      const SurfaceNormalParameters& parameters,
+                      Report& report);
+
 /** \brief Normals of a point cloud in the manner of pcl::NormalEstimation.
  *
  * The normal is the eigenvector to the smallest eigenvalue of the covariance of the
