@@ -34,8 +34,8 @@ constexpr double largest_residual = 0.15;
  * a smooth function has no such residual, and noise no such edges. */
 constexpr double step_residual = 0.06, step_span = 0.6;
 
-/** Of the radius of the support: a shift beyond it and beyond the edge's own length
- * leaves the surroundings of the edge. */
+/** Of the radius of the support: a shift, or an error, beyond it and beyond the edge's
+ * own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
 /** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
@@ -227,12 +227,12 @@ private:
     if (!(residual <=
           (surroundings.edge_span > step_span ? step_residual : largest_residual)))
       return Outcome::Step;
-    const double shift = surroundings.radius *
-                         std::sqrt(result.offset[0][lane] * result.offset[0][lane] +
-                                   result.offset[1][lane] * result.offset[1][lane] +
-                                   result.offset[2][lane] * result.offset[2][lane]);
-    if (!(shift <= std::max(static_cast<double>(point.edge_length),
-                            farthest_shift * surroundings.radius)))
+    const double shift = std::hypot(
+        result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
+    const double room = std::max(static_cast<double>(point.edge_length),
+                                 farthest_shift * surroundings.radius);
+    if (!(surroundings.radius * std::max(shift, error_factor * result.error[lane]) <=
+          room))
       return Outcome::Far;
     return result.order[lane] == fit_cubic ? Outcome::Cubic : Outcome::Quadratic;
   }
