@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -18,14 +19,13 @@ constexpr std::uint32_t task_samples = 1u << 14;
 
 constexpr std::size_t block_samples = 1u << 14;
 
-/** Below this many samples a pivot is the median of three, above it comes from a
- * sample. */
-constexpr std::ptrdiff_t sampled_pivot_records = 1 << 10;
-constexpr std::ptrdiff_t pivot_sample = 128;
-/** Twice the standard error of a median of the sample, as a number of its elements. */
-constexpr std::ptrdiff_t pivot_margin = 11;
-/** Ranges this short are sorted by insertion. */
-constexpr std::ptrdiff_t insertion_records = 12;
+/** Below this many records a pivot is the median of three, above it comes from a sample
+ * of 32, and of 256 among very many. */
+constexpr std::ptrdiff_t sampled_pivot_records = 128,
+                         well_sampled_pivot_records = 1 << 13;
+constexpr std::ptrdiff_t small_sample = 32, large_sample = 256;
+/** Ranges this short are sorted by counting. */
+constexpr std::ptrdiff_t counted_records = 16;
 
 template <int axis>
 bool
@@ -33,6 +33,10 @@ lessRecord(const SampleRecord& a, const SampleRecord& b)
 {
   return lessAlong(axis, a.position, b.position);
 }
+
+/** A record in one register: piece by piece it would move at half the speed. */
+using RecordRegister =
+    float __attribute__((vector_size(sizeof(SampleRecord)), aligned(4), may_alias));
 
 /** Bring records below the pivot to the front; returns the first of the others. Free of
  * branches that depend on the data: they would be mispredicted every other time. */
@@ -42,16 +46,18 @@ partitionBelow(SampleRecord* first, SampleRecord* last, float pivot)
 {
   SampleRecord* boundary = first;
   for (SampleRecord* record = first; record != last; ++record) {
-    const SampleRecord moved = *record;
-    *record = *boundary;
-    *boundary = moved;
-    boundary += moved.position[axis] < pivot ? 1 : 0;
+    const RecordRegister moved = *reinterpret_cast<RecordRegister*>(record);
+    *reinterpret_cast<RecordRegister*>(record) =
+        *reinterpret_cast<RecordRegister*>(boundary);
+    *reinterpret_cast<RecordRegister*>(boundary) = moved;
+    boundary += static_cast<std::ptrdiff_t>(moved[axis] < pivot);
   }
   return boundary;
 }
 
 /** A pivot that leaves the cut in the smaller part: sampled at the cut's quantile,
- * moved by a margin to the far side (Floyd and Rivest 1975). */
+ * moved to the far side by twice the standard error of a median of the sample (Floyd
+ * and Rivest 1975). */
 template <int axis>
 float
 choosePivot(const SampleRecord* first,
@@ -64,43 +70,90 @@ choosePivot(const SampleRecord* first,
                 c = first[count - 1].position[axis];
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
   }
-  float sample[pivot_sample];
-  for (std::ptrdiff_t i = 0; i < pivot_sample; ++i)
-    sample[i] = first[i * count / pivot_sample].position[axis];
-  const std::ptrdiff_t quantile = (cut - first) * pivot_sample / count;
+  const bool many = count >= well_sampled_pivot_records;
+  const std::ptrdiff_t size = many ? large_sample : small_sample;
+  const std::ptrdiff_t margin = many ? 16 : 5; // root of the size
+  float sample[large_sample];
+  for (std::ptrdiff_t i = 0; i < size; ++i)
+    sample[i] = first[i * count / size].position[axis];
+  const std::ptrdiff_t quantile = (cut - first) * size / count;
   const std::ptrdiff_t rank = std::clamp<std::ptrdiff_t>(
-      2 * (cut - first) < count ? quantile + pivot_margin : quantile - pivot_margin,
-      0,
-      pivot_sample - 1);
-  std::nth_element(sample, sample + rank, sample + pivot_sample);
+      2 * (cut - first) < count ? quantile + margin : quantile - margin, 0, size - 1);
+  std::nth_element(sample, sample + rank, sample + size);
   return sample[rank];
 }
 
-/** Arrange records so that none before the cut has a greater coordinate than one
- * behind. */
+/** Sort at most that many records by coordinate: each goes to the place that the number
+ * of lesser ones names. */
+template <int axis, int most>
+void
+sortByCounting(SampleRecord* first, std::ptrdiff_t count)
+{
+  SampleRecord record[most];
+  float key[most];
+  std::fill(key, key + most, std::numeric_limits<float>::infinity());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    record[i] = first[i];
+    key[i] = record[i].position[axis];
+  }
+  for (int i = 0; i < count; ++i) {
+    int lesser = 0;
+    for (int j = 0; j < most; ++j)
+      lesser += static_cast<int>(key[j] < key[i]) |
+                (static_cast<int>(key[j] == key[i]) & static_cast<int>(j < i));
+    first[lesser] = record[i];
+  }
+}
+
 template <int axis>
 void
-selectByCoordinate(SampleRecord* first, SampleRecord* cut, SampleRecord* last)
+sortFew(SampleRecord* first, SampleRecord* last)
 {
-  const auto less = [](const SampleRecord& a, const SampleRecord& b) {
-    return a.position[axis] < b.position[axis];
-  };
-  while (last - first > insertion_records) {
-    SampleRecord* const boundary =
-        partitionBelow<axis>(first, last, choosePivot<axis>(first, cut, last));
-    if (boundary == first) { // nothing below the pivot: many equal coordinates
-      std::nth_element(first, cut - 1, last, less);
-      return;
-    }
-    if (boundary <= cut)
-      first = boundary;
-    else
-      last = boundary;
-    if (boundary == cut)
-      return;
+  const std::ptrdiff_t count = last - first;
+  if (count == 2) {
+    if (first[1].position[axis] < first[0].position[axis])
+      std::swap(first[0], first[1]);
   }
-  for (SampleRecord* record = first; record < last; ++record)
-    std::rotate(std::upper_bound(first, record, *record, less), record, record + 1);
+  else if (count <= 4)
+    sortByCounting<axis, 4>(first, count);
+  else if (count <= 8)
+    sortByCounting<axis, 8>(first, count);
+  else
+    sortByCounting<axis, counted_records>(first, count);
+}
+
+/** Part records by the total order along an axis: the cut is the first of the upper
+ * part.
+ * \return the last record of the lower part and the first of the upper one by that
+ * order */
+template <int axis>
+std::pair<SampleRecord*, SampleRecord*>
+partAtCut(SampleRecord* const first, SampleRecord* const cut, SampleRecord* const last)
+{
+  // All records before low are less, all from high on are not less than those between.
+  SampleRecord *low = first, *high = last;
+  while (high - low > counted_records) {
+    SampleRecord* const boundary =
+        partitionBelow<axis>(low, high, choosePivot<axis>(low, cut, high));
+    if (boundary == cut && cut != low)
+      return {std::max_element(low, cut, lessRecord<axis>),
+              std::min_element(cut, high, lessRecord<axis>)};
+    if (boundary == low) // nothing below the pivot: many equal coordinates
+      break;
+    (boundary < cut ? low : high) = boundary;
+  }
+  if (high - low <= counted_records) {
+    sortFew<axis>(low, high);
+    SampleRecord* below = cut - 1;
+    while (below > low && below[-1].position[axis] == cut[-1].position[axis])
+      --below;
+    if (cut[-1].position[axis] < cut->position[axis])
+      return {std::max_element(below, cut, lessRecord<axis>),
+              std::min_element(cut, high, lessRecord<axis>)};
+  }
+  // Equal coordinates on both sides of the cut: the other coordinates decide.
+  std::nth_element(first, cut - 1, last, lessRecord<axis>);
+  return {cut - 1, std::min_element(cut, last, lessRecord<axis>)};
 }
 
 class Builder {
@@ -168,17 +221,9 @@ private:
     SampleRecord* const first = records_.data() + node.begin;
     SampleRecord* const last = first + node.count;
     SampleRecord* const cut = first + (node.count + 1) / 2; // first of the right half
-    selectByCoordinate<axis>(first, cut, last);
-    const SampleRecord* below = std::max_element(first, cut, lessRecord<axis>);
-    const SampleRecord* above = std::min_element(cut, last, lessRecord<axis>);
-    if (!lessRecord<axis>(*below,
-                          *above)) { // equal coordinates on both sides of the cut
-      std::nth_element(first, cut - 1, last, lessRecord<axis>);
-      below = cut - 1;
-      above = std::min_element(cut, last, lessRecord<axis>);
-      if (!lessRecord<axis>(*below, *above))
-        has_duplicates_.store(true, std::memory_order_relaxed);
-    }
+    const auto [below, above] = partAtCut<axis>(first, cut, last);
+    if (!lessRecord<axis>(*below, *above))
+      has_duplicates_.store(true, std::memory_order_relaxed);
     const double middle = 0.5 * (static_cast<double>(below->position[axis]) +
                                  static_cast<double>(above->position[axis]));
     planes_[node.number] = {static_cast<float>(middle), below->input_index};
