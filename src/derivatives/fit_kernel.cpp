@@ -69,9 +69,10 @@ struct Monomials {
 constexpr Monomials monomials;
 
 inline Lanes
-load(const double* values)
+load(const float* values)
 {
-  return *reinterpret_cast<const Lanes*>(values);
+  using Singles = float __attribute__((vector_size(register_lanes * sizeof(float))));
+  return __builtin_convertvector(*reinterpret_cast<const Singles*>(values), Lanes);
 }
 
 inline void

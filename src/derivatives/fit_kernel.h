@@ -13,10 +13,10 @@ constexpr std::size_t fit_lanes = 8;
 
 /** \brief One neighbour of each of the eight centres. */
 struct alignas(64) FitSample {
-  double x[fit_lanes], y[fit_lanes], z[fit_lanes]; ///< relative to the centre, divided
-                                                   ///< by the radius of the support;
-                                                   ///< length 1 and more has no weight
-  double value[fit_lanes];                         ///< minus the isovalue
+  float x[fit_lanes], y[fit_lanes], z[fit_lanes]; ///< relative to the centre, divided
+                                                  ///< by the radius of the support;
+                                                  ///< length 1 and more has no weight
+  float value[fit_lanes];                         ///< minus the isovalue
 };
 
 /** \brief What became of a fit. */

@@ -15,7 +15,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_points = 1024;
+constexpr std::size_t block_points = 256;
 
 /** Samples with a weight in a fit; the next farther one sets the radius of the support.
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
@@ -145,10 +145,10 @@ private:
   int
   clear(std::size_t lane, std::size_t first)
   {
-    constexpr double outside = 2.0; // no weight there
+    constexpr float outside = 2.0f; // no weight there
     for (std::size_t j = first; j < samples_.size(); ++j) {
       samples_[j].x[lane] = outside;
-      samples_[j].y[lane] = samples_[j].z[lane] = samples_[j].value[lane] = 0.0;
+      samples_[j].y[lane] = samples_[j].z[lane] = samples_[j].value[lane] = 0.0f;
     }
     return 0;
   }
@@ -162,38 +162,33 @@ private:
   {
     const Position& center = surroundings.center = centerOf(point);
     const auto neighbors = finder_.find(center, point.edge_length);
-    const auto& positions = input_.samples.getPositions();
+    const std::vector<Position>& positions = input_.samples.getPositions();
+    const std::vector<float>& values = input_.scalar.values;
     float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
-    for (const auto& neighbor : neighbors) {
-      sq_nearest = std::min(sq_nearest, neighbor.sq_dist);
-      sq_farthest = std::max(sq_farthest, neighbor.sq_dist);
+    for (std::size_t j = 0; j < neighbors.size; ++j) {
+      sq_nearest = std::min(sq_nearest, neighbors.sq_dists[j]);
+      sq_farthest = std::max(sq_farthest, neighbors.sq_dists[j]);
     }
-    surroundings.radius = std::sqrt(static_cast<double>(sq_farthest));
-    const double per_radius = 1.0 / surroundings.radius;
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    for (std::size_t j = 0; j < neighbors.size(); ++j) {
-      const Position& x = positions[neighbors[j].sample];
-      const double d[3] = {(static_cast<double>(x[0]) - center[0]) * per_radius,
-                           (static_cast<double>(x[1]) - center[1]) * per_radius,
-                           (static_cast<double>(x[2]) - center[2]) * per_radius};
-      const double value =
-          static_cast<double>(input_.scalar.values[neighbors[j].sample]) - isovalue_;
-      samples_[j].x[lane] = d[0];
-      samples_[j].y[lane] = d[1];
-      samples_[j].z[lane] = d[2];
-      samples_[j].value[lane] = value;
+    const float radius = std::sqrt(sq_farthest), per_radius = 1.0f / radius;
+    float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+    for (std::size_t j = 0; j < neighbors.size; ++j) {
+      const Position& x = positions[neighbors.samples[j]];
+      FitSample& sample = samples_[j];
+      const float value = values[neighbors.samples[j]];
+      sample.x[lane] = direction_[0][j] = (x[0] - center[0]) * per_radius;
+      sample.y[lane] = direction_[1][j] = (x[1] - center[1]) * per_radius;
+      sample.z[lane] = direction_[2][j] = (x[2] - center[2]) * per_radius;
+      sample.value[lane] = value - isovalue_;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        direction_[axis][j] = static_cast<float>(d[axis]);
     }
     const std::size_t directions =
-        (neighbors.size() + cone_lanes - 1) / cone_lanes * cone_lanes;
+        (neighbors.size + cone_lanes - 1) / cone_lanes * cone_lanes;
     for (auto& coordinate : direction_)
-      std::fill(coordinate + neighbors.size(), coordinate + directions, 0.0f);
-    clear(lane, neighbors.size());
-    surroundings.value_range = highest - lowest;
-    const std::vector<float>& values = input_.scalar.values;
+      std::fill(coordinate + neighbors.size, coordinate + directions, 0.0f);
+    clear(lane, neighbors.size);
+    surroundings.radius = radius;
+    surroundings.value_range = static_cast<double>(highest) - lowest;
     surroundings.edge_span =
         std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
         surroundings.value_range;
@@ -201,7 +196,7 @@ private:
                                      std::sqrt(static_cast<double>(sq_nearest)),
                                      surroundings.radius,
                                      directions);
-    return static_cast<int>(neighbors.size()) - 1;
+    return static_cast<int>(neighbors.size) - 1;
   }
 
   IsoSupport
@@ -288,7 +283,7 @@ private:
   }
 
   const IsopointInput& input_;
-  double isovalue_;
+  float isovalue_;
   NearestFinder finder_;
   std::vector<FitSample> samples_;
   // to the neighbours, filled up to whole lanes

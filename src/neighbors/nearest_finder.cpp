@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "nearest_kernel.h"
+#include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <algorithm>
@@ -21,7 +23,17 @@ constexpr int most_guesses = 16;
 /** Room for rounding, where a box must not be too small by one bit. */
 constexpr float slack = 1.0001f;
 
+const KernelTable<const NearestKernels*> kernel_table{
+    &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
+
 } // namespace
+
+NearestFinder::NearestFinder(const SampleSet& samples, std::size_t k)
+    : samples_(samples)
+    , k_(k)
+    , kernels_(kernel_table.get())
+{
+}
 
 void
 NearestFinder::appendInside(std::uint32_t begin, std::uint32_t end)
@@ -108,16 +120,6 @@ NearestFinder::marginAt(const Position& point) const
   return margin;
 }
 
-std::size_t
-NearestFinder::countWithin(float sq_limit) const
-{
-  const float* const sq_dist = sq_dist_.data();
-  std::uint32_t count = 0;
-  for (std::size_t i = 0; i < candidate_count_; ++i)
-    count += static_cast<std::uint32_t>(sq_dist[i] <= sq_limit);
-  return count;
-}
-
 float
 NearestFinder::limitOfNearest()
 {
@@ -127,7 +129,8 @@ NearestFinder::limitOfNearest()
   float limit = reach_ * reach_;
   const auto wanted = static_cast<float>(k_);
   for (int guess = 0; guess < most_guesses; ++guess) {
-    const std::size_t count = countWithin(limit);
+    const std::size_t count =
+        kernels_->countWithin(sq_dist_.data(), candidate_count_, limit);
     if (count == k_)
       return limit;
     (count < k_ ? low : high) = limit;
@@ -151,30 +154,24 @@ void
 NearestFinder::select(const Position& point)
 {
   const std::size_t count = candidate_count_;
-  if (found_.size() < candidates_.size()) {
+  if (sq_dist_.size() < candidates_.size()) {
     sq_dist_.resize(candidates_.size());
-    found_.resize(candidates_.size());
+    found_sq_dist_.resize(candidates_.size() + kernel_room);
+    found_samples_.resize(candidates_.size() + kernel_room);
   }
-  const float px = point[0], py = point[1], pz = point[2];
-  const float *x = x_[0].data(), *y = x_[1].data(), *z = x_[2].data();
-  float* const sq_dist = sq_dist_.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
-    sq_dist[i] = dx * dx + dy * dy + dz * dz;
-  }
+  kernels_->measure(
+      x_[0].data(), x_[1].data(), x_[2].data(), count, point.x, sq_dist_.data());
   const float limit =
       count <= k_ ? std::numeric_limits<float>::infinity() : limitOfNearest();
-  const std::uint32_t* const candidates = candidates_.data();
-  Neighbor* const found = found_.data();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    found[kept] = {sq_dist[i], candidates[i]};
-    kept += static_cast<std::size_t>(sq_dist[i] <= limit);
-  }
+  float* const sq_dist = found_sq_dist_.data();
+  std::uint32_t* const samples = found_samples_.data();
+  std::size_t kept = kernels_->keepWithin(
+      sq_dist_.data(), candidates_.data(), count, limit, sq_dist, samples);
   // Of neighbours equally far as the k-th the lower indices stay.
   for (std::size_t i = kept; kept > k_; --i)
-    if (found[i - 1].sq_dist == limit) {
-      std::copy(found + i, found + kept, found + i - 1);
+    if (sq_dist[i - 1] == limit) {
+      std::copy(sq_dist + i, sq_dist + kept, sq_dist + i - 1);
+      std::copy(samples + i, samples + kept, samples + i - 1);
       --kept;
     }
   found_count_ = kept;
@@ -189,11 +186,11 @@ NearestFinder::find(const Position& point, float length)
     select(point);
     float sq_reach = 0.0f;
     for (std::size_t i = 0; i < found_count_; ++i)
-      sq_reach = std::max(sq_reach, found_[i].sq_dist);
+      sq_reach = std::max(sq_reach, found_sq_dist_[i]);
     reach_ = std::sqrt(sq_reach) * slack;
     if (candidate_count_ == samples_.size() ||
         (found_count_ == k_ && reach_ <= marginAt(point)))
-      return {found_.data(), found_.data() + found_count_};
+      return {found_samples_.data(), found_sq_dist_.data(), found_count_};
     // With k candidates found none of the nearest is farther than the farthest of them.
     gather(point, point, found_count_ == k_ ? reach_ : 2.0f * margin_);
   }

@@ -49,10 +49,7 @@ bruteForce(const SampleSet& samples, const Position& point, std::size_t k)
 std::vector<std::uint32_t>
 indicesOf(const NearestFinder::Row& neighbors)
 {
-  std::vector<std::uint32_t> indices;
-  for (const auto& neighbor : neighbors)
-    indices.push_back(neighbor.sample);
-  return indices;
+  return {neighbors.samples, neighbors.samples + neighbors.size};
 }
 
 class NearestFinderOnEveryShape : public testing::TestWithParam<std::string> {};

@@ -13,49 +13,23 @@
 
 namespace pcl_uvol {
 
+struct NearestKernels;
+
 /** \brief Nearest samples of one point after another; one object per thread.
  *
  * The answer depends on the point alone; the speed lives on points in spatial order.
  * Memory: some kilobytes. */
 class PCL_UVOL_EXPORTS NearestFinder {
 public:
-  struct Neighbor {
-    float sq_dist;
-    std::uint32_t sample;
-  };
-
   /** \brief Neighbours in leaf order. */
   struct Row {
-    const Neighbor *first, *last;
-
-    const Neighbor*
-    begin() const
-    {
-      return first;
-    }
-    const Neighbor*
-    end() const
-    {
-      return last;
-    }
-    std::size_t
-    size() const
-    {
-      return static_cast<std::size_t>(last - first);
-    }
-    const Neighbor&
-    operator[](std::size_t i) const
-    {
-      return first[i];
-    }
+    const std::uint32_t* samples;
+    const float* sq_dists;
+    std::size_t size;
   };
 
   /** \param samples must outlive the finder \param k >= 1 */
-  NearestFinder(const SampleSet& samples, std::size_t k)
-      : samples_(samples)
-      , k_(k)
-  {
-  }
+  NearestFinder(const SampleSet& samples, std::size_t k);
 
   /** \brief The k nearest, all samples where there are no more; of equally far ones
    * those of lower index. Valid until the next call. A sample at the point itself
@@ -83,9 +57,6 @@ private:
   void
   appendInside(std::uint32_t begin, std::uint32_t end);
 
-  std::size_t
-  countWithin(float sq_limit) const;
-
   /** A squared distance that k candidates do not exceed, or more if the k-th has
    * equals.
    */
@@ -97,6 +68,7 @@ private:
 
   const SampleSet& samples_;
   std::size_t k_;
+  const NearestKernels* kernels_;
   float reach_ = 0.0f; ///< distance of the farthest neighbour found last
 
   // Candidates: all samples in a box. Arrays keep their greatest size.
@@ -105,7 +77,8 @@ private:
   std::size_t candidate_count_ = 0, found_count_ = 0;
   std::vector<std::uint32_t> candidates_; ///< ascending
   std::vector<float> x_[3], sq_dist_, ordered_;
-  std::vector<Neighbor> found_;
+  std::vector<std::uint32_t> found_samples_;
+  std::vector<float> found_sq_dist_;
 };
 
 } // namespace pcl_uvol
