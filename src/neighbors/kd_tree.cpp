@@ -252,6 +252,12 @@ fillRanges(NodeRanges& ranges, const KdNode& node)
 {
   if (node.isLeaf())
     return ranges[node];
+  if (node.count == 2) { // half of all inner nodes
+    const float first = ranges.values[node.begin],
+                second = ranges.values[node.begin + 1];
+    return ranges.inner[node.number] = {std::min(first, second),
+                                        std::max(first, second)};
+  }
   NodeRanges::Range left, right;
   const auto fill_left = [&] { left = fillRanges(ranges, node.left()); };
   const auto fill_right = [&] { right = fillRanges(ranges, node.right()); };

@@ -27,7 +27,7 @@ public:
       , positions_(positions)
       , ranges_(ranges)
       , isovalue_(isovalue)
-      , is_crossing_(positions.size())
+      , crossing_((positions.size() + word_bits - 1) / word_bits)
   {
   }
 
@@ -55,22 +55,30 @@ public:
   }
 
   std::vector<std::uint32_t>
-  collect(unsigned threads) const
+  collect() const
   {
-    return parallelGather<std::uint32_t>(
-        is_crossing_.size(),
-        task_samples,
-        threads,
-        [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
-          for (std::size_t i = begin; i < end; ++i)
-            if (is_crossing_[i].load(std::memory_order_relaxed))
-              found.push_back(static_cast<std::uint32_t>(i));
-        });
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < crossing_.size(); ++i)
+      for (std::uint64_t word = crossing_[i]; word != 0; word &= word - 1)
+        found.push_back(
+            static_cast<std::uint32_t>(i * word_bits) +
+            static_cast<std::uint32_t>(__builtin_ctzll(word))); // its lowest bit
+    return found;
   }
 
 private:
   /** Below this many samples a subtree is one task. */
   static constexpr std::uint32_t task_samples = 1u << 14;
+  static constexpr std::size_t word_bits = 64;
+
+  void
+  mark(std::uint32_t sample)
+  {
+    std::atomic<std::uint64_t>& word = crossing_[sample / word_bits];
+    const std::uint64_t bit = std::uint64_t(1) << (sample % word_bits);
+    if ((word.load(std::memory_order_relaxed) & bit) == 0)
+      word.fetch_or(bit, std::memory_order_relaxed);
+  }
 
   bool
   crosses(const NodeRanges::Range& a, const NodeRanges::Range& b) const
@@ -90,8 +98,8 @@ private:
          int separating_axis)
   {
     if (lower.isLeaf() && upper.isLeaf()) {
-      is_crossing_[lower.begin].store(true, std::memory_order_relaxed);
-      is_crossing_[upper.begin].store(true, std::memory_order_relaxed);
+      mark(lower.begin);
+      mark(upper.begin);
       return;
     }
     const bool split_lower = lower.count >= upper.count;
@@ -127,7 +135,7 @@ private:
   const std::vector<Position>& positions_;
   const NodeRanges& ranges_;
   float isovalue_;
-  std::vector<std::atomic<bool>> is_crossing_;
+  std::vector<std::atomic<std::uint64_t>> crossing_; // a bit per sample
 };
 
 } // namespace
@@ -224,7 +232,7 @@ KdTree::findCrossing(const std::vector<Position>& positions,
 {
   CrossingSearch search(*this, positions, ranges, isovalue);
   TaskGroup::run(threads, [&] { search.within(getRoot(), unboundedCell()); });
-  return search.collect(threads);
+  return search.collect();
 }
 
 } // namespace pcl_uvol

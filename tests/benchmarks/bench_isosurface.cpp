@@ -106,8 +106,10 @@ furtherField(benchmark::State& state)
   const RadialCloud& radial = radialCloud(static_cast<std::size_t>(state.range(0)));
   Extraction extraction;
   extraction.setInputCloud(radial.cloud);
+  extraction.setIsoValue(radial.radius);
   pcl::PointCloud<PointIso> surface;
-  bool other = false;
+  extraction.extract(surface);
+  bool other = true;
   for (auto _ : state) {
     other = !other;
     extraction.setScalarField(other ? "intensity" : "x");
