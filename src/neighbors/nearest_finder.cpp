@@ -38,29 +38,22 @@ NearestFinder::NearestFinder(const SampleSet& samples, std::size_t k)
 void
 NearestFinder::appendInside(std::uint32_t begin, std::uint32_t end)
 {
-  const std::size_t room = candidate_count_ + (end - begin);
+  const std::size_t room = candidate_count_ + (end - begin) + kernel_room;
   if (room > candidates_.size()) {
     candidates_.resize(2 * room);
     for (auto& coordinates : x_)
       coordinates.resize(2 * room);
   }
-  const auto& positions = samples_.getPositions();
-  const Position low = low_, high = high_;
-  std::size_t next = candidate_count_;
-  // Written first and counted if inside: no branches to be mispredicted.
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Position& x = positions[i];
-    candidates_[next] = i;
-    x_[0][next] = x[0];
-    x_[1][next] = x[1];
-    x_[2][next] = x[2];
-    const int inside =
-        static_cast<int>(x[0] >= low[0]) & static_cast<int>(x[0] <= high[0]) &
-        static_cast<int>(x[1] >= low[1]) & static_cast<int>(x[1] <= high[1]) &
-        static_cast<int>(x[2] >= low[2]) & static_cast<int>(x[2] <= high[2]);
-    next += static_cast<std::size_t>(inside);
-  }
-  candidate_count_ = next;
+  const std::size_t next = candidate_count_;
+  candidate_count_ += kernels_->keepInside(samples_.getPositions().front().x,
+                                           begin,
+                                           end,
+                                           low_.x,
+                                           high_.x,
+                                           {x_[0].data() + next,
+                                            x_[1].data() + next,
+                                            x_[2].data() + next,
+                                            candidates_.data() + next});
 }
 
 void

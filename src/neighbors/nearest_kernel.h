@@ -11,8 +11,24 @@ namespace pcl_uvol {
 /** Arrays that a kernel writes have room for that many elements more than it keeps. */
 constexpr std::size_t kernel_room = 16;
 
+/** \brief Samples of a box, coordinate by coordinate. */
+struct BoxedSamples {
+  float *x, *y, *z;
+  std::uint32_t* indices;
+};
+
 /** \brief One instruction set's versions. */
 struct NearestKernels {
+  /** \brief Append those of the positions begin to end (x, y, z one after another) that
+   * lie in a closed box.
+   * \return their number */
+  std::size_t (*keepInside)(const float* positions,
+                            std::uint32_t begin,
+                            std::uint32_t end,
+                            const float* low,
+                            const float* high,
+                            const BoxedSamples& kept);
+
   /** \brief sq_dist[i] = squared distance of (x, y, z)[i] to the point. */
   void (*measure)(const float* x,
                   const float* y,
