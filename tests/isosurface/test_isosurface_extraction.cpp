@@ -10,10 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <set>
+#include <string>
 
 namespace {
 
@@ -257,6 +260,44 @@ TEST(IsosurfaceExtraction, KeepsWhatDoesNotDependOnTheIsovalue)
   extraction.extract(surface);
   Cloud::Ptr quarter(new Cloud(*first, *half));
   EXPECT_TRUE(sameBytes(extract(quarter, 6.0), surface));
+}
+
+std::size_t
+residentKilobytes()
+{
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmRSS:", 0) == 0)
+      return std::stoul(line.substr(6));
+  return 0;
+}
+
+/** As in a robot's loop: a new cloud every time. */
+TEST(IsosurfaceExtraction, RepeatedCallsPassHeadersOnAndDoNotGrow)
+{
+  const auto radial = uvol_test::makeRadialCloud(5000, 6);
+  Extraction extraction;
+  extraction.setIsoValue(radial.radius);
+  Surface surface;
+  std::size_t before = 0;
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    Cloud::Ptr cloud(new Cloud(*radial.cloud));
+    cloud->header.seq = i;
+    cloud->header.stamp = 1000 * i;
+    cloud->header.frame_id = "base_link";
+    extraction.setInputCloud(cloud);
+    extraction.extract(surface);
+    ASSERT_EQ(i, surface.header.seq);
+    ASSERT_EQ(1000u * i, surface.header.stamp);
+    ASSERT_EQ("base_link", surface.header.frame_id);
+    if (i == 200)
+      before = residentKilobytes();
+  }
+  // Sanitizers keep what was freed.
+  if (std::getenv("LSAN_OPTIONS") == nullptr &&
+      std::getenv("TSAN_OPTIONS") == nullptr) {
+    EXPECT_LE(residentKilobytes(), before + 1000);
+  }
 }
 
 TEST(IsosurfaceExtraction, ScaleFindsNeighborsInStretchedSpace)

@@ -2,6 +2,7 @@
 // Isopoints on local fits: how near they are to the true surface, whether they know it,
 // and that they stay where they belong.
 #include "support/clouds.h"
+#include "support/smooth_fields.h"
 #include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -20,128 +21,13 @@ using pcl_uvol::IsoSupport;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Surface = pcl::PointCloud<PointIso>;
 using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
+using uvol_test::deviations;
+using uvol_test::makeSmoothField;
+using uvol_test::mean;
+using uvol_test::quantile;
+using uvol_test::sampleSmoothField;
+using uvol_test::SmoothField;
 using Vector = Eigen::Vector3d;
-
-/** A smooth function and an isovalue of it, in a cube about the origin whose uniform
- * samples have the mean spacing 1. */
-struct Case {
-  const char* name;
-  std::function<double(const Vector&)> value;
-  double isovalue, side;
-};
-
-Vector
-gradientOf(const Case& field, const Vector& x)
-{
-  const double step = 1e-6 * field.side;
-  Vector gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector d = step * Vector::Unit(axis);
-    gradient[axis] = (field.value(x + d) - field.value(x - d)) / (2 * step);
-  }
-  return gradient;
-}
-
-/** Half the divergence of the unit gradient. */
-double
-meanCurvatureOf(const Case& field, const Vector& x)
-{
-  const double step = 1e-4 * field.side;
-  double divergence = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector d = step * Vector::Unit(axis);
-    divergence += (gradientOf(field, x + d).normalized()[axis] -
-                   gradientOf(field, x - d).normalized()[axis]) /
-                  (2 * step);
-  }
-  return 0.5 * divergence;
-}
-
-/** Distance to the isosurface, along the gradient. */
-double
-deviation(const Case& field, const PointIso& point)
-{
-  const Vector start(point.x, point.y, point.z);
-  Vector x = start;
-  for (int i = 0; i < 20; ++i) {
-    const Vector gradient = gradientOf(field, x);
-    const Vector step =
-        (field.value(x) - field.isovalue) / gradient.squaredNorm() * gradient;
-    x -= step;
-    if (step.norm() < 1e-10 * field.side)
-      break;
-  }
-  return std::abs((start - x).dot(gradientOf(field, x).normalized()));
-}
-
-Case
-makeCase(const std::string& name, std::size_t n)
-{
-  const double side = std::cbrt(static_cast<double>(n)), radius = 46.0 / 160.0 * side;
-  const auto r = [](const Vector& x) { return x.norm(); };
-  if (name == "radial")
-    return {"radial", r, radius, side};
-  if (name == "waves")
-    return {"waves",
-            [](const Vector& x) {
-              return x.norm() + 0.8 * std::sin(0.35 * x[0]) * std::sin(0.3 * x[1]) *
-                                    std::sin(0.4 * x[2]);
-            },
-            radius,
-            side};
-  if (name == "decay")
-    return {"decay",
-            [side](const Vector& x) {
-              return std::exp(-6 * x.norm() / side) * (1 + 0.6 * x[0] / side);
-            },
-            std::exp(-1.5),
-            side};
-  if (name == "gyroid")
-    return {"gyroid",
-            [side](const Vector& x) {
-              const Vector p = 4 * M_PI / side * x;
-              return std::sin(p[0]) * std::cos(p[1]) + std::sin(p[1]) * std::cos(p[2]) +
-                     std::sin(p[2]) * std::cos(p[0]);
-            },
-            0.3,
-            side};
-  return {"torus",
-          [side](const Vector& x) {
-            const Vector p = 2 / side * x;
-            return 0.25 - std::hypot(std::hypot(p[0], p[1]) - 0.65, p[2]);
-          },
-          0.02,
-          side};
-}
-
-/** Uniform, or clustered about the origin: density ~ r^-3 over a factor 27,000. */
-Cloud::Ptr
-sample(const Case& field,
-       std::size_t n,
-       std::uint64_t seed,
-       bool clustered,
-       double noise = 0.0)
-{
-  Cloud::Ptr cloud(new Cloud(static_cast<std::uint32_t>(n), 1));
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto u = [&](std::uint64_t draw) {
-      return pcl_uvol::uniformAt(seed, i, draw);
-    };
-    Vector x = field.side * (Vector(u(0), u(1), u(2)) - Vector::Constant(0.5));
-    if (clustered) {
-      const double r = 0.5 * field.side * std::pow(30.0, u(0) - 1.0);
-      const double z = 2 * u(1) - 1, angle = 2 * M_PI * u(2),
-                   flat = std::sqrt(1 - z * z);
-      x = r * Vector(flat * std::cos(angle), flat * std::sin(angle), z);
-    }
-    pcl::PointXYZI& point = (*cloud)[i];
-    point.getVector3fMap() = x.cast<float>();
-    point.intensity =
-        static_cast<float>(field.value(point.getVector3fMap().cast<double>()) +
-                           noise * field.isovalue * pcl_uvol::normalAt(seed, i, 5));
-  }
-  return cloud;
-}
 
 Surface
 extract(const Cloud::Ptr& cloud,
@@ -157,34 +43,11 @@ extract(const Cloud::Ptr& cloud,
   return surface;
 }
 
-std::vector<double>
-deviations(const Case& field, const Surface& surface)
-{
-  std::vector<double> result;
-  for (const PointIso& point : surface)
-    result.push_back(deviation(field, point));
-  return result;
-}
-
-double
-mean(const std::vector<double>& values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.0) /
-         static_cast<double>(values.size());
-}
-
-double
-quantile(std::vector<double> values, double part)
-{
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(part *
-                                         static_cast<double>(values.size() - 1))];
-}
-
 TEST(SmoothIsopoints, RadialTestWithFourMillionSamples)
 {
-  const Case field = makeCase("radial", 4000000);
-  const Surface surface = extract(sample(field, 4000000, 1, false), field.isovalue);
+  const SmoothField field = makeSmoothField("radial", 4000000);
+  const Surface surface =
+      extract(sampleSmoothField(field, 4000000, 1, false), field.isovalue);
   const auto found = deviations(field, surface);
   EXPECT_LE(mean(found), 2e-6);
   EXPECT_LE(quantile(found, 0.999), 1.5e-5);
@@ -204,9 +67,10 @@ TEST(SmoothIsopoints, RadialTestWithFourMillionSamples)
 
 TEST(SmoothIsopoints, ClusteredSamples)
 {
-  const Case field = makeCase("radial", 500000);
+  const SmoothField field = makeSmoothField("radial", 500000);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Surface surface = extract(sample(field, 500000, seed, true), field.isovalue);
+    const Surface surface =
+        extract(sampleSmoothField(field, 500000, seed, true), field.isovalue);
     const auto found = deviations(field, surface);
     EXPECT_LE(mean(found), 1.2e-5);
     EXPECT_LE(quantile(found, 0.999), 1.5e-4);
@@ -224,8 +88,8 @@ TEST(SmoothIsopoints, ClusteredSamples)
 
 TEST(SmoothIsopoints, WavesOfTwentySpacings)
 {
-  const Case field = makeCase("waves", 500000);
-  const auto cloud = sample(field, 500000, 1, false);
+  const SmoothField field = makeSmoothField("waves", 500000);
+  const auto cloud = sampleSmoothField(field, 500000, 1, false);
   const double smooth = mean(deviations(field, extract(cloud, field.isovalue)));
   const double linear =
       mean(deviations(field, extract(cloud, field.isovalue, Interpolation::Linear)));
@@ -236,10 +100,11 @@ TEST(SmoothIsopoints, WavesOfTwentySpacings)
 TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing)
 {
   const auto relative = [](std::size_t n, Interpolation interpolation) {
-    const Case field = makeCase("gyroid", n);
-    return mean(deviations(
-               field,
-               extract(sample(field, n, 3, false), field.isovalue, interpolation))) /
+    const SmoothField field = makeSmoothField("gyroid", n);
+    return mean(deviations(field,
+                           extract(sampleSmoothField(field, n, 3, false),
+                                   field.isovalue,
+                                   interpolation))) /
            field.side;
   };
   const auto order = [&](Interpolation interpolation) {
@@ -251,11 +116,13 @@ TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing)
 
 TEST(SmoothIsopoints, CurvatureOfAGyroid)
 {
-  const Case field = makeCase("gyroid", 500000);
-  const Surface surface = extract(sample(field, 500000, 1, false), field.isovalue);
+  const SmoothField field = makeSmoothField("gyroid", 500000);
+  const Surface surface =
+      extract(sampleSmoothField(field, 500000, 1, false), field.isovalue);
   std::vector<double> truth;
   for (const PointIso& point : surface) // outside is where values are lower
-    truth.push_back(-meanCurvatureOf(field, Vector(point.x, point.y, point.z)));
+    truth.push_back(
+        -uvol_test::meanCurvatureOf(field, Vector(point.x, point.y, point.z)));
   double highest = 0.0;
   for (const double curvature : truth)
     highest = std::max(highest, std::abs(curvature));
@@ -273,13 +140,13 @@ TEST(SmoothIsopoints, CurvatureOfAGyroid)
 struct Trust {
   std::vector<double> truth, estimate;
 
-  void
-  add(const Case& field, const Surface& surface)
+  Trust() = default;
+
+  Trust(const SmoothField& field, const Surface& surface)
   {
-    for (const PointIso& point : surface) {
-      truth.push_back(deviation(field, point));
+    truth = deviations(field, surface);
+    for (const PointIso& point : surface)
       estimate.push_back(point.error);
-    }
   }
 
   void
@@ -337,9 +204,9 @@ TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay)
   for (const char* name : {"radial", "waves", "decay", "gyroid", "torus"})
     for (const std::size_t n : {30000, 100000, 300000})
       for (const bool clustered : {false, true}) {
-        const Case field = makeCase(name, n);
-        Trust one;
-        one.add(field, extract(sample(field, n, 1, clustered), field.isovalue));
+        const SmoothField field = makeSmoothField(name, n);
+        const Trust one(
+            field, extract(sampleSmoothField(field, n, 1, clustered), field.isovalue));
         const auto order = Trust::orderOf(one.estimate);
         EXPECT_GE(one.covered(0, order.size(), order), 0.85) << name << ' ' << n;
         all.add(one);
@@ -358,9 +225,10 @@ TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay)
 TEST(SmoothIsopoints, ErrorsCoverNoise)
 {
   for (const char* name : {"radial", "waves", "decay", "gyroid", "torus"}) {
-    const Case field = makeCase(name, 100000);
-    Trust trust;
-    trust.add(field, extract(sample(field, 100000, 2, false, 0.01), field.isovalue));
+    const SmoothField field = makeSmoothField(name, 100000);
+    const Trust trust(
+        field,
+        extract(sampleSmoothField(field, 100000, 2, false, 0.01), field.isovalue));
     const auto order = Trust::orderOf(trust.estimate);
     EXPECT_GE(trust.covered(0, order.size(), order), 0.9) << name;
     EXPECT_LE(quantile(trust.estimate, 0.5), 6.0 * quantile(trust.truth, 0.5)) << name;
@@ -369,9 +237,9 @@ TEST(SmoothIsopoints, ErrorsCoverNoise)
 
 TEST(SmoothIsopoints, HolesInTheSamplingAreFlagged)
 {
-  const Case field = makeCase("radial", 300000);
+  const SmoothField field = makeSmoothField("radial", 300000);
   for (const bool clustered : {false, true}) {
-    const auto whole = sample(field, 300000, 4, clustered);
+    const auto whole = sampleSmoothField(field, 300000, 4, clustered);
     constexpr double hole_radius = 4.0;
     std::vector<Vector> holes;
     for (std::uint64_t i = 0; i < 12; ++i) {
@@ -412,8 +280,8 @@ TEST(SmoothIsopoints, HolesInTheSamplingAreFlagged)
  * the edge widened by half its length. */
 TEST(SmoothIsopoints, NoOvershootAtSteps)
 {
-  const Case field = makeCase("radial", 100000);
-  const auto smooth = sample(field, 100000, 5, false);
+  const SmoothField field = makeSmoothField("radial", 100000);
+  const auto smooth = sampleSmoothField(field, 100000, 5, false);
   const std::function<float(float)> steps[] = {
       [](float f) { return f < 14.0f ? 0.0f : 1.0f; },
       [](float f) { return f < 14.0f ? 0.1f * f : 100.0f + f; },
@@ -475,7 +343,7 @@ TEST(SmoothIsopoints, FewOrFlatSamplesStayLinear)
 
 TEST(SmoothIsopoints, ALatticeIsFittedToo)
 {
-  const Case field = makeCase("radial", 64000);
+  const SmoothField field = makeSmoothField("radial", 64000);
   Cloud::Ptr cloud(new Cloud);
   for (std::uint64_t i = 0; i < 64000; ++i) {
     const auto x =

@@ -6,11 +6,13 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <sstream>
 
 namespace {
@@ -38,6 +40,26 @@ radialCsv(std::size_t n, double dx = 0.0, double dy = 0.0, double dz = 0.0)
         << z << ',' << i % 2 << '\n';
   }
   return csv.str();
+}
+
+/** 20,000 of these points with a label of their own; without one they are left out. */
+std::string
+editedCsv(const std::function<std::string(double x, double y, double z)>& label)
+{
+  std::istringstream table(radialCsv(20000));
+  std::string line;
+  std::getline(table, line);
+  std::ostringstream edited;
+  edited << line << ",label\n";
+  while (std::getline(table, line)) {
+    std::istringstream row(line);
+    double x, y, z;
+    char comma;
+    row >> x >> comma >> y >> comma >> z;
+    if (const std::string text = label(x, y, z); !text.empty())
+      edited << line << ',' << text << '\n';
+  }
+  return edited.str();
 }
 
 /** Coordinates with the origin added, in the order of the file. */
@@ -129,6 +151,75 @@ TEST_F(Isosurface, WritesOrientedPointsWithEveryField)
     EXPECT_GT(outward / std::sqrt(radius_sq), 0.8); // lower values lie outside
     EXPECT_NEAR(std::sqrt(length_sq), speed.read(point), 1e-3); // vel = position
   }
+}
+
+TEST_F(Isosurface, FiltersByErrorAndSupport)
+{
+  // a hole in the sampling where the surface passes
+  uvol_test::writeFile(in_, editedCsv([](double x, double y, double z) {
+                         return std::hypot(x - 13.0, y - 8.0, z - 8.0) < 2.5 ? "" : "0";
+                       }));
+  const std::string base = in_ + " " + out_ + " -field density -iso 15 ";
+  const auto all = run(base);
+  ASSERT_EQ(0, all.exit_code) << all.err;
+  EXPECT_NE(std::string::npos, all.out.find("estimated error: median")) << all.out;
+  const std::size_t count = pointsIn(out_);
+  const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(out_);
+  const pcl_uvol::ScalarField error(surface.cloud.fields, "error");
+  const pcl_uvol::ScalarField support(surface.cloud.fields, "support");
+  std::vector<double> errors;
+  std::size_t bridged = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto* const point = &surface.cloud.data[i * surface.cloud.point_step];
+    errors.push_back(error.read(point));
+    bridged += support.read(point) == 2.0;
+    EXPECT_GE(support.read(point), 1.0);
+  }
+  std::sort(errors.begin(), errors.end());
+  std::ostringstream middle;
+  middle.precision(17);
+  middle << errors[count / 2];
+  ASSERT_EQ(0, run(base + "-max-error " + middle.str()).exit_code);
+  EXPECT_EQ(static_cast<std::size_t>(
+                std::upper_bound(errors.begin(), errors.end(), errors[count / 2]) -
+                errors.begin()),
+            pointsIn(out_));
+  ASSERT_EQ(0, run(base + "-drop-bridged").exit_code);
+  EXPECT_EQ(count - bridged, pointsIn(out_));
+  EXPECT_GT(bridged, 0u);
+
+  for (const char* wrong : {"-interpolation linear -max-error 1",
+                            "-interpolation linear -drop-bridged",
+                            "-interpolation linear -normals fit",
+                            "-normals edge",
+                            "-interpolation cubic",
+                            "-max-error -1"})
+    EXPECT_EQ(2, run(base + wrong).exit_code) << wrong;
+}
+
+TEST_F(Isosurface, LabelsGetNormalsFromTheirNeighbors)
+{
+  // A ball of ones: no polynomial fits it, and edges point anywhere.
+  uvol_test::writeFile(in_, editedCsv([](double x, double y, double z) {
+                         return std::hypot(x - 8.0, y - 8.0, z - 8.0) < 5.0 ? "1" : "0";
+                       }));
+  const auto result = run(in_ + " " + out_ + " -field label -iso 0.5");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(out_);
+  double mean_cosine = 0.0;
+  for (std::size_t i = 0; i < surface.cloud.width; ++i) {
+    const auto* const point = &surface.cloud.data[i * surface.cloud.point_step];
+    Eigen::Vector3d x, normal;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string name(1, "xyz"[axis]);
+      x[axis] = pcl_uvol::ScalarField(surface.cloud.fields, name).read(point) +
+                surface.origin[static_cast<std::size_t>(axis)] - 8.0;
+      normal[axis] =
+          pcl_uvol::ScalarField(surface.cloud.fields, "normal_" + name).read(point);
+    }
+    mean_cosine += x.normalized().dot(normal) / surface.cloud.width;
+  }
+  EXPECT_GT(mean_cosine, 0.97);
 }
 
 TEST_F(Isosurface, SameBytesForAnyNumberOfThreadsAndEveryRun)
