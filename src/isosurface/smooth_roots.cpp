@@ -80,16 +80,18 @@ struct ConeDirections {
   }
 };
 
-/** The neighbourhood of one isopoint, beside what the fit is made from. */
+/** The neighbourhood of one isopoint, beside what the fit is made from. Lengths are
+ * those of the stretched space. */
 struct Surroundings {
-  Position center;    ///< the linear root, in the stretched space
-  double radius;      ///< of the support, in the stretched space
+  Position center; ///< the linear root
+  double edge_length;
+  double radius;      ///< of the support
   double value_range; ///< of the fitted samples
   double edge_span;   ///< part of the range between the values at the ends of the edge
   IsoSupport support;
 };
 
-/** Why a linear root stayed. */
+/** Which root it is, or why the linear one stayed. */
 enum class Outcome { Cubic, Quadratic, Singular, Step, Far };
 
 /** Fits of consecutive isopoints; one object per thread. */
@@ -116,13 +118,13 @@ public:
     Surroundings surroundings[fit_lanes];
     int weighted[fit_lanes] = {};
     for (std::size_t lane = 0; lane < fit_lanes; ++lane)
-      weighted[lane] = lane < count
-                           ? gather(points[lane], edges[lane], lane, surroundings[lane])
-                           : clear(lane, 0);
+      weighted[lane] =
+          lane < count ? gather(centers[lane], edges[lane], lane, surroundings[lane])
+                       : clear(lane, 0);
     FitResult result;
     fit_(samples_.data(), samples_.size(), weighted, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      outcomes[lane] = judge(result, lane, surroundings[lane], points[lane]);
+      outcomes[lane] = judge(result, lane, surroundings[lane]);
       finish(result,
              lane,
              surroundings[lane],
@@ -141,6 +143,14 @@ private:
     return {{point.x * scale[0], point.y * scale[1], point.z * scale[2]}};
   }
 
+  static double
+  distance(const Position& a, const Position& b)
+  {
+    return std::hypot(static_cast<double>(a[0]) - b[0],
+                      static_cast<double>(a[1]) - b[1],
+                      static_cast<double>(a[2]) - b[2]);
+  }
+
   /** Leave a lane without samples from the given one on. */
   int
   clear(std::size_t lane, std::size_t first)
@@ -155,14 +165,16 @@ private:
 
   /** Fill a lane; returns the number of samples with a weight. */
   int
-  gather(const PointIso& point,
+  gather(const Position& center,
          const IsoEdge& edge,
          std::size_t lane,
          Surroundings& surroundings)
   {
-    const Position& center = surroundings.center = centerOf(point);
-    const auto neighbors = finder_.find(center, point.edge_length);
     const std::vector<Position>& positions = input_.samples.getPositions();
+    surroundings.center = center;
+    surroundings.edge_length = distance(positions[edge.first], positions[edge.second]);
+    const auto neighbors =
+        finder_.find(center, static_cast<float>(surroundings.edge_length));
     const std::vector<float>& values = input_.scalar.values;
     float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
     for (std::size_t j = 0; j < neighbors.size; ++j) {
@@ -192,29 +204,26 @@ private:
     surroundings.edge_span =
         std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
         surroundings.value_range;
-    surroundings.support = supportOf(point.edge_length,
-                                     std::sqrt(static_cast<double>(sq_nearest)),
-                                     surroundings.radius,
-                                     directions);
+    surroundings.support =
+        supportOf(surroundings, std::sqrt(static_cast<double>(sq_nearest)), directions);
     return static_cast<int>(neighbors.size) - 1;
   }
 
   IsoSupport
-  supportOf(double edge_length, double nearest, double radius, std::size_t directions)
+  supportOf(const Surroundings& surroundings, double nearest, std::size_t directions)
   {
     static const ConeDirections cone_directions;
     const float cosine = cone_(
         cone_directions.x, direction_[0], direction_[1], direction_[2], directions);
-    if (cosine >= empty_cone && nearest <= empty_ball * radius)
+    if (cosine >= empty_cone && nearest <= empty_ball * surroundings.radius)
       return IsoSupport::Measured;
-    return edge_length > bridging_edge * radius ? IsoSupport::Bridged : IsoSupport::Rim;
+    return surroundings.edge_length > bridging_edge * surroundings.radius
+               ? IsoSupport::Bridged
+               : IsoSupport::Rim;
   }
 
   static Outcome
-  judge(const FitResult& result,
-        std::size_t lane,
-        const Surroundings& surroundings,
-        const PointIso& point)
+  judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings)
   {
     if (result.order[lane] == fit_failed)
       return Outcome::Singular;
@@ -224,8 +233,8 @@ private:
       return Outcome::Step;
     const double shift = std::hypot(
         result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
-    const double room = std::max(static_cast<double>(point.edge_length),
-                                 farthest_shift * surroundings.radius);
+    const double room =
+        std::max(surroundings.edge_length, farthest_shift * surroundings.radius);
     if (!(surroundings.radius * std::max(shift, error_factor * result.error[lane]) <=
           room))
       return Outcome::Far;

@@ -179,6 +179,33 @@ TEST_P(OnSmallRealData, EdgesEqualBruteForce)
       std::includes(expected.begin(), expected.end(), found.begin(), found.end()));
 }
 
+/** Core and mantle: the density jumps from 5.6 to 10. */
+TEST(RealData, NoOvershootAtTheCoreOfAPlanet)
+{
+  if (uvol_test::dataFolder().empty())
+    GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
+  const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(
+      uvol_test::dataFolder() + "/particles/planet_remnant.csv");
+  const pcl::PCLPointCloud2::ConstPtr cloud(&dataset.cloud, [](const void*) {});
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setScalarField("rho_g_cm3");
+  extraction.setIsoValue(8.0);
+  pcl::PointCloud<PointIso> surface;
+  extraction.extract(surface);
+  EXPECT_GT(surface.size(), 500u);
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const auto& edge = extraction.getEdges()[i];
+    const Eigen::Array3f a = Eigen::Array3f::Map(view.xyz(edge.first));
+    const Eigen::Array3f b = Eigen::Array3f::Map(view.xyz(edge.second));
+    const Eigen::Array3f x = surface[i].getArray3fMap();
+    const float room = 0.5f * surface[i].edge_length;
+    EXPECT_TRUE((x >= a.min(b) - room).all() && (x <= a.max(b) + room).all())
+        << x.transpose();
+  }
+}
+
 /** What GoogleTest calls a parameter; else it prints bytes. */
 void
 PrintTo(const RealData& data, std::ostream* out)
