@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ranges, histograms and isovalues by sorting, spacing by nearest neighbours.
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/io/dataset_info.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,10 @@
 namespace pcl_uvol {
 
 namespace {
+
+constexpr std::size_t block_samples = 1u << 12;
+/** Samples in leaf order that are looked up in one box. */
+constexpr std::size_t expected_together = 8;
 
 /** Quantiles of sorted values strictly between the extremes. */
 std::vector<double>
@@ -103,12 +108,23 @@ describePositions(const Dataset& dataset, unsigned threads)
   }
   if (positions.size() < 2)
     return statistics;
-  const NeighborGraph nearest = computeNearestNeighbors(*samples, 1, threads, report);
-  std::vector<double> spacing(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Position &p = positions[i], &q = positions[*nearest[i].begin()];
-    spacing[i] = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-  }
+  std::vector<float> spacing(positions.size());
+  parallelBlocks(
+      positions.size(),
+      block_samples,
+      threads,
+      [&](std::size_t begin, std::size_t end) {
+        NearestFinder finder(*samples, 2); // every sample finds itself as well
+        for (std::size_t i = begin; i < end; ++i) {
+          if (i % expected_together == 0)
+            finder.expect(&positions[i], std::min(expected_together, end - i));
+          const auto nearest = finder.find(positions[i], 1.0f);
+          const Position& other = positions[nearest.samples[nearest.samples[0] == i]];
+          spacing[i] = std::hypot(positions[i][0] - other[0],
+                                  positions[i][1] - other[1],
+                                  positions[i][2] - other[2]);
+        }
+      });
   std::sort(spacing.begin(), spacing.end());
   statistics.spacing_min = spacing.front();
   statistics.spacing_median = spacing[spacing.size() / 2];
