@@ -113,7 +113,10 @@ public:
 
   /** \brief Counts and times of the last extract(). Counts: samples, no_value,
    * non_finite, duplicates, conflicting_duplicates, crossing_samples, edges,
-   * coincident, isopoints. */
+   * coincident, isopoints; with smooth interpolation
+   * cubic_roots, quadratic_roots, and linear_singular, linear_step, linear_far for
+   * isopoints whose linear root stayed because the fit is singular or fails, the values
+   * step, or the fit leaves the edge's surroundings; bridged and rim by support. */
   const Report&
   getReport() const
   {
@@ -181,12 +184,15 @@ private:
  * pcl::PointCloud<PointIso> surface;
  * extraction.extract(surface);
  * \endcode
- * Neighbours are approximate natural neighbours (thesis 2.2, 2.3), isopoints come from
- * linear interpolation along edges whose ends lie on different sides of the isovalue
- * (2.4). A value equal to the isovalue counts as above. Isopoints that fall together
- * are merged. The tree is built once per cloud: further isovalues and fields reuse it.
- * Memory: about 60 bytes per sample besides the cloud. \tparam PointT any registered
- * point type with x, y, z, or pcl::PCLPointCloud2 */
+ * Neighbours are approximate natural neighbours (thesis 2.2, 2.3), an isopoint belongs
+ * to every edge whose ends lie on different sides of the isovalue (2.4). By default it
+ * lies on the zero level of a polynomial of degree 3 or 2 fitted to its 40 nearest
+ * samples, which also gives normal, mean curvature and error; where a fit does not
+ * serve it stays where linear interpolation along the edge puts it, with the edge's
+ * outside vector. A value equal to the isovalue counts as above. Linear isopoints that
+ * fall together are merged. The tree is built once per cloud: further isovalues and
+ * fields reuse it. Memory: about 60 bytes per sample besides the cloud. \tparam PointT
+ * any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class IsosurfaceExtraction : public pcl::PCLBase<PointT>,
                              public IsosurfaceExtractionBase {
