@@ -18,6 +18,10 @@ constexpr std::uint32_t whole_subtree = 16;
 constexpr float expected_margin = 1.2f;
 /** Points farther apart, in multiples of the reach, are not worth a box in common. */
 constexpr float shared_extent = 3.0f;
+/** Candidates per neighbour that a box may hold: where density changes that much, each
+ * point is searched for on its own. */
+constexpr std::size_t crowd_per_neighbor = 100;
+constexpr float no_box = -1.0f;
 /** Guesses of a limit between two distances before they are taken for equal. */
 constexpr int most_guesses = 16;
 /** Room for rounding, where a box must not be too small by one bit. */
@@ -56,40 +60,39 @@ NearestFinder::appendInside(std::uint32_t begin, std::uint32_t end)
                                             candidates_.data() + next});
 }
 
-void
+bool
 NearestFinder::gatherBelow(const KdNode& node)
 {
   if (node.count <= whole_subtree) {
     appendInside(node.begin, node.begin + node.count);
-    return;
+    return candidate_count_ <= crowd_per_neighbor * k_;
   }
   // Samples of the plane's own coordinate lie on either side of it.
   const KdTree& tree = samples_.getTree();
   const int axis = tree.getAxis(node.depth);
   const float plane = tree.getPlane(node).coordinate;
-  if (low_[axis] <= plane)
-    gatherBelow(node.left());
-  if (high_[axis] >= plane)
-    gatherBelow(node.right());
+  return (low_[axis] > plane || gatherBelow(node.left())) &&
+         (high_[axis] < plane || gatherBelow(node.right()));
 }
 
-void
+bool
 NearestFinder::gather(const Position& low, const Position& high, float margin)
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  margin_ = margin;
   for (int axis = 0; axis < 3; ++axis) {
     low_[axis] = std::nextafter(low[axis] - margin, -infinity);
     high_[axis] = std::nextafter(high[axis] + margin, infinity);
   }
   candidate_count_ = 0;
-  gatherBelow(samples_.getTree().getRoot());
+  const bool complete = gatherBelow(samples_.getTree().getRoot());
+  margin_ = complete ? margin : no_box;
+  return complete;
 }
 
 void
 NearestFinder::expect(const Position* points, std::size_t count)
 {
-  if (margin_ < 0.0f || count == 0)
+  if (reach_ == 0.0f || count == 0)
     return;
   Position low = points[0], high = points[0];
   for (std::size_t i = 1; i < count; ++i)
@@ -100,7 +103,7 @@ NearestFinder::expect(const Position* points, std::size_t count)
   for (int axis = 0; axis < 3; ++axis)
     if (high[axis] - low[axis] > shared_extent * reach_)
       return;
-  if (std::min(marginAt(low), marginAt(high)) < reach_)
+  if (margin_ == no_box || std::min(marginAt(low), marginAt(high)) < reach_)
     gather(low, high, expected_margin * reach_);
 }
 
@@ -147,10 +150,11 @@ void
 NearestFinder::select(const Position& point)
 {
   const std::size_t count = candidate_count_;
-  if (sq_dist_.size() < candidates_.size()) {
-    sq_dist_.resize(candidates_.size());
-    found_sq_dist_.resize(candidates_.size() + kernel_room);
-    found_samples_.resize(candidates_.size() + kernel_room);
+  const std::size_t room = candidates_.size() + kernel_room;
+  if (sq_dist_.size() < room) {
+    sq_dist_.resize(room);
+    found_sq_dist_.resize(std::max(found_sq_dist_.size(), room));
+    found_samples_.resize(std::max(found_samples_.size(), room));
   }
   kernels_->measure(
       x_[0].data(), x_[1].data(), x_[2].data(), count, point.x, sq_dist_.data());
@@ -170,11 +174,62 @@ NearestFinder::select(const Position& point)
   found_count_ = kept;
 }
 
-NearestFinder::Row
-NearestFinder::find(const Position& point, float length)
+void
+NearestFinder::descend(const Position& point,
+                       const KdNode& node,
+                       float sq_bound,
+                       Position& offsets)
 {
-  if (margin_ < 0.0f || marginAt(point) < reach_)
-    gather(point, point, expected_margin * (reach_ > 0.0f ? reach_ : length));
+  if (node.isLeaf()) {
+    const Position& x = samples_.getPositions()[node.begin];
+    const float dx = x[0] - point[0], dy = x[1] - point[1], dz = x[2] - point[2];
+    nearest_.emplace_back(dx * dx + dy * dy + dz * dz, node.begin);
+    std::push_heap(nearest_.begin(), nearest_.end());
+    if (nearest_.size() > k_) {
+      std::pop_heap(nearest_.begin(), nearest_.end());
+      nearest_.pop_back();
+    }
+    return;
+  }
+  const KdTree& tree = samples_.getTree();
+  const int axis = tree.getAxis(node.depth);
+  const float offset = tree.getPlane(node).coordinate - point[axis];
+  descend(point, offset >= 0.0f ? node.left() : node.right(), sq_bound, offsets);
+  // The far half begins at the plane (Arya and Mount 1993).
+  const float old_offset = offsets[axis];
+  const float sq_far = sq_bound - old_offset * old_offset + offset * offset;
+  if (nearest_.size() < k_ || sq_far <= slack * nearest_.front().first) {
+    offsets[axis] = offset;
+    descend(point, offset >= 0.0f ? node.right() : node.left(), sq_far, offsets);
+    offsets[axis] = old_offset;
+  }
+}
+
+void
+NearestFinder::searchAlone(const Position& point)
+{
+  nearest_.clear();
+  Position offsets{};
+  descend(point, samples_.getTree().getRoot(), 0.0f, offsets);
+  reach_ = std::sqrt(nearest_.front().first) * slack;
+  std::sort(nearest_.begin(), nearest_.end(), [](const auto& a, const auto& b) {
+    return a.second < b.second;
+  });
+  found_count_ = nearest_.size();
+  found_sq_dist_.resize(std::max(found_sq_dist_.size(), found_count_ + kernel_room));
+  found_samples_.resize(std::max(found_samples_.size(), found_count_ + kernel_room));
+  for (std::size_t i = 0; i < found_count_; ++i) {
+    found_sq_dist_[i] = nearest_[i].first;
+    found_samples_[i] = nearest_[i].second;
+  }
+}
+
+bool
+NearestFinder::searchInBox(const Position& point, float length)
+{
+  if ((margin_ == no_box || marginAt(point) < reach_) &&
+      !gather(point, point, expected_margin * (reach_ > 0.0f ? reach_ : length)))
+    return false;
   for (;;) {
     select(point);
     float sq_reach = 0.0f;
@@ -183,10 +238,19 @@ NearestFinder::find(const Position& point, float length)
     reach_ = std::sqrt(sq_reach) * slack;
     if (candidate_count_ == samples_.size() ||
         (found_count_ == k_ && reach_ <= marginAt(point)))
-      return {found_samples_.data(), found_sq_dist_.data(), found_count_};
+      return true;
     // With k candidates found none of the nearest is farther than the farthest of them.
-    gather(point, point, found_count_ == k_ ? reach_ : 2.0f * margin_);
+    if (!gather(point, point, found_count_ == k_ ? reach_ : 2.0f * margin_))
+      return false;
   }
+}
+
+NearestFinder::Row
+NearestFinder::find(const Position& point, float length)
+{
+  if (!searchInBox(point, length))
+    searchAlone(point);
+  return {found_samples_.data(), found_sq_dist_.data(), found_count_};
 }
 
 } // namespace pcl_uvol

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace {
@@ -95,6 +96,24 @@ TEST_P(NearestFinderOnEveryShape, ExpectingPointsChangesNothing)
     finder.expect(points.data(), points.size());
     for (const Position& point : points)
       ASSERT_EQ(bruteForce(*samples, point, 20), indicesOf(finder.find(point, 0.05f)));
+  }
+}
+
+/** Twelve orders of magnitude of density: a box for one point holds all the others. */
+TEST(NearestFinder, AnyDensity)
+{
+  auto cloud = uvol_test::makeCloud("uniform", 20000, 3);
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    (*cloud)[i].getVector3fMap() =
+        ((*cloud)[i].getVector3fMap() - Eigen::Vector3f::Constant(0.5f)) *
+        std::pow(10.0f, -4.0f * static_cast<float>(i % 1000) / 1000.0f);
+  for (std::size_t i = 0; i < 20; ++i) // far from all
+    (*cloud)[i].getVector3fMap() *= 1000.0f;
+  const auto samples = buildSamples(*cloud);
+  NearestFinder finder(*samples, 12);
+  for (std::size_t i = 0; i < samples->size(); i += 37) {
+    const Position& point = samples->getPositions()[i];
+    ASSERT_EQ(bruteForce(*samples, point, 12), indicesOf(finder.find(point, 1.0f)));
   }
 }
 

@@ -184,8 +184,8 @@ TEST(RealData, NoOvershootAtTheCoreOfAPlanet)
 {
   if (uvol_test::dataFolder().empty())
     GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
-  const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(
-      uvol_test::dataFolder() + "/particles/planet_remnant.csv");
+  const pcl_uvol::Dataset dataset =
+      pcl_uvol::loadDataset(uvol_test::dataFolder() + "/particles/planet_remnant.csv");
   const pcl::PCLPointCloud2::ConstPtr cloud(&dataset.cloud, [](const void*) {});
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(cloud);

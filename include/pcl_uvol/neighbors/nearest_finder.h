@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -44,11 +45,24 @@ public:
   expect(const Position* points, std::size_t count);
 
 private:
-  void
+  /** Make the box; false, and no box, if too many samples lie in it. */
+  bool
   gather(const Position& low, const Position& high, float margin);
 
-  void
+  bool
   gatherBelow(const KdNode& node);
+
+  bool
+  searchInBox(const Position& point, float length);
+
+  /** Depth first through the tree, for any density. */
+  void
+  searchAlone(const Position& point);
+
+  /** \param sq_bound least squared distance of the node's cell
+   * \param offsets per axis, of the cell from the point */
+  void
+  descend(const Position& point, const KdNode& node, float sq_bound, Position& offsets);
 
   /** Distance to the next face of the box: all samples within it are candidates. */
   float
@@ -73,12 +87,13 @@ private:
 
   // Candidates: all samples in a box. Arrays keep their greatest size.
   Position low_{}, high_{};
-  float margin_ = -1.0f; ///< of the box around its points; negative: there is none yet
+  float margin_ = -1.0f; ///< of the box around its points; -1: there is no box
   std::size_t candidate_count_ = 0, found_count_ = 0;
   std::vector<std::uint32_t> candidates_; ///< ascending
   std::vector<float> x_[3], sq_dist_, ordered_;
   std::vector<std::uint32_t> found_samples_;
   std::vector<float> found_sq_dist_;
+  std::vector<std::pair<float, std::uint32_t>> nearest_; ///< heap of a search alone
 };
 
 } // namespace pcl_uvol
