@@ -83,11 +83,11 @@ struct ConeDirections {
 /** The neighbourhood of one isopoint, beside what the fit is made from. Lengths are
  * those of the stretched space. */
 struct Surroundings {
-  Position center; ///< the linear root
   double edge_length;
   double radius;      ///< of the support
   double value_range; ///< of the fitted samples
   double edge_span;   ///< part of the range between the values at the ends of the edge
+  Position center;    ///< the linear root
   IsoSupport support;
 };
 
@@ -99,11 +99,11 @@ class RootSmoother {
 public:
   RootSmoother(const IsopointInput& input, float isovalue)
       : input_(input)
-      , isovalue_(isovalue)
       , finder_(input.samples, fitted_samples + 1)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , cone_(cone_kernels.get())
+      , isovalue_(isovalue)
   {
   }
 
@@ -291,15 +291,15 @@ private:
         static_cast<float>(std::hypot(error_factor * standard_error, rounding));
   }
 
+  static constexpr std::size_t direction_room =
+      (fitted_samples + cone_lanes) / cone_lanes * cone_lanes;
+  alignas(64) float direction_[3][direction_room]; // to the neighbours
   const IsopointInput& input_;
-  float isovalue_;
   NearestFinder finder_;
   std::vector<FitSample> samples_;
-  // to the neighbours, filled up to whole lanes
-  alignas(
-      64) float direction_[3][(fitted_samples + cone_lanes) / cone_lanes * cone_lanes];
   FitKernel fit_;
   EmptyConeKernel cone_;
+  float isovalue_;
 };
 
 } // namespace
