@@ -189,6 +189,74 @@ describeErrors(const pcl::PointCloud<PointIso>& isopoints)
   return text.str();
 }
 
+pcl::PointCloud<PointIso>
+extract(const Options& options,
+        const Arguments& arguments,
+        const std::string& field,
+        const Eigen::Array3f& scale,
+        const pcl_uvol::Dataset& input,
+        pcl_uvol::IsoEdges& edges,
+        Report& report)
+{
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&input.cloud, [](const void*) {}));
+  extraction.setScalarField(field);
+  extraction.setIsoValues(arguments.isovalues);
+  extraction.setScale(scale);
+  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
+                                                     : pcl_uvol::Outside::Higher);
+  extraction.setInterpolation(arguments.interpolation == "smooth"
+                                  ? pcl_uvol::Interpolation::Smooth
+                                  : pcl_uvol::Interpolation::Linear);
+  extraction.setAngleCriterion(arguments.criterion == "kept"
+                                   ? pcl_uvol::AngleCriterion::Kept
+                                   : pcl_uvol::AngleCriterion::All);
+  extraction.setNumberOfThreads(options.threads());
+  extraction.setProgressCallback(report.progress);
+  pcl::PointCloud<PointIso> isopoints;
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+  edges = extraction.getEdges();
+  return isopoints;
+}
+
+/** Leave out what -max-error and -drop-bridged do not want. */
+void
+filter(const Options& options,
+       const Arguments& arguments,
+       pcl::PointCloud<PointIso>& isopoints,
+       pcl_uvol::IsoEdges& edges,
+       Report& report)
+{
+  if (options.given("max-error"))
+    report.count(
+        "removed_by_error",
+        pcl_uvol::filterIsopoints(isopoints, edges, [&](const PointIso& point) {
+          return point.error <= arguments.max_error;
+        }));
+  if (arguments.drop_bridged)
+    report.count("removed_bridged",
+                 pcl_uvol::filterIsopoints(isopoints, edges, [](const PointIso& point) {
+                   return point.support !=
+                          static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
+                 }));
+}
+
+/** Fields of the samples that give way to those of the isopoints: a column called
+ * error, say. Coordinates and normals are meant to. */
+void
+warnOfReplacedFields(const pcl_uvol::Dataset& input,
+                     const pcl::PCLPointCloud2& isopoints,
+                     Report& report)
+{
+  for (const auto& field : isopoints.fields)
+    if (field.name.size() > 1 && field.name.rfind("normal_", 0) != 0 &&
+        pcl_uvol::findField(input.cloud.fields, field.name) != nullptr)
+      report.warnings.push_back("The samples' field '" + field.name +
+                                "' is left out: isopoints have one of that name.");
+}
+
 int
 run(int argc, char** argv)
 {
@@ -216,42 +284,11 @@ run(int argc, char** argv)
   const std::string field = arguments.field.empty()
                                 ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
                                 : arguments.field;
-  const pcl::PCLPointCloud2::ConstPtr samples(&input.cloud, [](const void*) {});
   const Eigen::Array3f scale = scaleOf(arguments, pcl_uvol::viewOf(input.cloud));
-
-  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(samples);
-  extraction.setScalarField(field);
-  extraction.setIsoValues(arguments.isovalues);
-  extraction.setScale(scale);
-  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                                     : pcl_uvol::Outside::Higher);
-  extraction.setInterpolation(arguments.interpolation == "smooth"
-                                  ? pcl_uvol::Interpolation::Smooth
-                                  : pcl_uvol::Interpolation::Linear);
-  extraction.setAngleCriterion(arguments.criterion == "kept"
-                                   ? pcl_uvol::AngleCriterion::Kept
-                                   : pcl_uvol::AngleCriterion::All);
-  extraction.setNumberOfThreads(options.threads());
-  extraction.setProgressCallback(report.progress);
-  pcl::PointCloud<PointIso> isopoints;
-  extraction.extract(isopoints);
-  report.merge(extraction.getReport());
-
+  pcl_uvol::IsoEdges edges;
+  auto isopoints = extract(options, arguments, field, scale, input, edges, report);
   replaceNormals(options, arguments, scale, isopoints, report);
-  pcl_uvol::IsoEdges edges = extraction.getEdges();
-  if (options.given("max-error"))
-    report.count(
-        "removed_by_error",
-        pcl_uvol::filterIsopoints(isopoints, edges, [&](const PointIso& point) {
-          return point.error <= arguments.max_error;
-        }));
-  if (arguments.drop_bridged)
-    report.count("removed_bridged",
-                 pcl_uvol::filterIsopoints(isopoints, edges, [](const PointIso& point) {
-                   return point.support !=
-                          static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
-                 }));
+  filter(options, arguments, isopoints, edges, report);
 
   pcl_uvol::Dataset output;
   output.origin = input.origin;
@@ -259,7 +296,8 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    pcl_uvol::interpolateFields(input.cloud, edges, output.cloud);
+    warnOfReplacedFields(input, output.cloud, report);
+    pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
   {
     const StepTimer timer(report, "write");

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -25,11 +27,14 @@ SimdLevel
 chooseLevel()
 {
   const char* const variable = std::getenv("PCL_UVOL_SIMD");
-  const std::string name = variable == nullptr ? "" : variable;
-  const SimdLevel allowed = name == "baseline" ? SimdLevel::Baseline
-                            : name == "avx2"   ? SimdLevel::Avx2
-                                               : SimdLevel::Avx512;
-  return std::min(allowed, levelOfMachine());
+  const std::string name = variable == nullptr ? "avx512" : variable;
+  for (const auto& [word, level] : {std::pair{"baseline", SimdLevel::Baseline},
+                                    std::pair{"avx2", SimdLevel::Avx2},
+                                    std::pair{"avx512", SimdLevel::Avx512}})
+    if (name == word)
+      return std::min(level, levelOfMachine());
+  throw InvalidArgument("The environment variable PCL_UVOL_SIMD is '" + name +
+                        "': it can be baseline, avx2 or avx512.");
 }
 
 } // namespace

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fit_kernel.h"
 
+#include "../common/register_bytes.h"
+
 #include <cmath>
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr std::size_t register_lanes = 8;
-#elif defined(__AVX2__)
-constexpr std::size_t register_lanes = 4;
-#else
-constexpr std::size_t register_lanes = 2;
-#endif
+constexpr std::size_t register_lanes = register_bytes / sizeof(double);
 
 /** One number per fit, as many as a register holds. */
-using Lanes = double __attribute__((vector_size(register_lanes * sizeof(double))));
+using Lanes = double __attribute__((vector_size(register_bytes)));
 using Mask = decltype(Lanes{} < Lanes{});
 
 constexpr int quadratic_terms = 10;

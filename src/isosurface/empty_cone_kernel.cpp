@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "empty_cone_kernel.h"
 
+#include "../common/register_bytes.h"
+
 #include <cmath>
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr std::size_t register_lanes = 16;
-#elif defined(__AVX2__)
-constexpr std::size_t register_lanes = 8;
-#else
-constexpr std::size_t register_lanes = 4;
-#endif
+constexpr std::size_t register_lanes = register_bytes / sizeof(float);
 
-using Lanes = float __attribute__((vector_size(register_lanes * sizeof(float))));
+using Lanes = float __attribute__((vector_size(register_bytes)));
 
 constexpr std::size_t group = cone_directions / register_lanes;
 

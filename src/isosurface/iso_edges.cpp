@@ -121,7 +121,8 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
 void
 interpolateFields(const pcl::PCLPointCloud2& samples,
                   const IsoEdges& edges,
-                  pcl::PCLPointCloud2& isopoints)
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads)
 {
   const std::size_t sample_count =
       static_cast<std::size_t>(samples.width) * samples.height;
@@ -150,7 +151,7 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
   result.row_step = result.point_step * result.width;
   result.data.resize(static_cast<std::size_t>(result.point_step) * edges.size());
   parallelBlocks(
-      edges.size(), block_points, 0, [&](std::size_t begin, std::size_t end) {
+      edges.size(), block_points, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           std::uint8_t* const out = &result.data[i * result.point_step];
           for (const FieldCopy& copy : own)

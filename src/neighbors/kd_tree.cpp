@@ -135,7 +135,7 @@ partAtCut(SampleRecord* const first, SampleRecord* const cut, SampleRecord* cons
   while (high - low > counted_records) {
     SampleRecord* const boundary =
         partitionBelow<axis>(low, high, choosePivot<axis>(low, cut, high));
-    if (boundary == cut && cut != low)
+    if (boundary == cut)
       return {std::max_element(low, cut, lessRecord<axis>),
               std::min_element(cut, high, lessRecord<axis>)};
     if (boundary == low) // nothing below the pivot: many equal coordinates

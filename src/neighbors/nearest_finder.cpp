@@ -21,7 +21,6 @@ constexpr float shared_extent = 3.0f;
 /** Candidates per neighbour that a box may hold: where density changes that much, each
  * point is searched for on its own. */
 constexpr std::size_t crowd_per_neighbor = 100;
-constexpr float no_box = -1.0f;
 /** Guesses of a limit between two distances before they are taken for equal. */
 constexpr int most_guesses = 16;
 /** Room for rounding, where a box must not be too small by one bit. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps of an extraction one by one, beside a copy of the samples' memory in the
 // same run: how far each is from the machine's limit. Radial test of thesis Table 2.9.
-#include "support/clouds.h"
+#include "radial_cloud.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -19,15 +19,6 @@ using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
 
 /** x, y, z and the scalar. */
 constexpr std::size_t sample_bytes = 16;
-
-const RadialCloud&
-radialCloud(std::size_t n)
-{
-  static RadialCloud radial;
-  if (!radial.cloud || radial.cloud->size() != n)
-    radial = uvol_test::makeRadialCloud(n, 1);
-  return radial;
-}
 
 /** Rates by samples and by their bytes. */
 void

@@ -2,7 +2,7 @@
 // The 41 nearest samples of every isopoint: boxes of our own tree beside FLANN, whose
 // index holds only the samples near the surface. One thread. Radial test of thesis
 // Table 2.9.
-#include "support/clouds.h"
+#include "radial_cloud.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
 
@@ -22,7 +22,7 @@ constexpr std::size_t samples = 4000000;
 constexpr float margin = 3.5f;
 
 struct Setup {
-  uvol_test::RadialCloud radial = uvol_test::makeRadialCloud(samples, 1);
+  const uvol_test::RadialCloud& radial = radialCloud(samples);
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
   std::vector<pcl_uvol::Position> points;
 

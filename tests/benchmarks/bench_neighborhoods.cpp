@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tree, all neighbourhoods and one isosurface beside CGAL's parallel Delaunay
 // triangulation with its edges, on the radial test of thesis Table 2.9, in one run.
-#include "support/clouds.h"
+#include "radial_cloud.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 
@@ -17,15 +17,6 @@
 namespace {
 
 using uvol_test::RadialCloud;
-
-const RadialCloud&
-radialCloud(std::size_t n)
-{
-  static RadialCloud radial;
-  if (!radial.cloud || radial.cloud->size() != n)
-    radial = uvol_test::makeRadialCloud(n, 1);
-  return radial;
-}
 
 /** Tree and all neighbourhoods, then the edges that cross the isovalue: as much as CGAL
  * does. */

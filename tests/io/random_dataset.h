@@ -2,7 +2,7 @@
 // Datasets of any fields with random content, and their comparison.
 #pragma once
 
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 

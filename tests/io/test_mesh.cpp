@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PLY meshes: what is read, and what is refused.
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/mesh.h>
 

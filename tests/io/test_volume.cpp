@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumes, meshes and what a file holds.
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset_info.h>
 #include <pcl_uvol/io/mesh.h>

@@ -104,9 +104,7 @@ INSTANTIATE_TEST_SUITE_P(IsosurfaceExtraction,
                          EdgesOnEveryShape,
                          testing::ValuesIn(uvol_test::cloudShapes()),
                          [](const auto& shape) {
-                           std::string name = shape.param;
-                           std::replace(name.begin(), name.end(), ' ', '_');
-                           return name;
+                           return uvol_test::testNameOf(shape.param);
                          });
 
 double

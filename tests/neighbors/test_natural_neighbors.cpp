@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <random>
 
 namespace {
@@ -24,22 +23,9 @@ namespace {
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::Position;
 using pcl_uvol::SampleSet;
+using uvol_test::buildSamples;
 using uvol_test::makeCloud;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-
-SampleSet::ConstPtr
-buildSamples(const Cloud& cloud, unsigned threads = 0)
-{
-  std::vector<std::uint32_t> use(cloud.size());
-  std::iota(use.begin(), use.end(), 0u);
-  pcl_uvol::Report report;
-  return SampleSet::build(&cloud[0].x,
-                          sizeof(pcl::PointXYZI) / sizeof(float),
-                          use,
-                          Position{{1.0f, 1.0f, 1.0f}},
-                          threads,
-                          report);
-}
 
 bool
 sameBytes(const std::vector<Position>& a, const std::vector<Position>& b)
@@ -121,10 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::ValuesIn(uvol_test::cloudShapes()),
                      testing::Values<std::size_t>(2, 3, 100, 1331, 4913)),
     [](const auto& shape_and_size) {
-      std::string name = std::get<0>(shape_and_size.param) + "_" +
-                         std::to_string(std::get<1>(shape_and_size.param));
-      std::replace(name.begin(), name.end(), ' ', '_');
-      return name;
+      return uvol_test::testNameOf(std::get<0>(shape_and_size.param)) + "_" +
+             std::to_string(std::get<1>(shape_and_size.param));
     });
 
 TEST(NaturalNeighbors, UniformSamplesHaveFourteenCandidatesAndFiveNeighbors)

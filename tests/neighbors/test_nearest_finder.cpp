@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The k nearest samples of points anywhere, against brute force.
 #include "support/clouds.h"
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace {
 
 using pcl_uvol::NearestFinder;
 using pcl_uvol::Position;
 using pcl_uvol::SampleSet;
-
-SampleSet::ConstPtr
-buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud)
-{
-  std::vector<std::uint32_t> use(cloud.size());
-  std::iota(use.begin(), use.end(), 0u);
-  pcl_uvol::Report report;
-  return SampleSet::build(&cloud[0].x, 8, use, {{1.0f, 1.0f, 1.0f}}, 0, report);
-}
+using uvol_test::buildSamples;
 
 /** Indices of the k nearest, ascending; of equally far ones the lower index. */
 std::vector<std::uint32_t>
@@ -78,9 +69,7 @@ INSTANTIATE_TEST_SUITE_P(NearestFinder,
                          NearestFinderOnEveryShape,
                          testing::ValuesIn(uvol_test::cloudShapes()),
                          [](const auto& shape) {
-                           std::string name = shape.param;
-                           std::replace(name.begin(), name.end(), ' ', '_');
-                           return name;
+                           return uvol_test::testNameOf(shape.param);
                          });
 
 TEST_P(NearestFinderOnEveryShape, ExpectingPointsChangesNothing)

@@ -8,20 +8,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace {
 
 using pcl_uvol::SampleSet;
-
-SampleSet::ConstPtr
-buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud)
-{
-  std::vector<std::uint32_t> use(cloud.size());
-  std::iota(use.begin(), use.end(), 0u);
-  pcl_uvol::Report report;
-  return SampleSet::build(&cloud[0].x, 8, use, {{1.0f, 1.0f, 1.0f}}, 0, report);
-}
+using uvol_test::buildSamples;
 
 float
 sqDist(const SampleSet& samples, std::size_t i, std::size_t j)
@@ -72,9 +63,7 @@ INSTANTIATE_TEST_SUITE_P(NearestNeighbors,
                          NearestOnEveryShape,
                          testing::ValuesIn(uvol_test::cloudShapes()),
                          [](const auto& shape) {
-                           std::string name = shape.param;
-                           std::replace(name.begin(), name.end(), ' ', '_');
-                           return name;
+                           return uvol_test::testNameOf(shape.param);
                          });
 
 TEST(NearestNeighbors, SameForAnyNumberOfThreads)

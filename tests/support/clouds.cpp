@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/clouds.h"
 
-#include "support/test_support.h"
+#include "support/environment.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace uvol_test {
@@ -119,6 +121,27 @@ makeRadialCloud(std::size_t n, std::uint64_t seed)
         point.x - radial.center, point.y - radial.center, point.z - radial.center));
   }
   return radial;
+}
+
+std::string
+testNameOf(std::string shape)
+{
+  std::replace(shape.begin(), shape.end(), ' ', '_');
+  return shape;
+}
+
+pcl_uvol::SampleSet::ConstPtr
+buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud, unsigned threads)
+{
+  std::vector<std::uint32_t> use(cloud.size());
+  std::iota(use.begin(), use.end(), 0u);
+  pcl_uvol::Report report;
+  return pcl_uvol::SampleSet::build(&cloud[0].x,
+                                    sizeof(pcl::PointXYZI) / sizeof(float),
+                                    use,
+                                    pcl_uvol::Position{{1.0f, 1.0f, 1.0f}},
+                                    threads,
+                                    report);
 }
 
 } // namespace uvol_test

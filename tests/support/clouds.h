@@ -2,6 +2,8 @@
 // Seeded clouds of every awkward shape: what the neighbour search must survive.
 #pragma once
 
+#include <pcl_uvol/neighbors/sample_set.h>
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
@@ -15,6 +17,14 @@ namespace uvol_test {
 /** \brief Names that makeCloud knows. */
 const std::vector<std::string>&
 cloudShapes();
+
+/** \brief The name of a shape as a part of a test's name. */
+std::string
+testNameOf(std::string shape);
+
+/** \brief All points of a cloud as samples. */
+pcl_uvol::SampleSet::ConstPtr
+buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud, unsigned threads = 0);
 
 /** \brief About n points (a lattice rounds down to a cube) with intensity = distance to
  * the centre of the unit cube, plus a little noise by index for lattices of equal

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace uvol_test {
 
@@ -76,13 +77,15 @@ makeSmoothField(const std::string& name, std::size_t n)
             },
             0.3,
             side};
-  return {"torus",
-          [side](const Vector& x) {
-            const Vector p = 2 / side * x;
-            return 0.25 - std::hypot(std::hypot(p[0], p[1]) - 0.65, p[2]);
-          },
-          0.02,
-          side};
+  if (name == "torus")
+    return {"torus",
+            [side](const Vector& x) {
+              const Vector p = 2 / side * x;
+              return 0.25 - std::hypot(std::hypot(p[0], p[1]) - 0.65, p[2]);
+            },
+            0.02,
+            side};
+  throw std::invalid_argument("There is no smooth field '" + name + "'.");
 }
 
 double

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCA normals on surfaces whose normals are known, and where there is no surface.
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/surface_normals.h>
 

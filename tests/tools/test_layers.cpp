@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layers of the house: includes go downwards only, and the check notices if one
 // does not.
-#include "support/test_support.h"
+#include "support/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every instruction set that this machine has gives the same bytes.
-#include "support/test_support.h"
+#include "support/environment.h"
 
 #include <gtest/gtest.h>
 

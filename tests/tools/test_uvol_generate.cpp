@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_generate from the outside: values, bytes, real volumes, wrong command lines.
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>

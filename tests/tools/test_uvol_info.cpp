@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_info from the outside: what it tells of clouds and volumes, and what it refuses.
-#include "support/test_support.h"
+#include "support/environment.h"
 
 #include <gtest/gtest.h>
 

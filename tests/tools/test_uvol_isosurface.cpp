@@ -2,7 +2,7 @@
 // The main job from the outside: files in and out, exit codes, sentences, nothing left
 // behind.
 #include "support/clouds.h"
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
@@ -195,6 +195,19 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
                             "-interpolation cubic",
                             "-max-error -1"})
     EXPECT_EQ(2, run(base + wrong).exit_code) << wrong;
+}
+
+TEST_F(Isosurface, SaysWhichFieldOfTheSamplesIsLeftOut)
+{
+  EXPECT_EQ(std::string::npos,
+            run(in_ + " " + out_ + " -field density -iso 15").err.find("left out"));
+  std::string csv = radialCsv(2000);
+  csv.replace(csv.find("experiment"), 10, "error");
+  uvol_test::writeFile(in_, csv);
+  const auto result = run(in_ + " " + out_ + " -field density -iso 15");
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("field 'error' is left out"))
+      << result.err;
 }
 
 TEST_F(Isosurface, LabelsGetNormalsFromTheirNeighbors)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_normals from the outside: normals beside all other fields, sides, exit codes.
-#include "support/test_support.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>

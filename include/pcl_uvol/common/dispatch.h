@@ -12,7 +12,8 @@ namespace pcl_uvol {
 enum class SimdLevel { Baseline, Avx2, Avx512 };
 
 /** \brief The best level of this machine, or the lower one that the environment
- * variable PCL_UVOL_SIMD names: baseline, avx2 or avx512. Decided at the first call. */
+ * variable PCL_UVOL_SIMD names: baseline, avx2 or avx512. Decided at the first
+ * call. \throws InvalidArgument if the variable is anything else */
 PCL_UVOL_EXPORTS SimdLevel
 simdLevel();
 

@@ -40,11 +40,13 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
  *
  * Floating-point fields are interpolated linearly, NaN where a sample that counts is
  * NaN; integers, labels and packed colours come from the nearer sample. \param
- * isopoints as many points as edges; comes out packed without padding fields \throws
- * InvalidArgument if sizes disagree or an edge points outside the samples */
+ * isopoints as many points as edges; comes out packed without padding fields \param
+ * threads 0 (default) = all cores \throws InvalidArgument if sizes disagree or an edge
+ * points outside the samples */
 PCL_UVOL_EXPORTS void
 interpolateFields(const pcl::PCLPointCloud2& samples,
                   const IsoEdges& edges,
-                  pcl::PCLPointCloud2& isopoints);
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads = 0);
 
 } // namespace pcl_uvol

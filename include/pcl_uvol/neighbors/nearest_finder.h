@@ -87,7 +87,8 @@ private:
 
   // Candidates: all samples in a box. Arrays keep their greatest size.
   Position low_{}, high_{};
-  float margin_ = -1.0f; ///< of the box around its points; -1: there is no box
+  static constexpr float no_box = -1.0f;
+  float margin_ = no_box; ///< of the box around its points
   std::size_t candidate_count_ = 0, found_count_ = 0;
   std::vector<std::uint32_t> candidates_; ///< ascending
   std::vector<float> x_[3], sq_dist_, ordered_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/test_support.h"
+#include "support/environment.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/environment.h"
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace {
+
+/** The level is chosen once per process: one test for all there is to it. */
+TEST(Dispatch, TheEnvironmentChoosesOnceAndOnlyByName)
+{
+  const pcl_uvol::KernelTable<int> table{1, 2, 3};
+  setenv("PCL_UVOL_SIMD", "fast", 1);
+  EXPECT_THROW(pcl_uvol::simdLevel(), pcl_uvol::InvalidArgument);
+  setenv("PCL_UVOL_SIMD", "baseline", 1);
+  EXPECT_EQ(pcl_uvol::SimdLevel::Baseline, pcl_uvol::simdLevel());
+  EXPECT_EQ(1, table.get());
+  setenv("PCL_UVOL_SIMD", "avx512", 1);
+  EXPECT_EQ(1, table.get());
+  unsetenv("PCL_UVOL_SIMD");
+}
+
+TEST(Dispatch, ToolsSayWhatIsWrong)
+{
+  const uvol_test::TemporaryFolder folder;
+  const std::string in = folder / "in.pcd";
+  ASSERT_EQ(0, uvol_test::runCommand("uvol_generate " + in + " -n 1000").exit_code);
+  setenv("PCL_UVOL_SIMD", "fast", 1);
+  const auto result = uvol_test::runCommand("uvol_isosurface " + in + " " +
+                                            (folder / "out.ply") + " -iso 3");
+  unsetenv("PCL_UVOL_SIMD");
+  EXPECT_EQ(1, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("PCL_UVOL_SIMD is 'fast'"))
+      << result.err;
+  EXPECT_EQ(1u, folder.list().size());
+}
+
+} // namespace

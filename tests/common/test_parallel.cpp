@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/environment.h"
+#include <pcl_uvol/common/parallel.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+TEST(Parallel, SortEqualsTheSerialOne)
+{
+  uvol_test::Random random(1);
+  for (const std::size_t size : {std::size_t(0), std::size_t(1), std::size_t(100000)}) {
+    std::vector<double> values(size);
+    for (double& value : values)
+      value = random.uniform();
+    auto expected = values;
+    std::sort(expected.begin(), expected.end());
+    for (const unsigned threads : {1u, 2u, 7u}) {
+      auto sorted = values;
+      pcl_uvol::parallelSort(
+          sorted.begin(), sorted.end(), threads, std::less<double>());
+      EXPECT_EQ(expected, sorted);
+    }
+  }
+}
+
+TEST(Parallel, ExceptionsReachTheCaller)
+{
+  EXPECT_THROW(pcl_uvol::parallelBlocks(100,
+                                        1,
+                                        3,
+                                        [](std::size_t begin, std::size_t) {
+                                          if (begin == 57)
+                                            throw std::runtime_error("57");
+                                        }),
+               std::runtime_error);
+  const auto fail = [] { throw std::runtime_error("leaf"); };
+  EXPECT_THROW(
+      pcl_uvol::TaskGroup::run(3, [&] { pcl_uvol::TaskGroup::fork([] {}, fail); }),
+      std::runtime_error);
+}
+
+} // namespace
