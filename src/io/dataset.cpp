@@ -7,12 +7,8 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <limits>
-#include <unistd.h>
 
 namespace pcl_uvol {
 namespace {
@@ -27,12 +23,6 @@ constexpr double place_extent = 0x1p-20;
 
 constexpr const char* text_endings[] = {".csv", ".txt", ".xyz", ".dat", ".tsv"};
 constexpr const char* vtk_endings[] = {".vtk", ".vtp", ".vtu", ".vts"};
-
-std::string
-endingOf(const std::string& path)
-{
-  return io::lowerCase(std::filesystem::path(path).extension().string());
-}
 
 template <std::size_t N>
 bool
@@ -116,7 +106,7 @@ originOf(const std::vector<double>& xyz)
 Dataset
 loadDataset(const std::string& path, const LoadOptions& options)
 {
-  const std::string ending = endingOf(path);
+  const std::string ending = io::endingOf(path);
   const bool text = isOneOf(ending, text_endings);
   if (options.xyz_columns != LoadOptions().xyz_columns && !text)
     throw InvalidArgument(
@@ -149,7 +139,7 @@ void
 saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& options)
 {
   checkSavePath(path, dataset.cloud.fields);
-  const std::string ending = endingOf(path);
+  const std::string ending = io::endingOf(path);
   writeAtomically(path, [&](const std::string& file) {
     if (ending == ".pcd")
       io::writePcd(file, path, dataset, options);
@@ -166,25 +156,12 @@ void
 checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
   constexpr const char* endings[] = {".pcd", ".ply", ".vtp", ".csv"};
-  const std::string ending = endingOf(path);
+  const std::string ending = io::endingOf(path);
   if (!isOneOf(ending, endings))
     io::throwUnwritable(path,
                         describeEnding(ending) +
                             "; points are written as .pcd, .ply, .vtp or .csv");
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
-    io::throwUnwritable(path, "it is a directory");
-  fs::path folder = fs::path(path).parent_path();
-  if (folder.empty())
-    folder = ".";
-  const fs::file_status status = fs::status(folder, ignored);
-  if (!fs::exists(status))
-    io::throwUnwritable(path, "there is no folder '" + folder.string() + "'");
-  if (!fs::is_directory(status))
-    io::throwUnwritable(path, "'" + folder.string() + "' is not a folder");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    io::throwUnwritable(path, std::strerror(errno));
+  io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);
 }

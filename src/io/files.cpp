@@ -2,12 +2,14 @@
 // Reading and writing of files by POSIX calls, whose errors are exact.
 #include "files.h"
 
+#include "numbers.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -36,6 +38,31 @@ void
 throwUnwritable(const std::string& path, const std::string& reason)
 {
   throw IOError("Cannot write '" + path + "': " + reason + ".");
+}
+
+std::string
+endingOf(const std::string& path)
+{
+  return lowerCase(std::filesystem::path(path).extension().string());
+}
+
+void
+checkWritable(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    throwUnwritable(path, "it is a directory");
+  fs::path folder = fs::path(path).parent_path();
+  if (folder.empty())
+    folder = ".";
+  const fs::file_status status = fs::status(folder, ignored);
+  if (!fs::exists(status))
+    throwUnwritable(path, "there is no folder '" + folder.string() + "'");
+  if (!fs::is_directory(status))
+    throwUnwritable(path, "'" + folder.string() + "' is not a folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throwUnwritable(path, std::strerror(errno));
 }
 
 InputFile::InputFile(const std::string& path)

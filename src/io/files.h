@@ -23,6 +23,14 @@ throwUnreadable(const std::string& path, std::size_t line, const std::string& re
 [[noreturn]] void
 throwUnwritable(const std::string& path, const std::string& reason);
 
+/** \brief The ending of a file name in lower case, with its dot. */
+std::string
+endingOf(const std::string& path);
+
+/** \brief Throw IOError unless a file of that name can be created. */
+void
+checkWritable(const std::string& path);
+
 /** \brief A regular, non-empty file opened for reading. */
 class InputFile {
 public:

@@ -76,6 +76,19 @@ editDistance(const std::string& a, const std::string& b)
   return row[b.size()];
 }
 
+std::uint64_t
+parseWholeIn(const std::string& name,
+             const std::string& value,
+             std::uint64_t minimum,
+             std::uint64_t maximum)
+{
+  std::uint64_t number = 0;
+  if (!parseWhole(value, number) || number < minimum || number > maximum)
+    throw UsageError("-" + name + " is a whole number from " + std::to_string(minimum) +
+                     " to " + std::to_string(maximum) + ", not '" + value + "'.");
+  return number;
+}
+
 } // namespace
 
 std::vector<double>
@@ -110,9 +123,12 @@ Options::file(const std::string& name, std::string& target, bool required)
 }
 
 void
-Options::flag(const std::string& name, bool& target, const std::string& help)
+Options::flag(const std::string& name,
+              bool& target,
+              const std::string& help,
+              bool value)
 {
-  options_.push_back({name, "", help, {}, &target});
+  options_.push_back({name, "", help, {}, &target, value});
 }
 
 void
@@ -171,12 +187,24 @@ Options::integer(const std::string& name,
                  const std::string& help)
 {
   const auto assign = [name, minimum, maximum, &target](const std::string& value) {
-    std::uint64_t number = 0;
-    if (!parseWhole(value, number) || number < minimum || number > maximum)
-      throw UsageError("-" + name + " is a whole number from " +
-                       std::to_string(minimum) + " to " + std::to_string(maximum) +
-                       ", not '" + value + "'.");
-    target = number;
+    target = parseWholeIn(name, value, minimum, maximum);
+  };
+  options_.push_back(
+      {name, "n", help + " (default " + std::to_string(target) + ")", assign});
+}
+
+void
+Options::integer(const std::string& name,
+                 int& target,
+                 int minimum,
+                 int maximum,
+                 const std::string& help)
+{
+  const auto assign = [name, minimum, maximum, &target](const std::string& value) {
+    target = static_cast<int>(parseWholeIn(name,
+                                           value,
+                                           static_cast<std::uint64_t>(minimum),
+                                           static_cast<std::uint64_t>(maximum)));
   };
   options_.push_back(
       {name, "n", help + " (default " + std::to_string(target) + ")", assign});
@@ -250,7 +278,7 @@ Options::parse(int argc, const char* const* argv)
       throw UsageError("The option " + argument + " was given twice.");
     option.given = true;
     if (option.flag != nullptr) {
-      *option.flag = true;
+      *option.flag = option.flag_value;
       continue;
     }
     const bool has_value = i + 1 < arguments.size() &&

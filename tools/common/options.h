@@ -32,8 +32,12 @@ public:
   void
   file(const std::string& name, std::string& target, bool required = true);
 
+  /** \param value that the target gets where the option is given */
   void
-  flag(const std::string& name, bool& target, const std::string& help);
+  flag(const std::string& name,
+       bool& target,
+       const std::string& help,
+       bool value = true);
   void
   text(const std::string& name,
        const std::string& placeholder,
@@ -57,6 +61,13 @@ public:
           std::uint64_t& target,
           std::uint64_t minimum,
           std::uint64_t maximum,
+          const std::string& help);
+  /** \brief The same for numbers from 0 that are of type int. */
+  void
+  integer(const std::string& name,
+          int& target,
+          int minimum,
+          int maximum,
           const std::string& help);
   /** \brief Finite numbers joined by commas; count 0 takes one or more. */
   void
@@ -92,6 +103,7 @@ private:
     std::string name, placeholder, help;
     std::function<void(const std::string&)> assign; // empty for flags
     bool* flag = nullptr;
+    bool flag_value = true;
     bool given = false;
   };
   struct Positional {

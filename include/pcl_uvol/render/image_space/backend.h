@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The door between image-space rendering and what carries out its passes: plain C++
+// (CpuBackend) or OpenGL (gl/gl_backend.h). All give the same picture.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/image_space/settings.h>
+#include <pcl_uvol/render/surface_cloud.h>
+
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief A camera as the passes use it. Camera space: origin in the eye, x right, y
+ * down, z forward, so that a point at (x, y, z) lies in the pixel
+ * (floor(center_x + focal x / z), floor(center_y + focal y / z)) of the buffers. These
+ * are larger than the image by a guard band on every side, so that filters find what is
+ * just outside of the image. */
+struct PCL_UVOL_EXPORTS View {
+  /** Width of the guard band in pixels. */
+  static constexpr int guard = 8;
+  /** Largest width and height of an image: buffers are textures of at most 16384. */
+  static constexpr int largest_size = 16384 - 2 * guard;
+
+  int width, height;        ///< of the image
+  float rotation[9];        ///< from cloud to camera space, row by row
+  float translation[3];     ///< the cloud's centre in camera space
+  float focal;              ///< pixels
+  float center_x, center_y; ///< of the image in the buffers, pixels
+  float near;               ///< points with a smaller z are not drawn
+  float far; ///< distance to the eye with depth 1: beyond every point of the cloud
+
+  /** \throws InvalidArgument for a size that is not in [1, largest_size] or a bad
+   * camera */
+  View(const Camera& camera,
+       const BoundingSphere& bounds,
+       int image_width,
+       int image_height);
+
+  int
+  bufferWidth() const
+  {
+    return width + 2 * guard;
+  }
+
+  int
+  bufferHeight() const
+  {
+    return height + 2 * guard;
+  }
+};
+
+/** \brief Which planes of an image are filled in besides color. */
+struct ImagePlanes {
+  bool depth = false, normal = false, id = false;
+};
+
+/** \brief One frame's work. */
+struct PCL_UVOL_EXPORTS Frame {
+  const SurfaceCloud& cloud;
+  const View& view;
+  const ImageSpaceSettings& settings;
+  ImagePlanes planes;
+  unsigned threads; ///< 0 = all cores
+
+  /** \brief True if points may be discs. */
+  bool
+  hasFootprints() const
+  {
+    return settings.footprints && !cloud.getSpacings().empty();
+  }
+
+  /** \brief Least distance of two layers as a depth: that of the settings, and with
+   * footprints not less than a disc, since discs stand out from each other. */
+  float
+  layerDistance() const;
+};
+
+/** \brief Radius of the disc of a point, in spacings: closes what uniformly random
+ * points leave open. */
+constexpr float footprint_radius = 1.0f;
+
+/** \brief Discs of a smaller radius, in pixels, are single pixels: the masks close what
+ * is left open. */
+constexpr float smallest_footprint = 0.8f;
+
+/** \brief Discs of a smaller radius, in pixels, are not blended into each other: the
+ * smoothing filter is as wide. */
+constexpr float smallest_blended = 2.0f;
+
+/** \brief Carries out the passes. */
+class PCL_UVOL_EXPORTS ImageSpaceBackend {
+public:
+  virtual ~ImageSpaceBackend() = default;
+
+  /** \brief What it runs on: "cpu (avx512)", or context, version and renderer of GL. */
+  virtual std::string
+  describe() const = 0;
+
+  /** \brief Draw a frame.
+   * \param report gets the time of every pass and the counts "background_iterations"
+   * and "occluded_iterations" */
+  virtual void
+  render(const Frame& frame, Image& image, Report& report) = 0;
+};
+
+} // namespace pcl_uvol

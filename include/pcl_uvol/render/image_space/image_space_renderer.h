@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Image-space point-cloud rendering (thesis 4.3): a smooth, lit picture straight from
+// points with normals.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/image_space/backend.h>
+#include <pcl_uvol/render/image_space/settings.h>
+
+#include <pcl/pcl_base.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Parameters and the kernel of ImageSpaceRenderer, for any point type. */
+class PCL_UVOL_EXPORTS ImageSpaceRendererBase {
+public:
+  /** \brief Default: from the front and above, the whole cloud in view. */
+  void
+  setCamera(const Camera& camera)
+  {
+    camera_ = camera;
+  }
+
+  /** \brief Pixels, each in [1, View::largest_size]; default 1024 x 1024. */
+  void
+  setSize(int width, int height)
+  {
+    width_ = width;
+    height_ = height;
+  }
+
+  /** \brief Render that many times wider and higher, and average: in [1, 8], default 1.
+   */
+  void
+  setSupersampling(int factor)
+  {
+    supersampling_ = factor;
+  }
+
+  /** \brief Colour by a scalar field, as in ScalarField; "rgb" for the cloud's own
+   * colours, "" (default) for the material's. */
+  void
+  setColorField(const std::string& field)
+  {
+    color_field_ = field;
+    colored_ = false;
+  }
+
+  /** \brief Default: viridis. */
+  void
+  setColorMap(const ColorMap& map)
+  {
+    color_map_ = map;
+    colored_ = false;
+  }
+
+  /** \brief Values of the ends of the colour map; default: those of the field. */
+  void
+  setColorRange(double low, double high)
+  {
+    color_range_ = {low, high};
+    colored_ = false;
+  }
+
+  /** \brief Steps and thresholds. */
+  ImageSpaceSettings&
+  settings()
+  {
+    return settings_;
+  }
+
+  /** \brief Fill in depth, normal or id as well; default: colour alone. */
+  void
+  setPlanes(const ImagePlanes& planes)
+  {
+    planes_ = planes;
+  }
+
+  /** \brief Default: a CpuBackend. */
+  void
+  setBackend(const std::shared_ptr<ImageSpaceBackend>& backend)
+  {
+    backend_ = backend;
+  }
+
+  /** \brief 0 (default) = all cores. */
+  void
+  setNumberOfThreads(unsigned threads)
+  {
+    threads_ = threads;
+  }
+
+  /** \brief Counts and times of the last render(): points, non_finite, without_normal,
+   * duplicates, and the milliseconds of every pass. */
+  const Report&
+  getReport() const
+  {
+    return report_;
+  }
+
+  /** \brief Range of values that the colours of the last render() stand for. */
+  const std::array<double, 2>&
+  getColorRange() const
+  {
+    return used_range_;
+  }
+
+protected:
+  ImageSpaceRendererBase();
+  ~ImageSpaceRendererBase();
+
+  void
+  renderFrom(const CloudView& cloud, const std::vector<int>& indices, Image& image);
+
+  const SurfaceCloud&
+  prepare(const CloudView& cloud, const std::vector<int>& indices);
+
+  /** \brief The next frame reads the cloud anew. */
+  void
+  forgetSurface();
+
+private:
+  void
+  colorSurface(const CloudView& cloud);
+
+  std::optional<Camera> camera_;
+  int width_ = 1024, height_ = 1024, supersampling_ = 1;
+  std::string color_field_;
+  ColorMap color_map_;
+  std::optional<std::array<double, 2>> color_range_;
+  std::array<double, 2> used_range_{{0.0, 1.0}};
+  ImageSpaceSettings settings_;
+  ImagePlanes planes_;
+  std::shared_ptr<ImageSpaceBackend> backend_;
+  unsigned threads_ = 0;
+  std::shared_ptr<SurfaceCloud> surface_;
+  std::vector<std::uint32_t> drawn_; // input points behind surface_
+  Report surface_report_;            // what preparing it counted
+  bool colored_ = false;
+  Rgba uniform_color_ = 0; // of surface_ without a colour field
+  Image fine_;             // for supersampling
+  Report report_;
+};
+
+/** \brief Pictures of a surface given as points.
+ *
+ * \code
+ * pcl_uvol::ImageSpaceRenderer<PointIso> renderer;
+ * renderer.setInputCloud(surface);
+ * pcl_uvol::Image image;
+ * renderer.render(image);
+ * \endcode
+ * Normals point outwards: points that look away from the eye are not drawn. The cloud
+ * is sorted once, further frames reuse it. \tparam PointT any registered point type
+ * with x, y, z, or pcl::PCLPointCloud2 */
+template <typename PointT>
+class ImageSpaceRenderer : public pcl::PCLBase<PointT>, public ImageSpaceRendererBase {
+public:
+  using Cloud = std::conditional_t<std::is_same_v<PointT, pcl::PCLPointCloud2>,
+                                   pcl::PCLPointCloud2,
+                                   pcl::PointCloud<PointT>>;
+
+  /** \brief The cloud must not change until the next call: its points are kept. */
+  void
+  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
+  setInputCloud(const typename Cloud::ConstPtr& cloud)
+  {
+    pcl::PCLBase<PointT>::setInputCloud(cloud);
+    forgetSurface();
+  }
+
+  /** \brief Draw the cloud. \throws InvalidArgument for a missing or empty cloud, a
+   * cloud without a finite point, a bad camera, size or threshold, an unknown field */
+  void
+  render(Image& image);
+
+  /** \brief A ball around what render() draws: for cameras. \throws as render() */
+  BoundingSphere
+  getBounds();
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the passes of image-space rendering do (thesis 4.3).
+#pragma once
+
+#include <pcl_uvol/render/lighting.h>
+
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Low-pass filters of size 3 x 3 (Table 4.1). */
+enum class SmoothingFilter {
+  None,
+  Box,               ///< all pixels alike
+  Gaussian,          ///< 1 2 1, 2 4 2, 1 2 1
+  AlleviatedGaussian ///< the same with 16 in the middle (default)
+};
+
+/** \brief What is behind the surface. */
+struct Background {
+  enum class Kind { Plain, Gradient, Transparent };
+  Kind kind = Kind::Plain;
+  Color color{1.0f, 1.0f, 1.0f};  ///< plain, and below in a gradient
+  Color top{0.55f, 0.65f, 0.80f}; ///< above in a gradient
+};
+
+/** \brief Steps and thresholds, in the order of the passes. Depths are linear:
+ * distance to the eye over that of the farthest place of the cloud, background 1. */
+struct ImageSpaceSettings {
+  // Projection (4.3.1)
+  bool cull_back_faces = true;
+  /** Oriented discs where points lie farther apart than pixels; beyond the thesis. */
+  bool footprints = true;
+
+  // Pixel filling (4.3.2): most iterations; fewer if nothing changes, 0 leaves it out
+  int background_fill = 64;
+  int occluded_fill = 3;
+  /** Least distance between two layers of surface, as a depth. */
+  double layer_distance = 1e-4;
+
+  // Shading (4.3.1, after the fills) and smoothing (4.3.3)
+  /** Off: the surface is white, as paper for lines. */
+  bool shading = true;
+  Material material;
+  std::vector<Light> lights = defaultLights();
+  SmoothingFilter smoothing = SmoothingFilter::AlleviatedGaussian;
+  /** In [0, 6]. */
+  int smoothing_iterations = 1;
+
+  // Illustrative rendering (4.3.5)
+  bool silhouettes = false;
+  /** Least value of the Laplace filter on depth (Table 4.2). */
+  double silhouette_threshold = 0.02;
+  /** Pixels, in [1, 7]. */
+  int silhouette_thickness = 1;
+  bool feature_lines = false;
+  /** Least 1 - cos of the angle between the normals of a pixel and its neighbours. */
+  double feature_threshold = 0.06;
+  Color line_color{0.0f, 0.0f, 0.0f};
+
+  // Anti-aliasing (4.3.4), after the lines so that it smooths them as well
+  bool anti_aliasing = true;
+  /** Least absolute value of the Laplace filter on depth: high for the border to the
+   * background only, low for borders between layers of surface as well. */
+  double anti_aliasing_threshold = 0.01;
+
+  Background background;
+};
+
+} // namespace pcl_uvol

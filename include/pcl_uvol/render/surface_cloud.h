@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface given as points, prepared for drawing: packed, in spatial order, with the
+// spacing of the points where it is asked for.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/color_map.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A unit vector in two signed 16-bit numbers: the octahedral map (Meyer et al.
+ * 2010), at most 0.004 degrees off. */
+using PackedNormal = std::uint32_t;
+
+/** \brief \param normal of any length but zero */
+PCL_UVOL_EXPORTS PackedNormal
+packNormal(const float* normal);
+
+PCL_UVOL_EXPORTS void
+unpackNormal(PackedNormal packed, float* normal);
+
+/** \brief Consecutive points: a subtree of the kd-tree over them. */
+struct SurfaceBlock {
+  std::uint32_t begin, end;
+  Position center;
+  float radius;       ///< of a ball around the points
+  Position axis;      ///< mean normal
+  float spread;       ///< sine of the largest angle to it; 1 for more than a half-space
+  float mean_spacing; ///< estimated from the extent of the block
+  float largest_spacing; ///< of its points; 0 before computeSpacings()
+};
+
+/** \brief Points with normals and colours, in the leaf order of a kd-tree.
+ *
+ * Positions are relative to getCenter(). Memory: 36 bytes per point. */
+class PCL_UVOL_EXPORTS SurfaceCloud {
+public:
+  /** \brief What is drawn for a pixel, fetched at once. */
+  struct Look {
+    PackedNormal normal;
+    Rgba color;
+  };
+
+  /** \brief Prepare a cloud. Points with a non-finite coordinate or without a usable
+   * normal are left out and counted as "non_finite" and "without_normal", exact
+   * duplicates merged. A cloud that has no normals at all gets estimated ones and is
+   * drawn from both sides, with a warning.
+   * \param use indices of the points to draw
+   * \throws InvalidArgument if no point is left */
+  SurfaceCloud(const CloudView& cloud,
+               const std::vector<std::uint32_t>& use,
+               unsigned threads,
+               Report& report);
+
+  std::size_t
+  size() const
+  {
+    return normals_.size();
+  }
+
+  /** \brief One coordinate of every point, relative to the centre. */
+  const std::vector<float>&
+  getCoordinates(int axis) const
+  {
+    return coordinates_[axis];
+  }
+
+  const std::vector<PackedNormal>&
+  getNormals() const
+  {
+    return normals_;
+  }
+
+  const std::vector<Look>&
+  getLooks() const
+  {
+    return looks_;
+  }
+
+  /** \brief Index in the input cloud of every point. */
+  const std::vector<std::uint32_t>&
+  getInputIndices() const
+  {
+    return input_indices_;
+  }
+
+  const std::vector<SurfaceBlock>&
+  getBlocks() const
+  {
+    return blocks_;
+  }
+
+  /** \brief A ball around all points, in the coordinates of the input. */
+  const BoundingSphere&
+  getBounds() const
+  {
+    return bounds_;
+  }
+
+  /** \brief Normals have no meaningful sign: back faces are as good as front faces. */
+  bool
+  isTwoSided() const
+  {
+    return two_sided_;
+  }
+
+  /** \brief Give every point a colour. \param colors by input index */
+  void
+  setColors(const std::vector<Rgba>& colors);
+
+  /** \brief Give all points one colour. */
+  void
+  setColor(Rgba color);
+
+  /** \brief Estimate the spacing at every point once; further calls return at once. The
+   * spacing s is that of a surface with 1 / s^2 points per area, from the distance of
+   * the 8th nearest neighbour; an outlier gets at most twice that of its nearest. */
+  void
+  computeSpacings(unsigned threads, Report& report);
+
+  /** \brief Spacing at every point, empty before computeSpacings(). */
+  const std::vector<float>&
+  getSpacings() const
+  {
+    return spacings_;
+  }
+
+  /** \brief Median of the spacings, 0 before computeSpacings(). */
+  float
+  getTypicalSpacing() const
+  {
+    return typical_spacing_;
+  }
+
+  /** \brief Another number for every cloud and after every change: what a cache of it
+   * is checked against. */
+  std::uint64_t
+  getRevision() const
+  {
+    return revision_;
+  }
+
+private:
+  /** Coordinates and what else is as long. */
+  void
+  place(unsigned threads);
+
+  void
+  addBlocks(const KdNode& node);
+
+  SurfaceBlock
+  makeBlock(std::uint32_t begin, std::uint32_t end) const;
+
+  std::vector<float> coordinates_[3];
+  std::vector<PackedNormal> normals_;
+  std::vector<Look> looks_;
+  std::vector<std::uint32_t> input_indices_;
+  std::vector<SurfaceBlock> blocks_;
+  std::vector<float> spacings_;
+  float typical_spacing_ = 0.0f;
+  SampleSet::ConstPtr samples_;
+  BoundingSphere bounds_;
+  bool two_sided_ = false;
+  std::uint64_t revision_ = 0;
+};
+
+} // namespace pcl_uvol

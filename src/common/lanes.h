@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For vector kernels: one register of floats or integers, and what the compiler's
+// vector types lack. Included by *_kernel.cpp only, once per instruction set.
+#pragma once
+
+#include "register_bytes.h"
+
+#include <cstdint>
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace pcl_uvol::PCL_UVOL_SIMD {
+
+/** Numbers of 32 bits in a register. */
+constexpr int lanes = register_bytes / 4;
+
+using Floats = float __attribute__((vector_size(register_bytes)));
+using Ints = std::int32_t __attribute__((vector_size(register_bytes)));
+using Longs = std::int64_t __attribute__((vector_size(register_bytes)));
+
+template <typename Register, typename Element>
+inline Register
+load(const Element* values)
+{
+  Register loaded;
+  __builtin_memcpy(&loaded, values, sizeof loaded);
+  return loaded;
+}
+
+template <typename Register, typename Element>
+inline void
+store(Element* values, const Register& stored)
+{
+  __builtin_memcpy(values, &stored, sizeof stored);
+}
+
+/** The same bits as another type. */
+template <typename To, typename From>
+inline To
+bitCast(const From& from)
+{
+  static_assert(sizeof(To) == sizeof(From), "of one size");
+  To to;
+  __builtin_memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+inline Floats
+fill(float value)
+{
+  return Floats{} + value;
+}
+
+inline Ints
+fill(std::int32_t value)
+{
+  return Ints{} + value;
+}
+
+inline Floats
+minimum(const Floats& a, const Floats& b)
+{
+  return a < b ? a : b;
+}
+
+inline Floats
+maximum(const Floats& a, const Floats& b)
+{
+  return a > b ? a : b;
+}
+
+inline Floats
+clamp01(const Floats& a)
+{
+  return minimum(maximum(a, Floats{}), fill(1.0f));
+}
+
+inline Ints
+bitsOf(const Floats& a)
+{
+  return bitCast<Ints>(a);
+}
+
+inline Floats
+fromBits(const Ints& a)
+{
+  return bitCast<Floats>(a);
+}
+
+inline Floats
+absolute(const Floats& a)
+{
+  return fromBits(bitsOf(a) & 0x7fffffff);
+}
+
+/** The magnitude of one number with the sign of another. */
+inline Floats
+copySign(const Floats& magnitude, const Floats& sign)
+{
+  constexpr std::int32_t sign_bit = INT32_MIN;
+  return fromBits((bitsOf(magnitude) & ~sign_bit) | (bitsOf(sign) & sign_bit));
+}
+
+inline Floats
+toFloats(const Ints& a)
+{
+  return __builtin_convertvector(a, Floats);
+}
+
+/** Towards zero. */
+inline Ints
+toInts(const Floats& a)
+{
+  return __builtin_convertvector(a, Ints);
+}
+
+inline Floats
+squareRoot(Floats a)
+{
+  for (int lane = 0; lane < lanes; ++lane)
+    a[lane] = __builtin_sqrtf(a[lane]);
+  return a;
+}
+
+/** 0, 1, 2, ... */
+inline Ints
+laneNumbers()
+{
+  Ints numbers{};
+  for (int lane = 0; lane < lanes; ++lane)
+    numbers[lane] = lane;
+  return numbers;
+}
+
+/** One bit per lane of a comparison of 32-bit numbers. */
+inline std::uint32_t
+laneBits(const Ints& comparison)
+{
+#if defined(__AVX512F__)
+  return _mm512_movepi32_mask(bitCast<__m512i>(comparison));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(bitCast<__m256>(comparison)));
+#else
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < lanes; ++lane)
+    bits |= static_cast<std::uint32_t>(comparison[lane] & 1) << lane;
+  return bits;
+#endif
+}
+
+/** One bit per lane of a comparison of 64-bit numbers. */
+inline std::uint32_t
+laneBits(const Longs& comparison)
+{
+#if defined(__AVX512F__)
+  return _mm512_movepi64_mask(bitCast<__m512i>(comparison));
+#elif defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(bitCast<__m256d>(comparison)));
+#else
+  std::uint32_t bits = 0;
+  for (int lane = 0; lane < lanes / 2; ++lane)
+    bits |= static_cast<std::uint32_t>(comparison[lane] & 1) << lane;
+  return bits;
+#endif
+}
+
+/** base[2 * index] of every lane. */
+inline Ints
+gatherEven(const std::uint32_t* base, const Ints& index)
+{
+#if defined(__AVX512F__)
+  // The form without a mask starts from an undefined register, which warns.
+  const __m512i gathered = _mm512_mask_i32gather_epi32(
+      _mm512_setzero_si512(), 0xffff, bitCast<__m512i>(index), base, 8);
+  return bitCast<Ints>(gathered);
+#elif defined(__AVX2__)
+  const __m256i gathered = _mm256_i32gather_epi32(
+      reinterpret_cast<const int*>(base), bitCast<__m256i>(index), 8);
+  return bitCast<Ints>(gathered);
+#else
+  Ints gathered{};
+  for (int lane = 0; lane < lanes; ++lane)
+    gathered[lane] = static_cast<std::int32_t>(base[2 * index[lane]]);
+  return gathered;
+#endif
+}
+
+} // namespace pcl_uvol::PCL_UVOL_SIMD

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.h"
+#include "vtk_messages.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/image_file.h>
+
+#include <vtkImageData.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** VTK's first row is the lowest. */
+vtkNew<vtkImageData>
+toVtk(const Image& image, int channels)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(static_cast<int>(image.width), static_cast<int>(image.height), 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
+  auto* target = static_cast<std::uint8_t*>(data->GetScalarPointer());
+  for (std::size_t row = image.height; row-- > 0;)
+    for (std::size_t column = 0; column < image.width; ++column)
+      target =
+          std::copy_n(&image.color[4 * (row * image.width + column)], channels, target);
+  return data;
+}
+
+bool
+isOpaque(const Image& image)
+{
+  for (std::size_t i = 3; i < image.color.size(); i += 4)
+    if (image.color[i] != 255)
+      return false;
+  return true;
+}
+
+} // namespace
+
+void
+checkPngPath(const std::string& path)
+{
+  if (io::endingOf(path) != ".png")
+    io::throwUnwritable(path, "pictures are written as .png");
+  io::checkWritable(path);
+}
+
+void
+savePng(const std::string& path, const Image& image)
+{
+  checkPngPath(path);
+  if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
+    throw InvalidArgument("The image for '" + path + "' has no pixels.");
+  const auto data = toVtk(image, isOpaque(image) ? 3 : 4);
+  writeAtomically(path, [&](const std::string& file) {
+    const io::VtkMessages messages;
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(data);
+    writer->WriteToMemoryOn();
+    writer->Write();
+    vtkUnsignedCharArray* const bytes = writer->GetResult();
+    if (bytes == nullptr || !messages.getError().empty())
+      io::throwUnwritable(path, "VTK says: " + messages.getError());
+    io::OutputFile target(file, path);
+    target.write(bytes->GetPointer(0),
+                 static_cast<std::size_t>(bytes->GetNumberOfValues()));
+    target.close();
+  });
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pixels of a frame: depth and point, with the guard band of View.
+#pragma once
+
+#include "projection_kernel.h"
+#include <pcl_uvol/render/image_space/backend.h>
+
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A half-open range of rows and columns of the buffers. */
+struct PixelBounds {
+  int first_row, last_row, first_column, last_column;
+};
+
+/** \brief Keys of all pixels, surrounded by background that nothing writes to, so that
+ * kernels may look beyond the buffers. */
+struct PixelBuffer {
+  /** Background columns on the left, and at least on the right, of a row. */
+  static constexpr int margin = 64;
+
+  int width = 0, height = 0;
+  std::ptrdiff_t stride = 0;
+  std::vector<PixelKey> keys;
+  PixelBounds bounds{}; ///< outside of it is background
+  /** Sums of the discs of every key's pixel, blended_values each; empty without discs.
+   */
+  std::vector<float> blended;
+
+  /** \brief Make room for a view; rows are not cleared. */
+  void
+  resize(const View& view);
+
+  /** \brief Sums of the pixel of a key, null without discs. */
+  const float*
+  blendedAt(const PixelKey* key) const
+  {
+    return blended.empty() ? nullptr
+                           : blended.data() + blended_values * (key - keys.data());
+  }
+
+  PixelKey*
+  row(int index)
+  {
+    return keys.data() + (index + 1) * stride + margin;
+  }
+  const PixelKey*
+  row(int index) const
+  {
+    return keys.data() + (index + 1) * stride + margin;
+  }
+};
+
+} // namespace pcl_uvol

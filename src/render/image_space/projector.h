@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first pass: points into pixels (thesis 4.3.1).
+#pragma once
+
+#include "pixel_buffer.h"
+
+namespace pcl_uvol {
+
+/** \brief One frame's points on their way into the pixels. Bands of rows are filled by
+ * one thread each, so that neither the result nor the order of sums depends on their
+ * number. */
+class Projector {
+public:
+  /** \param buffer has the size of the frame's view */
+  Projector(const Frame& frame, PixelBuffer& buffer);
+
+  /** \brief Clear the buffer and project all points into it, as pixels and as discs;
+   * blocks of points that the image does not show are left out. Sets the buffer's
+   * bounds. */
+  void
+  project();
+
+  /** \brief Blend the discs that project() found, where they are seen or nearly so. */
+  void
+  blend();
+
+private:
+  PixelBand
+  bandOf(std::size_t begin, std::size_t end) const;
+
+  const Frame& frame_;
+  PixelBuffer& buffer_;
+  Projection projection_;
+  ProjectedPoints points_;
+  const ProjectionKernels& kernels_;
+  std::vector<std::vector<std::uint32_t>> discs_; // by band
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/render/image_space/backend.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/** Of the far distance: points nearer than that are not drawn. */
+constexpr double near_part = 1e-4;
+
+/** Room beyond the farthest point for discs and rounding. */
+constexpr double far_room = 1.05;
+
+} // namespace
+
+View::View(const Camera& camera,
+           const BoundingSphere& bounds,
+           int image_width,
+           int image_height)
+    : width(image_width)
+    , height(image_height)
+{
+  if (width < 1 || height < 1 || width > largest_size || height > largest_size)
+    throw InvalidArgument("An image of " + std::to_string(width) + " x " +
+                          std::to_string(height) +
+                          " pixels cannot be drawn: both numbers lie between 1 and " +
+                          std::to_string(largest_size) + ".");
+  const Eigen::Matrix3d turn = camera.rotation();
+  const Eigen::Vector3d shift = turn * (bounds.center - camera.eye);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      rotation[3 * row + column] = static_cast<float>(turn(row, column));
+    translation[row] = static_cast<float>(shift[row]);
+  }
+  const double half = std::tan(camera.vertical_fov * pi / 360.0);
+  focal = static_cast<float>(0.5 * height / half);
+  center_x = static_cast<float>(guard + 0.5 * width);
+  center_y = static_cast<float>(guard + 0.5 * height);
+  const double farthest = shift.norm() + bounds.radius;
+  far = static_cast<float>(far_room * (farthest > 0.0 ? farthest : 1.0));
+  near = static_cast<float>(near_part * far);
+}
+
+float
+Frame::layerDistance() const
+{
+  const float disc = footprint_radius * cloud.getTypicalSpacing() / view.far;
+  const auto least = static_cast<float>(settings.layer_distance);
+  return hasFootprints() ? std::max(least, disc) : least;
+}
+
+} // namespace pcl_uvol

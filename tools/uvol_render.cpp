@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A picture of a surface given as points (thesis 4.3).
+#include "common/render_options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/image_file.h>
+
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+
+/** out.png, or out_007.png for a frame of several. */
+std::string
+frameName(const std::string& output, std::uint64_t frame, std::uint64_t frames)
+{
+  if (frames == 1)
+    return output;
+  const std::filesystem::path path(output);
+  std::ostringstream name;
+  name << path.stem().string() << '_'
+       << std::setw(static_cast<int>(std::to_string(frames - 1).size()))
+       << std::setfill('0') << frame << path.extension().string();
+  return (path.parent_path() / name.str()).string();
+}
+
+int
+run(int argc, char** argv)
+{
+  std::string input, output;
+  std::uint64_t frames = 1;
+  uvol_tools::RenderOptions look;
+  uvol_tools::Options options(
+      "uvol_render",
+      "in.ply out.png [options]",
+      "Draws a surface given as points with normals: lit, smooth and without holes.");
+  options.file("in", input);
+  options.file("out", output);
+  look.declareView(options);
+  options.integer("orbit", frames, 1, 100000, "frames of a full turn about -up");
+  look.declarePasses(options);
+  if (!options.parse(argc, argv))
+    return 0;
+  look.check(options);
+  pcl_uvol::checkPngPath(output);
+
+  Report report;
+  pcl_uvol::Dataset dataset;
+  {
+    const StepTimer timer(report, "read");
+    dataset = pcl_uvol::loadDataset(input);
+    report.warnings = dataset.notes;
+  }
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(input + " has no points.");
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  look.configure(options, cloud, renderer);
+  const pcl_uvol::Camera camera = look.makeCamera(renderer.getBounds(), dataset.origin);
+  pcl_uvol::Image image;
+  Report drawing;
+  for (std::uint64_t frame = 0; frame < frames; ++frame) {
+    renderer.setCamera(camera.orbited(360.0 * static_cast<double>(frame) /
+                                      static_cast<double>(frames)));
+    renderer.render(image);
+    drawing = renderer.getReport();
+    look.decorate(cloud, renderer, image);
+    const StepTimer timer(report, "write");
+    pcl_uvol::savePng(frameName(output, frame, frames), image);
+  }
+  report.merge(drawing);
+  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_render", [&] { return run(argc, argv); });
+}
