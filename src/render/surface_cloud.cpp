@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "footprints.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
 #include <pcl_uvol/render/surface_cloud.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <optional>
 
 namespace pcl_uvol {
@@ -22,16 +22,8 @@ constexpr std::size_t block_points = 1u << 12;
  */
 constexpr std::uint32_t largest_block = 256;
 
-/** Neighbours that the spacing is measured by, the point itself not counted. */
-constexpr std::size_t spacing_neighbors = 8;
-
-/** Of the spacing of the nearest point: an outlier gets no more. */
-constexpr float largest_growth = 2.0f;
-
 /** Largest number in 16 bits with sign. */
 constexpr float packed_scale = 32767.0f;
-
-constexpr double pi = 3.14159265358979323846;
 
 /** Fields that hold the normal, if the cloud has them as numbers. */
 std::optional<std::array<ScalarField, 3>>
@@ -248,7 +240,7 @@ SurfaceCloud::addBlocks(const KdNode& node)
 SurfaceBlock
 SurfaceCloud::makeBlock(std::uint32_t begin, std::uint32_t end) const
 {
-  SurfaceBlock block{begin, end, {}, 0.0f, {}, 1.0f, 0.0f, 0.0f};
+  SurfaceBlock block{begin, end, {}, 0.0f, {}, 1.0f, 0.0f, 0.0f, 0.0f};
   float low[3], high[3], sum[3] = {0.0f, 0.0f, 0.0f};
   for (int axis = 0; axis < 3; ++axis) {
     const auto first = coordinates_[axis].begin();
@@ -308,41 +300,23 @@ SurfaceCloud::setColor(Rgba color)
 }
 
 void
-SurfaceCloud::computeSpacings(unsigned threads, Report& report)
+SurfaceCloud::computeFootprints(unsigned threads, Report& report)
 {
-  if (!spacings_.empty())
+  if (!footprints_.empty())
     return;
-  const StepTimer timer(report, "spacings");
-  // 1 / s^2 points per area put k of them into a circle of radius s sqrt(k / pi).
-  const double per_distance = std::sqrt(pi / spacing_neighbors);
-  std::vector<float> raw(size());
-  std::vector<std::uint32_t> nearest(size());
-  parallelBlocks(size(), block_points, threads, [&](auto begin, auto end) {
-    NearestFinder finder(*samples_, spacing_neighbors + 1);
-    const float start =
-        static_cast<float>(bounds_.radius) / std::sqrt(static_cast<float>(size()));
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto row = finder.find(samples_->getPositions()[i], start);
-      float sq_farthest = 0.0f, sq_nearest = std::numeric_limits<float>::infinity();
-      nearest[i] = static_cast<std::uint32_t>(i);
-      for (std::size_t j = 0; j < row.size; ++j) {
-        sq_farthest = std::max(sq_farthest, row.sq_dists[j]);
-        if (row.samples[j] != i && row.sq_dists[j] < sq_nearest) {
-          sq_nearest = row.sq_dists[j];
-          nearest[i] = row.samples[j];
-        }
-      }
-      raw[i] = static_cast<float>(per_distance * std::sqrt(sq_farthest));
-    }
-  });
-  spacings_.resize(size());
-  for (std::size_t i = 0; i < size(); ++i)
-    spacings_[i] = std::min(raw[i], largest_growth * raw[nearest[i]]);
-  std::nth_element(raw.begin(), raw.begin() + raw.size() / 2, raw.end());
-  typical_spacing_ = raw[raw.size() / 2];
-  for (SurfaceBlock& block : blocks_)
-    block.largest_spacing = *std::max_element(spacings_.begin() + block.begin,
-                                              spacings_.begin() + block.end);
+  footprints_ =
+      pcl_uvol::computeFootprints(*samples_, normals_, two_sided_, threads, report);
+  std::vector<float> sorted = footprints_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  typical_footprint_ = *middle;
+  for (SurfaceBlock& block : blocks_) {
+    const auto begin = footprints_.begin() + block.begin,
+               end = footprints_.begin() + block.end;
+    block.largest_footprint = *std::max_element(begin, end);
+    block.mean_footprint = static_cast<float>(std::accumulate(begin, end, 0.0) /
+                                              (block.end - block.begin));
+  }
   revision_ = nextRevision();
 }
 

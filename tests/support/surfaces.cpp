@@ -65,11 +65,16 @@ makeTorusKnot(std::size_t n, std::uint64_t seed)
   std::mt19937_64 engine(seed);
   Random turn(0.0, 2.0 * pi);
   constexpr double step = 1e-4;
-  for (std::size_t i = 0; i < n; ++i) {
+  Random lot(0.0, 1.0);
+  constexpr double largest_area = 4.0; // per unit of both parameters: 3.6 at most
+  while (cloud->size() < n) {
     const double t = turn(engine), angle = turn(engine);
     const Eigen::Vector3d normal =
         (onTube(t, angle + step) - onTube(t, angle - step))
             .cross(onTube(t - step, angle) - onTube(t + step, angle));
+    const double area = normal.norm() / (4.0 * step * step);
+    if (lot(engine) * largest_area > area)
+      continue; // few points where the parameters lie close
     const Eigen::Vector3d position = onTube(t, angle);
     const double side = normal.dot(position - onKnot(t)) < 0.0 ? -1.0 : 1.0;
     cloud->push_back(makePoint(position, side * normal));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A surface given as points, prepared for drawing: packed, in spatial order, with the
-// spacing of the points where it is asked for.
+// footprints of the points where they are asked for.
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
@@ -34,7 +34,9 @@ struct SurfaceBlock {
   Position axis;      ///< mean normal
   float spread;       ///< sine of the largest angle to it; 1 for more than a half-space
   float mean_spacing; ///< estimated from the extent of the block
-  float largest_spacing; ///< of its points; 0 before computeSpacings()
+  /** Of its points; 0 before computeFootprints(). @{ */
+  float largest_footprint, mean_footprint;
+  /** @} */
 };
 
 /** \brief Points with normals and colours, in the leaf order of a kd-tree.
@@ -119,24 +121,24 @@ public:
   void
   setColor(Rgba color);
 
-  /** \brief Estimate the spacing at every point once; further calls return at once. The
-   * spacing s is that of a surface with 1 / s^2 points per area, from the distance of
-   * the 8th nearest neighbour; an outlier gets at most twice that of its nearest. */
+  /** \brief Find how large the discs of the points must be to leave no hole between
+   * them, once; further calls return at once. The radius of a point's disc is the
+   * distance to the farthest corner of its Voronoi cell in its tangent plane. */
   void
-  computeSpacings(unsigned threads, Report& report);
+  computeFootprints(unsigned threads, Report& report);
 
-  /** \brief Spacing at every point, empty before computeSpacings(). */
+  /** \brief Radius of the disc of every point; empty before computeFootprints(). */
   const std::vector<float>&
-  getSpacings() const
+  getFootprints() const
   {
-    return spacings_;
+    return footprints_;
   }
 
-  /** \brief Median of the spacings, 0 before computeSpacings(). */
+  /** \brief Median of the radii, 0 before computeFootprints(). */
   float
-  getTypicalSpacing() const
+  getTypicalFootprint() const
   {
-    return typical_spacing_;
+    return typical_footprint_;
   }
 
   /** \brief Another number for every cloud and after every change: what a cache of it
@@ -163,8 +165,8 @@ private:
   std::vector<Look> looks_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<SurfaceBlock> blocks_;
-  std::vector<float> spacings_;
-  float typical_spacing_ = 0.0f;
+  std::vector<float> footprints_;
+  float typical_footprint_ = 0.0f;
   SampleSet::ConstPtr samples_;
   BoundingSphere bounds_;
   bool two_sided_ = false;

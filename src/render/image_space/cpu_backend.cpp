@@ -13,8 +13,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t rows_per_task = 16;
-constexpr std::size_t fills_per_task = 1u << 13;
+constexpr std::size_t rows_per_task = 32;
 
 const KernelTable<const FillKernels*> fill_table{
     &baseline::fill_kernels, &avx2::fill_kernels, &avx512::fill_kernels};
@@ -23,53 +22,96 @@ const KernelTable<const FillKernels*> fill_table{
 using FindFills =
     std::function<std::size_t(PixelKey* row, int first, int last, PixelFill* fills)>;
 
-/** Fill until nothing changes, at most so often. Only rows beside a change are looked
- * at again. \return iterations that filled something */
-int
-fillPixels(PixelBuffer& buffer, int most, unsigned threads, const FindFills& find)
-{
-  // Around the surface one more pixel could be filled per iteration, but hardly is.
-  PixelBounds& bounds = buffer.bounds;
-  const int columns = bounds.last_column - bounds.first_column;
-  if (columns <= 0)
-    return 0;
-  std::vector<int> active;
-  for (int row = bounds.first_row; row < bounds.last_row; ++row)
-    active.push_back(row);
-  int iterations = 0;
-  for (; iterations < most && !active.empty(); ++iterations) {
-    const auto fills = parallelGather<PixelFill>(
-        active.size(), rows_per_task, threads, [&](auto begin, auto end, auto& found) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t size = found.size();
-            found.resize(size + static_cast<std::size_t>(columns));
-            found.resize(size + find(buffer.row(active[i]),
-                                     bounds.first_column,
-                                     bounds.last_column,
-                                     found.data() + size));
-          }
-        });
-    if (fills.empty())
-      break;
-    parallelBlocks(fills.size(), fills_per_task, threads, [&](auto begin, auto end) {
-      for (std::size_t i = begin; i < end; ++i)
-        *fills[i].pixel = fills[i].key;
-    });
-    std::vector<bool> is_active(static_cast<std::size_t>(buffer.height), false);
-    for (const PixelFill& fill : fills) {
-      const auto row = static_cast<int>((fill.pixel - buffer.row(0)) / buffer.stride);
-      for (int near = std::max(row - 1, bounds.first_row);
-           near < std::min(row + 2, bounds.last_row);
-           ++near)
-        is_active[static_cast<std::size_t>(near)] = true;
-    }
-    active.clear();
-    for (int row = bounds.first_row; row < bounds.last_row; ++row)
-      if (is_active[static_cast<std::size_t>(row)])
-        active.push_back(row);
+/** Iterations of one fill. Only rows beside a change are looked at again. */
+class PixelFiller {
+public:
+  PixelFiller(PixelBuffer& buffer, unsigned threads, const FindFills& find)
+      : buffer_(buffer)
+      , threads_(threads)
+      , find_(find)
+      , changed_(static_cast<std::size_t>(buffer.height) + 2, 1)
+  {
   }
-  return iterations;
-}
+
+  /** Fill until nothing changes, at most so often; returns the iterations that filled
+   * something. */
+  std::uint64_t
+  run(int most)
+  {
+    int iterations = 0;
+    while (iterations < most && iterate())
+      ++iterations;
+    return static_cast<std::uint64_t>(iterations);
+  }
+
+private:
+  bool
+  iterate()
+  {
+    const PixelBounds& bounds = buffer_.bounds;
+    const int rows = bounds.last_row - bounds.first_row;
+    if (rows <= 0 || bounds.last_column <= bounds.first_column)
+      return false;
+    before_ = changed_;
+    std::fill(changed_.begin(), changed_.end(), std::uint8_t(0));
+    const auto border =
+        parallelGather<PixelFill>(static_cast<std::size_t>(rows),
+                                  rows_per_task,
+                                  threads_,
+                                  [&](auto begin, auto end, auto& found) {
+                                    fillRows(bounds.first_row + static_cast<int>(begin),
+                                             bounds.first_row + static_cast<int>(end),
+                                             found);
+                                  });
+    apply(border.data(), border.size());
+    return std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
+  }
+
+  /** A row is filled when the next one has been looked at; the first and the last one,
+   * which other threads look at, are left to the caller. */
+  void
+  fillRows(int first, int last, std::vector<PixelFill>& border)
+  {
+    const auto columns = static_cast<std::size_t>(buffer_.bounds.last_column -
+                                                  buffer_.bounds.first_column);
+    std::vector<PixelFill> fills(columns), next(columns);
+    std::size_t count = 0;
+    for (int row = first; row < last; ++row) {
+      const std::size_t found = isActive(row) ? find_(buffer_.row(row),
+                                                      buffer_.bounds.first_column,
+                                                      buffer_.bounds.last_column,
+                                                      next.data())
+                                              : 0;
+      apply(fills.data(), count);
+      count = found;
+      fills.swap(next);
+      changed_[static_cast<std::size_t>(row) + 1] = found > 0;
+      if (row == first || row == last - 1) {
+        border.insert(border.end(), fills.data(), fills.data() + found);
+        count = 0;
+      }
+    }
+  }
+
+  bool
+  isActive(int row) const
+  {
+    const std::uint8_t* const around = &before_[static_cast<std::size_t>(row)];
+    return (around[0] | around[1] | around[2]) != 0;
+  }
+
+  static void
+  apply(const PixelFill* fills, std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+      *fills[i].pixel = fills[i].key;
+  }
+
+  PixelBuffer& buffer_;
+  unsigned threads_;
+  const FindFills& find_;
+  std::vector<std::uint8_t> changed_, before_; ///< by row + 1
+};
 
 void
 resizePlanes(const Frame& frame, Image& image)
@@ -80,6 +122,29 @@ resizePlanes(const Frame& frame, Image& image)
   image.depth.resize(frame.planes.depth ? image.pixels() : 0);
   image.normal.resize(frame.planes.normal ? 3 * image.pixels() : 0);
   image.id.resize(frame.planes.id ? image.pixels() : 0);
+}
+
+void
+fill(const Frame& frame, PixelBuffer& pixels, Report& report)
+{
+  const ImageSpaceSettings& settings = frame.settings;
+  const FillKernels& kernels = *fill_table.get();
+  {
+    const StepTimer timer(report, "fill_background");
+    const FindFills find = [&](auto row, auto first, auto last, auto fills) {
+      return kernels.findBackground(row, pixels.stride, first, last, fills);
+    };
+    report.count(
+        "background_iterations",
+        PixelFiller(pixels, frame.threads, find).run(settings.background_fill));
+  }
+  const StepTimer timer(report, "fill_occluded");
+  const float layer_distance = frame.layerDistance();
+  const FindFills find = [&](auto row, auto first, auto last, auto fills) {
+    return kernels.findOccluded(row, pixels.stride, first, last, layer_distance, fills);
+  };
+  report.count("occluded_iterations",
+               PixelFiller(pixels, frame.threads, find).run(settings.occluded_fill));
 }
 
 } // namespace
@@ -107,7 +172,6 @@ CpuBackend::describe() const
 void
 CpuBackend::render(const Frame& frame, Image& image, Report& report)
 {
-  const ImageSpaceSettings& settings = frame.settings;
   PixelBuffer& pixels = buffers_->pixels;
   pixels.resize(frame.view);
   resizePlanes(frame, image);
@@ -116,31 +180,7 @@ CpuBackend::render(const Frame& frame, Image& image, Report& report)
     const StepTimer timer(report, "project");
     projector.project();
   }
-  const FillKernels& kernels = *fill_table.get();
-  const float layer_distance = frame.layerDistance();
-  {
-    const StepTimer timer(report, "fill_background");
-    const int iterations = fillPixels(pixels,
-                                      settings.background_fill,
-                                      frame.threads,
-                                      [&](auto row, auto first, auto last, auto fills) {
-                                        return kernels.findBackground(
-                                            row, pixels.stride, first, last, fills);
-                                      });
-    report.count("background_iterations", static_cast<std::uint64_t>(iterations));
-  }
-  {
-    const StepTimer timer(report, "fill_occluded");
-    const int iterations =
-        fillPixels(pixels,
-                   settings.occluded_fill,
-                   frame.threads,
-                   [&](auto row, auto first, auto last, auto fills) {
-                     return kernels.findOccluded(
-                         row, pixels.stride, first, last, layer_distance, fills);
-                   });
-    report.count("occluded_iterations", static_cast<std::uint64_t>(iterations));
-  }
+  fill(frame, pixels, report);
   {
     const StepTimer timer(report, "blend");
     projector.blend();

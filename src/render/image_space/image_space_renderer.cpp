@@ -193,7 +193,7 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
       Camera::fit(bounds, "iso", default_fov, static_cast<double>(width_) / height_));
   const View view(camera, bounds, width_ * supersampling_, height_ * supersampling_);
   if (settings_.footprints && needsFootprints(*surface_, view))
-    surface_->computeSpacings(threads_, report_);
+    surface_->computeFootprints(threads_, report_);
   if (!backend_)
     backend_ = std::make_shared<CpuBackend>();
   const Frame frame{*surface_, view, settings_, planes_, threads_};

@@ -2,7 +2,7 @@
 // The pixels of a frame: depth and point, with the guard band of View.
 #pragma once
 
-#include "projection_kernel.h"
+#include "disc_kernel.h"
 #include <pcl_uvol/render/image_space/backend.h>
 
 #include <vector>

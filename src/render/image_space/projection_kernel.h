@@ -27,12 +27,8 @@ struct PixelBand {
 struct ProjectedPoints {
   const float* x[3];
   const std::uint32_t* normals;
-  const float* spacings; ///< null: no footprints
+  const float* radii; ///< of their discs; null: no footprints
 };
-
-/** Numbers per pixel that overlapping discs are blended into: weighted sums of normal
- * and colour (0 to 255), the sum of the weights, and one to fill a power of two. */
-constexpr int blended_values = 8;
 
 /** A view, and which points are seen. */
 struct Projection {
@@ -40,51 +36,49 @@ struct Projection {
   float eye[3]; ///< in the coordinates of the points
   float focal, center_x, center_y, near, per_far;
   bool cull_back_faces;
-  bool two_sided; ///< normals are turned to the eye
-  float footprint_radius, smallest_footprint, smallest_blended; ///< see backend.h
+  bool two_sided;           ///< normals are turned to the eye
+  float smallest_footprint; ///< in pixels: see backend.h
 };
 
 /** Points that projectPoints takes at once, at most. */
 constexpr std::size_t projected_points = 256;
 
-/** \brief One instruction set's versions. */
-struct ProjectionKernels {
-  /** \brief Put points into their own pixels.
-   * Small discs are drawn as well.
-   * \param discs indices of those that are larger discs; room for projected_points
-   * \return their number */
-  std::size_t (*projectPoints)(const Projection& projection,
-                               const ProjectedPoints& points,
-                               std::uint32_t begin,
-                               std::uint32_t end,
-                               const PixelBand& band,
-                               std::uint32_t* discs);
-
-  /** \brief Put a disc into all pixels whose centre it covers. */
-  void (*drawDisc)(const Projection& projection,
-                   const ProjectedPoints& points,
-                   std::uint32_t point,
-                   const PixelBand& band);
-
-  /** \brief Add a disc to all pixels it covers where it lies in front of, or at most
-   * its radius behind, what is seen there. \param color of the point, packed
-   * \param blended of the pixel of the band's first key, in the band's stride */
-  void (*blendDisc)(const Projection& projection,
-                    const ProjectedPoints& points,
-                    std::uint32_t point,
-                    std::uint32_t color,
-                    const PixelBand& band,
-                    float* blended);
-};
+/** \brief Put points into their own pixels.
+ * \param discs indices of those that are discs; room for projected_points
+ * \return their number */
+using ProjectionKernel = std::size_t (*)(const Projection& projection,
+                                         const ProjectedPoints& points,
+                                         std::uint32_t begin,
+                                         std::uint32_t end,
+                                         const PixelBand& band,
+                                         std::uint32_t* discs);
 
 namespace baseline {
-extern const ProjectionKernels projection_kernels;
+std::size_t
+projectPoints(const Projection&,
+              const ProjectedPoints&,
+              std::uint32_t,
+              std::uint32_t,
+              const PixelBand&,
+              std::uint32_t*);
 }
 namespace avx2 {
-extern const ProjectionKernels projection_kernels;
+std::size_t
+projectPoints(const Projection&,
+              const ProjectedPoints&,
+              std::uint32_t,
+              std::uint32_t,
+              const PixelBand&,
+              std::uint32_t*);
 }
 namespace avx512 {
-extern const ProjectionKernels projection_kernels;
+std::size_t
+projectPoints(const Projection&,
+              const ProjectedPoints&,
+              std::uint32_t,
+              std::uint32_t,
+              const PixelBand&,
+              std::uint32_t*);
 }
 
 } // namespace pcl_uvol

@@ -16,9 +16,10 @@ constexpr int band_rows = 64;
 
 constexpr std::size_t blocks_per_task = 256;
 
-const KernelTable<const ProjectionKernels*> kernel_table{&baseline::projection_kernels,
-                                                         &avx2::projection_kernels,
-                                                         &avx512::projection_kernels};
+const KernelTable<ProjectionKernel> projection_table{
+    baseline::projectPoints, avx2::projectPoints, avx512::projectPoints};
+const KernelTable<const DiscKernels*> disc_table{
+    &baseline::disc_kernels, &avx2::disc_kernels, &avx512::disc_kernels};
 
 Projection
 projectionOf(const Frame& frame)
@@ -39,9 +40,7 @@ projectionOf(const Frame& frame)
   projection.cull_back_faces =
       frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
   projection.two_sided = frame.cloud.isTwoSided();
-  projection.footprint_radius = footprint_radius;
   projection.smallest_footprint = smallest_footprint;
-  projection.smallest_blended = smallest_blended;
   return projection;
 }
 
@@ -95,9 +94,7 @@ reach(const SurfaceBlock& block,
   for (int row = 0; row < 3; ++row)
     c[row] = r[3 * row] * block.center[0] + r[3 * row + 1] * block.center[1] +
              r[3 * row + 2] * block.center[2] + projection.translation[row];
-  const float radius =
-      block.radius +
-      (has_discs ? projection.footprint_radius * block.largest_spacing : 0.0f);
+  const float radius = block.radius + (has_discs ? block.largest_footprint : 0.0f);
   if (c[2] + radius < projection.near)
     return none;
   const float nearest = c[2] - radius;
@@ -154,14 +151,15 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
     : frame_(frame)
     , buffer_(buffer)
     , projection_(projectionOf(frame))
-    , kernels_(*kernel_table.get())
+    , project_(projection_table.get())
+    , disc_kernels_(*disc_table.get())
 {
   const SurfaceCloud& cloud = frame.cloud;
   points_ = {{cloud.getCoordinates(0).data(),
               cloud.getCoordinates(1).data(),
               cloud.getCoordinates(2).data()},
              cloud.getNormals().data(),
-             frame.hasFootprints() ? cloud.getSpacings().data() : nullptr};
+             frame.hasFootprints() ? cloud.getFootprints().data() : nullptr};
 }
 
 PixelBand
@@ -182,8 +180,7 @@ Projector::project()
   parallelBlocks(
       blocks.size(), blocks_per_task, frame_.threads, [&](auto begin, auto end) {
         for (std::size_t i = begin; i < end; ++i)
-          reached[i] =
-              reach(blocks[i], projection_, buffer_, points_.spacings != nullptr);
+          reached[i] = reach(blocks[i], projection_, buffer_, points_.radii != nullptr);
       });
   buffer_.bounds = united(reached, buffer_);
 
@@ -201,14 +198,20 @@ Projector::project()
         continue;
       const std::size_t known = discs.size();
       discs.resize(known + projected_points);
-      discs.resize(known + kernels_.projectPoints(projection_,
-                                                  points_,
-                                                  blocks[i].begin,
-                                                  blocks[i].end,
-                                                  band,
-                                                  discs.data() + known));
-      for (std::size_t j = known; j < discs.size(); ++j)
-        kernels_.drawDisc(projection_, points_, discs[j], band);
+      const std::size_t added = project_(projection_,
+                                         points_,
+                                         blocks[i].begin,
+                                         blocks[i].end,
+                                         band,
+                                         discs.data() + known);
+      const bool is_blended = isSparse(blocks[i], frame_.view);
+      disc_kernels_.draw(projection_,
+                         points_,
+                         discs.data() + known,
+                         added,
+                         is_blended ? 0.0f : 1.0f,
+                         band);
+      discs.resize(is_blended ? known + added : known);
     }
   });
 }
@@ -229,13 +232,15 @@ Projector::blend()
              blended_values * (buffer_.row(row) - buffer_.keys.data());
     };
     std::fill(place(band.first_row), place(band.last_row), 0.0f);
-    for (const std::uint32_t disc : discs_[begin / band_rows])
-      kernels_.blendDisc(projection_,
-                         points_,
-                         disc,
-                         frame_.cloud.getLooks()[disc].color,
-                         band,
-                         place(0));
+    const std::vector<std::uint32_t>& discs = discs_[begin / band_rows];
+    disc_kernels_.blend(
+        projection_,
+        points_,
+        reinterpret_cast<const std::uint32_t*>(frame_.cloud.getLooks().data()),
+        discs.data(),
+        discs.size(),
+        band,
+        place(0));
   });
 }
 

@@ -32,8 +32,9 @@ private:
   PixelBuffer& buffer_;
   Projection projection_;
   ProjectedPoints points_;
-  const ProjectionKernels& kernels_;
-  std::vector<std::vector<std::uint32_t>> discs_; // by band
+  ProjectionKernel project_;
+  const DiscKernels& disc_kernels_;
+  std::vector<std::vector<std::uint32_t>> discs_; // to be blended, by band
 };
 
 } // namespace pcl_uvol

@@ -109,9 +109,10 @@ addLight(const Shading& s,
   Floats specular{};
   if (s.specular > 0.0f) {
     const Vector half = normalized({l.x + to_eye.x, l.y + to_eye.y, l.z + to_eye.z});
-    const Floats highlight =
-        exp2(log2(maximum(dot(normal, half), Floats{})) * s.shininess);
-    specular = cosine > 0.0f ? minimum(highlight, fill(1.0f)) * s.specular : Floats{};
+    const Floats base = minimum(dot(normal, half), fill(1.0f));
+    const Ints is_lit = (cosine > 0.0f) & (base >= s.least_base);
+    if (laneBits(is_lit) != 0)
+      specular = is_lit ? exp2(log2(base) * s.shininess) * s.specular : Floats{};
   }
   for (int k = 0; k < 3; ++k)
     color[k] += light.color[k] * (surface[k] * diffuse + specular);

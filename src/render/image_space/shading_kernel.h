@@ -3,7 +3,7 @@
 // headers: the file is compiled once per instruction set.
 #pragma once
 
-#include "projection_kernel.h"
+#include "disc_kernel.h"
 
 namespace pcl_uvol {
 
@@ -21,6 +21,7 @@ struct Shading {
   float eye[3];
   float center_x, center_y, per_focal, far;
   float ambient, diffuse, specular, shininess;
+  float least_base; ///< cosines below it make no highlight that can be seen
   const ShadingLight* lights;
   int light_count;
   bool is_lit; ///< false: all white

@@ -22,6 +22,9 @@ constexpr std::ptrdiff_t stride = tile_columns + 2 * side;
 
 constexpr std::size_t plane_count = 8; // colour, opacity, depth, normal
 
+/** Part of a light: far below what 8 bits per channel show. */
+constexpr double least_highlight = 1e-4;
+
 const KernelTable<ShadingKernel> shading_table{
     baseline::shadeRow, avx2::shadeRow, avx512::shadeRow};
 const KernelTable<const FilterKernels*> filter_table{
@@ -74,6 +77,9 @@ public:
     shading_.diffuse = static_cast<float>(material.diffuse);
     shading_.specular = static_cast<float>(material.specular);
     shading_.shininess = static_cast<float>(material.shininess);
+    // Cosines of 0 have no logarithm.
+    shading_.least_base =
+        static_cast<float>(std::pow(least_highlight, 1.0 / material.shininess));
     shading_.lights = lights_.data();
     shading_.light_count = static_cast<int>(lights_.size());
     shading_.is_lit = frame.settings.shading;

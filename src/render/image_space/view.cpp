@@ -47,10 +47,19 @@ View::View(const Camera& camera,
   near = static_cast<float>(near_part * far);
 }
 
+bool
+isSparse(const SurfaceBlock& block, const View& view)
+{
+  float z = view.translation[2];
+  for (int axis = 0; axis < 3; ++axis)
+    z += view.rotation[6 + axis] * block.center[axis];
+  return block.mean_footprint * view.focal > sparse_footprint * std::max(z, view.near);
+}
+
 float
 Frame::layerDistance() const
 {
-  const float disc = footprint_radius * cloud.getTypicalSpacing() / view.far;
+  const float disc = cloud.getTypicalFootprint() / view.far;
   const auto least = static_cast<float>(settings.layer_distance);
   return hasFootprints() ? std::max(least, disc) : least;
 }

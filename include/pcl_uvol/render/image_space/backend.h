@@ -70,7 +70,7 @@ struct PCL_UVOL_EXPORTS Frame {
   bool
   hasFootprints() const
   {
-    return settings.footprints && !cloud.getSpacings().empty();
+    return settings.footprints && !cloud.getFootprints().empty();
   }
 
   /** \brief Least distance of two layers as a depth: that of the settings, and with
@@ -79,17 +79,18 @@ struct PCL_UVOL_EXPORTS Frame {
   layerDistance() const;
 };
 
-/** \brief Radius of the disc of a point, in spacings: closes what uniformly random
- * points leave open. */
-constexpr float footprint_radius = 1.0f;
+/** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
+ * masks close what is left open. */
+constexpr float smallest_footprint = 1.8f;
 
-/** \brief Discs of a smaller radius, in pixels, are single pixels: the masks close what
- * is left open. */
-constexpr float smallest_footprint = 0.8f;
+/** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
+ * blended into each other. In the other blocks discs only fill holes: they lie deeper
+ * than their points by their radius, so that these stay sharp. */
+constexpr float sparse_footprint = 2.0f;
 
-/** \brief Discs of a smaller radius, in pixels, are not blended into each other: the
- * smoothing filter is as wide. */
-constexpr float smallest_blended = 2.0f;
+/** \brief True if the discs of a block are blended. */
+PCL_UVOL_EXPORTS bool
+isSparse(const SurfaceBlock& block, const View& view);
 
 /** \brief Carries out the passes. */
 class PCL_UVOL_EXPORTS ImageSpaceBackend {

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "disc_kernel.h"
+
+#include "camera_lanes.h"
+
+namespace pcl_uvol::PCL_UVOL_SIMD {
+
+namespace {
+
+/** Discs that reach at most so many pixels from their centre are drawn side by side,
+ * one per lane; larger ones on their own, pixels side by side. */
+constexpr int largest_side_by_side = 3;
+
+/** The rays, as (x, y, 1), through the middle of pixels. */
+Floats
+slopeOf(const Ints& pixels, float center, float focal)
+{
+  return (toFloats(pixels) + 0.5f - center) * (1.0f / focal);
+}
+
+/** Discs, or one disc in all lanes, in camera space. */
+struct DiscLanes {
+  Vector center, axis; ///< axis: normal of any length
+  Floats radius, plane;
+
+  DiscLanes(const Projection& projection,
+            const Vector& position,
+            const Ints& packed_normal,
+            const Floats& disc_radius)
+      : center(toCamera(projection, position))
+      , radius(disc_radius)
+  {
+    Floats n[3];
+    unpackDirection(packed_normal, n);
+    const float* const r = projection.rotation;
+    axis = {r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
+            r[3] * n[0] + r[4] * n[1] + r[5] * n[2],
+            r[6] * n[0] + r[7] * n[1] + r[8] * n[2]};
+    plane = axis.x * center.x + axis.y * center.y + axis.z * center.z;
+  }
+
+  /** Where rays meet the discs: their parameter along the ray, and the squared distance
+   * from the centre. */
+  void
+  intersect(const Floats& qx, const Floats& qy, Floats& along, Floats& sq_dist) const
+  {
+    along = plane / (axis.x * qx + axis.y * qy + axis.z);
+    const Floats x = along * qx - center.x, y = along * qy - center.y,
+                 z = along - center.z;
+    sq_dist = x * x + y * y + z * z;
+  }
+
+  /** How far the discs reach in the image, in pixels, along the axis of a slope. */
+  Floats
+  extent(const Projection& projection, const Floats& slope) const
+  {
+    return projection.focal * radius * squareRoot(1.0f + slope * slope) /
+           (center.z - radius);
+  }
+};
+
+Floats
+depthAt(const Projection& projection,
+        const Floats& along,
+        const Floats& qx,
+        const Floats& qy)
+{
+  return along * squareRoot(qx * qx + (qy * qy + 1.0f)) * projection.per_far;
+}
+
+void
+keepFront(PixelKey& pixel, float depth, std::uint32_t point)
+{
+  const PixelKey key = keyOf(depth, point);
+  pixel = key < pixel ? key : pixel;
+}
+
+/** One disc in a band: pixels side by side. */
+class LargeDisc {
+public:
+  LargeDisc(const Projection& projection,
+            const ProjectedPoints& points,
+            std::uint32_t point,
+            const PixelBand& band)
+      : projection_(projection)
+      , disc_(projection,
+              {fill(points.x[0][point]),
+               fill(points.x[1][point]),
+               fill(points.x[2][point])},
+              fill(static_cast<std::int32_t>(points.normals[point])),
+              fill(points.radii[point]))
+      , first_row_(band.first_row)
+      , last_row_(band.last_row)
+      , last_column_(band.width)
+  {
+    const Floats x = disc_.center.x / disc_.center.z,
+                 y = disc_.center.y / disc_.center.z;
+    if (disc_.center.z[0] - disc_.radius[0] < projection.near)
+      return;
+    range(projection.center_x + projection.focal * x[0],
+          disc_.extent(projection, x)[0],
+          first_column_,
+          last_column_);
+    range(projection.center_y + projection.focal * y[0],
+          disc_.extent(projection, y)[0],
+          first_row_,
+          last_row_);
+  }
+
+  /** Call visit(row, column, depth, part of the squared radius) for every pixel that is
+   * covered. */
+  template <typename Visit>
+  void
+  forCovered(const Visit& visit) const
+  {
+    const int width = last_column_ - first_column_, height = last_row_ - first_row_;
+    if (width <= 0 || height <= 0)
+      return;
+    if (width < lanes) {
+      // Pixels of several rows share a register.
+      const float per_width = 1.0f / static_cast<float>(width);
+      for (int i = 0; i < width * height; i += lanes) {
+        const Ints number = laneNumbers() + i;
+        const Ints row = toInts((toFloats(number) + 0.5f) * per_width);
+        visitLanes(row + first_row_, number - row * width + first_column_, visit);
+      }
+      return;
+    }
+    for (int row = first_row_; row < last_row_; ++row)
+      for (int column = first_column_; column < last_column_; column += lanes)
+        visitLanes(fill(row), laneNumbers() + column, visit);
+  }
+
+  float
+  radius() const
+  {
+    return disc_.radius[0];
+  }
+
+  bool
+  looksAway() const
+  {
+    return disc_.plane[0] > 0.0f;
+  }
+
+private:
+  /** Whole pixels of a range, within bounds. */
+  static void
+  range(float center, float extent, int& first, int& last)
+  {
+    const float low = center - extent, high = center + extent;
+    first = low > static_cast<float>(first) ? static_cast<int>(low) : first;
+    last = high < static_cast<float>(last) ? static_cast<int>(high) + 1 : last;
+  }
+
+  template <typename Visit>
+  void
+  visitLanes(const Ints& rows, const Ints& columns, const Visit& visit) const
+  {
+    const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
+    const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
+    Floats along, sq_dist;
+    disc_.intersect(qx, qy, along, sq_dist);
+    const Floats depth = depthAt(projection_, along, qx, qy);
+    const Ints covered = (along > 0.0f) & (sq_dist <= disc_.radius * disc_.radius) &
+                         (depth < 1.0f) & (rows < fill(last_row_)) &
+                         (columns < fill(last_column_));
+    std::uint32_t bits = laneBits(covered);
+    if (bits == 0)
+      return;
+    alignas(64) std::int32_t row[lanes], column[lanes];
+    alignas(64) float depths[lanes], parts[lanes];
+    store(row, rows);
+    store(column, columns);
+    store(depths, depth);
+    store(parts, sq_dist / (disc_.radius * disc_.radius));
+    for (; bits != 0; bits &= bits - 1) {
+      const int lane = __builtin_ctz(bits);
+      visit(row[lane], column[lane], depths[lane], parts[lane]);
+    }
+  }
+
+  const Projection& projection_;
+  DiscLanes disc_;
+  int first_row_, last_row_, first_column_ = 0, last_column_;
+};
+
+float
+largest(const Floats& values)
+{
+  float most = values[0];
+  for (int lane = 1; lane < lanes; ++lane)
+    most = values[lane] > most ? values[lane] : most;
+  return most;
+}
+
+/** Least squared distance from a place in a pixel to the centre of the one so many
+ * pixels away. */
+constexpr float
+sqDistanceAtLeast(int dx, int dy)
+{
+  const auto along = [](int pixels) {
+    const int distance = pixels < 0 ? -pixels : pixels;
+    return distance == 0 ? 0.0f : static_cast<float>(distance) - 0.5f;
+  };
+  return along(dx) * along(dx) + along(dy) * along(dy);
+}
+
+/** Up to a register of discs: draws those that are small, and returns the lanes of the
+ * others. */
+std::uint32_t
+drawSideBySide(const Projection& projection,
+               const ProjectedPoints& points,
+               const std::uint32_t* discs,
+               int count,
+               float back,
+               const PixelBand& band)
+{
+  alignas(64) float x[3][lanes], radius[lanes];
+  alignas(64) std::int32_t normal[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::uint32_t disc = discs[lane < count ? lane : 0];
+    for (int axis = 0; axis < 3; ++axis)
+      x[axis][lane] = points.x[axis][disc];
+    normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
+    radius[lane] = points.radii[disc];
+  }
+  const DiscLanes disc(projection,
+                       {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
+                       load<Ints>(normal),
+                       load<Floats>(radius));
+  const Floats slope_x = disc.center.x / disc.center.z,
+               slope_y = disc.center.y / disc.center.z;
+  const Floats extent =
+      maximum(disc.extent(projection, slope_x), disc.extent(projection, slope_y));
+  const Ints is_here = laneNumbers() < fill(count);
+  constexpr auto most = static_cast<float>(largest_side_by_side);
+  const Ints is_small =
+      (disc.center.z - disc.radius >= projection.near) & (extent <= most);
+  const Floats px = projection.center_x + projection.focal * slope_x;
+  const Floats py = projection.center_y + projection.focal * slope_y;
+  // Far outside no pixel is reached, and integers do not take it. Conversion goes
+  // towards zero: shifted, to the lower pixel.
+  constexpr float shift = most + 1.0f;
+  const Ints wanted = is_here & is_small & (px > -shift) & (py > -shift) &
+                      (px < pixel_limit) & (py < pixel_limit);
+  const Ints column = toInts(wanted ? px + shift : Floats{}) - static_cast<int>(shift);
+  const Ints row = toInts(wanted ? py + shift : Floats{}) - static_cast<int>(shift);
+  const float reach = largest(wanted ? extent : Floats{});
+  const Floats sq_radius = disc.radius * disc.radius;
+  const int size = static_cast<int>(reach + 0.5f);
+  for (int dy = -size; dy <= size; ++dy)
+    for (int dx = -size; dx <= size; ++dx) {
+      if (sqDistanceAtLeast(dx, dy) > reach * reach)
+        continue;
+      const Ints columns = column + dx, rows = row + dy;
+      const Floats qx = slopeOf(columns, projection.center_x, projection.focal);
+      const Floats qy = slopeOf(rows, projection.center_y, projection.focal);
+      Floats along, sq_dist;
+      disc.intersect(qx, qy, along, sq_dist);
+      Ints covered = wanted & (along > 0.0f) & (sq_dist <= sq_radius) & (columns >= 0) &
+                     (columns < fill(band.width)) & (rows >= fill(band.first_row)) &
+                     (rows < fill(band.last_row));
+      if (laneBits(covered) == 0)
+        continue;
+      const Floats depth = depthAt(projection, along, qx, qy) +
+                           disc.radius * (back * projection.per_far);
+      covered &= depth < 1.0f;
+      alignas(64) float depths[lanes];
+      alignas(64) std::int32_t places[lanes];
+      store(depths, depth);
+      store(places, (rows - band.first_row) * static_cast<int>(band.stride) + columns);
+      PixelKey* const keys = band.keys + band.first_row * band.stride;
+      for (std::uint32_t bits = laneBits(covered); bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctz(bits);
+        keepFront(keys[places[lane]], depths[lane], discs[lane]);
+      }
+    }
+  return laneBits(is_here & ~is_small);
+}
+
+void
+draw(const Projection& projection,
+     const ProjectedPoints& points,
+     const std::uint32_t* discs,
+     std::size_t count,
+     float back,
+     const PixelBand& band)
+{
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(lanes)) {
+    const std::size_t here = count - i;
+    std::uint32_t bits = drawSideBySide(projection,
+                                        points,
+                                        discs + i,
+                                        here < lanes ? static_cast<int>(here) : lanes,
+                                        back,
+                                        band);
+    for (; bits != 0; bits &= bits - 1) {
+      const std::uint32_t point =
+          discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
+      const LargeDisc disc(projection, points, point, band);
+      const float room = back * disc.radius() * projection.per_far;
+      disc.forCovered([&](int row, int column, float depth, float) {
+        if (depth + room < 1.0f)
+          keepFront(band.keys[row * band.stride + column], depth + room, point);
+      });
+    }
+  }
+}
+
+void
+blend(const Projection& projection,
+      const ProjectedPoints& points,
+      const std::uint32_t* looks,
+      const std::uint32_t* discs,
+      std::size_t count,
+      const PixelBand& band,
+      float* blended)
+{
+  for (std::size_t i = 0; i < count; ++i) {
+    const LargeDisc disc(projection, points, discs[i], band);
+    Floats direction[3];
+    unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
+    const Floats length =
+        squareRoot(direction[0] * direction[0] + direction[1] * direction[1] +
+                   direction[2] * direction[2]);
+    const float side = projection.two_sided && disc.looksAway() ? -1.0f : 1.0f;
+    const std::uint32_t color = looks[2 * discs[i] + 1];
+    float values[blended_values] = {};
+    for (int k = 0; k < 3; ++k) {
+      values[k] = side * direction[k][0] / length[0];
+      values[3 + k] = static_cast<float>((color >> (8 * k)) & 0xff);
+    }
+    values[6] = 1.0f;
+    const float room = disc.radius() * projection.per_far;
+    disc.forCovered([&](int row, int column, float depth, float part) {
+      const std::ptrdiff_t pixel = row * band.stride + column;
+      if (depth > depthOf(band.keys[pixel]) + room)
+        return;
+      // Falls smoothly to zero at the rim.
+      const float weight = (1.0f - part) * (1.0f - part);
+      float* const sums = blended + blended_values * pixel;
+      for (int k = 0; k < blended_values; ++k)
+        sums[k] += values[k] * weight;
+    });
+  }
+}
+
+} // namespace
+
+extern const DiscKernels disc_kernels{draw, blend};
+
+} // namespace pcl_uvol::PCL_UVOL_SIMD
