@@ -2,9 +2,11 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/options.h"
 #include "common/progress_bar.h"
+#include "common/render_options.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/anisotropy.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -25,7 +27,7 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, field, where;
+  std::string input, output, field, where, picture;
   std::vector<double> isovalues, xyz, scale;
   std::string scale_text, outside = "lower", criterion = "kept";
   std::string interpolation = "smooth", normals = "auto";
@@ -86,6 +88,10 @@ declare(Options& options, Arguments& arguments)
                arguments.drop_bridged,
                "leave out isopoints in gaps of the sampling");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+  options.text("png",
+               "out.png",
+               arguments.picture,
+               "draw the isosurface as well; the options below are for the picture");
 }
 
 pcl_uvol::Dataset
@@ -257,10 +263,37 @@ warnOfReplacedFields(const pcl_uvol::Dataset& input,
                                 "' is left out: isopoints have one of that name.");
 }
 
+/** The picture that -png asks for. */
+void
+draw(const Options& options,
+     const Arguments& arguments,
+     const uvol_tools::RenderOptions& look,
+     const pcl_uvol::Dataset& surface,
+     Report& report)
+{
+  if (surface.cloud.width == 0) {
+    report.warnings.push_back("There is nothing to draw: " + arguments.picture +
+                              " was not written.");
+    return;
+  }
+  const StepTimer timer(report, "picture");
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
+  look.configure(options, cloud, renderer);
+  renderer.setCamera(look.makeCamera(renderer.getBounds(), surface.origin));
+  pcl_uvol::Image image;
+  renderer.render(image);
+  look.decorate(cloud, renderer, image);
+  pcl_uvol::savePng(arguments.picture, image);
+}
+
 int
 run(int argc, char** argv)
 {
   Arguments arguments;
+  uvol_tools::RenderOptions look;
   Options options(
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
@@ -268,12 +301,16 @@ run(int argc, char** argv)
       "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
       "pcd ply vtp csv.");
   declare(options, arguments);
+  look.declareView(options);
   if (!options.parse(argc, argv))
     return 0;
   checkCombinations(options, arguments);
   if (!arguments.scale_text.empty() && arguments.scale_text != "auto")
     arguments.scale = uvol_tools::parseNumbers("scale", arguments.scale_text, 3);
   pcl_uvol::checkSavePath(arguments.output);
+  look.check(options);
+  if (!arguments.picture.empty())
+    pcl_uvol::checkPngPath(arguments.picture);
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -306,6 +343,8 @@ run(int argc, char** argv)
     save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, save);
   }
+  if (!arguments.picture.empty())
+    draw(options, arguments, look, output, report);
   total.reset();
   uvol_tools::printReport(options,
                           report,

@@ -75,7 +75,10 @@ run(int argc, char** argv)
     pcl_uvol::savePng(frameName(output, frame, frames), image);
   }
   report.merge(drawing);
-  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  uvol_tools::printReport(
+      options,
+      report,
+      {{"input", input}, {"output", output}, {"backend", renderer.describeBackend()}});
   return 0;
 }
 

@@ -148,6 +148,8 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
   for (const auto& field : samples.fields)
     if (!isPadding(field) && findField(result.fields, field.name) == nullptr)
       carried.push_back(append(field, result));
+  constexpr pcl::uindex_t alignment = sizeof(float); // so that viewOf() takes it
+  result.point_step = (result.point_step + alignment - 1) / alignment * alignment;
   result.row_step = result.point_step * result.width;
   result.data.resize(static_cast<std::size_t>(result.point_step) * edges.size());
   parallelBlocks(

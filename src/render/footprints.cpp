@@ -20,11 +20,21 @@ constexpr std::size_t block_points = 1u << 12;
  * whose lines lie far apart. */
 constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
 
+/** Neighbours that tell the spacing of points. */
+constexpr std::size_t spacing_neighbors = 8;
+
 /** Of the radius of the nearest point: an outlier gets no more. */
 constexpr float largest_growth = 3.0f;
 
 /** For the surface's curvature, which takes neighbours out of the tangent plane. */
 constexpr float room = 1.05f;
+
+/** Farther corners, in spacings, are holes in the surface, not in its sampling. */
+constexpr float most_spacings = 3.0f;
+
+/** Cosine of the angle to the mean direction: a point beyond it lies on the other side.
+ */
+constexpr float opposite = -0.2f;
 
 /** A cell in the tangent plane, around the origin. */
 class Cell {
@@ -63,17 +73,16 @@ public:
     corners_.swap(kept_);
   }
 
-  /** Distance of the farthest corner, of those not on the border. */
-  float
-  reach() const
+  /** Call visit(corner) for all corners but those on the border. */
+  template <typename Visit>
+  void
+  forCorners(const Visit& visit) const
   {
-    float sq_reach = 0.0f;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Corner& before = corners_[(i + corners_.size() - 1) % corners_.size()];
       if (!before.before_border && !corners_[i].before_border)
-        sq_reach = std::max(sq_reach, corners_[i].position.squaredNorm());
+        visit(corners_[i].position);
     }
-    return std::sqrt(sq_reach);
   }
 
   bool
@@ -114,12 +123,12 @@ public:
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
     nearest = neighbors_.empty() ? point : neighbors_.front().second;
-    bool is_bounded = true;
-    const float reach = reachAmong(point, is_bounded);
-    if (is_bounded || neighbors_.empty())
+    bool is_decided = true;
+    const float reach = reachAmong(point, is_decided);
+    if (is_decided || neighbors_.empty())
       return reach;
     gather(many_.find(position, typical_distance), point);
-    return reachAmong(point, is_bounded);
+    return reachAmong(point, is_decided);
   }
 
 private:
@@ -133,6 +142,16 @@ private:
     std::sort(neighbors_.begin(), neighbors_.end());
   }
 
+  /** Spacing s of points with 1 / s^2 points per area, k of them in a circle of radius
+   * s sqrt(k / pi). */
+  float
+  spacing() const
+  {
+    constexpr float pi = 3.14159265f;
+    const std::size_t k = std::min(spacing_neighbors, neighbors_.size());
+    return std::sqrt(neighbors_[k - 1].first * pi / static_cast<float>(k));
+  }
+
   Eigen::Vector3f
   normalOf(std::uint32_t point) const
   {
@@ -142,7 +161,7 @@ private:
   }
 
   float
-  reachAmong(std::uint32_t point, bool& is_bounded) const
+  reachAmong(std::uint32_t point, bool& is_decided)
   {
     if (neighbors_.empty())
       return 0.0f;
@@ -150,23 +169,45 @@ private:
     const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
     const Eigen::Map<const Eigen::Vector3f> here(samples_.getPositions()[point].x);
     Cell cell(2.0f * std::sqrt(neighbors_.back().first));
-    is_bounded = false;
-    float reach = std::numeric_limits<float>::infinity();
+    in_plane_.clear();
     for (const auto& [sq_dist, neighbor] : neighbors_) {
-      // What is farther than twice the reach of a closed cell does not cut it.
-      if (is_bounded && sq_dist > 4.0f * reach * reach)
-        break;
       const float facing = normal.dot(normalOf(neighbor));
       if ((two_sided_ ? std::abs(facing) : facing) <= 0.0f)
         continue;
       const Eigen::Map<const Eigen::Vector3f> there(
           samples_.getPositions()[neighbor].x);
       const Eigen::Vector3f offset = there - here;
-      cell.cut({offset.dot(u), offset.dot(v)});
-      is_bounded = cell.isBounded();
-      reach = cell.reach();
+      in_plane_.emplace_back(offset.dot(u), offset.dot(v));
+      cell.cut(in_plane_.back());
     }
-    return cell.reach();
+    is_decided = cell.isBounded();
+    const float sq_spacing = spacing() * spacing();
+    float sq_reach = 0.0f;
+    cell.forCorners([&](const Eigen::Vector2f& corner) {
+      const float sq_dist = corner.squaredNorm();
+      if (sq_dist <= sq_reach || sq_dist > most_spacings * most_spacings * sq_spacing)
+        return;
+      if (sq_dist <= sq_spacing || isSurrounded(corner))
+        sq_reach = sq_dist;
+      else
+        is_decided = false; // there may be points farther behind the corner
+    });
+    return std::sqrt(sq_reach);
+  }
+
+  /** Whether points lie on all sides of a place: beyond the rim of a surface they do
+   * not. */
+  bool
+  isSurrounded(const Eigen::Vector2f& place) const
+  {
+    // The point itself is one of those around.
+    Eigen::Vector2f sum = (-place).normalized();
+    for (const Eigen::Vector2f& neighbor : in_plane_)
+      sum += (neighbor - place).normalized();
+    const Eigen::Vector2f inwards = sum.normalized();
+    return std::any_of(in_plane_.begin(), in_plane_.end(), [&](const auto& neighbor) {
+      return (neighbor - place).normalized().dot(inwards) < opposite;
+    });
   }
 
   const SampleSet& samples_;
@@ -174,6 +215,7 @@ private:
   bool two_sided_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_; ///< nearest first
+  std::vector<Eigen::Vector2f> in_plane_;                  ///< on the same side
 };
 
 } // namespace

@@ -8,26 +8,41 @@
 
 namespace {
 
+/** Standard error and exit code are checked, the file is what counts. */
+std::string
+fileOf(const char* level, const std::string& command, const std::string& file)
+{
+  setenv("PCL_UVOL_SIMD", level, 1);
+  const auto result = uvol_test::runCommand(command);
+  unsetenv("PCL_UVOL_SIMD");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  return uvol_test::readFile(file);
+}
+
 TEST(SimdLevels, SameBytes)
 {
   const uvol_test::TemporaryFolder folder;
-  const std::string in = folder / "in.pcd", out = folder / "out.ply";
+  const std::string in = folder / "in.pcd", out = folder / "out.ply",
+                    picture = folder / "out.png";
   ASSERT_EQ(0,
             uvol_test::runCommand("uvol_generate " + in +
                                   " -field gyroid -n 50000 -noise 0.01")
                 .exit_code);
-  const auto surface = [&](const char* level) {
-    setenv("PCL_UVOL_SIMD", level, 1);
-    const auto result = uvol_test::runCommand("uvol_isosurface " + in + " " + out +
-                                              " -field gyroid -iso 0.2");
-    unsetenv("PCL_UVOL_SIMD");
-    EXPECT_EQ(0, result.exit_code) << result.err;
-    return uvol_test::readFile(out);
-  };
-  const std::string baseline = surface("baseline");
+  const std::string extract =
+      "uvol_isosurface " + in + " " + out + " -field gyroid -iso 0.2";
+  const std::string baseline = fileOf("baseline", extract, out);
   EXPECT_GT(baseline.size(), 100000u);
-  EXPECT_EQ(baseline, surface("avx2"));
-  EXPECT_EQ(baseline, surface("avx512"));
+  EXPECT_EQ(baseline, fileOf("avx2", extract, out));
+  EXPECT_EQ(baseline, fileOf("avx512", extract, out));
+  // Dense and sparse, with every pass.
+  for (const char* size : {"150", "900"}) {
+    const std::string draw = "uvol_render " + out + " " + picture +
+                             " -silhouettes -thickness 3 -features -size " + size;
+    const std::string pixels = fileOf("baseline", draw, picture);
+    EXPECT_GT(pixels.size(), 5000u);
+    EXPECT_EQ(pixels, fileOf("avx2", draw, picture)) << size;
+    EXPECT_EQ(pixels, fileOf("avx512", draw, picture)) << size;
+  }
 }
 
 } // namespace

@@ -40,7 +40,8 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
  *
  * Floating-point fields are interpolated linearly, NaN where a sample that counts is
  * NaN; integers, labels and packed colours come from the nearer sample. \param
- * isopoints as many points as edges; comes out packed without padding fields \param
+ * isopoints as many points as edges; comes out without padding fields, and so that
+ * viewOf() takes it \param
  * threads 0 (default) = all cores \throws InvalidArgument if sizes disagree or an edge
  * points outside the samples */
 PCL_UVOL_EXPORTS void

@@ -110,6 +110,13 @@ public:
     return report_;
   }
 
+  /** \brief What the last render() ran on; see ImageSpaceBackend::describe. */
+  std::string
+  describeBackend() const
+  {
+    return backend_ ? backend_->describe() : "none";
+  }
+
   /** \brief Range of values that the colours of the last render() stand for. */
   const std::array<double, 2>&
   getColorRange() const

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_render and the pictures of uvol_isosurface from the outside.
+#include "support/environment.h"
+#include "support/surfaces.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace {
+
+using uvol_test::runCommand;
+
+class RenderTool : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    pcl_uvol::Dataset sphere;
+    pcl::toPCLPointCloud2(*uvol_test::makeSphere(5000, 1), sphere.cloud);
+    pcl_uvol::saveDataset(in_, sphere);
+  }
+
+  uvol_test::CommandResult
+  run(const std::string& options) const
+  {
+    return runCommand("uvol_render " + in_ + " " + out_ + " " + options);
+  }
+
+  uvol_test::TemporaryFolder folder_;
+  std::string in_ = folder_ / "in.ply", out_ = folder_ / "out.png";
+};
+
+/** Width, height and channels of a PNG file, from its header. */
+struct PngHeader {
+  int width = 0, height = 0, channels = 0;
+
+  explicit PngHeader(const std::string& path)
+  {
+    const std::string bytes = uvol_test::readFile(path);
+    if (bytes.size() < 26 || bytes.compare(0, 4, "\x89PNG") != 0)
+      return;
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = at; i < at + 4; ++i)
+        value = value * 256 + static_cast<unsigned char>(bytes[i]);
+      return value;
+    };
+    width = number(16);
+    height = number(20);
+    channels = bytes[25] == 6 ? 4 : bytes[25] == 2 ? 3 : 0;
+  }
+};
+
+TEST_F(RenderTool, WritesAPictureOfTheSizeThatIsAskedFor)
+{
+  auto result = run("-size 320x200");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ("", result.err);
+  PngHeader header(out_);
+  EXPECT_EQ(320, header.width);
+  EXPECT_EQ(200, header.height);
+  EXPECT_EQ(3, header.channels);
+  result = run("-size 64 -background transparent -supersample 2");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  header = PngHeader(out_);
+  EXPECT_EQ(64, header.width);
+  EXPECT_EQ(64, header.height);
+  EXPECT_EQ(4, header.channels);
+}
+
+TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
+{
+  ASSERT_EQ(0, run("-size 128").exit_code);
+  const std::string plain = uvol_test::readFile(out_);
+  for (const char* options : {"-silhouettes",
+                              "-features -feature-threshold 0.0001",
+                              "-no-shading",
+                              "-no-antialias",
+                              "-smoothing none",
+                              "-smoothing box",
+                              "-smoothings 3",
+                              "-no-footprints",
+                              "-view top",
+                              "-eye 3,1,2",
+                              "-fov 10",
+                              "-background black",
+                              "-background gradient",
+                              "-background 0.1,0.5,0.2",
+                              "-color normal_z",
+                              "-color normal_z -no-bar",
+                              "-color normal_z -colormap inferno",
+                              "-color normal_z -range -2,2",
+                              "-surface-color 1,0,0",
+                              "-supersample 2",
+                              "-lights -1,0,0",
+                              "-ambient 0.5",
+                              "-diffuse 0.1",
+                              "-specular 0",
+                              "-shininess 3",
+                              "-silhouettes -line-color 0,0,1",
+                              "-silhouettes -thickness 3"}) {
+    const auto result = run(std::string("-size 128 ") + options);
+    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    EXPECT_NE(plain, uvol_test::readFile(out_)) << options;
+  }
+  ASSERT_EQ(0, run("-size 128 -view iso -color none -backend cpu").exit_code);
+  EXPECT_EQ(plain, uvol_test::readFile(out_));
+}
+
+TEST_F(RenderTool, OrbitWritesNumberedFrames)
+{
+  const auto result = run("-size 32 -orbit 12");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto names = folder_.list();
+  ASSERT_EQ(13u, names.size());
+  EXPECT_EQ("out_00.png", names[1]);
+  EXPECT_EQ("out_11.png", names[12]);
+}
+
+TEST_F(RenderTool, ReportNamesBackendAndPasses)
+{
+  const auto result = run("-size 64 -json");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  for (const char* word : {"\"backend\": \"cpu",
+                           "\"project\"",
+                           "\"fill_background\"",
+                           "\"shade\"",
+                           "\"smooth\"",
+                           "\"anti_alias\"",
+                           "\"points\": 5000"})
+    EXPECT_NE(std::string::npos, result.out.find(word)) << word << '\n' << result.out;
+}
+
+TEST_F(RenderTool, PointsWithoutNormalsAreDrawnWithAWarning)
+{
+  const std::string bare = folder_ / "bare.csv";
+  uvol_test::writeFile(bare, "x,y,z\n0,0,0\n1,0,0\n0,1,0\n1,1,0.1\n0.5,0.5,0\n");
+  const auto result = runCommand("uvol_render " + bare + " " + out_ + " -size 32");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("no normals")) << result.err;
+}
+
+TEST_F(RenderTool, RefusesWrongCommandLines)
+{
+  for (const char* options :
+       {"-size 0x10",    "-size 10x",   "-size 40000",      "-size 10x-3",
+        "-size ten",     "-view above", "-eye 1,2",         "-eye 1,2,3 -view top",
+        "-at 0,0,0",     "-fov 0",      "-background pink", "-background 1,2,3",
+        "-range 2,1",    "-orbit 0",    "-supersample 9",   "-thickness 8",
+        "-lights 0,0,0", "-lights 1,2", "-smoothing blur",  "-backend vulkan",
+        "-colormap jet", "-nonsense"}) {
+    const auto result = run(options);
+    EXPECT_EQ(2, result.exit_code) << options << ": " << result.err;
+    EXPECT_EQ("", result.out) << options;
+  }
+  EXPECT_EQ(2, runCommand("uvol_render " + in_).exit_code);
+}
+
+TEST_F(RenderTool, FailsInOneSentenceAndLeavesNothingBehind)
+{
+  const std::string empty = folder_ / "empty.csv";
+  uvol_test::writeFile(empty, "x,y,z\n");
+  for (const std::string& command :
+       {"uvol_render " + empty + " " + out_,
+        "uvol_render missing.ply " + out_,
+        "uvol_render " + in_ + " " + (folder_ / "out.jpg"),
+        "uvol_render " + in_ + " /nowhere/out.png",
+        "uvol_render " + in_ + " " + out_ + " -color density",
+        "uvol_render " + in_ + " " + out_ + " -color rgb",
+        "uvol_render " + in_ + " " + out_ + " -eye 0,0,5 -up 0,0,1 -at 0,0,0"}) {
+    const auto result = runCommand(command);
+    EXPECT_EQ(1, result.exit_code) << command;
+    EXPECT_EQ("", result.out) << command;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n'))
+        << command << '\n'
+        << result.err;
+  }
+  EXPECT_EQ((std::vector<std::string>{"empty.csv", "in.ply"}), folder_.list());
+}
+
+TEST_F(RenderTool, IsosurfaceDrawsItsResult)
+{
+  const std::string samples = folder_ / "samples.pcd", surface = folder_ / "out.ply";
+  ASSERT_EQ(0, runCommand("uvol_generate " + samples + " -n 20000").exit_code);
+  const std::string extract =
+      "uvol_isosurface " + samples + " " + surface + " -png " + out_ + " -size 100x80 ";
+  auto result = runCommand(extract + "-iso 8 -color mean_curvature -view top");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ(100, PngHeader(out_).width);
+  EXPECT_EQ(80, PngHeader(out_).height);
+  // A surface without points is no failure, but there is nothing to be drawn.
+  std::remove(out_.c_str());
+  result = runCommand(extract + "-iso 1e9");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("nothing to draw")) << result.err;
+  EXPECT_EQ((std::vector<std::string>{"in.ply", "out.ply", "samples.pcd"}),
+            folder_.list());
+  EXPECT_EQ(2, runCommand(extract + "-iso 8 -view above").exit_code);
+}
+
+} // namespace
