@@ -39,13 +39,22 @@ constexpr float opposite = -0.2f;
 /** A cell in the tangent plane, around the origin. */
 class Cell {
 public:
-  /** A square that no neighbour within a distance leaves whole. */
-  explicit Cell(float distance)
-      : corners_{{{-distance, -distance}, true},
-                 {{distance, -distance}, true},
-                 {{distance, distance}, true},
-                 {{-distance, distance}, true}}
+  /** A square of twice that side. */
+  void
+  reset(float distance)
   {
+    corners_ = {{{-distance, -distance}, true},
+                {{distance, -distance}, true},
+                {{distance, distance}, true},
+                {{-distance, distance}, true}};
+    sq_extent_ = 2.0f * distance * distance;
+  }
+
+  /** Squared distance of the farthest corner. */
+  float
+  sqExtent() const
+  {
+    return sq_extent_;
   }
 
   /** Cut off what is nearer to a neighbour. */
@@ -56,10 +65,14 @@ public:
     const auto beyond = [&](const Corner& corner) {
       return corner.position.dot(neighbor) - limit;
     };
+    if (std::none_of(corners_.begin(), corners_.end(), [&](const Corner& corner) {
+          return beyond(corner) > 0.0f;
+        }))
+      return;
     kept_.clear();
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Corner& here = corners_[i];
-      const Corner& next = corners_[(i + 1) % corners_.size()];
+      const Corner& next = corners_[i + 1 < corners_.size() ? i + 1 : 0];
       const float a = beyond(here), b = beyond(next);
       if (a <= 0.0f)
         kept_.push_back(here);
@@ -71,6 +84,9 @@ public:
       }
     }
     corners_.swap(kept_);
+    sq_extent_ = 0.0f;
+    for (const Corner& corner : corners_)
+      sq_extent_ = std::max(sq_extent_, corner.position.squaredNorm());
   }
 
   /** Call visit(corner) for all corners but those on the border. */
@@ -100,6 +116,7 @@ private:
   };
 
   std::vector<Corner> corners_, kept_;
+  float sq_extent_ = 0.0f;
 };
 
 /** Footprints of one point after another; one object per thread. */
@@ -160,30 +177,33 @@ private:
     return normal;
   }
 
+  Eigen::Vector3f
+  positionOf(std::uint32_t point) const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(samples_.getPositions()[point].x);
+  }
+
   float
   reachAmong(std::uint32_t point, bool& is_decided)
   {
     if (neighbors_.empty())
       return 0.0f;
-    const Eigen::Vector3f normal = normalOf(point);
-    const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
-    const Eigen::Map<const Eigen::Vector3f> here(samples_.getPositions()[point].x);
-    Cell cell(2.0f * std::sqrt(neighbors_.back().first));
+    normal_ = normalOf(point);
+    here_ = positionOf(point);
+    axes_[0] = normal_.unitOrthogonal();
+    axes_[1] = normal_.cross(axes_[0]);
     in_plane_.clear();
-    for (const auto& [sq_dist, neighbor] : neighbors_) {
-      const float facing = normal.dot(normalOf(neighbor));
-      if ((two_sided_ ? std::abs(facing) : facing) <= 0.0f)
-        continue;
-      const Eigen::Map<const Eigen::Vector3f> there(
-          samples_.getPositions()[neighbor].x);
-      const Eigen::Vector3f offset = there - here;
-      in_plane_.emplace_back(offset.dot(u), offset.dot(v));
-      cell.cut(in_plane_.back());
-    }
-    is_decided = cell.isBounded();
+    looked_at_ = 0;
+    cell_.reset(2.0f * std::sqrt(neighbors_.back().first));
+    // What is farther than twice the farthest corner cuts nothing off.
+    while (looked_at_ < neighbors_.size() &&
+           neighbors_[looked_at_].first <= 4.0f * cell_.sqExtent())
+      if (lookAtNext())
+        cell_.cut(in_plane_.back());
+    is_decided = cell_.isBounded();
     const float sq_spacing = spacing() * spacing();
     float sq_reach = 0.0f;
-    cell.forCorners([&](const Eigen::Vector2f& corner) {
+    cell_.forCorners([&](const Eigen::Vector2f& corner) {
       const float sq_dist = corner.squaredNorm();
       if (sq_dist <= sq_reach || sq_dist > most_spacings * most_spacings * sq_spacing)
         return;
@@ -195,11 +215,26 @@ private:
     return std::sqrt(sq_reach);
   }
 
+  /** Bring the next neighbour into the plane; false for one on another side. */
+  bool
+  lookAtNext()
+  {
+    const std::uint32_t neighbor = neighbors_[looked_at_++].second;
+    const float facing = normal_.dot(normalOf(neighbor));
+    if ((two_sided_ ? std::abs(facing) : facing) <= 0.0f)
+      return false;
+    const Eigen::Vector3f offset = positionOf(neighbor) - here_;
+    in_plane_.emplace_back(offset.dot(axes_[0]), offset.dot(axes_[1]));
+    return true;
+  }
+
   /** Whether points lie on all sides of a place: beyond the rim of a surface they do
    * not. */
   bool
-  isSurrounded(const Eigen::Vector2f& place) const
+  isSurrounded(const Eigen::Vector2f& place)
   {
+    while (looked_at_ < neighbors_.size())
+      lookAtNext();
     // The point itself is one of those around.
     Eigen::Vector2f sum = (-place).normalized();
     for (const Eigen::Vector2f& neighbor : in_plane_)
@@ -215,7 +250,12 @@ private:
   bool two_sided_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_; ///< nearest first
-  std::vector<Eigen::Vector2f> in_plane_;                  ///< on the same side
+
+  // The point that is looked at.
+  Eigen::Vector3f here_, normal_, axes_[2];
+  std::size_t looked_at_ = 0;             ///< neighbours
+  std::vector<Eigen::Vector2f> in_plane_; ///< of them, those on the same side
+  Cell cell_;
 };
 
 } // namespace

@@ -19,8 +19,8 @@ namespace {
 constexpr double default_fov = 30.0;
 
 /** Blocks whose points lie closer, in pixels, need no footprints: the masks close what
- * is left open. Random points then have four in a pixel. */
-constexpr float dense_spacing = 0.5f;
+ * is left open. Random points then have 1.6 in a pixel. */
+constexpr float dense_spacing = 0.8f;
 
 void
 checkThreshold(const char* name, double value)
