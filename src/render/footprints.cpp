@@ -43,10 +43,10 @@ public:
   void
   reset(float distance)
   {
-    corners_ = {{{-distance, -distance}, true},
-                {{distance, -distance}, true},
-                {{distance, distance}, true},
-                {{-distance, distance}, true}};
+    corners_ = {{{-distance, -distance}, border},
+                {{distance, -distance}, border},
+                {{distance, distance}, border},
+                {{-distance, distance}, border}};
     sq_extent_ = 2.0f * distance * distance;
   }
 
@@ -57,9 +57,9 @@ public:
     return sq_extent_;
   }
 
-  /** Cut off what is nearer to a neighbour. */
+  /** Cut off what is nearer to a neighbour. \param index of it */
   void
-  cut(const Eigen::Vector2f& neighbor)
+  cut(const Eigen::Vector2f& neighbor, std::uint32_t index)
   {
     const float limit = 0.5f * neighbor.squaredNorm();
     const auto beyond = [&](const Corner& corner) {
@@ -80,7 +80,7 @@ public:
         const Eigen::Vector2f crossing =
             here.position + a / (a - b) * (next.position - here.position);
         // Leaving, the cut goes on from there; coming back, the old edge does.
-        kept_.push_back({crossing, a > 0.0f && here.before_border});
+        kept_.push_back({crossing, a > 0.0f ? here.edge : index});
       }
     }
     corners_.swap(kept_);
@@ -89,15 +89,16 @@ public:
       sq_extent_ = std::max(sq_extent_, corner.position.squaredNorm());
   }
 
-  /** Call visit(corner) for all corners but those on the border. */
+  /** Call visit(corner, first) for all corners but those on the border; first: the
+   * lower index of the two neighbours that meet there. */
   template <typename Visit>
   void
   forCorners(const Visit& visit) const
   {
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Corner& before = corners_[(i + corners_.size() - 1) % corners_.size()];
-      if (!before.before_border && !corners_[i].before_border)
-        visit(corners_[i].position);
+      if (before.edge != border && corners_[i].edge != border)
+        visit(corners_[i].position, std::min(before.edge, corners_[i].edge));
     }
   }
 
@@ -105,14 +106,16 @@ public:
   isBounded() const
   {
     return std::none_of(corners_.begin(), corners_.end(), [](const Corner& corner) {
-      return corner.before_border;
+      return corner.edge == border;
     });
   }
 
 private:
+  static constexpr std::uint32_t border = 0xffffffff;
+
   struct Corner {
     Eigen::Vector2f position;
-    bool before_border; ///< the edge to the next corner is one of the square
+    std::uint32_t edge; ///< to the next corner: index of a neighbour, or the square's
   };
 
   std::vector<Corner> corners_, kept_;
@@ -133,15 +136,20 @@ public:
   {
   }
 
+  /** Distances of a point's corners: of all, and of those it is the first for. */
+  struct Reach {
+    float all = 0.0f, first = 0.0f;
+  };
+
   /** \param nearest set to the index of the nearest other point, or of the point */
-  float
+  Reach
   find(std::uint32_t point, float typical_distance, std::uint32_t& nearest)
   {
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
     nearest = neighbors_.empty() ? point : neighbors_.front().second;
     bool is_decided = true;
-    const float reach = reachAmong(point, is_decided);
+    const Reach reach = reachAmong(point, is_decided);
     if (is_decided || neighbors_.empty())
       return reach;
     gather(many_.find(position, typical_distance), point);
@@ -183,11 +191,11 @@ private:
     return Eigen::Map<const Eigen::Vector3f>(samples_.getPositions()[point].x);
   }
 
-  float
+  Reach
   reachAmong(std::uint32_t point, bool& is_decided)
   {
     if (neighbors_.empty())
-      return 0.0f;
+      return {};
     normal_ = normalOf(point);
     here_ = positionOf(point);
     axes_[0] = normal_.unitOrthogonal();
@@ -199,20 +207,25 @@ private:
     while (looked_at_ < neighbors_.size() &&
            neighbors_[looked_at_].first <= 4.0f * cell_.sqExtent())
       if (lookAtNext())
-        cell_.cut(in_plane_.back());
+        cell_.cut(in_plane_.back(), neighbors_[looked_at_ - 1].second);
     is_decided = cell_.isBounded();
     const float sq_spacing = spacing() * spacing();
-    float sq_reach = 0.0f;
-    cell_.forCorners([&](const Eigen::Vector2f& corner) {
+    float sq_all = 0.0f, sq_first = 0.0f;
+    cell_.forCorners([&](const Eigen::Vector2f& corner, std::uint32_t first) {
       const float sq_dist = corner.squaredNorm();
-      if (sq_dist <= sq_reach || sq_dist > most_spacings * most_spacings * sq_spacing)
+      const bool is_first = point < first;
+      if (sq_dist <= (is_first ? std::min(sq_all, sq_first) : sq_all) ||
+          sq_dist > most_spacings * most_spacings * sq_spacing)
         return;
-      if (sq_dist <= sq_spacing || isSurrounded(corner))
-        sq_reach = sq_dist;
-      else
+      if (sq_dist > sq_spacing && !isSurrounded(corner)) {
         is_decided = false; // there may be points farther behind the corner
+        return;
+      }
+      sq_all = std::max(sq_all, sq_dist);
+      if (is_first)
+        sq_first = std::max(sq_first, sq_dist);
     });
-    return std::sqrt(sq_reach);
+    return {std::sqrt(sq_all), std::sqrt(sq_first)};
   }
 
   /** Bring the next neighbour into the plane; false for one on another side. */
@@ -260,7 +273,7 @@ private:
 
 } // namespace
 
-std::vector<float>
+Footprints
 computeFootprints(const SampleSet& samples,
                   const std::vector<PackedNormal>& normals,
                   bool two_sided,
@@ -268,7 +281,7 @@ computeFootprints(const SampleSet& samples,
                   Report& report)
 {
   const StepTimer timer(report, "footprints");
-  std::vector<float> reach(samples.size());
+  std::vector<FootprintFinder::Reach> reach(samples.size());
   std::vector<std::uint32_t> nearest(samples.size());
   Position low = samples.getPositions()[0], high = low;
   for (const Position& position : samples.getPositions())
@@ -286,9 +299,14 @@ computeFootprints(const SampleSet& samples,
       reach[i] =
           finder.find(static_cast<std::uint32_t>(i), typical_distance, nearest[i]);
   });
-  std::vector<float> footprints(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    footprints[i] = room * std::min(reach[i], largest_growth * reach[nearest[i]]);
+  Footprints footprints;
+  footprints.radii.resize(samples.size());
+  footprints.fillers.resize(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const float most = largest_growth * reach[nearest[i]].all;
+    footprints.radii[i] = room * std::min(reach[i].all, most);
+    footprints.fillers[i] = room * std::min(reach[i].first, most);
+  }
   return footprints;
 }
 

@@ -10,13 +10,21 @@
 
 namespace pcl_uvol {
 
-/** \brief Radius of the disc of every point, in leaf order: the distance to the
- * farthest corner of its Voronoi cell among its neighbours in its tangent plane. Discs
- * of that size, and no smaller ones, cover a plane. Corners at infinity, at the rim of
- * a surface, do not count, and outliers gets at most three times what their nearest
- * neighbour has. \param two_sided normals have no meaningful sign; else points that
- * look to the other side are no neighbours */
-std::vector<float>
+/** \brief Radii of the discs of every point, in leaf order. */
+struct Footprints {
+  /** Distance to the farthest corner of the point's Voronoi cell among its neighbours
+   * in its tangent plane: discs of that size, and no smaller ones, cover a plane. */
+  std::vector<float> radii;
+  /** The same for those corners only for which the point is the first of the three
+   * points around: each hole has one such disc, which leaves a part of it open. */
+  std::vector<float> fillers;
+};
+
+/** \brief Corners at infinity or beyond the rim of a surface do not count, and outliers
+ * get at most three times what their nearest neighbour has.
+ * \param two_sided normals have no meaningful sign; else points that look to the other
+ * side are no neighbours */
+Footprints
 computeFootprints(const SampleSet& samples,
                   const std::vector<PackedNormal>& normals,
                   bool two_sided,

@@ -304,8 +304,10 @@ SurfaceCloud::computeFootprints(unsigned threads, Report& report)
 {
   if (!footprints_.empty())
     return;
-  footprints_ =
+  Footprints footprints =
       pcl_uvol::computeFootprints(*samples_, normals_, two_sided_, threads, report);
+  footprints_ = std::move(footprints.radii);
+  fillers_ = std::move(footprints.fillers);
   std::vector<float> sorted = footprints_;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());

@@ -609,7 +609,8 @@ TEST(ImageSpaceRenderer, ColoursByFieldAndByRgb)
 {
   pcl::PointCloud<pcl::PointXYZRGBNormal>::Ptr cloud(
       new pcl::PointCloud<pcl::PointXYZRGBNormal>);
-  for (const auto& point : *uvol_test::makeSphere(50000, 1)) {
+  const auto sphere = uvol_test::makeSphere(50000, 1);
+  for (const auto& point : *sphere) {
     pcl::PointXYZRGBNormal colored;
     colored.getVector3fMap() = point.getVector3fMap();
     colored.getNormalVector3fMap() = point.getNormalVector3fMap();

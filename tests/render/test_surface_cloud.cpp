@@ -213,7 +213,8 @@ TEST(Footprints, DoNotDependOnThreads)
 TEST(SurfaceCloud, EstimatesNormalsWhereThereAreNone)
 {
   pcl::PointCloud<pcl::PointXYZ> bare;
-  for (const auto& point : *uvol_test::makeSphere(2000, 4))
+  const auto sphere = uvol_test::makeSphere(2000, 4);
+  for (const auto& point : *sphere)
     bare.push_back({point.x, point.y, point.z});
   Report report;
   const SurfaceCloud surface = prepare(bare, report);

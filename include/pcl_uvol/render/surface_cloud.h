@@ -134,6 +134,15 @@ public:
     return footprints_;
   }
 
+  /** \brief Radius of the disc by which every point fills a hole among dense points:
+   * each hole has one such disc, which leaves less of it than the masks close. Empty
+   * before computeFootprints(). */
+  const std::vector<float>&
+  getFillers() const
+  {
+    return fillers_;
+  }
+
   /** \brief Median of the radii, 0 before computeFootprints(). */
   float
   getTypicalFootprint() const
@@ -165,7 +174,7 @@ private:
   std::vector<Look> looks_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<SurfaceBlock> blocks_;
-  std::vector<float> footprints_;
+  std::vector<float> footprints_, fillers_;
   float typical_footprint_ = 0.0f;
   SampleSet::ConstPtr samples_;
   BoundingSphere bounds_;

@@ -196,17 +196,20 @@ Projector::project()
       if (reached[i].first_row >= band.last_row ||
           reached[i].last_row <= band.first_row)
         continue;
+      const bool is_blended = isSparse(blocks[i], frame_.view);
+      ProjectedPoints points = points_;
+      if (points.radii != nullptr && !is_blended)
+        points.radii = frame_.cloud.getFillers().data();
       const std::size_t known = discs.size();
       discs.resize(known + projected_points);
       const std::size_t added = project_(projection_,
-                                         points_,
+                                         points,
                                          blocks[i].begin,
                                          blocks[i].end,
                                          band,
                                          discs.data() + known);
-      const bool is_blended = isSparse(blocks[i], frame_.view);
       disc_kernels_.draw(projection_,
-                         points_,
+                         points,
                          discs.data() + known,
                          added,
                          is_blended ? 0.0f : 1.0f,

@@ -81,11 +81,12 @@ struct PCL_UVOL_EXPORTS Frame {
 
 /** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
  * masks close what is left open. */
-constexpr float smallest_footprint = 1.8f;
+constexpr float smallest_footprint = 1.5f;
 
 /** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
- * blended into each other. In the other blocks discs only fill holes: they lie deeper
- * than their points by their radius, so that these stay sharp. */
+ * blended into each other. In the other blocks discs only fill holes: they have the
+ * radius of fillers, and lie deeper than their points by it, so that these stay sharp.
+ */
 constexpr float sparse_footprint = 2.0f;
 
 /** \brief True if the discs of a block are blended. */
