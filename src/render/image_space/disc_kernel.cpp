@@ -206,78 +206,113 @@ sqDistanceAtLeast(int dx, int dy)
   return along(dx) * along(dx) + along(dy) * along(dy);
 }
 
-/** Up to a register of discs: draws those that are small, and returns the lanes of the
- * others. */
-std::uint32_t
-drawSideBySide(const Projection& projection,
-               const ProjectedPoints& points,
-               const std::uint32_t* discs,
-               int count,
-               float back,
-               const PixelBand& band)
-{
-  alignas(64) float x[3][lanes], radius[lanes];
-  alignas(64) std::int32_t normal[lanes];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::uint32_t disc = discs[lane < count ? lane : 0];
-    for (int axis = 0; axis < 3; ++axis)
-      x[axis][lane] = points.x[axis][disc];
-    normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
-    radius[lane] = points.radii[disc];
+/** Up to a register of discs, one per lane. */
+class DiscGroup {
+public:
+  DiscGroup(const Projection& projection,
+            const ProjectedPoints& points,
+            const std::uint32_t* discs,
+            int count)
+      : projection_(projection)
+      , discs_(discs)
+      , disc_(gather(projection, points, discs, count))
+  {
+    const Floats slope_x = disc_.center.x / disc_.center.z,
+                 slope_y = disc_.center.y / disc_.center.z;
+    const Floats extent =
+        maximum(disc_.extent(projection, slope_x), disc_.extent(projection, slope_y));
+    constexpr auto most = static_cast<float>(largest_side_by_side);
+    const Ints is_here = laneNumbers() < fill(count);
+    const Ints is_small =
+        (disc_.center.z - disc_.radius >= projection.near) & (extent <= most);
+    large_ = laneBits(is_here & ~is_small);
+    const Floats px = projection.center_x + projection.focal * slope_x;
+    const Floats py = projection.center_y + projection.focal * slope_y;
+    // Far outside no pixel is reached, and integers do not take it. Conversion goes
+    // towards zero: shifted, to the lower pixel.
+    constexpr float shift = most + 1.0f;
+    small_ = is_here & is_small & (px > -shift) & (py > -shift) & (px < pixel_limit) &
+             (py < pixel_limit);
+    column_ = toInts(small_ ? px + shift : Floats{}) - static_cast<int>(shift);
+    row_ = toInts(small_ ? py + shift : Floats{}) - static_cast<int>(shift);
+    reach_ = largest(small_ ? extent : Floats{});
   }
-  const DiscLanes disc(projection,
-                       {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
-                       load<Ints>(normal),
-                       load<Floats>(radius));
-  const Floats slope_x = disc.center.x / disc.center.z,
-               slope_y = disc.center.y / disc.center.z;
-  const Floats extent =
-      maximum(disc.extent(projection, slope_x), disc.extent(projection, slope_y));
-  const Ints is_here = laneNumbers() < fill(count);
-  constexpr auto most = static_cast<float>(largest_side_by_side);
-  const Ints is_small =
-      (disc.center.z - disc.radius >= projection.near) & (extent <= most);
-  const Floats px = projection.center_x + projection.focal * slope_x;
-  const Floats py = projection.center_y + projection.focal * slope_y;
-  // Far outside no pixel is reached, and integers do not take it. Conversion goes
-  // towards zero: shifted, to the lower pixel.
-  constexpr float shift = most + 1.0f;
-  const Ints wanted = is_here & is_small & (px > -shift) & (py > -shift) &
-                      (px < pixel_limit) & (py < pixel_limit);
-  const Ints column = toInts(wanted ? px + shift : Floats{}) - static_cast<int>(shift);
-  const Ints row = toInts(wanted ? py + shift : Floats{}) - static_cast<int>(shift);
-  const float reach = largest(wanted ? extent : Floats{});
-  const Floats sq_radius = disc.radius * disc.radius;
-  const int size = static_cast<int>(reach + 0.5f);
-  for (int dy = -size; dy <= size; ++dy)
-    for (int dx = -size; dx <= size; ++dx) {
-      if (sqDistanceAtLeast(dx, dy) > reach * reach)
-        continue;
-      const Ints columns = column + dx, rows = row + dy;
-      const Floats qx = slopeOf(columns, projection.center_x, projection.focal);
-      const Floats qy = slopeOf(rows, projection.center_y, projection.focal);
-      Floats along, sq_dist;
-      disc.intersect(qx, qy, along, sq_dist);
-      Ints covered = wanted & (along > 0.0f) & (sq_dist <= sq_radius) & (columns >= 0) &
-                     (columns < fill(band.width)) & (rows >= fill(band.first_row)) &
-                     (rows < fill(band.last_row));
-      if (laneBits(covered) == 0)
-        continue;
-      const Floats depth = depthAt(projection, along, qx, qy) +
-                           disc.radius * (back * projection.per_far);
-      covered &= depth < 1.0f;
-      alignas(64) float depths[lanes];
-      alignas(64) std::int32_t places[lanes];
-      store(depths, depth);
-      store(places, (rows - band.first_row) * static_cast<int>(band.stride) + columns);
-      PixelKey* const keys = band.keys + band.first_row * band.stride;
-      for (std::uint32_t bits = laneBits(covered); bits != 0; bits &= bits - 1) {
-        const int lane = __builtin_ctz(bits);
-        keepFront(keys[places[lane]], depths[lane], discs[lane]);
-      }
+
+  /** Lanes of discs that are too large to be drawn side by side. */
+  std::uint32_t
+  largeLanes() const
+  {
+    return large_;
+  }
+
+  void
+  drawSmall(float back, const PixelBand& band) const
+  {
+    const int size = static_cast<int>(reach_ + 0.5f);
+    for (int dy = -size; dy <= size; ++dy)
+      for (int dx = -size; dx <= size; ++dx)
+        if (sqDistanceAtLeast(dx, dy) <= reach_ * reach_)
+          drawPixel(dx, dy, back, band);
+  }
+
+private:
+  static DiscLanes
+  gather(const Projection& projection,
+         const ProjectedPoints& points,
+         const std::uint32_t* discs,
+         int count)
+  {
+    alignas(64) float x[3][lanes], radius[lanes];
+    alignas(64) std::int32_t normal[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t disc = discs[lane < count ? lane : 0];
+      for (int axis = 0; axis < 3; ++axis)
+        x[axis][lane] = points.x[axis][disc];
+      normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
+      radius[lane] = points.radii[disc];
     }
-  return laneBits(is_here & ~is_small);
-}
+    return DiscLanes(projection,
+                     {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
+                     load<Ints>(normal),
+                     load<Floats>(radius));
+  }
+
+  /** The pixel so far away from that of each disc's centre, where the disc covers it.
+   */
+  void
+  drawPixel(int dx, int dy, float back, const PixelBand& band) const
+  {
+    const Ints columns = column_ + dx, rows = row_ + dy;
+    const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
+    const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
+    Floats along, sq_dist;
+    disc_.intersect(qx, qy, along, sq_dist);
+    Ints covered = small_ & (along > 0.0f) & (sq_dist <= disc_.radius * disc_.radius) &
+                   (columns >= 0) & (columns < fill(band.width)) &
+                   (rows >= fill(band.first_row)) & (rows < fill(band.last_row));
+    if (laneBits(covered) == 0)
+      return;
+    const Floats depth = depthAt(projection_, along, qx, qy) +
+                         disc_.radius * (back * projection_.per_far);
+    covered &= depth < 1.0f;
+    alignas(64) float depths[lanes];
+    alignas(64) std::int32_t places[lanes];
+    store(depths, depth);
+    store(places, (rows - band.first_row) * static_cast<int>(band.stride) + columns);
+    PixelKey* const keys = band.keys + band.first_row * band.stride;
+    for (std::uint32_t bits = laneBits(covered); bits != 0; bits &= bits - 1) {
+      const int lane = __builtin_ctz(bits);
+      keepFront(keys[places[lane]], depths[lane], discs_[lane]);
+    }
+  }
+
+  const Projection& projection_;
+  const std::uint32_t* discs_;
+  DiscLanes disc_;
+  Ints small_, column_, row_;
+  float reach_; ///< of the small ones, in pixels
+  std::uint32_t large_;
+};
 
 void
 draw(const Projection& projection,
@@ -289,13 +324,10 @@ draw(const Projection& projection,
 {
   for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(lanes)) {
     const std::size_t here = count - i;
-    std::uint32_t bits = drawSideBySide(projection,
-                                        points,
-                                        discs + i,
-                                        here < lanes ? static_cast<int>(here) : lanes,
-                                        back,
-                                        band);
-    for (; bits != 0; bits &= bits - 1) {
+    const DiscGroup group(
+        projection, points, discs + i, here < lanes ? static_cast<int>(here) : lanes);
+    group.drawSmall(back, band);
+    for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
       const std::uint32_t point =
           discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
       const LargeDisc disc(projection, points, point, band);
