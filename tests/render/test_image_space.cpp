@@ -195,7 +195,7 @@ TEST(Projection, EqualsBruteForce)
 TEST(PixelFilling, EqualsTheMasksOfTheThesis)
 {
   const auto cloud = uvol_test::makeTorusKnot(10000, 1);
-  for (const int iterations : {1, 2, 5}) {
+  for (const int iterations : {1, 2, 5, 40}) {
     Renderer renderer;
     prepare(renderer, cloud, 210, 160);
     onlyProject(renderer.settings());
