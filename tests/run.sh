@@ -3,5 +3,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-bash tools/build.sh all gzip clang-format valgrind
+bash tools/build.sh all gzip clang-format valgrind \
+  libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri
 ctest --preset release --parallel "$(nproc)"

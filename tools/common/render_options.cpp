@@ -2,9 +2,13 @@
 #include "common/render_options.h"
 
 #include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/gl/gl_backend.h>
 #include <pcl_uvol/io/color_bar.h>
+#include <pcl_uvol/render/image_space/cpu_backend.h>
 
+#include <algorithm>
 #include <charconv>
+#include <memory>
 
 namespace uvol_tools {
 
@@ -49,6 +53,20 @@ checkColor(const std::string& option, const std::vector<double>& numbers)
   for (const double number : numbers)
     if (number < 0.0 || number > 1.0)
       throw UsageError("-" + option + " takes three numbers from 0 to 1.");
+}
+
+/** What -backend names: auto takes a graphics card if there is one, else the CPU, which
+ * is far faster than OpenGL in software. */
+std::shared_ptr<pcl_uvol::ImageSpaceBackend>
+makeBackend(const std::string& name)
+{
+  if (name == "cpu")
+    return std::make_shared<pcl_uvol::CpuBackend>();
+  const auto context = name == "auto" ? pcl_uvol::findHardwareContext()
+                                      : pcl_uvol::createHeadlessContext(name);
+  if (context)
+    return std::make_shared<pcl_uvol::GlBackend>(context);
+  return std::make_shared<pcl_uvol::CpuBackend>();
 }
 
 bool
@@ -226,6 +244,7 @@ RenderOptions::configure(const Options& options,
                          const pcl_uvol::CloudView& cloud,
                          pcl_uvol::ImageSpaceRendererBase& renderer) const
 {
+  renderer.setBackend(makeBackend(backend_));
   renderer.settings() = settings_;
   renderer.setSize(width_, height_);
   renderer.setSupersampling(supersampling_);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "context_thread.h"
+
+#include <utility>
+
+namespace pcl_uvol {
+
+ContextThread::ContextThread()
+    : thread_([this] { work(); })
+{
+}
+
+ContextThread::~ContextThread()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void
+ContextThread::run(const std::function<void()>& task)
+{
+  if (std::this_thread::get_id() == thread_.get_id())
+    return task();
+  std::packaged_task<void()> packaged(task);
+  std::future<void> result = packaged.get_future();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    tasks_.push(std::move(packaged));
+  }
+  changed_.notify_one();
+  result.get();
+}
+
+void
+ContextThread::work()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return ends_ || !tasks_.empty(); });
+    if (tasks_.empty())
+      return;
+    std::packaged_task<void()> task = std::move(tasks_.front());
+    tasks_.pop();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "functions.h"
+
+namespace pcl_uvol {
+
+namespace {
+
+template <typename Function>
+void
+load(const GlContext& context, const char* name, Function& function)
+{
+  function = reinterpret_cast<Function>(context.getFunction(name));
+  if (function == nullptr)
+    throw GlError("The context \"" + context.getName() + "\" (OpenGL " +
+                  context.getVersion() + ") has no function " + name +
+                  ": use another driver, or the cpu backend.");
+}
+
+} // namespace
+
+GlFunctions::GlFunctions(const GlContext& context)
+{
+#define PCL_UVOL_GL_LOAD(name) load(context, "gl" #name, name);
+  PCL_UVOL_GL_FUNCTIONS(PCL_UVOL_GL_LOAD)
+#undef PCL_UVOL_GL_LOAD
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image_passes.h"
+#include <pcl_uvol/gl/gl_backend.h>
+
+#include <optional>
+
+namespace pcl_uvol {
+
+struct GlBackend::Implementation {
+  /** What lives in the context. */
+  struct Objects {
+    explicit Objects(const GlContext& context)
+        : gl(context)
+        , passes(gl)
+    {
+    }
+
+    GlFunctions gl;
+    ImagePasses passes;
+  };
+
+  explicit Implementation(const std::shared_ptr<GlContext>& shared_context)
+      : context(shared_context)
+  {
+    context->run([this] { objects.emplace(*context); });
+  }
+
+  ~Implementation()
+  {
+    context->run([this] { objects.reset(); });
+  }
+
+  /** Run a task in the context. \throws GlError if OpenGL complains about it */
+  template <typename Task>
+  void
+  run(const Task& task)
+  {
+    context->run([&] {
+      forgetErrors();
+      task(objects->passes);
+      const GLenum error = objects->gl.GetError();
+      if (error == GL_OUT_OF_MEMORY)
+        throw GlError("OpenGL is out of memory: use a smaller image or fewer points, "
+                      "or the cpu backend.");
+      if (error != GL_NO_ERROR)
+        throw GlError("OpenGL fails with error " + std::to_string(error) +
+                      ": use another driver, or the cpu backend.");
+    });
+  }
+
+  /** Those of others who use the context. */
+  void
+  forgetErrors() const
+  {
+    constexpr int most_errors = 16; // a lost context has no end of them
+    for (int i = 0; i < most_errors && objects->gl.GetError() != GL_NO_ERROR; ++i) {
+    }
+  }
+
+  std::shared_ptr<GlContext> context;
+  std::optional<Objects> objects;
+};
+
+GlBackend::GlBackend(const std::shared_ptr<GlContext>& context)
+{
+  if (!context)
+    throw InvalidArgument("An OpenGL backend needs a context: create one by "
+                          "createHeadlessContext().");
+  implementation_ = std::make_unique<Implementation>(context);
+}
+
+GlBackend::~GlBackend() = default;
+
+std::string
+GlBackend::describe() const
+{
+  const GlContext& context = *implementation_->context;
+  return context.getName() + ", OpenGL " + context.getVersion() + ", " +
+         context.getRenderer();
+}
+
+void
+GlBackend::render(const Frame& frame, Image& image, Report& report)
+{
+  implementation_->run([&](ImagePasses& passes) {
+    passes.draw(frame, report);
+    passes.finish(frame, image, report);
+  });
+}
+
+void
+GlBackend::renderToFramebuffer(const Frame& frame,
+                               const GlFramebuffer& target,
+                               Report& report)
+{
+  implementation_->run([&](ImagePasses& passes) {
+    passes.draw(frame, report);
+    passes.compose(frame, target, report);
+  });
+}
+
+} // namespace pcl_uvol

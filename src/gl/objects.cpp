@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "objects.h"
+
+#include <vector>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** What the compiler or the linker has to say. */
+template <typename GetParameter, typename GetLog>
+std::string
+logOf(GLuint object, GetParameter get_parameter, GetLog get_log)
+{
+  GLint length = 0;
+  get_parameter(object, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  get_log(object, length, nullptr, log.data());
+  return log;
+}
+
+GlName
+compile(const GlFunctions& gl, GLenum kind, const std::string& source)
+{
+  GlName shader(
+      gl, gl.CreateShader(kind), [](const GlFunctions& functions, GLuint name) {
+        functions.DeleteShader(name);
+      });
+  const char* const text = source.c_str();
+  gl.ShaderSource(shader.get(), 1, &text, nullptr);
+  gl.CompileShader(shader.get());
+  GLint compiled = GL_FALSE;
+  gl.GetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+  if (compiled != GL_TRUE)
+    throw GlError(
+        "The driver does not compile a shader, use the cpu backend instead: " +
+        logOf(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog));
+  return shader;
+}
+
+GlName
+makeTextureName(const GlFunctions& gl)
+{
+  GLuint name = 0;
+  gl.GenTextures(1, &name);
+  return {gl, name, [](const GlFunctions& functions, GLuint texture) {
+            functions.DeleteTextures(1, &texture);
+          }};
+}
+
+/** Any kind of pixels that a texture of this format may be made from. */
+GLenum
+transferFormat(GLenum format)
+{
+  switch (format) {
+  case GL_RG32UI:
+    return GL_RG_INTEGER;
+  case GL_R8UI:
+    return GL_RED_INTEGER;
+  case GL_DEPTH_COMPONENT32F:
+    return GL_DEPTH_COMPONENT;
+  default:
+    return GL_RGBA;
+  }
+}
+
+} // namespace
+
+GlName
+makeBuffer(const GlFunctions& gl)
+{
+  GLuint name = 0;
+  gl.GenBuffers(1, &name);
+  return {gl, name, [](const GlFunctions& functions, GLuint buffer) {
+            functions.DeleteBuffers(1, &buffer);
+          }};
+}
+
+GlName
+makeVertexArray(const GlFunctions& gl)
+{
+  GLuint name = 0;
+  gl.GenVertexArrays(1, &name);
+  return {gl, name, [](const GlFunctions& functions, GLuint array) {
+            functions.DeleteVertexArrays(1, &array);
+          }};
+}
+
+GlName
+makeTexture(const GlFunctions& gl, GLenum format, int width, int height)
+{
+  GlName texture = makeTextureName(gl);
+  const GLenum transfer = transferFormat(format);
+  const bool is_integer = transfer == GL_RG_INTEGER || transfer == GL_RED_INTEGER;
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_RECTANGLE, texture.get());
+  gl.TexImage2D(GL_TEXTURE_RECTANGLE,
+                0,
+                static_cast<GLint>(format),
+                width,
+                height,
+                0,
+                transfer,
+                is_integer ? GL_UNSIGNED_INT : GL_FLOAT,
+                nullptr);
+  gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MAX_LEVEL, 0);
+  return texture;
+}
+
+GlName
+makeBufferTexture(const GlFunctions& gl, GLenum format, const GlName& buffer)
+{
+  GlName texture = makeTextureName(gl);
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());
+  gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.get());
+  return texture;
+}
+
+GlName
+makeFramebuffer(const GlFunctions& gl,
+                std::initializer_list<const GlName*> colors,
+                const GlName* depth)
+{
+  GLuint name = 0;
+  gl.GenFramebuffers(1, &name);
+  GlName framebuffer(gl, name, [](const GlFunctions& functions, GLuint target) {
+    functions.DeleteFramebuffers(1, &target);
+  });
+  gl.BindFramebuffer(GL_FRAMEBUFFER, name);
+  GLenum attachment = GL_COLOR_ATTACHMENT0;
+  for (const GlName* color : colors)
+    gl.FramebufferTexture2D(
+        GL_FRAMEBUFFER, attachment++, GL_TEXTURE_RECTANGLE, color->get(), 0);
+  if (depth != nullptr)
+    gl.FramebufferTexture2D(
+        GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_RECTANGLE, depth->get(), 0);
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw GlError("The driver cannot draw into the buffers of this image: use a "
+                  "smaller image, or the cpu backend.");
+  return framebuffer;
+}
+
+Program::Program(const GlFunctions& gl,
+                 const std::string& vertex,
+                 const std::string& fragment)
+    : gl_(&gl)
+    , name_(gl, gl.CreateProgram(), [](const GlFunctions& functions, GLuint name) {
+      functions.DeleteProgram(name);
+    })
+{
+  const GlName shaders[] = {compile(gl, GL_VERTEX_SHADER, vertex),
+                            compile(gl, GL_FRAGMENT_SHADER, fragment)};
+  for (const GlName& shader : shaders)
+    gl.AttachShader(name_.get(), shader.get());
+  gl.LinkProgram(name_.get());
+  GLint linked = GL_FALSE;
+  gl.GetProgramiv(name_.get(), GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE)
+    throw GlError("The driver does not link a shader, use the cpu backend instead: " +
+                  logOf(name_.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "point_pass.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Attributes as the shaders number them. */
+constexpr GLuint look_attribute = 3;
+constexpr GLuint footprint_attribute = 4;
+
+/** Discs with a greater radius, in pixels, are rather drawn as two triangles. */
+constexpr float most_reach = 16.0f;
+
+template <typename T>
+void
+fillBuffer(const GlFunctions& gl, GlName& buffer, const std::vector<T>& values)
+{
+  buffer = makeBuffer(gl);
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  gl.BufferData(GL_ARRAY_BUFFER,
+                static_cast<GLsizeiptr>(values.size() * sizeof(T)),
+                values.data(),
+                GL_STATIC_DRAW);
+}
+
+const void*
+offsetOf(std::size_t bytes)
+{
+  return reinterpret_cast<const void*>(bytes);
+}
+
+} // namespace
+
+void
+setView(const Program& program, const View& view)
+{
+  const float *const r = view.rotation, *const t = view.translation;
+  program.setMatrix("rotation", r);
+  program.set("translation", t[0], t[1], t[2]);
+  program.set("eye",
+              -(r[0] * t[0] + r[3] * t[1] + r[6] * t[2]),
+              -(r[1] * t[0] + r[4] * t[1] + r[7] * t[2]),
+              -(r[2] * t[0] + r[5] * t[1] + r[8] * t[2]));
+  program.set("center", view.center_x, view.center_y);
+  program.set("focal", view.focal);
+  program.set("per_focal", 1.0f / view.focal);
+  program.set("near", view.near);
+  program.set("far", view.far);
+  program.set("per_far", 1.0f / view.far);
+}
+
+PointPass::PointPass(const GlFunctions& gl, Programs& programs)
+    : gl_(gl)
+    , programs_(programs)
+{
+  GLfloat sizes[2] = {1.0f, 1.0f};
+  gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  largest_reach_ = std::min(most_reach, 0.5f * sizes[1] - 1.0f);
+}
+
+void
+PointPass::upload(const SurfaceCloud& cloud)
+{
+  GLint largest = 0;
+  gl_.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+  if (cloud.size() > static_cast<std::size_t>(largest))
+    throw GlError("A cloud of " + std::to_string(cloud.size()) +
+                  " points is too large for this OpenGL, which draws at most " +
+                  std::to_string(largest) + ": use fewer points, or the cpu backend.");
+  revision_ = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    fillBuffer(gl_, coordinates_[axis], cloud.getCoordinates(axis));
+  fillBuffer(gl_, looks_, cloud.getLooks());
+  looks_texture_ = makeBufferTexture(gl_, GL_RG32UI, looks_);
+  has_footprints_ = !cloud.getFootprints().empty();
+  fillBuffer(gl_, footprints_, cloud.getFootprints());
+  fillBuffer(gl_, fillers_, cloud.getFillers());
+  // New ones, which know nothing of the buffers of another cloud.
+  points_array_ = makeVertexArray(gl_);
+  discs_array_ = makeVertexArray(gl_);
+  gl_.BindVertexArray(points_array_.get());
+  bindAttributes(0, 0);
+  revision_ = cloud.getRevision();
+}
+
+void
+PointPass::bindAttributes(std::uint32_t first, GLuint divisor) const
+{
+  const auto bindFloats = [&](GLuint attribute, const GlName& buffer) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.get());
+    gl_.VertexAttribPointer(
+        attribute, 1, GL_FLOAT, GL_FALSE, 0, offsetOf(first * sizeof(float)));
+    gl_.EnableVertexAttribArray(attribute);
+    gl_.VertexAttribDivisor(attribute, divisor);
+  };
+  for (GLuint axis = 0; axis < 3; ++axis)
+    bindFloats(axis, coordinates_[axis]);
+  if (has_footprints_)
+    bindFloats(footprint_attribute, *radii_);
+  constexpr auto stride = sizeof(SurfaceCloud::Look);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, looks_.get());
+  gl_.VertexAttribIPointer(
+      look_attribute, 2, GL_UNSIGNED_INT, stride, offsetOf(first * stride));
+  gl_.EnableVertexAttribArray(look_attribute);
+  gl_.VertexAttribDivisor(look_attribute, divisor);
+}
+
+void
+PointPass::chooseRadii(const GlName& radii)
+{
+  radii_ = &radii;
+  gl_.BindVertexArray(points_array_.get());
+  bindAttributes(0, 0);
+}
+
+void
+PointPass::bind(const Canvas& canvas, const GlName& framebuffer, int targets)
+{
+  canvas.bind(framebuffer, targets);
+  // Points are clipped by their middle.
+  viewport_ = PixelBox{0, 0, canvas.getWidth(), canvas.getHeight()}.grownBy(
+      static_cast<int>(largest_reach_) + 1);
+  gl_.Viewport(viewport_.left, viewport_.top, viewport_.width(), viewport_.height());
+}
+
+const Program&
+PointPass::use(const shaders::Pass& pass,
+               const std::string& defines,
+               const Frame& frame) const
+{
+  const Program& program = programs_.use(pass, defines);
+  setView(program, frame.view);
+  program.set("origin",
+              static_cast<float>(viewport_.left - shaders::margin),
+              static_cast<float>(viewport_.top - shaders::margin));
+  program.set("extent",
+              static_cast<float>(viewport_.width()),
+              static_cast<float>(viewport_.height()));
+  program.set("is_two_sided", frame.cloud.isTwoSided());
+  program.set("culls", frame.settings.cull_back_faces && !frame.cloud.isTwoSided());
+  program.set("smallest_footprint", smallest_footprint);
+  program.set("largest_reach", largest_reach_);
+  return program;
+}
+
+void
+PointPass::drawPoints(const std::vector<PointRange>& ranges) const
+{
+  std::vector<GLint> firsts;
+  std::vector<GLsizei> counts;
+  for (const PointRange& range : ranges) {
+    firsts.push_back(static_cast<GLint>(range.begin));
+    counts.push_back(static_cast<GLsizei>(range.end - range.begin));
+  }
+  gl_.BindVertexArray(points_array_.get());
+  gl_.MultiDrawArrays(
+      GL_POINTS, firsts.data(), counts.data(), static_cast<GLsizei>(ranges.size()));
+}
+
+void
+PointPass::drawLargeDiscs(const Program& program,
+                          const std::vector<PointRange>& ranges) const
+{
+  gl_.BindVertexArray(discs_array_.get());
+  for (const PointRange& range : ranges) {
+    // OpenGL 3.3 counts instances from 0: the attributes move instead.
+    program.set("first", static_cast<int>(range.begin));
+    bindAttributes(range.begin, 1);
+    gl_.DrawArraysInstanced(
+        GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(range.end - range.begin));
+  }
+}
+
+void
+PointPass::drawDiscs(const Frame& frame, const VisibleRanges& ranges, double back) const
+{
+  use(shaders::small_discs, "#define WITH_PIXELS\n", frame).set("back", back);
+  drawPoints(ranges.points);
+  const Program& large = use(shaders::large_discs, "", frame);
+  large.set("back", back);
+  drawLargeDiscs(large, ranges.large_discs);
+}
+
+void
+PointPass::draw(const Frame& frame, const VisiblePoints& visible, const Canvas& canvas)
+{
+  bind(canvas, canvas.projected, 1);
+  gl_.Enable(GL_DEPTH_TEST);
+  if (frame.hasFootprints()) {
+    chooseRadii(fillers_);
+    drawDiscs(frame, visible.dense, 1.0);
+    chooseRadii(footprints_);
+    drawDiscs(frame, visible.sparse, 0.0);
+  }
+  else {
+    use(shaders::points, "", frame);
+    drawPoints(visible.dense.points);
+  }
+  gl_.Disable(GL_DEPTH_TEST);
+}
+
+void
+PointPass::blend(const Frame& frame,
+                 const VisiblePoints& visible,
+                 const GlName& states,
+                 const Canvas& canvas)
+{
+  static const std::string define = "#define BLENDED\n";
+  constexpr float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+  bind(canvas, canvas.blended, 2);
+  gl_.ClearBufferfv(GL_COLOR, 0, zero);
+  gl_.ClearBufferfv(GL_COLOR, 1, zero);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendEquation(GL_FUNC_ADD);
+  gl_.BlendFunc(GL_ONE, GL_ONE);
+  use(shaders::blend_small, define, frame).setTexture("states", 0, states);
+  drawPoints(visible.sparse.points);
+  const Program& large = use(shaders::blend_large, define, frame);
+  large.setTexture("states", 0, states);
+  drawLargeDiscs(large, visible.sparse.large_discs);
+  gl_.Disable(GL_BLEND);
+}
+
+} // namespace pcl_uvol
