@@ -119,7 +119,7 @@ drawColorBar(Image& image,
     return;
   const int height = static_cast<int>(image.height);
   const int length = height * 6 / 10, top = (height - length) / 2;
-  const int size = std::clamp(height / 40, 9, 48);
+  const int size = std::clamp(height / 40, 11, 48);
   const int right = static_cast<int>(image.width) - size, left = right - size;
   for (int row = 0; row < length; ++row) {
     const Rgba packed = toRgba(map.at((length - 0.5 - row) / length));

@@ -743,6 +743,13 @@ TEST(ImageSpaceRenderer, RefusesBadInput)
   refuses([&](auto& s) { s.silhouette_thickness = 8; });
   refuses([&](auto& s) { s.smoothing_iterations = -1; });
   refuses([&](auto& s) { s.background_fill = -1; });
+  refuses([&](auto& s) { s.material.shininess = -1.0; });
+  refuses([&](auto& s) { s.material.diffuse = nan; });
+  refuses([&](auto& s) { s.material.color.g = static_cast<float>(nan); });
+  refuses([&](auto& s) { s.lights[0].position.setZero(); });
+  refuses([&](auto& s) { s.lights[1].position.x() = nan; });
+  refuses([&](auto& s) { s.lights[0].color.r = -1.0f; });
+  refuses([&](auto& s) { s.background.color.b = static_cast<float>(nan); });
   EXPECT_NO_THROW(renderer.render(image));
   renderer.setSupersampling(2);
   EXPECT_THROW(renderer.render(image), InvalidArgument); // planes cannot be averaged

@@ -40,6 +40,39 @@ checkRange(const char* name, int value, int low, int high)
 }
 
 void
+checkColor(const char* name, const Color& color)
+{
+  for (const float channel : {color.r, color.g, color.b})
+    if (!(channel >= 0.0f) || !std::isfinite(channel))
+      throw InvalidArgument(std::string("The colour of ") + name +
+                            " has finite parts of 0 or more, not " +
+                            std::to_string(channel) + ".");
+}
+
+void
+checkLighting(const ImageSpaceSettings& settings)
+{
+  const Material& material = settings.material;
+  for (const double factor :
+       {material.ambient, material.diffuse, material.specular, material.shininess})
+    if (!(factor >= 0.0) || !std::isfinite(factor))
+      throw InvalidArgument("The factors of a material are finite and 0 or more, not " +
+                            std::to_string(factor) + ".");
+  checkColor("the material", material.color);
+  checkColor("lines", settings.line_color);
+  checkColor("the background", settings.background.color);
+  checkColor("the background", settings.background.top);
+  for (const Light& light : settings.lights) {
+    checkColor("a light", light.color);
+    if (!light.position.allFinite() ||
+        (light.kind == Light::Kind::Directional && light.position.isZero(0.0)))
+      throw InvalidArgument(
+          "A light comes from a finite place, or from a direction that "
+          "is not zero.");
+  }
+}
+
+void
 checkSettings(const ImageSpaceSettings& settings)
 {
   constexpr int unlimited = std::numeric_limits<int>::max();
@@ -51,6 +84,7 @@ checkSettings(const ImageSpaceSettings& settings)
   checkThreshold("threshold of silhouettes", settings.silhouette_threshold);
   checkThreshold("threshold of feature lines", settings.feature_threshold);
   checkThreshold("threshold of anti-aliasing", settings.anti_aliasing_threshold);
+  checkLighting(settings);
 }
 
 /** True if points of some block in front of the eye lie too far apart on the screen. */

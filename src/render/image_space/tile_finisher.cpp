@@ -77,7 +77,6 @@ public:
     shading_.diffuse = static_cast<float>(material.diffuse);
     shading_.specular = static_cast<float>(material.specular);
     shading_.shininess = static_cast<float>(material.shininess);
-    // Cosines of 0 have no logarithm.
     shading_.least_base =
         static_cast<float>(std::pow(least_highlight, 1.0 / material.shininess));
     shading_.lights = lights_.data();

@@ -22,8 +22,9 @@ namespace pcl_uvol {
 struct PCL_UVOL_EXPORTS View {
   /** Width of the guard band in pixels. */
   static constexpr int guard = 8;
-  /** Largest width and height of an image: buffers are textures of at most 16384. */
-  static constexpr int largest_size = 16384 - 2 * guard;
+  /** Largest width and height of an image: buffers, and a texel around them, are
+   * textures of at most 16384. */
+  static constexpr int largest_size = 16384 - 2 * guard - 2;
 
   int width, height;        ///< of the image
   float rotation[9];        ///< from cloud to camera space, row by row
