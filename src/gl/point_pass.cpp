@@ -192,7 +192,7 @@ PointPass::draw(const Frame& frame, const VisiblePoints& visible, const Canvas& 
   gl_.Enable(GL_DEPTH_TEST);
   if (frame.hasFootprints()) {
     chooseRadii(fillers_);
-    drawDiscs(frame, visible.dense, 1.0);
+    drawDiscs(frame, visible.dense, filler_depth);
     chooseRadii(footprints_);
     drawDiscs(frame, visible.sparse, 0.0);
   }

@@ -259,7 +259,7 @@ TEST_P(GlBackendDraws, WhatTheCpuDraws)
       other_background += !agrees;
   }
   EXPECT_GT(covered, expected.pixels() / 10);
-  EXPECT_GE(double(agreeing), 0.998 * double(covered));
+  EXPECT_GE(double(agreeing), 0.995 * double(covered));
   EXPECT_LE(double(other_background), 0.001 * double(expected.pixels()));
   const View view(scene.camera, scene.cloud->getBounds(), 300, 300);
   const Places places(scene, view);

@@ -22,14 +22,17 @@ const KernelTable<const FillKernels*> fill_table{
 using FindFills =
     std::function<std::size_t(PixelKey* row, int first, int last, PixelFill* fills)>;
 
-/** Iterations of one fill. Only rows beside a change are looked at again. */
+/** Iterations of one fill. Only pixels beside a change are looked at again: those of a
+ * cell, some columns of a row, at once. */
 class PixelFiller {
 public:
   PixelFiller(PixelBuffer& buffer, unsigned threads, const FindFills& find)
       : buffer_(buffer)
       , threads_(threads)
       , find_(find)
-      , changed_(static_cast<std::size_t>(buffer.height) + 2, 1)
+      , rows_(buffer.bounds.last_row - buffer.bounds.first_row)
+      , columns_(buffer.bounds.last_column - buffer.bounds.first_column)
+      , cells_((columns_ + cell_columns - 1) / cell_columns)
   {
   }
 
@@ -38,6 +41,9 @@ public:
   std::uint64_t
   run(int most)
   {
+    if (rows_ <= 0 || columns_ <= 0)
+      return 0;
+    changed_.assign(static_cast<std::size_t>((rows_ + 2) * (cells_ + 2)), 1);
     int iterations = 0;
     while (iterations < most && iterate())
       ++iterations;
@@ -45,47 +51,37 @@ public:
   }
 
 private:
+  static constexpr int cell_columns = 64;
+
   bool
   iterate()
   {
-    const PixelBounds& bounds = buffer_.bounds;
-    const int rows = bounds.last_row - bounds.first_row;
-    if (rows <= 0 || bounds.last_column <= bounds.first_column)
-      return false;
     before_ = changed_;
     std::fill(changed_.begin(), changed_.end(), std::uint8_t(0));
-    const auto border =
-        parallelGather<PixelFill>(static_cast<std::size_t>(rows),
-                                  rows_per_task,
-                                  threads_,
-                                  [&](auto begin, auto end, auto& found) {
-                                    fillRows(bounds.first_row + static_cast<int>(begin),
-                                             bounds.first_row + static_cast<int>(end),
-                                             found);
-                                  });
+    const auto border = parallelGather<PixelFill>(
+        static_cast<std::size_t>(rows_),
+        rows_per_task,
+        threads_,
+        [&](auto begin, auto end, auto& found) {
+          fillRows(static_cast<int>(begin), static_cast<int>(end), found);
+        });
     apply(border.data(), border.size());
     return std::find(changed_.begin(), changed_.end(), 1) != changed_.end();
   }
 
   /** A row is filled when the next one has been looked at; the first and the last one,
-   * which other threads look at, are left to the caller. */
+   * which other threads look at, are left to the caller. Rows count from the bounds. */
   void
   fillRows(int first, int last, std::vector<PixelFill>& border)
   {
-    const auto columns = static_cast<std::size_t>(buffer_.bounds.last_column -
-                                                  buffer_.bounds.first_column);
+    const auto columns = static_cast<std::size_t>(columns_);
     std::vector<PixelFill> fills(columns), next(columns);
     std::size_t count = 0;
     for (int row = first; row < last; ++row) {
-      const std::size_t found = isActive(row) ? find_(buffer_.row(row),
-                                                      buffer_.bounds.first_column,
-                                                      buffer_.bounds.last_column,
-                                                      next.data())
-                                              : 0;
+      const std::size_t found = findRow(row, next.data());
       apply(fills.data(), count);
       count = found;
       fills.swap(next);
-      changed_[static_cast<std::size_t>(row) + 1] = found > 0;
       if (row == first || row == last - 1) {
         border.insert(border.end(), fills.data(), fills.data() + found);
         count = 0;
@@ -93,11 +89,42 @@ private:
     }
   }
 
-  bool
-  isActive(int row) const
+  std::size_t
+  findRow(int row, PixelFill* fills)
   {
-    const std::uint8_t* const around = &before_[static_cast<std::size_t>(row)];
-    return (around[0] | around[1] | around[2]) != 0;
+    const PixelBounds& bounds = buffer_.bounds;
+    std::size_t count = 0;
+    for (int cell = 0; cell < cells_; ++cell) {
+      if (!isActive(row, cell))
+        continue;
+      const int column = bounds.first_column + cell * cell_columns;
+      const std::size_t found =
+          find_(buffer_.row(bounds.first_row + row),
+                column,
+                std::min(column + cell_columns, bounds.last_column),
+                fills + count);
+      changed_[index(row, cell)] = found > 0;
+      count += found;
+    }
+    return count;
+  }
+
+  /** Of a cell; there is one more all around. */
+  std::size_t
+  index(int row, int cell) const
+  {
+    return static_cast<std::size_t>((row + 1) * (cells_ + 2) + cell + 1);
+  }
+
+  bool
+  isActive(int row, int cell) const
+  {
+    std::uint8_t any = 0;
+    for (int r = row - 1; r <= row + 1; ++r) {
+      const std::uint8_t* const around = &before_[index(r, cell - 1)];
+      any |= around[0] | around[1] | around[2];
+    }
+    return any != 0;
   }
 
   static void
@@ -110,7 +137,8 @@ private:
   PixelBuffer& buffer_;
   unsigned threads_;
   const FindFills& find_;
-  std::vector<std::uint8_t> changed_, before_; ///< by row + 1
+  int rows_, columns_, cells_;
+  std::vector<std::uint8_t> changed_, before_; ///< by cell
 };
 
 void

@@ -194,17 +194,35 @@ largest(const Floats& values)
   return most;
 }
 
-/** Least squared distance from a place in a pixel to the centre of the one so many
- * pixels away. */
-constexpr float
-sqDistanceAtLeast(int dx, int dy)
-{
-  const auto along = [](int pixels) {
-    const int distance = pixels < 0 ? -pixels : pixels;
-    return distance == 0 ? 0.0f : static_cast<float>(distance) - 0.5f;
-  };
-  return along(dx) * along(dx) + along(dy) * along(dy);
-}
+/** Which pixels discs cover, as polynomials of the way from the projected centres, in
+ * pixels: cheaper than meeting every ray with its plane. */
+struct DiscPolynomials {
+  Floats xx, xy, yy, x, y, one;      ///< not positive: covered
+  Floats toward, toward_x, toward_y; ///< ray of a pixel times axis
+
+  DiscPolynomials(const Projection& projection, const DiscLanes& disc)
+  {
+    // With q the ray of a pixel, a the axis, c the centre: the ray meets the plane at
+    // (a.c / a.q) q, so that the disc is |(a.c) q - (a.q) c| <= radius |a.q|. The left
+    // side vanishes in the centre.
+    const Vector &a = disc.axis, &c = disc.center;
+    const float per_focal = 1.0f / projection.focal;
+    const Floats ax = a.x * per_focal, ay = a.y * per_focal;
+    const Floats plane = disc.plane * per_focal;
+    toward = disc.plane / c.z;
+    toward_x = ax;
+    toward_y = ay;
+    const Vector u = {plane - ax * c.x, -(ax * c.y), -(ax * c.z)};
+    const Vector v = {-(ay * c.x), plane - ay * c.y, -(ay * c.z)};
+    const Floats rx = disc.radius * ax, ry = disc.radius * ay, r = disc.radius * toward;
+    xx = u.x * u.x + u.y * u.y + u.z * u.z - rx * rx;
+    xy = 2.0f * (u.x * v.x + u.y * v.y + u.z * v.z - rx * ry);
+    yy = v.x * v.x + v.y * v.y + v.z * v.z - ry * ry;
+    x = -2.0f * r * rx;
+    y = -2.0f * r * ry;
+    one = -(r * r);
+  }
+};
 
 /** Up to a register of discs, one per lane. */
 class DiscGroup {
@@ -216,25 +234,25 @@ public:
       : projection_(projection)
       , discs_(discs)
       , disc_(gather(projection, points, discs, count))
+      , slope_x_(disc_.center.x / disc_.center.z)
+      , slope_y_(disc_.center.y / disc_.center.z)
   {
-    const Floats slope_x = disc_.center.x / disc_.center.z,
-                 slope_y = disc_.center.y / disc_.center.z;
     const Floats extent =
-        maximum(disc_.extent(projection, slope_x), disc_.extent(projection, slope_y));
+        maximum(disc_.extent(projection, slope_x_), disc_.extent(projection, slope_y_));
     constexpr auto most = static_cast<float>(largest_side_by_side);
     const Ints is_here = laneNumbers() < fill(count);
     const Ints is_small =
         (disc_.center.z - disc_.radius >= projection.near) & (extent <= most);
     large_ = laneBits(is_here & ~is_small);
-    const Floats px = projection.center_x + projection.focal * slope_x;
-    const Floats py = projection.center_y + projection.focal * slope_y;
+    px_ = projection.center_x + projection.focal * slope_x_;
+    py_ = projection.center_y + projection.focal * slope_y_;
     // Far outside no pixel is reached, and integers do not take it. Conversion goes
     // towards zero: shifted, to the lower pixel.
     constexpr float shift = most + 1.0f;
-    small_ = is_here & is_small & (px > -shift) & (py > -shift) & (px < pixel_limit) &
-             (py < pixel_limit);
-    column_ = toInts(small_ ? px + shift : Floats{}) - static_cast<int>(shift);
-    row_ = toInts(small_ ? py + shift : Floats{}) - static_cast<int>(shift);
+    small_ = is_here & is_small & (px_ > -shift) & (py_ > -shift) &
+             (px_ < pixel_limit) & (py_ < pixel_limit);
+    column_ = toInts(small_ ? px_ + shift : Floats{}) - static_cast<int>(shift);
+    row_ = toInts(small_ ? py_ + shift : Floats{}) - static_cast<int>(shift);
     reach_ = largest(small_ ? extent : Floats{});
   }
 
@@ -248,11 +266,41 @@ public:
   void
   drawSmall(float back, const PixelBand& band) const
   {
-    const int size = static_cast<int>(reach_ + 0.5f);
-    for (int dy = -size; dy <= size; ++dy)
-      for (int dx = -size; dx <= size; ++dx)
-        if (sqDistanceAtLeast(dx, dy) <= reach_ * reach_)
-          drawPixel(dx, dy, back, band);
+    if (laneBits(small_) == 0)
+      return;
+    const DiscPolynomials p(projection_, disc_);
+    const float per_focal = 1.0f / projection_.focal;
+    const Floats plane = disc_.plane * projection_.per_far;
+    const Floats behind = disc_.radius * (back * projection_.per_far);
+    const Ints places =
+        (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
+    const Floats x = toFloats(column_) + 0.5f - px_, y = toFloats(row_) + 0.5f - py_;
+    const int rows = static_cast<int>(reach_ + 0.5f);
+    for (int dy = -rows; dy <= rows; ++dy) {
+      const Ints row = row_ + dy;
+      const Ints in_band =
+          small_ & (row >= fill(band.first_row)) & (row < fill(band.last_row));
+      const Floats ey = y + static_cast<float>(dy);
+      const Floats linear = p.xy * ey + p.x, one = (p.yy * ey + p.y) * ey + p.one;
+      const Floats qy = slope_y_ + ey * per_focal, sq_ray = qy * qy + 1.0f;
+      const Floats toward = p.toward + p.toward_y * ey;
+      const int columns = columnsAt(dy);
+      for (int dx = -columns; dx <= columns; ++dx) {
+        const Floats ex = x + static_cast<float>(dx);
+        const Ints column = column_ + dx;
+        const Ints covered = in_band & ((p.xx * ex + linear) * ex + one <= 0.0f) &
+                             (column >= 0) & (column < fill(band.width));
+        if (laneBits(covered) == 0)
+          continue;
+        const Floats qx = slope_x_ + ex * per_focal;
+        const Floats depth =
+            plane * squareRoot(qx * qx + sq_ray) / (toward + p.toward_x * ex) + behind;
+        keepLanes(laneBits(covered & (depth < 1.0f)),
+                  depth,
+                  places + (dy * static_cast<int>(band.stride) + dx),
+                  band);
+      }
+    }
   }
 
 private:
@@ -277,38 +325,36 @@ private:
                      load<Floats>(radius));
   }
 
-  /** The pixel so far away from that of each disc's centre, where the disc covers it.
-   */
-  void
-  drawPixel(int dx, int dy, float back, const PixelBand& band) const
+  /** How many columns beside their centres' discs can reach so many rows away. */
+  int
+  columnsAt(int dy) const
   {
-    const Ints columns = column_ + dx, rows = row_ + dy;
-    const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
-    const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
-    Floats along, sq_dist;
-    disc_.intersect(qx, qy, along, sq_dist);
-    Ints covered = small_ & (along > 0.0f) & (sq_dist <= disc_.radius * disc_.radius) &
-                   (columns >= 0) & (columns < fill(band.width)) &
-                   (rows >= fill(band.first_row)) & (rows < fill(band.last_row));
-    if (laneBits(covered) == 0)
-      return;
-    const Floats depth = depthAt(projection_, along, qx, qy) +
-                         disc_.radius * (back * projection_.per_far);
-    covered &= depth < 1.0f;
-    alignas(64) float depths[lanes];
-    alignas(64) std::int32_t places[lanes];
-    store(depths, depth);
-    store(places, (rows - band.first_row) * static_cast<int>(band.stride) + columns);
+    const float rows = dy == 0 ? 0.0f : static_cast<float>(dy < 0 ? -dy : dy) - 0.5f;
+    const float left = reach_ * reach_ - rows * rows;
+    return left < 0.0f ? -1 : static_cast<int>(__builtin_sqrtf(left) + 0.5f);
+  }
+
+  void
+  keepLanes(std::uint32_t bits,
+            const Floats& depths,
+            const Ints& places,
+            const PixelBand& band) const
+  {
+    alignas(64) float depth[lanes];
+    alignas(64) std::int32_t place[lanes];
+    store(depth, depths);
+    store(place, places);
     PixelKey* const keys = band.keys + band.first_row * band.stride;
-    for (std::uint32_t bits = laneBits(covered); bits != 0; bits &= bits - 1) {
+    for (; bits != 0; bits &= bits - 1) {
       const int lane = __builtin_ctz(bits);
-      keepFront(keys[places[lane]], depths[lane], discs_[lane]);
+      keepFront(keys[place[lane]], depth[lane], discs_[lane]);
     }
   }
 
   const Projection& projection_;
   const std::uint32_t* discs_;
   DiscLanes disc_;
+  Floats slope_x_, slope_y_, px_, py_;
   Ints small_, column_, row_;
   float reach_; ///< of the small ones, in pixels
   std::uint32_t large_;
@@ -340,6 +386,21 @@ draw(const Projection& projection,
   }
 }
 
+/** The sums of a pixel, those of its segment cleared if it is the first. */
+float*
+sumsAt(const BlendSums& blended, std::ptrdiff_t pixel)
+{
+  const std::ptrdiff_t segment = BlendSums::segmentOf(pixel);
+  if (blended.marks[segment] == 0) {
+    blended.marks[segment] = 1;
+    const std::ptrdiff_t first = segment * blend_segment - blend_segment / 2;
+    __builtin_memset(blended.values + blended_values * first,
+                     0,
+                     sizeof(float) * blended_values * blend_segment);
+  }
+  return blended.values + blended_values * pixel;
+}
+
 void
 blend(const Projection& projection,
       const ProjectedPoints& points,
@@ -347,7 +408,7 @@ blend(const Projection& projection,
       const std::uint32_t* discs,
       std::size_t count,
       const PixelBand& band,
-      float* blended)
+      const BlendSums& blended)
 {
   for (std::size_t i = 0; i < count; ++i) {
     const LargeDisc disc(projection, points, discs[i], band);
@@ -371,7 +432,7 @@ blend(const Projection& projection,
         return;
       // Falls smoothly to zero at the rim.
       const float weight = (1.0f - part) * (1.0f - part);
-      float* const sums = blended + blended_values * pixel;
+      float* const sums = sumsAt(blended, pixel);
       for (int k = 0; k < blended_values; ++k)
         sums[k] += values[k] * weight;
     });

@@ -12,6 +12,25 @@ namespace pcl_uvol {
  * and colour (0 to 255), the sum of the weights, and one to fill a power of two. */
 constexpr int blended_values = 8;
 
+/** Pixels of a row whose sums are cleared together, when the first disc reaches them.
+ */
+constexpr int blend_segment = 16;
+
+/** What discs are blended into, from the first key of the buffers on, in their stride.
+ */
+struct BlendSums {
+  float* values;       ///< blended_values per pixel; of marked segments only
+  std::uint8_t* marks; ///< per segment: not 0 if a disc reached it
+
+  /** \brief Segment of the pixel of a key. Half a segment off the first column, as the
+   * tiles of an image are. */
+  static std::ptrdiff_t
+  segmentOf(std::ptrdiff_t key)
+  {
+    return (key + blend_segment / 2) / blend_segment;
+  }
+};
+
 /** \brief One instruction set's versions. */
 struct DiscKernels {
   /** \brief Put discs into all pixels whose centre they cover.
@@ -25,15 +44,14 @@ struct DiscKernels {
 
   /** \brief Add discs, one after another, to all pixels they cover where they lie in
    * front of, or at most their radius behind, what is seen there.
-   * \param looks of all points: packed normal, then colour
-   * \param blended of the pixel of the band's first key, in the band's stride */
+   * \param looks of all points: packed normal, then colour */
   void (*blend)(const Projection& projection,
                 const ProjectedPoints& points,
                 const std::uint32_t* looks,
                 const std::uint32_t* discs,
                 std::size_t count,
                 const PixelBand& band,
-                float* blended);
+                const BlendSums& blended);
 };
 
 namespace baseline {

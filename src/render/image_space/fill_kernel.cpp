@@ -80,13 +80,15 @@ findBackground(
     if (laneBits(is_background) == 0)
       continue;
     const Ring ring(pixels, stride);
+    const Longs smallest = ring.smallest();
+    if (laneBits(is_background & (smallest < background_key)) == 0)
+      continue;
     Longs is_white[ring_cells];
     for (int i = 0; i < ring_cells; ++i)
       is_white[i] = ring.cells[i] == background_key;
     const Longs to_fill = is_background & ~matchesMask(is_white);
-    const std::uint32_t bits = laneBits(to_fill) & lanesBefore(last, column);
-    if (bits != 0)
-      next = append(pixels, ring.smallest(), bits, next);
+    next =
+        append(pixels, smallest, laneBits(to_fill) & lanesBefore(last, column), next);
   }
   return static_cast<std::size_t>(next - fills);
 }

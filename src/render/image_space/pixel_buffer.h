@@ -24,20 +24,23 @@ struct PixelBuffer {
   std::ptrdiff_t stride = 0;
   std::vector<PixelKey> keys;
   PixelBounds bounds{}; ///< outside of it is background
-  /** Sums of the discs of every key's pixel, blended_values each; empty without discs.
-   */
+  /** Sums and marks of BlendSums for all keys; empty without discs. @{ */
   std::vector<float> blended;
+  std::vector<std::uint8_t> blend_marks;
+  /** @} */
 
   /** \brief Make room for a view; rows are not cleared. */
   void
   resize(const View& view);
 
-  /** \brief Sums of the pixel of a key, null without discs. */
-  const float*
-  blendedAt(const PixelKey* key) const
+  /** \brief Sums of row 0, as bands count keys; null without discs. */
+  BlendSums
+  blendSums()
   {
-    return blended.empty() ? nullptr
-                           : blended.data() + blended_values * (key - keys.data());
+    const std::ptrdiff_t first = row(0) - keys.data();
+    return blended.empty() ? BlendSums{nullptr, nullptr}
+                           : BlendSums{blended.data() + blended_values * first,
+                                       blend_marks.data() + first / blend_segment};
   }
 
   PixelKey*

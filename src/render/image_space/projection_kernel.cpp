@@ -42,6 +42,29 @@ drawPixels(const PixelBand& band,
   }
 }
 
+/** False for discs that lie beside the band, about projected centres. Those that nearly
+ * touch the eye may reach any pixel. */
+Ints
+mayReach(const Projection& projection,
+         const PixelBand& band,
+         const Vector& center,
+         const Floats& radius,
+         const Floats& px,
+         const Floats& py)
+{
+  const Floats nearest = center.z - radius, per_z = 1.0f / center.z;
+  const Floats extent = projection.focal * radius / nearest;
+  const auto stretched = [&](const Floats& x) {
+    const Floats slope = x * per_z;
+    return extent * (1.0f + 0.5f * slope * slope); // at least the length of the ray
+  };
+  const Floats ex = stretched(center.x), ey = stretched(center.y);
+  return (nearest < projection.near) |
+         ((px + ex >= 0.0f) & (px - ex <= static_cast<float>(band.width)) &
+          (py + ey >= static_cast<float>(band.first_row)) &
+          (py - ey <= static_cast<float>(band.last_row)));
+}
+
 } // namespace
 
 std::size_t
@@ -69,14 +92,17 @@ projectPoints(const Projection& projection,
     if (projection.cull_back_faces)
       seen &= facing >= 0.0f;
     const Floats per_z = projection.focal / c.z;
+    const Floats px = projection.center_x + c.x * per_z;
+    const Floats py = projection.center_y + c.y * per_z;
     if (points.radii != nullptr) {
       const Floats radius = loadSome<Floats>(points.radii + i, here);
       const Ints is_disc = seen & (radius * per_z > projection.smallest_footprint);
-      for (std::uint32_t bits = laneBits(is_disc); bits != 0; bits &= bits - 1)
+      std::uint32_t bits = laneBits(is_disc);
+      if (bits != 0)
+        bits = laneBits(is_disc & mayReach(projection, band, c, radius, px, py));
+      for (; bits != 0; bits &= bits - 1)
         discs[disc_count++] = i + static_cast<std::uint32_t>(__builtin_ctz(bits));
     }
-    const Floats px = projection.center_x + c.x * per_z;
-    const Floats py = projection.center_y + c.y * per_z;
     const Floats depth =
         squareRoot(c.x * c.x + c.y * c.y + c.z * c.z) * projection.per_far;
     // Conversion goes towards zero: what is left of the first column stays out.

@@ -12,7 +12,7 @@ namespace pcl_uvol {
 namespace {
 
 /** Rows of a band: its keys fit into the cache of a core. */
-constexpr int band_rows = 64;
+constexpr int band_rows = 128;
 
 constexpr std::size_t blocks_per_task = 256;
 
@@ -136,6 +136,7 @@ void
 PixelBuffer::resize(const View& view)
 {
   constexpr int lanes = 16; // of the widest register
+  static_assert(margin % blend_segment == 0 && lanes % blend_segment == 0);
   width = view.bufferWidth();
   height = view.bufferHeight();
   const std::ptrdiff_t columns = (width + lanes - 1) / lanes * lanes + 2 * margin;
@@ -212,7 +213,7 @@ Projector::project()
                          points,
                          discs.data() + known,
                          added,
-                         is_blended ? 0.0f : 1.0f,
+                         is_blended ? 0.0f : filler_depth,
                          band);
       discs.resize(is_blended ? known + added : known);
     }
@@ -224,17 +225,13 @@ Projector::blend()
 {
   const bool has_discs = std::any_of(
       discs_.begin(), discs_.end(), [](const auto& discs) { return !discs.empty(); });
-  buffer_.blended.resize(has_discs ? blended_values * buffer_.keys.size() : 0);
+  const std::size_t keys = has_discs ? buffer_.keys.size() : 0;
+  buffer_.blended.resize(blended_values * keys);
+  buffer_.blend_marks.assign(keys / blend_segment, 0);
   if (!has_discs)
     return;
   const auto rows = static_cast<std::size_t>(buffer_.height);
   parallelBlocks(rows, band_rows, frame_.threads, [&](auto begin, auto end) {
-    const PixelBand band = bandOf(begin, end);
-    const auto place = [&](int row) {
-      return buffer_.blended.data() +
-             blended_values * (buffer_.row(row) - buffer_.keys.data());
-    };
-    std::fill(place(band.first_row), place(band.last_row), 0.0f);
     const std::vector<std::uint32_t>& discs = discs_[begin / band_rows];
     disc_kernels_.blend(
         projection_,
@@ -242,8 +239,8 @@ Projector::blend()
         reinterpret_cast<const std::uint32_t*>(frame_.cloud.getLooks().data()),
         discs.data(),
         discs.size(),
-        band,
-        place(0));
+        bandOf(begin, end),
+        buffer_.blendSums());
   });
 }
 

@@ -190,7 +190,7 @@ shadeRow(const Shading& s,
          int column,
          int row,
          int count,
-         const float* blended,
+         const BlendSums& blended,
          const ShadedRow& shaded)
 {
   for (int i = 0; i < count; i += lanes) {
@@ -201,12 +201,11 @@ shadeRow(const Shading& s,
     Floats color[3] = {fill(1.0f), fill(1.0f), fill(1.0f)}, n[3] = {};
     if (laneBits(is_surface) != 0) {
       const Ints id = is_surface ? pixels.id : Ints{};
+      const bool has_discs =
+          blended.marks != nullptr && blended.marks[i / blend_segment] != 0;
       Floats surface[3];
-      look(s,
-           id,
-           blended == nullptr ? nullptr : blended + blended_values * i,
-           n,
-           surface);
+      look(
+          s, id, has_discs ? blended.values + blended_values * i : nullptr, n, surface);
       Vector normal = normalized({n[0], n[1], n[2]});
       const Vector ray = normalized(rays(s, column + i, row));
       if (s.two_sided)

@@ -39,29 +39,29 @@ struct ShadedRow {
 
 /** \brief Shade count pixels, a multiple of 16, of a row of the buffers from a column
  * on.
- * \param blended blended_values per pixel, or null where no discs are */
+ * \param blended of the first pixel, where a segment begins; null without discs */
 using ShadingKernel = void (*)(const Shading& shading,
                                const PixelKey* keys,
                                int column,
                                int row,
                                int count,
-                               const float* blended,
+                               const BlendSums& blended,
                                const ShadedRow& shaded);
 
 namespace baseline {
 void
 shadeRow(
-    const Shading&, const PixelKey*, int, int, int, const float*, const ShadedRow&);
+    const Shading&, const PixelKey*, int, int, int, const BlendSums&, const ShadedRow&);
 }
 namespace avx2 {
 void
 shadeRow(
-    const Shading&, const PixelKey*, int, int, int, const float*, const ShadedRow&);
+    const Shading&, const PixelKey*, int, int, int, const BlendSums&, const ShadedRow&);
 }
 namespace avx512 {
 void
 shadeRow(
-    const Shading&, const PixelKey*, int, int, int, const float*, const ShadedRow&);
+    const Shading&, const PixelKey*, int, int, int, const BlendSums&, const ShadedRow&);
 }
 
 } // namespace pcl_uvol

@@ -166,7 +166,7 @@ private:
 class TileFinisher {
 public:
   TileFinisher(const Frame& frame,
-               const PixelBuffer& buffer,
+               PixelBuffer& buffer,
                const Shading& shading,
                Image& image,
                PassClock& clock,
@@ -303,9 +303,24 @@ private:
              first_column_ + View::guard - side,
              first_row_ + View::guard + row,
              count_,
-             isInBuffer(row) ? buffer_.blendedAt(seen) : nullptr,
+             isInBuffer(row) ? blendedAt(seen) : BlendSums{nullptr, nullptr},
              rowOf(stage_, row));
     }
+  }
+
+  /** The sums of pixels that begin at a key of the buffers. */
+  BlendSums
+  blendedAt(const PixelKey* key) const
+  {
+    static_assert((View::guard - side + blend_segment / 2) % blend_segment == 0 &&
+                      tile_columns % blend_segment == 0,
+                  "a tile begins with a segment");
+    const BlendSums all = buffer_.blendSums();
+    if (all.marks == nullptr)
+      return all;
+    const std::ptrdiff_t place = key - buffer_.row(0);
+    return {all.values + blended_values * place,
+            all.marks + BlendSums::segmentOf(place)};
   }
 
   void
@@ -422,7 +437,7 @@ private:
   }
 
   const Frame& frame_;
-  const PixelBuffer& buffer_;
+  PixelBuffer& buffer_;
   const Shading& shading_;
   Image& image_;
   PassClock& clock_;
@@ -440,7 +455,7 @@ private:
 
 void
 finishTiles(const Frame& frame,
-            const PixelBuffer& buffer,
+            PixelBuffer& buffer,
             TileScratchPool& pool,
             Image& image,
             PassClock& clock)

@@ -38,7 +38,7 @@ private:
 /** \brief Finish all tiles of an image, whose planes have their sizes. */
 void
 finishTiles(const Frame& frame,
-            const PixelBuffer& buffer,
+            PixelBuffer& buffer,
             TileScratchPool& pool,
             Image& image,
             PassClock& clock);

@@ -59,7 +59,8 @@ isSparse(const SurfaceBlock& block, const View& view)
 float
 Frame::layerDistance() const
 {
-  const float disc = cloud.getTypicalFootprint() / view.far;
+  constexpr float discs = 2.0f;
+  const float disc = discs * cloud.getTypicalFootprint() / view.far;
   const auto least = static_cast<float>(settings.layer_distance);
   return hasFootprints() ? std::max(least, disc) : least;
 }

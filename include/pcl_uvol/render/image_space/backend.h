@@ -75,7 +75,8 @@ struct PCL_UVOL_EXPORTS Frame {
   }
 
   /** \brief Least distance of two layers as a depth: that of the settings, and with
-   * footprints not less than a disc, since discs stand out from each other. */
+   * footprints not less than two discs, as these stand out from each other: a disc must
+   * not hide behind its own surface, or the layer in front of it grows over it. */
   float
   layerDistance() const;
 };
@@ -86,9 +87,11 @@ constexpr float smallest_footprint = 1.5f;
 
 /** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
  * blended into each other. In the other blocks discs only fill holes: they have the
- * radius of fillers, and lie deeper than their points by it, so that these stay sharp.
- */
-constexpr float sparse_footprint = 2.0f;
+ * radius of fillers, and lie deeper than their points, so that these stay sharp. */
+constexpr float sparse_footprint = 2.5f;
+
+/** \brief How much deeper than its point a filler lies, in radii of its own. */
+constexpr float filler_depth = 0.5f;
 
 /** \brief True if the discs of a block are blended. */
 PCL_UVOL_EXPORTS bool
