@@ -3,8 +3,8 @@
 #pragma once
 
 #include "objects.h"
-#include "pixel_box.h"
 #include <pcl_uvol/render/image_space/backend.h>
+#include <pcl_uvol/render/image_space/pixel_box.h>
 
 namespace pcl_uvol {
 

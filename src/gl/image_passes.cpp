@@ -50,31 +50,6 @@ setColor(const Program& program, const char* uniform, const Color& color)
   program.set(uniform, color.r, color.g, color.b);
 }
 
-/** From the camera's to the cloud's axes. */
-Eigen::Vector3d
-turnBack(const View& view, const Eigen::Vector3d& v)
-{
-  const float* const r = view.rotation;
-  return {r[0] * v[0] + r[3] * v[1] + r[6] * v[2],
-          r[1] * v[0] + r[4] * v[1] + r[7] * v[2],
-          r[2] * v[0] + r[5] * v[1] + r[8] * v[2]};
-}
-
-/** In the cloud's axes; where the light is, it is seen from the eye. */
-Eigen::Vector3d
-lightVector(const Frame& frame, const Light& light)
-{
-  const View& view = frame.view;
-  const Eigen::Vector3d& p = light.position;
-  if (light.follows_camera)
-    return turnBack(view, {p[0], -p[1], -p[2]});
-  if (light.kind == Light::Kind::Directional)
-    return p;
-  const Eigen::Vector3d shift(
-      view.translation[0], view.translation[1], view.translation[2]);
-  return p - frame.cloud.getBounds().center + turnBack(view, shift);
-}
-
 /** Depth and id of every pixel. */
 void
 splitStates(const Frame& frame, const std::vector<GLuint>& states, Image& image)
@@ -240,7 +215,7 @@ ImagePasses::uploadLights(const Frame& frame)
 {
   std::vector<float> numbers;
   for (const Light& light : frame.settings.lights) {
-    const Eigen::Vector3d v = lightVector(frame, light);
+    const Eigen::Vector3d v = frame.lightVector(light);
     for (int axis = 0; axis < 3; ++axis)
       numbers.push_back(static_cast<float>(v[axis]));
     numbers.push_back(light.kind == Light::Kind::Point ? 1.0f : 0.0f);

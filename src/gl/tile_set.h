@@ -2,7 +2,7 @@
 // Where in an image there is something to do.
 #pragma once
 
-#include "pixel_box.h"
+#include <pcl_uvol/render/image_space/pixel_box.h>
 
 #include <cstdint>
 #include <vector>

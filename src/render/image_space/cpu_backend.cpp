@@ -30,8 +30,8 @@ public:
       : buffer_(buffer)
       , threads_(threads)
       , find_(find)
-      , rows_(buffer.bounds.last_row - buffer.bounds.first_row)
-      , columns_(buffer.bounds.last_column - buffer.bounds.first_column)
+      , rows_(buffer.bounds.height())
+      , columns_(buffer.bounds.width())
       , cells_((columns_ + cell_columns - 1) / cell_columns)
   {
   }
@@ -92,17 +92,16 @@ private:
   std::size_t
   findRow(int row, PixelFill* fills)
   {
-    const PixelBounds& bounds = buffer_.bounds;
+    const PixelBox& bounds = buffer_.bounds;
     std::size_t count = 0;
     for (int cell = 0; cell < cells_; ++cell) {
       if (!isActive(row, cell))
         continue;
-      const int column = bounds.first_column + cell * cell_columns;
-      const std::size_t found =
-          find_(buffer_.row(bounds.first_row + row),
-                column,
-                std::min(column + cell_columns, bounds.last_column),
-                fills + count);
+      const int column = bounds.left + cell * cell_columns;
+      const std::size_t found = find_(buffer_.row(bounds.top + row),
+                                      column,
+                                      std::min(column + cell_columns, bounds.right),
+                                      fills + count);
       changed_[index(row, cell)] = found > 0;
       count += found;
     }

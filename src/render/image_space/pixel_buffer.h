@@ -4,15 +4,11 @@
 
 #include "disc_kernel.h"
 #include <pcl_uvol/render/image_space/backend.h>
+#include <pcl_uvol/render/image_space/pixel_box.h>
 
 #include <vector>
 
 namespace pcl_uvol {
-
-/** \brief A half-open range of rows and columns of the buffers. */
-struct PixelBounds {
-  int first_row, last_row, first_column, last_column;
-};
 
 /** \brief Keys of all pixels, surrounded by background that nothing writes to, so that
  * kernels may look beyond the buffers. */
@@ -23,7 +19,7 @@ struct PixelBuffer {
   int width = 0, height = 0;
   std::ptrdiff_t stride = 0;
   std::vector<PixelKey> keys;
-  PixelBounds bounds{}; ///< outside of it is background
+  PixelBox bounds{0, 0, 0, 0}; ///< outside of it is background
   /** Sums and marks of BlendSums for all keys; empty without discs. @{ */
   std::vector<float> blended;
   std::vector<std::uint8_t> blend_marks;

@@ -3,9 +3,9 @@
 
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/render/image_space/block_view.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl_uvol {
 
@@ -44,90 +44,20 @@ projectionOf(const Frame& frame)
   return projection;
 }
 
-/** True if no point of the block looks towards the eye: all normals lie in a cone about
- * the axis, all points in a ball. */
-bool
-looksAway(const SurfaceBlock& block, const Projection& projection)
-{
-  if (block.spread >= 1.0f)
-    return false;
-  float sq_dist = 0.0f, along = 0.0f;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float to_eye = projection.eye[axis] - block.center[axis];
-    sq_dist += to_eye * to_eye;
-    along += to_eye * block.axis[axis];
-  }
-  const float distance = std::sqrt(sq_dist);
-  if (block.radius >= distance)
-    return false;
-  const float sine_ball = block.radius / distance;
-  const float cosine_ball = std::sqrt(1.0f - sine_ball * sine_ball);
-  const float cosine_cone = std::sqrt(1.0f - block.spread * block.spread);
-  return cosine_cone * cosine_ball > block.spread * sine_ball && // less than 90 degrees
-         along < -distance * (block.spread * cosine_ball + cosine_cone * sine_ball);
-}
+/** How a block is drawn. */
+struct BlockPlan {
+  PixelBox box; ///< that its points and discs can reach
+  bool has_discs, is_blended;
+};
 
-/** A range of pixels around a projected coordinate. */
-void
-pixelRange(float center, float extent, int size, int& first, int& last)
+BlockPlan
+planOf(const SurfaceBlock& block, const Frame& frame)
 {
-  const auto clamped = [&](float pixel) {
-    return static_cast<int>(std::clamp(pixel, 0.0f, static_cast<float>(size)));
-  };
-  first = clamped(std::floor(center - extent) - 1.0f);
-  last = clamped(std::ceil(center + extent) + 1.0f);
-}
-
-/** Pixels that the points of a block and their discs can reach; an empty range if there
- * are none. */
-PixelBounds
-reach(const SurfaceBlock& block,
-      const Projection& projection,
-      const PixelBuffer& buffer,
-      bool has_discs)
-{
-  constexpr PixelBounds none{0, 0, 0, 0};
-  if (projection.cull_back_faces && looksAway(block, projection))
-    return none;
-  const float* const r = projection.rotation;
-  float c[3];
-  for (int row = 0; row < 3; ++row)
-    c[row] = r[3 * row] * block.center[0] + r[3 * row + 1] * block.center[1] +
-             r[3 * row + 2] * block.center[2] + projection.translation[row];
-  const float radius = block.radius + (has_discs ? block.largest_footprint : 0.0f);
-  if (c[2] + radius < projection.near)
-    return none;
-  const float nearest = c[2] - radius;
-  if (nearest < projection.near)
-    return {0, buffer.height, 0, buffer.width};
-  PixelBounds bounds;
-  const auto range = [&](float x, float center, int size, int& first, int& last) {
-    const float slope = x / c[2];
-    const float extent =
-        projection.focal * radius * std::sqrt(1.0f + slope * slope) / nearest;
-    pixelRange(center + projection.focal * slope, extent, size, first, last);
-  };
-  range(c[1], projection.center_y, buffer.height, bounds.first_row, bounds.last_row);
-  range(
-      c[0], projection.center_x, buffer.width, bounds.first_column, bounds.last_column);
-  if (bounds.first_row >= bounds.last_row || bounds.first_column >= bounds.last_column)
-    return none;
-  return bounds;
-}
-
-PixelBounds
-united(const std::vector<PixelBounds>& parts, const PixelBuffer& buffer)
-{
-  PixelBounds all{buffer.height, 0, buffer.width, 0};
-  for (const PixelBounds& part : parts) {
-    if (part.first_row >= part.last_row)
-      continue;
-    all.first_row = std::min(all.first_row, part.first_row);
-    all.last_row = std::max(all.last_row, part.last_row);
-    all.first_column = std::min(all.first_column, part.first_column);
-    all.last_column = std::max(all.last_column, part.last_column);
-  }
-  return all;
+  const BlockView seen(frame, block);
+  const bool culls = frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
+  if (seen.isBehindEye() || (culls && seen.looksAway()))
+    return {{0, 0, 0, 0}, false, false};
+  return {seen.box(), seen.mayHoldDiscs(smallest_footprint), seen.isSparse()};
 }
 
 } // namespace
@@ -177,13 +107,15 @@ void
 Projector::project()
 {
   const std::vector<SurfaceBlock>& blocks = frame_.cloud.getBlocks();
-  std::vector<PixelBounds> reached(blocks.size());
+  std::vector<BlockPlan> plans(blocks.size());
   parallelBlocks(
       blocks.size(), blocks_per_task, frame_.threads, [&](auto begin, auto end) {
         for (std::size_t i = begin; i < end; ++i)
-          reached[i] = reach(blocks[i], projection_, buffer_, points_.radii != nullptr);
+          plans[i] = planOf(blocks[i], frame_);
       });
-  buffer_.bounds = united(reached, buffer_);
+  buffer_.bounds = {0, 0, 0, 0};
+  for (const BlockPlan& plan : plans)
+    buffer_.bounds = plan.box.unitedWith(buffer_.bounds);
 
   const auto rows = static_cast<std::size_t>(buffer_.height);
   discs_.assign((rows + band_rows - 1) / band_rows, {});
@@ -194,12 +126,13 @@ Projector::project()
       std::fill_n(
           buffer_.row(row), buffer_.stride - 2 * PixelBuffer::margin, background_key);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      if (reached[i].first_row >= band.last_row ||
-          reached[i].last_row <= band.first_row)
+      const auto [box, has_discs, is_blended] = plans[i];
+      if (box.isEmpty() || box.top >= band.last_row || box.bottom <= band.first_row)
         continue;
-      const bool is_blended = isSparse(blocks[i], frame_.view);
       ProjectedPoints points = points_;
-      if (points.radii != nullptr && !is_blended)
+      if (!has_discs)
+        points.radii = nullptr;
+      else if (!is_blended)
         points.radii = frame_.cloud.getFillers().data();
       const std::size_t known = discs.size();
       discs.resize(known + projected_points);

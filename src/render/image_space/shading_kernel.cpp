@@ -158,9 +158,7 @@ light(const Shading& s,
       Floats* color)
 {
   const Floats distance = pixels.depth * s.far;
-  const Vector position = {ray.x * distance + s.eye[0],
-                           ray.y * distance + s.eye[1],
-                           ray.z * distance + s.eye[2]};
+  const Vector position = scaled(ray, distance);
   for (int k = 0; k < 3; ++k)
     color[k] = surface[k] * s.ambient;
   const Vector to_eye = scaled(ray, fill(-1.0f));

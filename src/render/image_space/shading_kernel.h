@@ -7,7 +7,7 @@
 
 namespace pcl_uvol {
 
-/** A light in the coordinates of the points. */
+/** A light in the axes of the points, seen from the eye. */
 struct ShadingLight {
   float position[3]; ///< of a directional light the unit direction it comes from
   float color[3];
@@ -18,7 +18,6 @@ struct ShadingLight {
 struct Shading {
   const std::uint32_t* looks; ///< per point: packed normal, then colour
   float rotation[9];          ///< from the points' to the camera's directions
-  float eye[3];
   float center_x, center_y, per_focal, far;
   float ambient, diffuse, specular, shininess;
   float least_base; ///< cosines below it make no highlight that can be seen

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tile_finisher.h"
 
+#include "shading_setup.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace pcl_uvol {
 
@@ -21,9 +21,6 @@ constexpr int side = 16;
 constexpr std::ptrdiff_t stride = tile_columns + 2 * side;
 
 constexpr std::size_t plane_count = 8; // colour, opacity, depth, normal
-
-/** Part of a light: far below what 8 bits per channel show. */
-constexpr double least_highlight = 1e-4;
 
 const KernelTable<ShadingKernel> shading_table{
     baseline::shadeRow, avx2::shadeRow, avx512::shadeRow};
@@ -53,91 +50,6 @@ struct TileScratch {
 };
 
 namespace {
-
-/** Lights and material in the coordinates of the points. */
-class ShadingSetup {
-public:
-  explicit ShadingSetup(const Frame& frame)
-  {
-    const View& view = frame.view;
-    const Material& material = frame.settings.material;
-    for (const Light& light : frame.settings.lights)
-      lights_.push_back(convert(light, frame));
-    shading_.looks =
-        reinterpret_cast<const std::uint32_t*>(frame.cloud.getLooks().data());
-    std::copy(view.rotation, view.rotation + 9, shading_.rotation);
-    const Eigen::Vector3d eye = toCloud(view, Eigen::Vector3d::Zero());
-    for (int axis = 0; axis < 3; ++axis)
-      shading_.eye[axis] = static_cast<float>(eye[axis]);
-    shading_.center_x = view.center_x;
-    shading_.center_y = view.center_y;
-    shading_.per_focal = 1.0f / view.focal;
-    shading_.far = view.far;
-    shading_.ambient = static_cast<float>(material.ambient);
-    shading_.diffuse = static_cast<float>(material.diffuse);
-    shading_.specular = static_cast<float>(material.specular);
-    shading_.shininess = static_cast<float>(material.shininess);
-    shading_.least_base =
-        static_cast<float>(std::pow(least_highlight, 1.0 / material.shininess));
-    shading_.lights = lights_.data();
-    shading_.light_count = static_cast<int>(lights_.size());
-    shading_.is_lit = frame.settings.shading;
-    shading_.two_sided = frame.cloud.isTwoSided();
-  }
-  ShadingSetup(const ShadingSetup&) = delete;
-  ShadingSetup&
-  operator=(const ShadingSetup&) = delete;
-
-  const Shading&
-  get() const
-  {
-    return shading_;
-  }
-
-private:
-  static Eigen::Matrix3d
-  rotationOf(const View& view)
-  {
-    return Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(view.rotation)
-        .cast<double>();
-  }
-
-  /** From camera space to the coordinates of the points. */
-  static Eigen::Vector3d
-  toCloud(const View& view, const Eigen::Vector3d& x)
-  {
-    return rotationOf(view).transpose() *
-           (x - Eigen::Map<const Eigen::Vector3f>(view.translation).cast<double>());
-  }
-
-  static ShadingLight
-  convert(const Light& light, const Frame& frame)
-  {
-    const View& view = frame.view;
-    const bool is_point = light.kind == Light::Kind::Point;
-    Eigen::Vector3d position = light.position;
-    if (light.follows_camera) {
-      const Eigen::Vector3d in_camera(position.x(), -position.y(), -position.z());
-      position = is_point ? toCloud(view, in_camera)
-                          : Eigen::Vector3d(rotationOf(view).transpose() * in_camera);
-    }
-    else if (is_point)
-      position -= frame.cloud.getBounds().center;
-    if (!is_point)
-      position.normalize();
-    ShadingLight converted{};
-    for (int axis = 0; axis < 3; ++axis)
-      converted.position[axis] = static_cast<float>(position[axis]);
-    converted.color[0] = light.color.r;
-    converted.color[1] = light.color.g;
-    converted.color[2] = light.color.b;
-    converted.is_point = is_point;
-    return converted;
-  }
-
-  std::vector<ShadingLight> lights_;
-  Shading shading_{};
-};
 
 /** Adds the time of its life to a pass. */
 class PassTimer {
@@ -239,11 +151,10 @@ private:
   bool
   isEmpty() const
   {
-    const PixelBounds& bounds = buffer_.bounds;
     const int top = first_row_ + View::guard, left = first_column_ + View::guard;
-    if (top - halo_ >= bounds.last_row || top + rows_ + halo_ <= bounds.first_row ||
-        left - side >= bounds.last_column ||
-        left + columns_ + side <= bounds.first_column)
+    const PixelBox around{
+        left - side, top - halo_, left + columns_ + side, top + rows_ + halo_};
+    if (around.clippedTo(buffer_.bounds).isEmpty())
       return true;
     for (int row = -halo_; row < rows_ + halo_; ++row) {
       if (!isInBuffer(row))

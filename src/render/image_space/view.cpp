@@ -47,15 +47,6 @@ View::View(const Camera& camera,
   near = static_cast<float>(near_part * far);
 }
 
-bool
-isSparse(const SurfaceBlock& block, const View& view)
-{
-  float z = view.translation[2];
-  for (int axis = 0; axis < 3; ++axis)
-    z += view.rotation[6 + axis] * block.center[axis];
-  return block.mean_footprint * view.focal > sparse_footprint * std::max(z, view.near);
-}
-
 float
 Frame::layerDistance() const
 {
@@ -63,6 +54,25 @@ Frame::layerDistance() const
   const float disc = discs * cloud.getTypicalFootprint() / view.far;
   const auto least = static_cast<float>(settings.layer_distance);
   return hasFootprints() ? std::max(least, disc) : least;
+}
+
+Eigen::Vector3d
+Frame::lightVector(const Light& light) const
+{
+  const float* const r = view.rotation;
+  const auto turnBack = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return {r[0] * v[0] + r[3] * v[1] + r[6] * v[2],
+            r[1] * v[0] + r[4] * v[1] + r[7] * v[2],
+            r[2] * v[0] + r[5] * v[1] + r[8] * v[2]};
+  };
+  const Eigen::Vector3d& p = light.position;
+  if (light.follows_camera)
+    return turnBack({p[0], -p[1], -p[2]});
+  if (light.kind == Light::Kind::Directional)
+    return p;
+  const Eigen::Vector3d shift(
+      view.translation[0], view.translation[1], view.translation[2]);
+  return p - cloud.getBounds().center + turnBack(shift);
 }
 
 } // namespace pcl_uvol

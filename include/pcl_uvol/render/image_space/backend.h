@@ -79,6 +79,11 @@ struct PCL_UVOL_EXPORTS Frame {
    * not hide behind its own surface, or the layer in front of it grows over it. */
   float
   layerDistance() const;
+
+  /** \brief Where a light is, seen from the eye and in the axes of the cloud; of a
+   * directional light the direction it comes from, of any length. */
+  Eigen::Vector3d
+  lightVector(const Light& light) const;
 };
 
 /** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
@@ -92,10 +97,6 @@ constexpr float sparse_footprint = 2.5f;
 
 /** \brief How much deeper than its point a filler lies, in radii of its own. */
 constexpr float filler_depth = 0.5f;
-
-/** \brief True if the discs of a block are blended. */
-PCL_UVOL_EXPORTS bool
-isSparse(const SurfaceBlock& block, const View& view);
 
 /** \brief Carries out the passes. */
 class PCL_UVOL_EXPORTS ImageSpaceBackend {
