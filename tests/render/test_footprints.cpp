@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// No holes between points, however far apart, and no bulges.
+#include "render/renderer_setup.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace uvol_test;
+using pcl_uvol::Camera;
+using pcl_uvol::Image;
+using pcl_uvol::View;
+
+/** Renders a sphere of that many points; returns pixels left open inside, and how far
+ * the outline grew in its 99th percentile. */
+std::pair<std::size_t, double>
+drawSphere(std::size_t points, int size)
+{
+  Renderer renderer;
+  const auto cloud = uvol_test::makeSphere(points, 1);
+  prepare(renderer, cloud, size, size);
+  Camera camera =
+      Camera::fit({{0.0, 0.0, 0.0}, 1.0}, from_above, upwards, 30.0, 1.0, 0.72);
+  renderer.setCamera(camera);
+  Image image;
+  renderer.render(image);
+  const View view(camera, renderer.getBounds(), size, size);
+  const Outline outline(camera, view);
+  std::size_t open = 0;
+  std::vector<double> growth;
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
+      const bool is_seen =
+          image.id[static_cast<std::size_t>(row * size + column)] != Image::background;
+      const double beyond = outline.beyond(column, row);
+      open += !is_seen && beyond < -1.5 ? 1 : 0;
+      if (is_seen && beyond > 0.0)
+        growth.push_back(beyond);
+    }
+  std::sort(growth.begin(), growth.end());
+  return {open, growth.empty() ? 0.0 : growth[growth.size() * 99 / 100]};
+}
+
+TEST(Footprints, CloseASphereAtAnyDensity)
+{
+  // The first is that of the thesis: 0.13 points per pixel look towards the eye.
+  for (const auto& [points, size] : {std::pair(113000, 1024),
+                                     std::pair(113000, 512),
+                                     std::pair(113000, 300),
+                                     std::pair(20000, 512),
+                                     std::pair(3000, 700)}) {
+    const auto [open, growth] = drawSphere(static_cast<std::size_t>(points), size);
+    const double spacing =
+        std::sqrt(4.0 * 3.14159265 / points) * 0.36 * size; // in pixels
+    EXPECT_EQ(open, 0u) << points << " points, " << size;
+    EXPECT_LE(growth, std::max(1.0, 0.7 * spacing)) << points << " points, " << size;
+  }
+}
+
+TEST(Footprints, AreNotDrawnWithoutThem)
+{
+  Renderer renderer;
+  prepare(renderer, uvol_test::makeSphere(3000, 1), 500, 500);
+  renderer.settings().footprints = false;
+  Image image;
+  renderer.render(image);
+  EXPECT_LT(seenPixels(image), 4000u);
+}
+
+TEST(Footprints, OccludedLayersDoNotShineThrough)
+{
+  // The inner sphere has half the radius.
+  const auto outer = uvol_test::makeSphere(60000, 1);
+  auto inner = *uvol_test::makeSphere(60000, 2);
+  for (auto& point : inner)
+    point.getVector3fMap() *= 0.5f;
+  for (const int size : {150, 400, 900}) {
+    Renderer renderer;
+    prepare(renderer, uvol_test::joined(*outer, inner), size, size);
+    Image image;
+    renderer.render(image);
+    std::size_t shining = 0;
+    for (const std::uint32_t id : image.id)
+      shining += id != Image::background && id >= outer->size() ? 1 : 0;
+    EXPECT_EQ(shining, 0u) << size;
+  }
+}
+
+TEST(Footprints, CloseTenfoldZoomAndStayOnTheSurface)
+{
+  const auto cloud = uvol_test::makeTorusKnot(60000, 1);
+  Renderer renderer;
+  prepare(renderer, cloud, 300, 300);
+  Camera camera = cameraOf(renderer, 300, 300);
+  camera.at = Eigen::Vector3d(3.0, 0.0, 0.0); // t = 0: on the tube
+  camera.eye = camera.at + 12.0 * Eigen::Vector3d(0.2, 0.1, 1.0);
+  camera.vertical_fov = 2.0;
+  renderer.setCamera(camera);
+  Image image;
+  renderer.render(image);
+  EXPECT_EQ(seenPixels(image), image.pixels());
+}
+
+} // namespace
