@@ -214,6 +214,32 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
   if (supersampling_ > 1 && (planes_.depth || planes_.normal || planes_.id))
     throw InvalidArgument("Planes of an image cannot be averaged: render depth, normal "
                           "or id without supersampling.");
+  const auto& bounds = prepare(cloud, indices).getBounds();
+  const Camera camera = camera_.value_or(
+      Camera::fit(bounds, "iso", default_fov, static_cast<double>(width_) / height_));
+  const View view(camera, bounds, width_ * supersampling_, height_ * supersampling_);
+  if (!backend_)
+    backend_ = std::make_shared<CpuBackend>();
+  drawFrom(cloud, indices, view, [&](const Frame& frame, Report& report) {
+    if (supersampling_ == 1) {
+      backend_->render(frame, image, report);
+      return;
+    }
+    backend_->render(frame, fine_, report);
+    average(fine_, supersampling_, image);
+    image.depth.clear();
+    image.normal.clear();
+    image.id.clear();
+  });
+}
+
+void
+ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
+                                 const std::vector<int>& indices,
+                                 const View& view,
+                                 const Painter& painter)
+{
+  checkSettings(settings_);
   prepare(cloud, indices);
   const Color& color = settings_.material.color;
   if (!colored_ || (color_field_.empty() && toRgba(color) != uniform_color_)) {
@@ -222,25 +248,11 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
     colored_ = true;
   }
   report_ = surface_report_;
-  const auto& bounds = surface_->getBounds();
-  const Camera camera = camera_.value_or(
-      Camera::fit(bounds, "iso", default_fov, static_cast<double>(width_) / height_));
-  const View view(camera, bounds, width_ * supersampling_, height_ * supersampling_);
   if (settings_.footprints && needsFootprints(*surface_, view))
     surface_->computeFootprints(threads_, report_);
-  if (!backend_)
-    backend_ = std::make_shared<CpuBackend>();
   const Frame frame{*surface_, view, settings_, planes_, threads_};
   const StepTimer timer(report_, "frame");
-  if (supersampling_ == 1) {
-    backend_->render(frame, image, report_);
-    return;
-  }
-  backend_->render(frame, fine_, report_);
-  average(fine_, supersampling_, image);
-  image.depth.clear();
-  image.normal.clear();
-  image.id.clear();
+  painter(frame, report_);
 }
 
 template class PCL_UVOL_EXPORTS ImageSpaceRenderer<PointIso>;

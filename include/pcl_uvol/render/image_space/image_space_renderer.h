@@ -15,6 +15,7 @@
 #include <pcl/pcl_base.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ namespace pcl_uvol {
 /** \brief Parameters and the kernel of ImageSpaceRenderer, for any point type. */
 class PCL_UVOL_EXPORTS ImageSpaceRendererBase {
 public:
+  /** \brief Draws a prepared frame, and adds what it does to the report. */
+  using Painter = std::function<void(const Frame& frame, Report& report)>;
+
   /** \brief Default: from the front and above, the whole cloud in view. */
   void
   setCamera(const Camera& camera)
@@ -102,8 +106,8 @@ public:
     threads_ = threads;
   }
 
-  /** \brief Counts and times of the last render(): points, non_finite, without_normal,
-   * duplicates, and the milliseconds of every pass. */
+  /** \brief Counts and times of the last render() or draw(): points, non_finite,
+   * without_normal, duplicates, and the milliseconds of every pass. */
   const Report&
   getReport() const
   {
@@ -130,6 +134,12 @@ protected:
 
   void
   renderFrom(const CloudView& cloud, const std::vector<int>& indices, Image& image);
+
+  void
+  drawFrom(const CloudView& cloud,
+           const std::vector<int>& indices,
+           const View& view,
+           const Painter& painter);
 
   const SurfaceCloud&
   prepare(const CloudView& cloud, const std::vector<int>& indices);
@@ -192,6 +202,13 @@ public:
    * cloud without a finite point, a bad camera, size or threshold, an unknown field */
   void
   render(Image& image);
+
+  /** \brief Prepare the cloud and let somebody else draw it, into a window say. Camera,
+   * size, supersampling and backend of this object are not used.
+   * \param view made for getBounds() \throws as render(), and what the painter throws
+   */
+  void
+  draw(const View& view, const Painter& painter);
 
   /** \brief A ball around what render() draws: for cameras. \throws as render() */
   BoundingSphere

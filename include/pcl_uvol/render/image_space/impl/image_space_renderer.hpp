@@ -17,6 +17,16 @@ ImageSpaceRenderer<PointT>::render(Image& image)
 }
 
 template <typename PointT>
+void
+ImageSpaceRenderer<PointT>::draw(const View& view, const Painter& painter)
+{
+  if (!this->input_ || !this->initCompute())
+    throw InvalidArgument("ImageSpaceRenderer has no input cloud: call setInputCloud.");
+  drawFrom(viewOf(*this->input_), *this->indices_, view, painter);
+  this->deinitCompute();
+}
+
+template <typename PointT>
 BoundingSphere
 ImageSpaceRenderer<PointT>::getBounds()
 {
