@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Image-space rendering among the actors of a VTK window, pcl::visualization's
+// included.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
+
+#include <pcl/PCLPointCloud2.h>
+#include <vtkProp3D.h>
+#include <vtkWeakPointer.h>
+
+#include <memory>
+#include <string>
+
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+
+namespace pcl_uvol {
+
+class GlBackend;
+class GlContext;
+
+/** \brief A surface given as points, drawn by image-space rendering in OpenGL.
+ *
+ * \code
+ * vtkNew<pcl_uvol::ImageSpaceProp> prop;
+ * prop->setInputCloud(cloud);
+ * renderer->AddViewProp(prop);
+ * \endcode
+ * It hides and is hidden by other props pixel by pixel, frames itself by its bounds and
+ * may be in several windows, of which each change costs an upload. Position,
+ * orientation, origin and a scale that is the same along all axes are honoured. Shading
+ * takes the lights of the settings, not those of VTK's renderer; anti-aliased borders
+ * blend with what was drawn before. VTK's errors (vtkErrorMacro) tell, once each and
+ * without a picture, of a bad cloud or bad settings, a parallel projection, another
+ * scale, pixels that are not square, a failing OpenGL. Memory of the graphics card as
+ * GlBackend. */
+class PCL_UVOL_EXPORTS ImageSpaceProp : public vtkProp3D {
+public:
+  vtkTypeMacro(ImageSpaceProp, vtkProp3D);
+  static ImageSpaceProp*
+  New();
+  void
+  PrintSelf(std::ostream& out, vtkIndent indent) override;
+
+  /** \brief The surface: x, y, z as float32, and normals as of ImageSpaceRenderer. It
+   * must not change until the next call. \param cloud null (default): nothing is drawn
+   */
+  void
+  setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud);
+
+  /** \brief Settings of the passes, colours, threads, report of the last frame. Camera,
+   * size, background and backend are the window's: those of this object are not used.
+   */
+  ImageSpaceRendererBase&
+  renderer()
+  {
+    return renderer_;
+  }
+
+  /** \brief Box around the finite points of the cloud where it is shown; null without
+   * any. */
+  double*
+  GetBounds() override;
+
+  int
+  RenderOpaqueGeometry(vtkViewport* viewport) override;
+
+  vtkTypeBool
+  HasTranslucentPolygonalGeometry() override
+  {
+    return 0;
+  }
+
+  /** \brief Free what lies on the graphics card. */
+  void
+  ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  ImageSpaceProp();
+  ~ImageSpaceProp() override;
+
+private:
+  ImageSpaceProp(const ImageSpaceProp&) = delete;
+  void
+  operator=(const ImageSpaceProp&) = delete;
+
+  /** The box of the cloud in its own coordinates. */
+  void
+  measure();
+
+  void
+  draw(vtkRenderer& renderer);
+
+  /** The backend in the context of a window, which is current. */
+  GlBackend&
+  backendFor(vtkOpenGLRenderWindow& window, const std::shared_ptr<GlContext>& context);
+
+  void
+  releaseBackend();
+
+  /** Tell of an error unless it is the one told last. */
+  void
+  report(const std::string& message);
+
+  pcl::PCLPointCloud2::ConstPtr cloud_;
+  ImageSpaceRenderer<pcl::PCLPointCloud2> renderer_;
+  bool measured_ = false;
+  double box_[6]; // as VTK's: lower and upper x, y, z
+  std::unique_ptr<GlBackend> backend_;
+  vtkWeakPointer<vtkOpenGLRenderWindow> window_; // that backend_ draws in
+  std::string reported_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "foreign_drawing.h"
+#include "window_view.h"
+#include <pcl_uvol/gl/gl_backend.h>
+#include <pcl_uvol/vtk/image_space_prop.h>
+
+#include <vtkBoundingBox.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <cmath>
+
+namespace pcl_uvol {
+
+vtkStandardNewMacro(ImageSpaceProp);
+
+ImageSpaceProp::ImageSpaceProp() = default;
+
+ImageSpaceProp::~ImageSpaceProp()
+{
+  releaseBackend();
+}
+
+void
+ImageSpaceProp::PrintSelf(std::ostream& out, vtkIndent indent)
+{
+  Superclass::PrintSelf(out, indent);
+  out << indent << "Points: " << (cloud_ ? cloud_->width * cloud_->height : 0) << '\n';
+}
+
+void
+ImageSpaceProp::setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud)
+{
+  cloud_ = cloud;
+  if (cloud)
+    renderer_.setInputCloud(cloud);
+  measured_ = false;
+  reported_.clear();
+  Modified();
+}
+
+void
+ImageSpaceProp::measure()
+{
+  if (measured_)
+    return;
+  const CloudView cloud = viewOf(*cloud_);
+  vtkBoundingBox box;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const float* const p = cloud.xyz(i);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+      box.AddPoint(p[0], p[1], p[2]);
+  }
+  box.GetBounds(box_);
+  measured_ = true;
+}
+
+double*
+ImageSpaceProp::GetBounds()
+{
+  if (!cloud_)
+    return nullptr;
+  try {
+    measure();
+  }
+  catch (const Exception& error) {
+    report(error.message());
+    return nullptr;
+  }
+  const vtkBoundingBox own(box_);
+  if (!own.IsValid())
+    return nullptr;
+  vtkBoundingBox shown;
+  for (int corner = 0; corner < 8; ++corner) {
+    double p[4] = {0.0, 0.0, 0.0, 1.0};
+    own.GetCorner(corner, p);
+    GetMatrix()->MultiplyPoint(p, p);
+    shown.AddPoint(p);
+  }
+  shown.GetBounds(Bounds);
+  return Bounds;
+}
+
+int
+ImageSpaceProp::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  auto* const renderer = vtkRenderer::SafeDownCast(viewport);
+  // A selector wants to read what was hit from the colours.
+  if (!cloud_ || renderer == nullptr || renderer->GetSelector() != nullptr)
+    return 0;
+  try {
+    draw(*renderer);
+    reported_.clear();
+    return 1;
+  }
+  catch (const Exception& error) {
+    report(error.message());
+  }
+  catch (const std::exception& error) {
+    report(error.what());
+  }
+  return 0;
+}
+
+void
+ImageSpaceProp::draw(vtkRenderer& renderer)
+{
+  auto* const window = vtkOpenGLRenderWindow::SafeDownCast(renderer.GetRenderWindow());
+  if (window == nullptr)
+    throw InvalidArgument("Image-space rendering needs an OpenGL window of VTK.");
+  WindowView shown = makeWindowView(renderer, *GetMatrix(), renderer_.getBounds());
+  const std::shared_ptr<GlContext> context = wrapContextOf(*window);
+  const ForeignDrawing drawing(*window, *context);
+  GlBackend& backend = backendFor(*window, context);
+  shown.target.name = drawing.getFramebuffer();
+  renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {
+    backend.renderToFramebuffer(frame, shown.target, report);
+  });
+}
+
+GlBackend&
+ImageSpaceProp::backendFor(vtkOpenGLRenderWindow& window,
+                           const std::shared_ptr<GlContext>& context)
+{
+  if (window_ != &window)
+    releaseBackend();
+  if (!backend_) {
+    window.MakeCurrent(); // releasing has made another one current
+    backend_ = std::make_unique<GlBackend>(context);
+    window_ = &window;
+  }
+  return *backend_;
+}
+
+void
+ImageSpaceProp::ReleaseGraphicsResources(vtkWindow* window)
+{
+  if (window_ == window)
+    releaseBackend();
+}
+
+void
+ImageSpaceProp::releaseBackend()
+{
+  if (backend_ && window_)
+    window_->MakeCurrent();
+  backend_.reset();
+  window_ = nullptr;
+}
+
+void
+ImageSpaceProp::report(const std::string& message)
+{
+  if (message == reported_)
+    return;
+  reported_ = message;
+  vtkErrorMacro(<< message);
+}
+
+} // namespace pcl_uvol
