@@ -79,7 +79,7 @@ hasColors(const pcl_uvol::CloudView& cloud)
 } // namespace
 
 void
-RenderOptions::declareView(Options& options)
+RenderOptions::declareScene(Options& options)
 {
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
   options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
@@ -102,6 +102,12 @@ RenderOptions::declareView(Options& options)
   options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
   options.numbers(
       "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
+}
+
+void
+RenderOptions::declareView(Options& options)
+{
+  declareScene(options);
   options.integer(
       "supersample", supersampling_, 1, 8, "rays per pixel in each direction");
   options.choice("backend",
@@ -240,19 +246,27 @@ RenderOptions::colorField(const pcl_uvol::CloudView& cloud) const
 }
 
 void
+RenderOptions::applyLook(const Options& options,
+                         const pcl_uvol::CloudView& cloud,
+                         pcl_uvol::ImageSpaceRendererBase& renderer) const
+{
+  renderer.settings() = settings_;
+  renderer.setNumberOfThreads(options.threads());
+  renderer.setColorField(colorField(cloud));
+  renderer.setColorMap(colorMap());
+  if (!range_.empty())
+    renderer.setColorRange(range_[0], range_[1]);
+}
+
+void
 RenderOptions::configure(const Options& options,
                          const pcl_uvol::CloudView& cloud,
                          pcl_uvol::ImageSpaceRendererBase& renderer) const
 {
+  applyLook(options, cloud, renderer);
   renderer.setBackend(makeBackend(backend_));
-  renderer.settings() = settings_;
   renderer.setSize(width_, height_);
   renderer.setSupersampling(supersampling_);
-  renderer.setNumberOfThreads(options.threads());
-  renderer.setColorField(colorField(cloud));
-  renderer.setColorMap(pcl_uvol::ColorMap(color_map_));
-  if (!range_.empty())
-    renderer.setColorRange(range_[0], range_[1]);
 }
 
 pcl_uvol::Camera
@@ -282,8 +296,7 @@ RenderOptions::decorate(const pcl_uvol::CloudView& cloud,
   if (!has_bar_ || field.empty() || field == "rgb" || field == "rgba")
     return;
   const auto& range = renderer.getColorRange();
-  pcl_uvol::drawColorBar(
-      image, pcl_uvol::ColorMap(color_map_), range[0], range[1], field);
+  pcl_uvol::drawColorBar(image, colorMap(), range[0], range[1], field);
 }
 
 } // namespace uvol_tools

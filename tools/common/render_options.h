@@ -16,7 +16,11 @@ namespace uvol_tools {
 /** \brief Options of a picture, and a renderer set up by them. */
 class RenderOptions {
 public:
-  /** \brief Camera, size, background, colours, backend. */
+  /** \brief Camera, size, background, colours: what pictures and windows have. */
+  void
+  declareScene(Options& options);
+
+  /** \brief The same, supersampling and backend. */
   void
   declareView(Options& options);
 
@@ -29,7 +33,13 @@ public:
   void
   check(const Options& options);
 
-  /** \brief Apply everything but the camera to a renderer of this cloud. */
+  /** \brief Apply passes, colours and threads to a renderer of this cloud. */
+  void
+  applyLook(const Options& options,
+            const pcl_uvol::CloudView& cloud,
+            pcl_uvol::ImageSpaceRendererBase& renderer) const;
+
+  /** \brief Apply everything but the camera. */
   void
   configure(const Options& options,
             const pcl_uvol::CloudView& cloud,
@@ -47,11 +57,52 @@ public:
            const pcl_uvol::ImageSpaceRendererBase& renderer,
            pcl_uvol::Image& image) const;
 
-private:
-  /** The field that colours the cloud; "" for one colour. */
+  /** \brief The field that colours the cloud; "" for one colour. */
   std::string
   colorField(const pcl_uvol::CloudView& cloud) const;
 
+  pcl_uvol::ColorMap
+  colorMap() const
+  {
+    return pcl_uvol::ColorMap(color_map_);
+  }
+
+  /** \brief Values at the ends of the colours; empty: those of the field. */
+  const std::vector<double>&
+  getRange() const
+  {
+    return range_;
+  }
+
+  /** \brief True if there is nothing behind the surface, after check(). */
+  bool
+  isTransparent() const
+  {
+    return settings_.background.kind == pcl_uvol::Background::Kind::Transparent;
+  }
+
+  /** \brief True if a colour bar is wanted. */
+  bool
+  hasBar() const
+  {
+    return has_bar_;
+  }
+
+  /** \brief Pixels. @{ */
+  int
+  getWidth() const
+  {
+    return width_;
+  }
+
+  int
+  getHeight() const
+  {
+    return height_;
+  }
+  /** @} */
+
+private:
   void
   parseBackground();
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface given as points, or the isosurfaces of samples, in a window.
+#include "viewer/display.h"
+#include "viewer/keys.h"
+#include "viewer/viewer_window.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/image_file.h>
+
+#include <vtkLogger.h>
+
+#include <iostream>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+
+struct Arguments {
+  std::string input, field, screenshot;
+  double isovalue = std::numeric_limits<double>::infinity();
+};
+
+void
+declare(uvol_tools::Options& options, Arguments& arguments)
+{
+  constexpr double largest = std::numeric_limits<double>::max();
+  options.file("in", arguments.input);
+  options.text("field",
+               "name",
+               arguments.field,
+               "the points are samples of this scalar field: show an isosurface");
+  options.number("iso",
+                 arguments.isovalue,
+                 -largest,
+                 largest,
+                 "isovalue to start with (default the middle of the range)");
+  options.text("screenshot",
+               "out.png",
+               arguments.screenshot,
+               "save what the window shows first, and close it");
+}
+
+void
+checkCombinations(const uvol_tools::Options& options,
+                  const Arguments& arguments,
+                  uvol_tools::RenderOptions& look)
+{
+  if (options.given("iso") && arguments.field.empty())
+    throw uvol_tools::UsageError("-iso needs -field: isovalues are of a scalar field.");
+  look.check(options);
+  if (look.isTransparent())
+    throw uvol_tools::UsageError(
+        "-background transparent is for pictures: a window has another one.");
+  if (!arguments.screenshot.empty())
+    pcl_uvol::checkPngPath(arguments.screenshot);
+}
+
+uvol_tools::ShownSurface
+load(const uvol_tools::Options& options, const Arguments& arguments, Report& report)
+{
+  const StepTimer timer(report, "read");
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input);
+  report.warnings = dataset.notes;
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  return {std::move(dataset), arguments.field, options.threads()};
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  uvol_tools::RenderOptions look;
+  uvol_tools::Options options(
+      "uvol_viewer",
+      "in.ply [options]",
+      "Shows a surface given as points in a window, or with -field the isosurfaces of\n"
+      "samples, with a slider for the isovalue. In the window:\n" +
+          uvol_tools::describeKeys());
+  declare(options, arguments);
+  look.declareScene(options);
+  look.declarePasses(options);
+  if (!options.parse(argc, argv))
+    return 0;
+  checkCombinations(options, arguments, look);
+  uvol_tools::checkDisplay();
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR); // PCL and X cause warnings
+
+  Report report;
+  uvol_tools::ShownSurface surface = load(options, arguments, report);
+  if (!arguments.field.empty()) {
+    const auto& range = surface.getRange();
+    surface.setIsoValue(options.given("iso") ? arguments.isovalue
+                                             : 0.5 * range[0] + 0.5 * range[1]);
+  }
+  uvol_tools::ViewerWindow window(
+      "uvol_viewer " + arguments.input, surface, look, options);
+  report.merge(window.getReport());
+  if (!arguments.screenshot.empty())
+    window.save(arguments.screenshot);
+  uvol_tools::printReport(options, report, {{"input", arguments.input}});
+  std::cout.flush();
+  if (arguments.screenshot.empty())
+    window.run();
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_viewer", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viewer/keys.h"
+
+namespace uvol_tools {
+
+namespace {
+
+using pcl_uvol::ImageSpaceSettings;
+
+struct PassKey {
+  char key;
+  const char* help;
+  void (*toggle)(ImageSpaceSettings& settings);
+};
+
+void
+toggleSmoothing(ImageSpaceSettings& settings)
+{
+  using Filter = pcl_uvol::SmoothingFilter;
+  settings.smoothing =
+      settings.smoothing == Filter::None ? Filter::AlleviatedGaussian : Filter::None;
+}
+
+void
+toggleIllustration(ImageSpaceSettings& settings)
+{
+  const bool is_illustration =
+      !settings.shading && settings.silhouettes && settings.feature_lines;
+  settings.shading = is_illustration;
+  settings.silhouettes = settings.feature_lines = !is_illustration;
+}
+
+void
+toggleFills(ImageSpaceSettings& settings)
+{
+  const ImageSpaceSettings usual;
+  const bool fills = settings.background_fill > 0 || settings.occluded_fill > 0;
+  settings.background_fill = fills ? 0 : usual.background_fill;
+  settings.occluded_fill = fills ? 0 : usual.occluded_fill;
+}
+
+const PassKey pass_keys[] = {
+    {'1', "light", [](ImageSpaceSettings& s) { s.shading = !s.shading; }},
+    {'2', "smoothing", toggleSmoothing},
+    {'3',
+     "anti-aliasing",
+     [](ImageSpaceSettings& s) { s.anti_aliasing = !s.anti_aliasing; }},
+    {'4', "silhouettes", [](ImageSpaceSettings& s) { s.silhouettes = !s.silhouettes; }},
+    {'5',
+     "feature lines",
+     [](ImageSpaceSettings& s) { s.feature_lines = !s.feature_lines; }},
+    {'6', "lines on a white surface", toggleIllustration},
+    {'7',
+     "footprints of points",
+     [](ImageSpaceSettings& s) { s.footprints = !s.footprints; }},
+    {'8', "filling of holes", toggleFills},
+    {'9', "back faces", [](ImageSpaceSettings& s) {
+       s.cull_back_faces = !s.cull_back_faces;
+     }}};
+
+} // namespace
+
+std::string
+describeKeys()
+{
+  std::string text = "left drag: turn   middle drag: move   wheel, right drag: zoom\n";
+  for (const PassKey& key : pass_keys)
+    text += std::string(1, key.key) + "  " + key.help + " on or off\n";
+  return text + "c  colour by the next field\n"
+                "+ -  next isovalue (or drag the slider)\n"
+                "r  whole surface in view\n"
+                "s  save a picture\n"
+                "h  show or hide the keys\n"
+                "q  quit";
+}
+
+bool
+switchPass(char key, ImageSpaceSettings& settings)
+{
+  for (const PassKey& pass : pass_keys)
+    if (pass.key == key) {
+      pass.toggle(settings);
+      return true;
+    }
+  return false;
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of the viewer, as they are told to the user and as they act.
+#pragma once
+
+#include <pcl_uvol/render/image_space/settings.h>
+
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief One line per key. */
+std::string
+describeKeys();
+
+/** \brief Switch the pass of a key on or off; false for a key that is none of a pass.
+ */
+bool
+switchPass(char key, pcl_uvol::ImageSpaceSettings& settings);
+
+} // namespace uvol_tools

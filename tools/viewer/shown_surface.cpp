@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viewer/shown_surface.h"
+
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <Eigen/Geometry>
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace uvol_tools {
+
+namespace {
+
+using pcl_uvol::InvalidArgument;
+
+pcl_uvol::BoundingSphere
+ballAround(const pcl::PCLPointCloud2& points)
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points);
+  const auto position = [&](std::size_t i) {
+    return Eigen::Vector3d(cloud.xyz(i)[0], cloud.xyz(i)[1], cloud.xyz(i)[2]);
+  };
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (position(i).allFinite())
+      box.extend(position(i));
+  pcl_uvol::BoundingSphere ball;
+  if (box.isEmpty())
+    return ball;
+  ball.center = box.center();
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (position(i).allFinite())
+      ball.radius = std::max(ball.radius, (position(i) - ball.center).norm());
+  return ball;
+}
+
+} // namespace
+
+std::array<double, 2>
+rangeOf(const pcl::PCLPointCloud2& points, const std::string& name)
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points);
+  const pcl_uvol::ScalarField field(cloud.fields, name);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = field.read(cloud.point(i));
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  if (low > high)
+    throw InvalidArgument("All values of " + name + " are without a number.");
+  return {low, high};
+}
+
+ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
+                           const std::string& field,
+                           unsigned threads)
+    : origin_(dataset.origin)
+    , field_(field)
+    , threads_(threads)
+{
+  if (dataset.cloud.width == 0)
+    throw InvalidArgument("There are no points to be shown.");
+  samples_ = Cloud::ConstPtr(new Cloud(std::move(dataset.cloud)));
+  if (field_.empty()) {
+    cloud_ = samples_;
+    return;
+  }
+  range_ = rangeOf(*samples_, field_);
+  if (!(range_[0] < range_[1]))
+    throw InvalidArgument("All values of " + field_ +
+                          " are equal: there is no isosurface between them.");
+  extraction_.setInputCloud(samples_);
+  extraction_.setScalarField(field_);
+  extraction_.setNumberOfThreads(threads_);
+}
+
+void
+ShownSurface::setIsoValue(double isovalue)
+{
+  if (!(isovalue >= range_[0] && isovalue <= range_[1])) {
+    std::ostringstream text;
+    text << "The isovalue lies between " << range_[0] << " and " << range_[1]
+         << ", the range of " << field_ << ", and is not " << isovalue << ".";
+    throw InvalidArgument(text.str());
+  }
+  extraction_.setIsoValue(isovalue);
+  pcl::PointCloud<PointIso> isopoints;
+  extraction_.extract(isopoints);
+  report_ = extraction_.getReport();
+  isovalue_ = isovalue;
+  cloud_.reset();
+  if (isopoints.empty())
+    return;
+  pcl_uvol::SurfaceNormalParameters parameters;
+  parameters.threads = threads_;
+  pcl_uvol::replaceMissingNormals(isopoints, parameters, report_);
+  const Cloud::Ptr cloud(new Cloud);
+  pcl::toPCLPointCloud2(isopoints, *cloud);
+  pcl_uvol::interpolateFields(*samples_, extraction_.getEdges(), *cloud, threads_);
+  cloud_ = cloud;
+}
+
+pcl_uvol::BoundingSphere
+ShownSurface::getBounds() const
+{
+  return ballAround(cloud_ ? *cloud_ : *samples_);
+}
+
+} // namespace uvol_tools

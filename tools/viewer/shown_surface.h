@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the viewer shows: points of a surface, or an isosurface of samples.
+#pragma once
+
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/render/camera.h>
+
+#include <array>
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief A cloud whose isovalue, if it has one, can be changed: tree and values are
+ * kept. */
+class ShownSurface {
+public:
+  using Cloud = pcl::PCLPointCloud2;
+
+  /** \param field "": the points are the surface; else isosurfaces of that field
+   * \throws InvalidArgument for a cloud without points, an unknown field or one without
+   * two finite values */
+  ShownSurface(pcl_uvol::Dataset dataset, const std::string& field, unsigned threads);
+
+  /** \brief "" for a surface given as points. */
+  const std::string&
+  getField() const
+  {
+    return field_;
+  }
+
+  /** \brief Least and largest value of the field. */
+  const std::array<double, 2>&
+  getRange() const
+  {
+    return range_;
+  }
+
+  double
+  getIsoValue() const
+  {
+    return isovalue_;
+  }
+
+  /** \brief Extract another isosurface, with all fields of the samples.
+   * \throws InvalidArgument if it lies outside of the range */
+  void
+  setIsoValue(double isovalue);
+
+  /** \brief Null where an isosurface has no points. */
+  const Cloud::ConstPtr&
+  getCloud() const
+  {
+    return cloud_;
+  }
+
+  /** \brief A ball around the surface; around the samples where it has no points. */
+  pcl_uvol::BoundingSphere
+  getBounds() const;
+
+  /** \brief What was subtracted from the coordinates. */
+  const std::array<double, 3>&
+  getOrigin() const
+  {
+    return origin_;
+  }
+
+  /** \brief Of the last extraction; empty for a surface given as points. */
+  const pcl_uvol::Report&
+  getReport() const
+  {
+    return report_;
+  }
+
+private:
+  Cloud::ConstPtr samples_, cloud_;
+  std::array<double, 3> origin_;
+  std::string field_;
+  std::array<double, 2> range_{{0.0, 0.0}};
+  double isovalue_ = 0.0;
+  unsigned threads_;
+  pcl_uvol::IsosurfaceExtraction<Cloud> extraction_;
+  pcl_uvol::Report report_;
+};
+
+/** \brief Least and largest finite value of a field.
+ * \throws InvalidArgument for an unknown field or one without a finite value */
+std::array<double, 2>
+rangeOf(const pcl::PCLPointCloud2& cloud, const std::string& field);
+
+} // namespace uvol_tools

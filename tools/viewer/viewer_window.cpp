@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viewer/viewer_window.h"
+
+#include "viewer/keys.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkErrorCode.h>
+#include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkLookupTable.h>
+#include <vtkObjectFactory.h>
+#include <vtkPNGWriter.h>
+#include <vtkProperty2D.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+namespace uvol_tools {
+
+namespace {
+
+/** Part of the range of the field that + and - move the isovalue by. */
+constexpr double isovalue_step = 0.01;
+
+/** VTK's way to turn, move and zoom with the mouse, without its keys. */
+class MouseStyle : public vtkInteractorStyleTrackballCamera {
+public:
+  vtkTypeMacro(MouseStyle, vtkInteractorStyleTrackballCamera);
+  static MouseStyle*
+  New();
+
+  void
+  OnChar() override
+  {
+    press(Interactor->GetKeyCode());
+  }
+
+  std::function<void(char)> press;
+};
+
+vtkStandardNewMacro(MouseStyle);
+
+/** Call a function with an event's text, if it has one. */
+void
+observe(vtkObject& object,
+        unsigned long event,
+        std::function<void(const char* text)> function)
+{
+  using Function = std::function<void(const char* text)>;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(new Function(std::move(function)));
+  command->SetClientDataDeleteCallback(
+      [](void* data) { delete static_cast<Function*>(data); });
+  command->SetCallback([](vtkObject*, unsigned long, void* data, void* text) {
+    (*static_cast<Function*>(data))(static_cast<const char*>(text));
+  });
+  object.AddObserver(event, command);
+}
+
+/** "ERROR: In file, line 5\nImageSpaceProp (0x1): Words.\n\n" -> "Words." */
+std::string
+wordsOf(const std::string& error)
+{
+  const std::size_t start = error.find("): ");
+  std::string words = error.substr(start == std::string::npos ? 0 : start + 3);
+  return words.substr(0, words.find('\n'));
+}
+
+/** Colours that may be chosen by key, after the one that the options name. */
+std::vector<std::string>
+colorFields(const pcl::PCLPointCloud2& cloud, const std::string& given)
+{
+  std::vector<std::string> names = {given};
+  if (!given.empty())
+    names.emplace_back();
+  for (const auto& field : cloud.fields) {
+    const bool is_geometry =
+        field.name.size() == 1 || field.name.rfind("normal_", 0) == 0;
+    if (!is_geometry && field.count == 1 && field.name != given)
+      names.push_back(field.name);
+  }
+  return names;
+}
+
+bool
+isScalar(const std::string& color)
+{
+  return !color.empty() && color != "rgb" && color != "rgba";
+}
+
+void
+setColor(vtkTextProperty& text, double grey)
+{
+  text.SetColor(grey, grey, grey);
+  text.SetFontSize(14);
+  text.ShadowOff();
+  text.ItalicOff();
+  text.BoldOff();
+}
+
+} // namespace
+
+ViewerWindow::ViewerWindow(const std::string& title,
+                           ShownSurface& surface,
+                           const RenderOptions& look,
+                           const Options& options)
+    : surface_(surface)
+    , look_(look)
+{
+  const pcl::PCLPointCloud2::ConstPtr& cloud = surface_.getCloud();
+  if (!cloud)
+    throw pcl_uvol::InvalidArgument("There are no points at this isovalue of " +
+                                    surface_.getField() + ": choose another one.");
+  pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
+  look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
+  given_color_ = look_.colorField(pcl_uvol::viewOf(*cloud));
+  colors_ = colorFields(*cloud, given_color_);
+  observe(*prop_, vtkCommand::ErrorEvent, [this](const char* text) {
+    error_ = wordsOf(text);
+    std::cerr << "uvol_viewer: " << error_ << '\n';
+  });
+  const pcl_uvol::Background background = renderer.settings().background;
+  setUpScene(background);
+  setUpTexts(background);
+  showSurface();
+  window_->SetWindowName((title + " (h: keys)").c_str());
+  interactor_->Initialize();
+  if (!surface_.getField().empty())
+    setUpSlider();
+  render();
+  if (!error_.empty())
+    throw pcl_uvol::Exception(error_);
+}
+
+void
+ViewerWindow::setUpScene(const pcl_uvol::Background& background)
+{
+  const pcl_uvol::Color& below = background.color;
+  const pcl_uvol::Color& top = background.top;
+  renderer_->SetBackground(below.r, below.g, below.b);
+  renderer_->SetBackground2(top.r, top.g, top.b);
+  renderer_->SetGradientBackground(background.kind ==
+                                   pcl_uvol::Background::Kind::Gradient);
+  renderer_->AddViewProp(prop_);
+  window_->SetMultiSamples(0); // the prop smooths its borders itself
+  window_->SetSize(look_.getWidth(), look_.getHeight());
+  window_->AddRenderer(renderer_);
+
+  const pcl_uvol::Camera camera =
+      look_.makeCamera(surface_.getBounds(), surface_.getOrigin());
+  vtkCamera& view = *renderer_->GetActiveCamera();
+  view.SetPosition(camera.eye.data());
+  view.SetFocalPoint(camera.at.data());
+  view.SetViewUp(camera.up.data());
+  view.SetViewAngle(camera.vertical_fov);
+
+  vtkNew<MouseStyle> style;
+  style->press = [this](char key) { press(key); };
+  interactor_->SetRenderWindow(window_);
+  interactor_->SetInteractorStyle(style);
+}
+
+void
+ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
+{
+  const pcl_uvol::Color& color = background.color;
+  const double grey = color.r + color.g + color.b > 1.5f ? 0.15 : 0.85;
+  setColor(*help_->GetTextProperty(), grey);
+  setColor(*message_->GetTextProperty(), grey);
+  setColor(*bar_->GetTitleTextProperty(), grey);
+  setColor(*bar_->GetLabelTextProperty(), grey);
+  setColor(*slider_shape_->GetTitleProperty(), grey);
+  setColor(*slider_shape_->GetLabelProperty(), grey);
+  help_->SetInput(describeKeys().c_str());
+  help_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  help_->SetPosition(0.02, 0.98);
+  help_->GetTextProperty()->SetVerticalJustificationToTop();
+  help_->VisibilityOff();
+  message_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  message_->SetPosition(0.02, 0.02);
+  message_->VisibilityOff();
+  bar_->SetPosition(0.87, 0.25);
+  bar_->SetWidth(0.11);
+  bar_->SetHeight(0.5);
+  bar_->UnconstrainedFontSizeOn();
+  bar_->SetLabelFormat("%.3g");
+  renderer_->AddViewProp(help_);
+  renderer_->AddViewProp(message_);
+  renderer_->AddViewProp(bar_);
+}
+
+void
+ViewerWindow::setUpSlider()
+{
+  slider_shape_->SetMinimumValue(surface_.getRange()[0]);
+  slider_shape_->SetMaximumValue(surface_.getRange()[1]);
+  slider_shape_->SetValue(surface_.getIsoValue());
+  slider_shape_->SetTitleText(surface_.getField().c_str());
+  slider_shape_->SetLabelFormat("%.4g");
+  for (const auto& [end, x] : {std::pair(slider_shape_->GetPoint1Coordinate(), 0.1),
+                               std::pair(slider_shape_->GetPoint2Coordinate(), 0.9)}) {
+    end->SetCoordinateSystemToNormalizedDisplay();
+    end->SetValue(x, 0.12);
+  }
+  slider_->SetInteractor(interactor_);
+  slider_->SetRepresentation(slider_shape_);
+  slider_->SetAnimationModeToJump();
+  observe(*slider_, vtkCommand::InteractionEvent, [this](const char*) {
+    attempt([this] { followSlider(); });
+  });
+  slider_->EnabledOn();
+}
+
+void
+ViewerWindow::showSurface()
+{
+  applyColor();
+  prop_->setInputCloud(surface_.getCloud());
+  renderer_->ResetCameraClippingRange();
+}
+
+void
+ViewerWindow::applyColor()
+{
+  const std::string& field = colors_[color_];
+  pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
+  bar_->SetVisibility(isScalar(field) && look_.hasBar());
+  if (isScalar(field) && surface_.getCloud()) {
+    const std::vector<double>& fixed = look_.getRange();
+    const auto range = field == given_color_ && !fixed.empty()
+                           ? std::array<double, 2>{fixed[0], fixed[1]}
+                           : rangeOf(*surface_.getCloud(), field);
+    renderer.setColorRange(range[0], range[1]);
+    constexpr int steps = 256;
+    vtkNew<vtkLookupTable> table;
+    table->SetNumberOfTableValues(steps);
+    for (int i = 0; i < steps; ++i) {
+      const pcl_uvol::Color color = look_.colorMap().at(i / (steps - 1.0));
+      table->SetTableValue(i, color.r, color.g, color.b);
+    }
+    table->SetTableRange(range[0], range[1]);
+    bar_->SetLookupTable(table);
+    bar_->SetTitle(field.c_str());
+  }
+  renderer.setColorField(field);
+}
+
+void
+ViewerWindow::nextColor()
+{
+  color_ = (color_ + 1) % colors_.size();
+  try {
+    applyColor();
+  }
+  catch (...) { // a field without a number: the next one is not worse
+    prop_->renderer().setColorField("");
+    throw;
+  }
+  show(colors_[color_].empty() ? "one colour" : "coloured by " + colors_[color_]);
+}
+
+void
+ViewerWindow::followSlider()
+{
+  surface_.setIsoValue(std::clamp(
+      slider_shape_->GetValue(), surface_.getRange()[0], surface_.getRange()[1]));
+  showSurface();
+  show(surface_.getCloud() ? "" : "no points at this isovalue");
+}
+
+void
+ViewerWindow::stepIsoValue(int steps)
+{
+  if (surface_.getField().empty())
+    return;
+  const auto& range = surface_.getRange();
+  slider_shape_->SetValue(surface_.getIsoValue() +
+                          steps * isovalue_step * (range[1] - range[0]));
+  followSlider();
+}
+
+void
+ViewerWindow::press(char key)
+{
+  attempt([this, key] {
+    if (switchPass(key, prop_->renderer().settings()))
+      show("");
+    else if (key == 'c')
+      nextColor();
+    else if (key == '+' || key == '-')
+      stepIsoValue(key == '+' ? 1 : -1);
+    else if (key == 'r')
+      renderer_->ResetCamera();
+    else if (key == 's')
+      saveNumbered();
+    else if (key == 'h')
+      help_->SetVisibility(!help_->GetVisibility());
+    else if (key == 'q')
+      interactor_->TerminateApp();
+  });
+  render();
+}
+
+void
+ViewerWindow::saveNumbered()
+{
+  const auto name = [](int number) {
+    return "uvol_viewer_" + std::to_string(number) + ".png";
+  };
+  int number = 1;
+  while (std::filesystem::exists(name(number)))
+    ++number;
+  show("");
+  save(name(number));
+  show("saved " + name(number));
+}
+
+void
+ViewerWindow::save(const std::string& path)
+{
+  render();
+  if (!error_.empty())
+    throw pcl_uvol::Exception(error_);
+  vtkNew<vtkWindowToImageFilter> picture;
+  picture->SetInput(window_);
+  picture->SetInputBufferTypeToRGB();
+  picture->ReadFrontBufferOff();
+  pcl_uvol::writeAtomically(path, [&](const std::string& temporary_path) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputConnection(picture->GetOutputPort());
+    writer->SetFileName(temporary_path.c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != vtkErrorCode::NoError)
+      throw pcl_uvol::IOError(path + " could not be written.");
+  });
+}
+
+void
+ViewerWindow::render()
+{
+  error_.clear();
+  window_->Render();
+}
+
+void
+ViewerWindow::run()
+{
+  interactor_->Start();
+}
+
+pcl_uvol::Report
+ViewerWindow::getReport()
+{
+  pcl_uvol::Report report = surface_.getReport();
+  report.merge(prop_->renderer().getReport());
+  return report;
+}
+
+void
+ViewerWindow::attempt(const std::function<void()>& action)
+{
+  try {
+    action();
+  }
+  catch (const pcl_uvol::Exception& error) {
+    show(error.message());
+    std::cerr << "uvol_viewer: " << error.message() << '\n';
+  }
+  catch (const std::exception& error) {
+    show(error.what());
+    std::cerr << "uvol_viewer: " << error.what() << '\n';
+  }
+}
+
+void
+ViewerWindow::show(const std::string& message)
+{
+  message_->SetInput(message.c_str());
+  message_->SetVisibility(!message.empty());
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window of uvol_viewer: mouse, keys, slider, colour bar.
+#pragma once
+
+#include "common/render_options.h"
+#include "viewer/shown_surface.h"
+#include <pcl_uvol/vtk/image_space_prop.h>
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSliderRepresentation2D.h>
+#include <vtkSliderWidget.h>
+#include <vtkTextActor.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Shows a surface until the user closes it. Failures of single actions are told
+ * in the window and on stderr. */
+class ViewerWindow {
+public:
+  /** \brief Open the window and draw the first frame. There must be a display.
+   * \param surface outlives the window, its isovalue is set where it has a field
+   * \throws pcl_uvol::Exception if it cannot be drawn */
+  ViewerWindow(const std::string& title,
+               ShownSurface& surface,
+               const RenderOptions& look,
+               const Options& options);
+  ViewerWindow(const ViewerWindow&) = delete;
+  ViewerWindow&
+  operator=(const ViewerWindow&) = delete;
+
+  /** \brief Serve mouse and keys until the window is closed. */
+  void
+  run();
+
+  /** \brief Do what a key does; see describeKeys(). */
+  void
+  press(char key);
+
+  /** \brief Write what the window shows as a PNG file. \throws pcl_uvol::Exception if
+   * it could not be drawn, IOError */
+  void
+  save(const std::string& path);
+
+  /** \brief For events from elsewhere. */
+  vtkRenderWindowInteractor&
+  interactor()
+  {
+    return *interactor_;
+  }
+
+  /** \brief Counts and times of the last isosurface and frame. */
+  pcl_uvol::Report
+  getReport();
+
+private:
+  void
+  setUpScene(const pcl_uvol::Background& background);
+
+  void
+  setUpTexts(const pcl_uvol::Background& background);
+
+  void
+  setUpSlider();
+
+  /** Show the surface as it is now, coloured. */
+  void
+  showSurface();
+
+  /** Colour by the current field. */
+  void
+  applyColor();
+
+  void
+  nextColor();
+
+  /** The isovalue of the slider, not drawn yet. */
+  void
+  followSlider();
+
+  void
+  stepIsoValue(int steps);
+
+  void
+  saveNumbered();
+
+  void
+  render();
+
+  /** Do it; an exception becomes a message. */
+  void
+  attempt(const std::function<void()>& action);
+
+  void
+  show(const std::string& message);
+
+  ShownSurface& surface_;
+  const RenderOptions& look_;
+  std::vector<std::string> colors_; // fields to colour by; "" for one colour
+  std::size_t color_ = 0;
+  std::string given_color_; // that the range of the options is for
+  std::string error_;       // of the last frame
+  // In this order, so that the slider goes before the interactor, and that the window
+  vtkNew<pcl_uvol::ImageSpaceProp> prop_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkRenderWindowInteractor> interactor_;
+  vtkNew<vtkTextActor> help_, message_;
+  vtkNew<vtkScalarBarActor> bar_;
+  vtkNew<vtkSliderRepresentation2D> slider_shape_;
+  vtkNew<vtkSliderWidget> slider_;
+};
+
+} // namespace uvol_tools
