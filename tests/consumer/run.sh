@@ -10,4 +10,6 @@ cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/
 cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
+test "$("$folder/build/window_consumer")" = "bounds from 3"
 "$folder/prefix/bin/uvol_isosurface" -version
+"$folder/prefix/bin/uvol_viewer" -version

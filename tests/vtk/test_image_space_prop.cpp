@@ -17,7 +17,6 @@
 #include <vtkSphereSource.h>
 
 #include <cmath>
-#include <memory>
 
 namespace {
 
@@ -99,12 +98,26 @@ expectNearerSphereSeen(const Image& image, double fov)
 
 class ImageSpacePropTest : public testing::Test {
 protected:
+  // One for all: VTK keeps connections that would break with their server.
+  static void
+  SetUpTestSuite()
+  {
+    if (uvol_test::VirtualDisplay::isInstalled())
+      display_ = new uvol_test::VirtualDisplay;
+  }
+
+  static void
+  TearDownTestSuite()
+  {
+    delete display_;
+    display_ = nullptr;
+  }
+
   void
   SetUp() override
   {
-    if (!uvol_test::VirtualDisplay::isInstalled())
+    if (display_ == nullptr)
       GTEST_SKIP() << "Xvfb is not installed";
-    display_ = std::make_unique<uvol_test::VirtualDisplay>();
     window_->SetMultiSamples(0);
     window_->SetSize(width, height);
     window_->AddRenderer(renderer_);
@@ -205,13 +218,17 @@ protected:
     EXPECT_LE(different, seen / 100);
   }
 
-  std::unique_ptr<uvol_test::VirtualDisplay> display_; // outlives the window
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<ImageSpaceProp> prop_;
   std::string errors_;
   int error_count_ = 0;
+
+private:
+  static uvol_test::VirtualDisplay* display_;
 };
+
+uvol_test::VirtualDisplay* ImageSpacePropTest::display_ = nullptr;
 
 TEST_F(ImageSpacePropTest, LooksAsOnTheCpu)
 {

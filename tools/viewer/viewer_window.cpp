@@ -128,7 +128,6 @@ ViewerWindow::ViewerWindow(const std::string& title,
   setUpTexts(background);
   showSurface();
   window_->SetWindowName((title + " (h: keys)").c_str());
-  interactor_->Initialize();
   if (!surface_.getField().empty())
     setUpSlider();
   render();
@@ -183,10 +182,9 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   message_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   message_->SetPosition(0.02, 0.02);
   message_->VisibilityOff();
-  bar_->SetPosition(0.87, 0.25);
-  bar_->SetWidth(0.11);
+  bar_->SetPosition(0.83, 0.25);
+  bar_->SetWidth(0.15);
   bar_->SetHeight(0.5);
-  bar_->UnconstrainedFontSizeOn();
   bar_->SetLabelFormat("%.3g");
   renderer_->AddViewProp(help_);
   renderer_->AddViewProp(message_);
@@ -201,6 +199,14 @@ ViewerWindow::setUpSlider()
   slider_shape_->SetValue(surface_.getIsoValue());
   slider_shape_->SetTitleText(surface_.getField().c_str());
   slider_shape_->SetLabelFormat("%.4g");
+  slider_shape_->SetSliderLength(0.03); // parts of the window
+  slider_shape_->SetSliderWidth(0.03);
+  slider_shape_->SetTubeWidth(0.008);
+  slider_shape_->SetEndCapLength(0.0);
+  slider_shape_->GetTubeProperty()->SetColor(0.6, 0.6, 0.6);
+  slider_shape_->GetCapProperty()->SetColor(0.6, 0.6, 0.6);
+  slider_shape_->GetSliderProperty()->SetColor(0.2, 0.4, 0.7);
+  slider_shape_->GetSelectedProperty()->SetColor(0.3, 0.6, 1.0);
   for (const auto& [end, x] : {std::pair(slider_shape_->GetPoint1Coordinate(), 0.1),
                                std::pair(slider_shape_->GetPoint2Coordinate(), 0.9)}) {
     end->SetCoordinateSystemToNormalizedDisplay();

@@ -108,7 +108,6 @@ private:
   std::size_t color_ = 0;
   std::string given_color_; // that the range of the options is for
   std::string error_;       // of the last frame
-  // In this order, so that the slider goes before the interactor, and that the window
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_viewer from the outside, and its window moved by events of mouse and keys.
+#include "support/environment.h"
+#include "support/png.h"
+#include "support/surfaces.h"
+#include "support/virtual_display.h"
+#include "viewer/keys.h"
+#include "viewer/viewer_window.h"
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkRendererCollection.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+namespace {
+
+using pcl_uvol::Image;
+using uvol_test::runCommand;
+
+constexpr int width = 240, height = 180;
+
+/** Random samples of an ellipsoid's function: 1 on half axes of 1, 1/2 and 1/3. */
+pcl_uvol::Dataset
+makeVolume()
+{
+  pcl::PointCloud<pcl::PointXYZI> points;
+  uvol_test::Random random(7);
+  for (int i = 0; i < 15000; ++i) {
+    pcl::PointXYZI point;
+    point.x = static_cast<float>(2.0 * random.uniform() - 1.0);
+    point.y = static_cast<float>(random.uniform() - 0.5);
+    point.z = static_cast<float>(random.uniform() - 0.5);
+    point.intensity = Eigen::Vector3f(point.x, 2.0f * point.y, 3.0f * point.z).norm();
+    points.push_back(point);
+  }
+  pcl_uvol::Dataset volume;
+  pcl::toPCLPointCloud2(points, volume.cloud);
+  return volume;
+}
+
+/** A temporary folder to work in, and a display. */
+class UvolViewer : public testing::Test {
+protected:
+  // One for all: VTK keeps connections that would break with their server.
+  static void
+  SetUpTestSuite()
+  {
+    if (uvol_test::VirtualDisplay::isInstalled())
+      display_ = new uvol_test::VirtualDisplay;
+  }
+
+  static void
+  TearDownTestSuite()
+  {
+    delete display_;
+    display_ = nullptr;
+  }
+
+  void
+  SetUp() override
+  {
+    if (display_ == nullptr)
+      GTEST_SKIP() << "Xvfb is not installed";
+    std::filesystem::current_path(folder_ / "");
+  }
+
+  void
+  TearDown() override
+  {
+    std::filesystem::current_path("/");
+  }
+
+  static Image
+  read(const std::string& path)
+  {
+    int channels;
+    const Image image = uvol_test::readPng(path, channels);
+    EXPECT_EQ(static_cast<std::uint32_t>(width), image.width) << path;
+    EXPECT_EQ(static_cast<std::uint32_t>(height), image.height) << path;
+    return image;
+  }
+
+  uvol_test::TemporaryFolder folder_;
+
+private:
+  static uvol_test::VirtualDisplay* display_;
+};
+
+uvol_test::VirtualDisplay* UvolViewer::display_ = nullptr;
+
+/** The window of a cloud, with the options of the tool. */
+class OpenWindow {
+public:
+  OpenWindow(pcl_uvol::Dataset data,
+             const std::string& field,
+             std::vector<const char*> arguments)
+      : surface(std::move(data), field, 0)
+  {
+    arguments.insert(arguments.begin(), {"uvol_viewer", "-size", "240x180"});
+    look.declareScene(options);
+    look.declarePasses(options);
+    options.parse(static_cast<int>(arguments.size()), arguments.data());
+    look.check(options);
+    if (!field.empty())
+      surface.setIsoValue(0.5);
+    window = std::make_unique<uvol_tools::ViewerWindow>("in", surface, look, options);
+  }
+
+  /** Move the mouse with the left button held, in pixels from the lower left. */
+  void
+  drag(int x0, int y0, int x1, int y1)
+  {
+    vtkRenderWindowInteractor& mouse = window->interactor();
+    mouse.SetEventInformation(x0, y0);
+    mouse.InvokeEvent(vtkCommand::MouseMoveEvent);
+    mouse.InvokeEvent(vtkCommand::LeftButtonPressEvent);
+    mouse.SetEventInformation(x1, y1);
+    mouse.InvokeEvent(vtkCommand::MouseMoveEvent);
+    mouse.InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+  }
+
+  /** Pull the slider from its isovalue to another one. */
+  void
+  slide(double isovalue)
+  {
+    const auto& range = surface.getRange();
+    const auto place = [&](double value) {
+      const double part = (value - range[0]) / (range[1] - range[0]);
+      return static_cast<int>(width * (0.1 + 0.8 * part));
+    };
+    const int y = static_cast<int>(0.12 * height);
+    drag(place(surface.getIsoValue()), y, place(isovalue), y);
+  }
+
+  void
+  type(char key)
+  {
+    vtkRenderWindowInteractor& keyboard = window->interactor();
+    keyboard.SetEventInformation(5, 5, 0, 0, key);
+    keyboard.InvokeEvent(vtkCommand::KeyPressEvent);
+    keyboard.InvokeEvent(vtkCommand::CharEvent);
+  }
+
+  vtkCamera&
+  camera()
+  {
+    return *window->interactor()
+                .GetRenderWindow()
+                ->GetRenderers()
+                ->GetFirstRenderer()
+                ->GetActiveCamera();
+  }
+
+  Image
+  shoot()
+  {
+    window->save("shot.png");
+    int channels;
+    return uvol_test::readPng("shot.png", channels);
+  }
+
+  uvol_tools::ShownSurface surface;
+  uvol_tools::RenderOptions look;
+  uvol_tools::Options options{"uvol_viewer", "", ""};
+  std::unique_ptr<uvol_tools::ViewerWindow> window;
+};
+
+/** Pixels of a grey surface in the upper three quarters, where no slider is. */
+int
+covered(const Image& image)
+{
+  int count = 0;
+  for (std::size_t i = 0; i < image.pixels() * 3 / 4; ++i)
+    count += image.color[4 * i] < 240;
+  return count;
+}
+
+// The first test: VTK's loop also serves earlier interactors that are gone.
+TEST_F(UvolViewer, AKeyEndsTheLoopOfEvents)
+{
+  OpenWindow open(makeVolume(), "intensity", {});
+  vtkNew<vtkCallbackCommand> quit;
+  quit->SetClientData(&open);
+  quit->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
+    static_cast<OpenWindow*>(data)->type('q');
+  });
+  open.window->interactor().AddObserver(vtkCommand::TimerEvent, quit);
+  open.window->interactor().CreateRepeatingTimer(50);
+  open.window->run();
+  EXPECT_TRUE(open.window->interactor().GetDone());
+}
+
+TEST_F(UvolViewer, MouseAndSliderMoveCameraAndIsovalue)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  const Image first = open.shoot();
+  EXPECT_GT(covered(first), 1500);
+
+  // Turned, the ellipsoid shows its other axes: less of it is seen from its tip.
+  const Eigen::Vector3d eye(open.camera().GetPosition());
+  open.drag(120, 100, 200, 100);
+  const Image turned = open.shoot();
+  EXPECT_GT((Eigen::Vector3d(open.camera().GetPosition()) - eye).norm(), 0.3);
+  EXPECT_LT(covered(turned), covered(first) * 8 / 10);
+  EXPECT_EQ(0.5, open.surface.getIsoValue());
+
+  // The slider changes the isovalue and leaves the camera where it is.
+  const Eigen::Vector3d turned_eye(open.camera().GetPosition());
+  open.slide(0.8);
+  EXPECT_NEAR(0.8, open.surface.getIsoValue(), 0.05);
+  EXPECT_EQ(turned_eye, Eigen::Vector3d(open.camera().GetPosition()));
+  const double growth = static_cast<double>(covered(open.shoot())) / covered(turned);
+  EXPECT_GT(growth, 1.8); // (0.8 / 0.5)^2 and perspective, but for what is cut off
+  open.type('-');
+  EXPECT_LT(open.surface.getIsoValue(), 0.8);
+
+  // Back again, to a pixel of the slider: about the same picture
+  open.camera().SetPosition(eye.data());
+  open.camera().SetViewUp(0.0, 0.0, 1.0);
+  open.slide(0.5);
+  EXPECT_NEAR(covered(first), covered(open.shoot()), covered(first) / 5);
+
+  // The wheel comes nearer, r shows the whole again.
+  const double before = open.camera().GetDistance();
+  for (int i = 0; i < 4; ++i)
+    open.window->interactor().InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  EXPECT_LT(open.camera().GetDistance(), 0.8 * before);
+  open.type('r');
+  EXPECT_GT(open.camera().GetDistance(), 0.9 * before);
+}
+
+TEST_F(UvolViewer, IsovaluesWithoutPointsShowNothing)
+{
+  OpenWindow open(makeVolume(), "intensity", {});
+  open.slide(open.surface.getRange()[1]);
+  open.type('+'); // beyond the range
+  EXPECT_EQ(open.surface.getRange()[1], open.surface.getIsoValue());
+  EXPECT_LT(covered(open.shoot()), 200);
+  open.slide(0.5);
+  EXPECT_GT(covered(open.shoot()), 1500);
+}
+
+TEST_F(UvolViewer, KeysSwitchPasses)
+{
+  pcl_uvol::Dataset sphere;
+  pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);
+  OpenWindow open(sphere, "", {"-feature-threshold", "0.0001"});
+  const Image first = open.shoot();
+  for (const char key : std::string("1234567")) {
+    open.type(key);
+    EXPECT_TRUE(open.shoot().color != first.color) << key;
+    open.type(key);
+    EXPECT_TRUE(open.shoot().color == first.color) << key;
+  }
+  open.type('7');
+  const Image without_footprints = open.shoot();
+  open.type('8'); // and now there are holes
+  EXPECT_LT(covered(open.shoot()), covered(without_footprints) * 9 / 10);
+  open.type('9'); // the far side is seen through them
+  EXPECT_GT(covered(open.shoot()), 1000);
+  open.type('x');
+  open.type('+');
+}
+
+TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-color", "mean_curvature"});
+  const Image colored = open.shoot();
+  open.type('c');
+  const Image plain = open.shoot();
+  EXPECT_TRUE(plain.color != colored.color);
+  open.type('c');
+  EXPECT_TRUE(plain.color != open.shoot().color);
+  open.type('h');
+  EXPECT_TRUE(plain.color != open.shoot().color);
+  open.type('s');
+  open.type('s');
+  EXPECT_EQ(3u, folder_.list().size());
+  EXPECT_EQ(static_cast<std::uint32_t>(width), read("uvol_viewer_2.png").width);
+}
+
+TEST_F(UvolViewer, TheToolSavesWhatItShows)
+{
+  pcl_uvol::saveDataset("volume.ply", makeVolume());
+  const std::string options = " -size 240x180 -view front -screenshot ";
+  auto result = runCommand("uvol_viewer volume.ply -field intensity -iso 0.5" +
+                           options + "half.png");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ("", result.err);
+  EXPECT_NE(std::string::npos, result.out.find("isopoints")) << result.out;
+  result = runCommand("uvol_viewer volume.ply -field intensity -json" + options +
+                      "middle.png");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ('{', result.out.front());
+  EXPECT_GT(covered(read("half.png")), 1500);
+  EXPECT_TRUE(read("middle.png").color != read("half.png").color);
+
+  pcl_uvol::Dataset sphere;
+  pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);
+  pcl_uvol::saveDataset("sphere.ply", sphere);
+  result =
+      runCommand("uvol_viewer sphere.ply -background black" + options + "sphere.png");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  // As uvol_render draws it
+  ASSERT_EQ(0,
+            runCommand("uvol_render sphere.ply same.png -background black -view front "
+                       "-size 240x180")
+                .exit_code);
+  const Image shown = read("sphere.png"), drawn = read("same.png");
+  int different = 0;
+  for (std::size_t i = 0; i < shown.color.size(); ++i)
+    different += std::abs(shown.color[i] - drawn.color[i]) > 8;
+  EXPECT_LT(different, static_cast<int>(shown.color.size()) / 50);
+}
+
+TEST_F(UvolViewer, WrongUseIsOneSentence)
+{
+  pcl_uvol::saveDataset("volume.ply", makeVolume());
+  uvol_test::writeFile("empty.csv", "x,y,z,f\n");
+  uvol_test::writeFile("equal.csv", "x,y,z,f\n0,0,0,1\n1,0,0,1\n");
+  const std::tuple<const char*, int, const char*> cases[] = {
+      {"volume.ply -iso 1", 2, "-field"},
+      {"volume.ply -wrong", 2, "-wrong"},
+      {"volume.ply -background transparent", 2, "transparent"},
+      {"volume.ply -supersample 2", 2, "-supersample"},
+      {"volume.ply -screenshot out.jpg", 1, ".png"},
+      {"volume.ply -field none", 1, "intensity"},
+      {"volume.ply -field intensity -iso 1e9", 1, "range"},
+      {"volume.ply -color none_such", 1, "none_such"},
+      {"equal.csv -field f", 1, "equal"},
+      {"empty.csv", 1, "no points"},
+      {"gone.ply", 1, "gone.ply"}};
+  for (const auto& [arguments, exit_code, text] : cases) {
+    const auto result = runCommand(std::string("uvol_viewer ") + arguments);
+    EXPECT_EQ(exit_code, result.exit_code) << arguments;
+    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+}
+
+void
+expectAdvice(const std::string& environment)
+{
+  const auto result = runCommand(environment + " uvol_viewer in.ply");
+  EXPECT_EQ(1, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("uvol_render")) << result.err;
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+}
+
+TEST(UvolViewerWithoutDisplay, SaysSoAndNamesTheToolForIt)
+{
+  expectAdvice("env -u DISPLAY");
+  expectAdvice("DISPLAY=");
+  expectAdvice("DISPLAY=:987");
+  expectAdvice("DISPLAY=nonsense");
+  if (!uvol_test::VirtualDisplay::isInstalled())
+    GTEST_SKIP() << "Xvfb is not installed";
+  const uvol_test::VirtualDisplay without_opengl({"-extension", "GLX"});
+  expectAdvice("");
+}
+
+TEST(UvolViewerWithoutDisplay, HelpNamesEveryKey)
+{
+  const auto result = runCommand("env -u DISPLAY uvol_viewer -h");
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.out.find(uvol_tools::describeKeys()));
+  EXPECT_NE(std::string::npos, result.out.find("-iso"));
+}
+
+} // namespace
