@@ -30,6 +30,7 @@ becomeServer(int pipe_end, std::vector<std::string> arguments)
                     "-nolisten",
                     "tcp"});
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments)
     pointers.push_back(argument.data());
   pointers.push_back(nullptr);

@@ -321,7 +321,7 @@ TEST_F(ImageSpacePropTest, FramesItselfWhereverItIs)
   prop_->RotateZ(90.0);
   EXPECT_NEAR(12.0, prop_->GetBounds()[1], 0.02);
   renderer_->ResetCamera();
-  EXPECT_NEAR(before, covered(shoot()), before / 100);
+  EXPECT_NEAR(before, covered(shoot()), 0.01 * before);
   EXPECT_EQ("", errors_);
 }
 
@@ -385,7 +385,7 @@ TEST_F(ImageSpacePropTest, SeveralPropsAndWindows)
   place(*other_renderer->GetActiveCamera());
   other_renderer->AddViewProp(prop_);
   for (int turn = 0; turn < 2; ++turn) {
-    EXPECT_NEAR(alone, covered(screenshot(*other_window)), alone / 100);
+    EXPECT_NEAR(alone, covered(screenshot(*other_window)), 0.01 * alone);
     EXPECT_EQ(alone, covered(shoot()));
   }
   EXPECT_EQ("", errors_);

@@ -96,7 +96,7 @@ void
 setColor(vtkTextProperty& text, double grey)
 {
   text.SetColor(grey, grey, grey);
-  text.SetFontSize(14);
+  text.SetFontSize(12);
   text.ShadowOff();
   text.ItalicOff();
   text.BoldOff();
@@ -183,8 +183,9 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   message_->SetPosition(0.02, 0.02);
   message_->VisibilityOff();
   bar_->SetPosition(0.83, 0.25);
-  bar_->SetWidth(0.15);
+  bar_->SetWidth(0.1);
   bar_->SetHeight(0.5);
+  bar_->UnconstrainedFontSizeOn();
   bar_->SetLabelFormat("%.3g");
   renderer_->AddViewProp(help_);
   renderer_->AddViewProp(message_);

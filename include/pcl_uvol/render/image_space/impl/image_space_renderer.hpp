@@ -32,8 +32,7 @@ ImageSpaceRenderer<PointT>::getBounds()
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("ImageSpaceRenderer has no input cloud: call setInputCloud.");
-  const BoundingSphere bounds =
-      prepare(viewOf(*this->input_), *this->indices_).getBounds();
+  BoundingSphere bounds = prepare(viewOf(*this->input_), *this->indices_).getBounds();
   this->deinitCompute();
   return bounds;
 }
