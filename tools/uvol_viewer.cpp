@@ -9,6 +9,8 @@
 #include <vtkLogger.h>
 
 #include <iostream>
+#include <limits>
+#include <utility>
 
 namespace {
 

@@ -8,7 +8,6 @@
 #include <vtkCamera.h>
 #include <vtkErrorCode.h>
 #include <vtkInteractorStyleTrackballCamera.h>
-#include <vtkLookupTable.h>
 #include <vtkObjectFactory.h>
 #include <vtkPNGWriter.h>
 #include <vtkProperty2D.h>
@@ -70,28 +69,6 @@ wordsOf(const std::string& error)
   return words.substr(0, words.find('\n'));
 }
 
-/** Colours that may be chosen by key, after the one that the options name. */
-std::vector<std::string>
-colorFields(const pcl::PCLPointCloud2& cloud, const std::string& given)
-{
-  std::vector<std::string> names = {given};
-  if (!given.empty())
-    names.emplace_back();
-  for (const auto& field : cloud.fields) {
-    const bool is_geometry =
-        field.name.size() == 1 || field.name.rfind("normal_", 0) == 0;
-    if (!is_geometry && field.count == 1 && field.name != given)
-      names.push_back(field.name);
-  }
-  return names;
-}
-
-bool
-isScalar(const std::string& color)
-{
-  return !color.empty() && color != "rgb" && color != "rgba";
-}
-
 void
 setColor(vtkTextProperty& text, double grey)
 {
@@ -117,8 +94,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
                                     surface_.getField() + ": choose another one.");
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
-  given_color_ = look_.colorField(pcl_uvol::viewOf(*cloud));
-  colors_ = colorFields(*cloud, given_color_);
+  colors_.emplace(look_, *cloud);
   observe(*prop_, vtkCommand::ErrorEvent, [this](const char* text) {
     error_ = wordsOf(text);
     std::cerr << "uvol_viewer: " << error_ << '\n';
@@ -225,49 +201,25 @@ ViewerWindow::setUpSlider()
 void
 ViewerWindow::showSurface()
 {
-  applyColor();
   prop_->setInputCloud(surface_.getCloud());
   renderer_->ResetCameraClippingRange();
+  applyColor();
 }
 
 void
 ViewerWindow::applyColor()
 {
-  const std::string& field = colors_[color_];
-  pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
-  bar_->SetVisibility(isScalar(field) && look_.hasBar());
-  if (isScalar(field) && surface_.getCloud()) {
-    const std::vector<double>& fixed = look_.getRange();
-    const auto range = field == given_color_ && !fixed.empty()
-                           ? std::array<double, 2>{fixed[0], fixed[1]}
-                           : rangeOf(*surface_.getCloud(), field);
-    renderer.setColorRange(range[0], range[1]);
-    constexpr int steps = 256;
-    vtkNew<vtkLookupTable> table;
-    table->SetNumberOfTableValues(steps);
-    for (int i = 0; i < steps; ++i) {
-      const pcl_uvol::Color color = look_.colorMap().at(i / (steps - 1.0));
-      table->SetTableValue(i, color.r, color.g, color.b);
-    }
-    table->SetTableRange(range[0], range[1]);
-    bar_->SetLookupTable(table);
-    bar_->SetTitle(field.c_str());
-  }
-  renderer.setColorField(field);
+  if (surface_.getCloud())
+    colors_->apply(*surface_.getCloud(), prop_->renderer(), *bar_);
 }
 
 void
 ViewerWindow::nextColor()
 {
-  color_ = (color_ + 1) % colors_.size();
-  try {
-    applyColor();
-  }
-  catch (...) { // a field without a number: the next one is not worse
-    prop_->renderer().setColorField("");
-    throw;
-  }
-  show(colors_[color_].empty() ? "one colour" : "coloured by " + colors_[color_]);
+  colors_->next();
+  applyColor();
+  const std::string& field = colors_->getField();
+  show(field.empty() ? "one colour" : "coloured by " + field);
 }
 
 void

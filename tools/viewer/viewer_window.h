@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/render_options.h"
+#include "viewer/color_choice.h"
 #include "viewer/shown_surface.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
 
@@ -15,10 +16,9 @@
 #include <vtkSliderWidget.h>
 #include <vtkTextActor.h>
 
-#include <array>
 #include <functional>
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace uvol_tools {
 
@@ -104,10 +104,8 @@ private:
 
   ShownSurface& surface_;
   const RenderOptions& look_;
-  std::vector<std::string> colors_; // fields to colour by; "" for one colour
-  std::size_t color_ = 0;
-  std::string given_color_; // that the range of the options is for
-  std::string error_;       // of the last frame
+  std::optional<ColorChoice> colors_;
+  std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;

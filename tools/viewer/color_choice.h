@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What colours the viewer's surface: one of its fields after the other.
+#pragma once
+
+#include "common/render_options.h"
+
+#include <pcl/PCLPointCloud2.h>
+
+#include <string>
+#include <vector>
+
+class vtkScalarBarActor;
+
+namespace uvol_tools {
+
+/** \brief The fields that a surface can be coloured by, and the one that does. */
+class ColorChoice {
+public:
+  /** \param look names the first field, and the range of its colours if it has one;
+   * outlives this object */
+  ColorChoice(const RenderOptions& look, const pcl::PCLPointCloud2& cloud);
+
+  /** \brief "" for one colour. */
+  const std::string&
+  getField() const
+  {
+    return fields_[chosen_];
+  }
+
+  /** \brief Choose the next field, one colour among them, and start over at the end. */
+  void
+  next();
+
+  /** \brief Colour a renderer's surface, and show the colours in a bar.
+   * \throws InvalidArgument for a field without a number; the surface then has one
+   * colour */
+  void
+  apply(const pcl::PCLPointCloud2& cloud,
+        pcl_uvol::ImageSpaceRendererBase& renderer,
+        vtkScalarBarActor& bar) const;
+
+private:
+  const RenderOptions& look_;
+  std::vector<std::string> fields_; // that of the options first
+  std::size_t chosen_ = 0;
+};
+
+} // namespace uvol_tools
