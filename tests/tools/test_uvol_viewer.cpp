@@ -47,14 +47,6 @@ makeVolume()
 /** A temporary folder to work in, and a display. */
 class UvolViewer : public testing::Test {
 protected:
-  // One for all: VTK keeps connections that would break with their server.
-  static void
-  SetUpTestSuite()
-  {
-    if (uvol_test::VirtualDisplay::isInstalled())
-      display_ = new uvol_test::VirtualDisplay;
-  }
-
   static void
   TearDownTestSuite()
   {
@@ -65,8 +57,10 @@ protected:
   void
   SetUp() override
   {
-    if (display_ == nullptr)
+    if (!uvol_test::VirtualDisplay::isInstalled())
       GTEST_SKIP() << "Xvfb is not installed";
+    if (display_ == nullptr) // one for all: VTK keeps connections to it
+      display_ = new uvol_test::VirtualDisplay;
     std::filesystem::current_path(folder_ / "");
   }
 

@@ -98,14 +98,6 @@ expectNearerSphereSeen(const Image& image, double fov)
 
 class ImageSpacePropTest : public testing::Test {
 protected:
-  // One for all: VTK keeps connections that would break with their server.
-  static void
-  SetUpTestSuite()
-  {
-    if (uvol_test::VirtualDisplay::isInstalled())
-      display_ = new uvol_test::VirtualDisplay;
-  }
-
   static void
   TearDownTestSuite()
   {
@@ -116,8 +108,10 @@ protected:
   void
   SetUp() override
   {
-    if (display_ == nullptr)
+    if (!uvol_test::VirtualDisplay::isInstalled())
       GTEST_SKIP() << "Xvfb is not installed";
+    if (display_ == nullptr) // one for all: VTK keeps connections to it
+      display_ = new uvol_test::VirtualDisplay;
     window_->SetMultiSamples(0);
     window_->SetSize(width, height);
     window_->AddRenderer(renderer_);
