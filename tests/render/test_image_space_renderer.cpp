@@ -3,6 +3,7 @@
 #include "render/renderer_setup.h"
 #include <pcl_uvol/common/exceptions.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -111,6 +112,28 @@ TEST(ImageSpaceRenderer, ColoursByFieldAndByRgb)
   EXPECT_GT(bottom[2], bottom[1]); // violet
   renderer.setColorField("density");
   EXPECT_THROW(renderer.render(image), InvalidArgument);
+}
+
+TEST(ImageSpaceRenderer, DrawsItsIndicesOnly)
+{
+  const auto cloud = uvol_test::makeSphere(4000, 1);
+  Renderer renderer;
+  prepare(renderer, cloud, 100, 100);
+  const pcl::IndicesPtr some(new pcl::Indices);
+  for (int i = 0; i < 4000; i += 2)
+    some->push_back(i);
+  Image image;
+  renderer.render(image);
+  const auto odd = [&] {
+    return std::count_if(image.id.begin(), image.id.end(), [](std::uint32_t id) {
+      return id != Image::background && id % 2 == 1;
+    });
+  };
+  EXPECT_GT(odd(), 100);
+  renderer.setIndices(some);
+  renderer.render(image);
+  EXPECT_EQ(odd(), 0);
+  EXPECT_GT(seenPixels(image), 1000u);
 }
 
 TEST(ImageSpaceRenderer, SupersamplingAverages)

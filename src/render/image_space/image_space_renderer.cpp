@@ -162,15 +162,16 @@ ImageSpaceRendererBase::forgetSurface()
 }
 
 const SurfaceCloud&
-ImageSpaceRendererBase::prepare(const CloudView& cloud, const std::vector<int>& indices)
+ImageSpaceRendererBase::prepare(const CloudView& cloud,
+                                const pcl::IndicesConstPtr& indices)
 {
-  std::vector<std::uint32_t> use(indices.begin(), indices.end());
-  if (surface_ && use == drawn_)
+  if (surface_ && indices == drawn_)
     return *surface_;
+  const std::vector<std::uint32_t> use(indices->begin(), indices->end());
   surface_report_ = Report();
   const StepTimer timer(surface_report_, "prepare");
   surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, surface_report_);
-  drawn_ = std::move(use);
+  drawn_ = indices;
   colored_ = false;
   return *surface_;
 }
@@ -204,7 +205,7 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
 
 void
 ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
-                                   const std::vector<int>& indices,
+                                   const pcl::IndicesConstPtr& indices,
                                    Image& image)
 {
   checkSettings(settings_);
@@ -235,7 +236,7 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
 
 void
 ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
-                                 const std::vector<int>& indices,
+                                 const pcl::IndicesConstPtr& indices,
                                  const View& view,
                                  const Painter& painter)
 {

@@ -133,16 +133,16 @@ protected:
   ~ImageSpaceRendererBase();
 
   void
-  renderFrom(const CloudView& cloud, const std::vector<int>& indices, Image& image);
+  renderFrom(const CloudView& cloud, const pcl::IndicesConstPtr& indices, Image& image);
 
   void
   drawFrom(const CloudView& cloud,
-           const std::vector<int>& indices,
+           const pcl::IndicesConstPtr& indices,
            const View& view,
            const Painter& painter);
 
   const SurfaceCloud&
-  prepare(const CloudView& cloud, const std::vector<int>& indices);
+  prepare(const CloudView& cloud, const pcl::IndicesConstPtr& indices);
 
   /** \brief The next frame reads the cloud anew. */
   void
@@ -163,8 +163,8 @@ private:
   std::shared_ptr<ImageSpaceBackend> backend_;
   unsigned threads_ = 0;
   std::shared_ptr<SurfaceCloud> surface_;
-  std::vector<std::uint32_t> drawn_; // input points behind surface_
-  Report surface_report_;            // what preparing it counted
+  pcl::IndicesConstPtr drawn_; // input points behind surface_
+  Report surface_report_;      // what preparing it counted
   bool colored_ = false;
   Rgba uniform_color_ = 0; // of surface_ without a colour field
   Image fine_;             // for supersampling
@@ -189,7 +189,8 @@ public:
                                    pcl::PCLPointCloud2,
                                    pcl::PointCloud<PointT>>;
 
-  /** \brief The cloud must not change until the next call: its points are kept. */
+  /** \brief The cloud, and indices, must not change until the next call: points are
+   * kept. */
   void
   // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
   setInputCloud(const typename Cloud::ConstPtr& cloud)

@@ -12,7 +12,7 @@ ImageSpaceRenderer<PointT>::render(Image& image)
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("ImageSpaceRenderer has no input cloud: call setInputCloud.");
-  renderFrom(viewOf(*this->input_), *this->indices_, image);
+  renderFrom(viewOf(*this->input_), this->indices_, image);
   this->deinitCompute();
 }
 
@@ -22,7 +22,7 @@ ImageSpaceRenderer<PointT>::draw(const View& view, const Painter& painter)
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("ImageSpaceRenderer has no input cloud: call setInputCloud.");
-  drawFrom(viewOf(*this->input_), *this->indices_, view, painter);
+  drawFrom(viewOf(*this->input_), this->indices_, view, painter);
   this->deinitCompute();
 }
 
@@ -32,7 +32,7 @@ ImageSpaceRenderer<PointT>::getBounds()
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("ImageSpaceRenderer has no input cloud: call setInputCloud.");
-  BoundingSphere bounds = prepare(viewOf(*this->input_), *this->indices_).getBounds();
+  BoundingSphere bounds = prepare(viewOf(*this->input_), this->indices_).getBounds();
   this->deinitCompute();
   return bounds;
 }
