@@ -217,10 +217,13 @@ PointPass::blend(const Frame& frame,
   gl_.Enable(GL_BLEND);
   gl_.BlendEquation(GL_FUNC_ADD);
   gl_.BlendFunc(GL_ONE, GL_ONE);
-  use(shaders::blend_small, define, frame).setTexture("states", 0, states);
+  const Program& small = use(shaders::blend_small, define, frame);
+  small.setTexture("states", 0, states);
+  small.set("stretch", blend_reach);
   drawPoints(visible.sparse.points);
   const Program& large = use(shaders::blend_large, define, frame);
   large.setTexture("states", 0, states);
+  large.set("stretch", blend_reach);
   drawLargeDiscs(large, visible.sparse.large_discs);
   gl_.Disable(GL_BLEND);
 }

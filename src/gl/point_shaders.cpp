@@ -72,8 +72,11 @@ const char* const disc_vertex = R"(
 flat out vec4 disc_center; // and radius, 0 for a mere pixel
 flat out uvec4 disc_plane; // 1 = dot(plane, place), as bits; index
 #ifdef BLENDED
+uniform float stretch; // discs reach so many of their radii
 flat out vec3 disc_normal; // in the cloud's axes
 flat out vec3 disc_color;
+#else
+const float stretch = 1.0;
 #endif
 
 void setDisc(uint index, vec3 c, float radius, vec3 normal)
@@ -114,10 +117,11 @@ void main()
 {
   vec3 normal = unpackNormal(look.x);
   vec3 c = rotation * vec3(x, y, z) + translation;
-  bool is_disc = isDisc(c, footprint) && !isLarge(c, footprint);
+  float radius = footprint * stretch;
+  bool is_disc = isDisc(c, footprint) && !isLarge(c, radius);
   vec2 place = center + c.xy * (focal / c.z);
-  setDisc(uint(gl_VertexID), c, is_disc ? footprint : 0.0, normal);
-  vec2 size = reach(c, footprint);
+  setDisc(uint(gl_VertexID), c, is_disc ? radius : 0.0, normal);
+  vec2 size = reach(c, radius);
   const float slack = 0.1; // hardware rounds corners
   gl_PointSize = is_disc ? 2.0 * max(size.x, size.y) + slack : 1.0;
   gl_Position = atPixel(is_disc ? place : floor(place) + 0.5);
@@ -138,14 +142,15 @@ void main()
 {
   vec3 normal = unpackNormal(look.x);
   vec3 c = rotation * vec3(x, y, z) + translation;
-  setDisc(uint(first + gl_InstanceID), c, footprint, normal);
+  float radius = footprint * stretch;
+  setDisc(uint(first + gl_InstanceID), c, radius, normal);
   gl_Position = nowhere;
-  if (isHidden(c, normal) || !isDisc(c, footprint) || !isLarge(c, footprint))
+  if (isHidden(c, normal) || !isDisc(c, footprint) || !isLarge(c, radius))
     return;
   vec2 low = origin, high = origin + extent;
-  if (c.z - footprint >= near) {
+  if (c.z - radius >= near) {
     vec2 place = center + c.xy * (focal / c.z);
-    vec2 size = 1.0 + reach(c, footprint);
+    vec2 size = 1.0 + reach(c, radius);
     low = max(low, place - size);
     high = min(high, place + size);
   }
@@ -216,7 +221,7 @@ void main()
   float depth, part;
   bool is_covered = isCovered(depth, part);
   float seen = uintBitsToFloat(texture(states, gl_FragCoord.xy).x);
-  if (!is_covered || depth > seen + disc_center.w * per_far)
+  if (!is_covered || abs(depth - seen) > disc_center.w * per_far)
     discard;
   float weight = (1.0 - part) * (1.0 - part);
   normal_weight = weight * vec4(disc_normal, 1.0);

@@ -45,6 +45,8 @@ BlockView::BlockView(const Frame& frame, const SurfaceBlock& block)
   }
   distance_ = std::sqrt(sq_distance);
   disc_radius_ = frame.hasFootprints() ? block.largest_footprint : 0.0f;
+  if (isSparse())
+    disc_radius_ *= blend_reach;
 }
 
 float

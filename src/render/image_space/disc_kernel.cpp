@@ -81,6 +81,7 @@ public:
   LargeDisc(const Projection& projection,
             const ProjectedPoints& points,
             std::uint32_t point,
+            float radius,
             const PixelBand& band)
       : projection_(projection)
       , disc_(projection,
@@ -88,7 +89,7 @@ public:
                fill(points.x[1][point]),
                fill(points.x[2][point])},
               fill(static_cast<std::int32_t>(points.normals[point])),
-              fill(points.radii[point]))
+              fill(radius))
       , first_row_(band.first_row)
       , last_row_(band.last_row)
       , last_column_(band.width)
@@ -376,7 +377,7 @@ draw(const Projection& projection,
     for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
       const std::uint32_t point =
           discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
-      const LargeDisc disc(projection, points, point, band);
+      const LargeDisc disc(projection, points, point, points.radii[point], band);
       const float room = back * disc.radius() * projection.per_far;
       disc.forCovered([&](int row, int column, float depth, float) {
         if (depth + room < 1.0f)
@@ -411,7 +412,8 @@ blend(const Projection& projection,
       const BlendSums& blended)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    const LargeDisc disc(projection, points, discs[i], band);
+    const LargeDisc disc(
+        projection, points, discs[i], points.stretch * points.radii[discs[i]], band);
     Floats direction[3];
     unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
     const Floats length =
@@ -428,7 +430,8 @@ blend(const Projection& projection,
     const float room = disc.radius() * projection.per_far;
     disc.forCovered([&](int row, int column, float depth, float part) {
       const std::ptrdiff_t pixel = row * band.stride + column;
-      if (depth > depthOf(band.keys[pixel]) + room)
+      const float behind = depth - depthOf(band.keys[pixel]);
+      if (!(behind <= room && behind >= -room))
         return;
       // Falls smoothly to zero at the rim.
       const float weight = (1.0f - part) * (1.0f - part);

@@ -42,8 +42,8 @@ struct DiscKernels {
                float back,
                const PixelBand& band);
 
-  /** \brief Add discs, one after another, to all pixels they cover where they lie in
-   * front of, or at most their radius behind, what is seen there.
+  /** \brief Add discs, stretched, one after another, to all pixels they cover where
+   * they lie at most their radius in front of or behind what is seen there.
    * \param looks of all points: packed normal, then colour */
   void (*blend)(const Projection& projection,
                 const ProjectedPoints& points,

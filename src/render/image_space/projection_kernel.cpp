@@ -99,7 +99,8 @@ projectPoints(const Projection& projection,
       const Ints is_disc = seen & (radius * per_z > projection.smallest_footprint);
       std::uint32_t bits = laneBits(is_disc);
       if (bits != 0)
-        bits = laneBits(is_disc & mayReach(projection, band, c, radius, px, py));
+        bits = laneBits(is_disc &
+                        mayReach(projection, band, c, radius * points.stretch, px, py));
       for (; bits != 0; bits &= bits - 1)
         discs[disc_count++] = i + static_cast<std::uint32_t>(__builtin_ctz(bits));
     }

@@ -28,6 +28,7 @@ struct ProjectedPoints {
   const float* x[3];
   const std::uint32_t* normals;
   const float* radii; ///< of their discs; null: no footprints
+  float stretch;      ///< discs may reach so many of their radii
 };
 
 /** A view, and which points are seen. */

@@ -90,7 +90,8 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
               cloud.getCoordinates(1).data(),
               cloud.getCoordinates(2).data()},
              cloud.getNormals().data(),
-             frame.hasFootprints() ? cloud.getFootprints().data() : nullptr};
+             frame.hasFootprints() ? cloud.getFootprints().data() : nullptr,
+             blend_reach};
 }
 
 PixelBand
@@ -132,8 +133,10 @@ Projector::project()
       ProjectedPoints points = points_;
       if (!has_discs)
         points.radii = nullptr;
-      else if (!is_blended)
+      else if (!is_blended) {
         points.radii = frame_.cloud.getFillers().data();
+        points.stretch = 1.0f;
+      }
       const std::size_t known = discs.size();
       discs.resize(known + projected_points);
       const std::size_t added = project_(projection_,

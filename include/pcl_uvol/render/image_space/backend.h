@@ -95,6 +95,11 @@ constexpr float smallest_footprint = 1.5f;
  * radius of fillers, and lie deeper than their points, so that these stay sharp. */
 constexpr float sparse_footprint = 2.5f;
 
+/** \brief Discs are blended over so many of their radii: normals and colours then
+ * change smoothly from point to point, while the discs themselves stay as large as they
+ * are. */
+constexpr float blend_reach = 1.5f;
+
 /** \brief How much deeper than its point a filler lies, in radii of its own. */
 constexpr float filler_depth = 0.5f;
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every mode of rendering as a small picture that somebody has looked at. Written anew
+// with PCL_UVOL_WRITE_GOLDEN_IMAGES set in the environment: look at them again then.
+#include "support/png.h"
+#include "support/surfaces.h"
+#include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <ostream>
+#include <string>
+
+namespace {
+
+using pcl_uvol::Image;
+using pcl_uvol::ImageSpaceSettings;
+using Renderer = pcl_uvol::ImageSpaceRenderer<pcl::PointNormal>;
+
+constexpr int width = 160, height = 120;
+
+struct Mode {
+  const char* name;
+  std::function<void(Renderer&)> apply;
+};
+
+void
+PrintTo(const Mode& mode, std::ostream* out)
+{
+  *out << mode.name;
+}
+
+/** Projected and filled, nothing else. */
+void
+onlyLit(ImageSpaceSettings& settings)
+{
+  settings.smoothing = pcl_uvol::SmoothingFilter::None;
+  settings.anti_aliasing = false;
+}
+
+const Mode modes[] = {
+    {"points",
+     [](Renderer& r) {
+       onlyLit(r.settings());
+       r.settings().footprints = false;
+       r.settings().background_fill = r.settings().occluded_fill = 0;
+     }},
+    {"lit", [](Renderer& r) { onlyLit(r.settings()); }},
+    {"smoothed",
+     [](Renderer& r) {
+       onlyLit(r.settings());
+       r.settings().smoothing = pcl_uvol::SmoothingFilter::Gaussian;
+       r.settings().smoothing_iterations = 2;
+     }},
+    {"anti_aliased", [](Renderer&) {}},
+    {"silhouettes",
+     [](Renderer& r) {
+       r.settings().silhouettes = true;
+       r.settings().silhouette_thickness = 2;
+     }},
+    {"feature_lines", [](Renderer& r) { r.settings().feature_lines = true; }},
+    {"illustrative",
+     [](Renderer& r) {
+       r.settings().silhouettes = r.settings().feature_lines = true;
+       r.settings().shading = false;
+     }},
+    {"coloured", [](Renderer& r) { r.setColorField("curvature"); }},
+    {"gradient",
+     [](Renderer& r) {
+       r.settings().background.kind = pcl_uvol::Background::Kind::Gradient;
+     }},
+    {"transparent",
+     [](Renderer& r) {
+       r.settings().background.kind = pcl_uvol::Background::Kind::Transparent;
+     }},
+    {"supersampled", [](Renderer& r) { r.setSupersampling(2); }},
+    {"zoomed",
+     [](Renderer& r) {
+       pcl_uvol::Camera camera =
+           pcl_uvol::Camera::fit(r.getBounds(), "front", 30.0, 4.0 / 3.0);
+       camera.vertical_fov = 6.0;
+       camera.at = Eigen::Vector3d(1.2, 1.2, 0.0);
+       r.setCamera(camera);
+     }},
+};
+
+class GoldenImage : public testing::TestWithParam<Mode> {};
+
+/** Pixels of which no channel is off by more than what another compiler's or another
+ * library's last bit makes. */
+double
+partOfAlike(const Image& a, const Image& b)
+{
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < a.pixels(); ++i) {
+    bool is_alike = true;
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+      is_alike &= std::abs(a.color[k] - b.color[k]) <= 2;
+    alike += is_alike ? 1 : 0;
+  }
+  return static_cast<double>(alike) / static_cast<double>(a.pixels());
+}
+
+TEST_P(GoldenImage, IsWhatItWas)
+{
+  const auto cloud = uvol_test::makeTorusKnot(9000, 3);
+  for (auto& point : *cloud)
+    point.curvature = point.z;
+  Renderer renderer;
+  renderer.setInputCloud(cloud);
+  renderer.setSize(width, height);
+  GetParam().apply(renderer);
+  Image image;
+  renderer.render(image);
+  const std::string path = std::string(PCL_UVOL_SOURCE_DIR "/tests/render/golden/") +
+                           GetParam().name + ".png";
+  if (std::getenv("PCL_UVOL_WRITE_GOLDEN_IMAGES") != nullptr)
+    pcl_uvol::savePng(path, image);
+  int channels = 0;
+  const Image golden = uvol_test::readPng(path, channels);
+  ASSERT_EQ(golden.width, image.width) << path;
+  ASSERT_EQ(golden.height, image.height) << path;
+  EXPECT_GE(partOfAlike(image, golden), 0.998) << path;
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes,
+                         GoldenImage,
+                         testing::ValuesIn(modes),
+                         [](const auto& tested) { return tested.param.name; });
+
+} // namespace
