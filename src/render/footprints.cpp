@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,17 +21,16 @@ constexpr std::size_t block_points = 1u << 12;
  * whose lines lie far apart. */
 constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
 
-/** Neighbours that tell the spacing of points. */
-constexpr std::size_t spacing_neighbors = 8;
-
-/** Of the radius of the nearest point: an outlier gets no more. */
+/** Of the largest radius among the nearest points: an outlier gets no more. Isopoints
+ * come in clumps, so that the nearest alone may have much less room than all around. */
 constexpr float largest_growth = 3.0f;
+constexpr std::size_t compared_neighbors = 8;
 
 /** For the surface's curvature, which takes neighbours out of the tangent plane. */
 constexpr float room = 1.05f;
 
 /** Farther corners, in spacings, are holes in the surface, not in its sampling. */
-constexpr float most_spacings = 3.0f;
+constexpr float most_spacings = 4.0f;
 
 /** Cosine of the angle to the mean direction: a point beyond it lies on the other side.
  */
@@ -136,18 +136,22 @@ public:
   {
   }
 
+  using Nearest = std::array<std::uint32_t, compared_neighbors>;
+
   /** Distances of a point's corners: of all, and of those it is the first for. */
   struct Reach {
     float all = 0.0f, first = 0.0f;
   };
 
-  /** \param nearest set to the index of the nearest other point, or of the point */
+  /** \param nearest set to the indices of the nearest other points */
   Reach
-  find(std::uint32_t point, float typical_distance, std::uint32_t& nearest)
+  find(std::uint32_t point, float typical_distance, Nearest& nearest)
   {
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
-    nearest = neighbors_.empty() ? point : neighbors_.front().second;
+    nearest.fill(point);
+    for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
+      nearest[i] = neighbors_[i].second;
     bool is_decided = true;
     const Reach reach = reachAmong(point, is_decided);
     if (is_decided || neighbors_.empty())
@@ -168,12 +172,13 @@ private:
   }
 
   /** Spacing s of points with 1 / s^2 points per area, k of them in a circle of radius
-   * s sqrt(k / pi). */
+   * s sqrt(k / pi): half of those that are known, so that clumps of points count as
+   * what they are only where few neighbours decide. */
   float
   spacing() const
   {
     constexpr float pi = 3.14159265f;
-    const std::size_t k = std::min(spacing_neighbors, neighbors_.size());
+    const std::size_t k = (neighbors_.size() + 1) / 2;
     return std::sqrt(neighbors_[k - 1].first * pi / static_cast<float>(k));
   }
 
@@ -214,10 +219,10 @@ private:
     cell_.forCorners([&](const Eigen::Vector2f& corner, std::uint32_t first) {
       const float sq_dist = corner.squaredNorm();
       const bool is_first = point < first;
-      if (sq_dist <= (is_first ? std::min(sq_all, sq_first) : sq_all) ||
-          sq_dist > most_spacings * most_spacings * sq_spacing)
+      if (sq_dist <= (is_first ? std::min(sq_all, sq_first) : sq_all))
         return;
-      if (sq_dist > sq_spacing && !isSurrounded(corner)) {
+      if (sq_dist > most_spacings * most_spacings * sq_spacing ||
+          (sq_dist > sq_spacing && !isSurrounded(corner))) {
         is_decided = false; // there may be points farther behind the corner
         return;
       }
@@ -282,7 +287,7 @@ computeFootprints(const SampleSet& samples,
 {
   const StepTimer timer(report, "footprints");
   std::vector<FootprintFinder::Reach> reach(samples.size());
-  std::vector<std::uint32_t> nearest(samples.size());
+  std::vector<FootprintFinder::Nearest> nearest(samples.size());
   Position low = samples.getPositions()[0], high = low;
   for (const Position& position : samples.getPositions())
     for (int axis = 0; axis < 3; ++axis) {
@@ -303,7 +308,9 @@ computeFootprints(const SampleSet& samples,
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const float most = largest_growth * reach[nearest[i]].all;
+    float most = 0.0f;
+    for (const std::uint32_t neighbor : nearest[i])
+      most = std::max(most, largest_growth * reach[neighbor].all);
     footprints.radii[i] = room * std::min(reach[i].all, most);
     footprints.fillers[i] = room * std::min(reach[i].first, most);
   }

@@ -13,13 +13,12 @@ using pcl_uvol::Camera;
 using pcl_uvol::Image;
 using pcl_uvol::View;
 
-/** Renders a sphere of that many points; returns pixels left open inside, and how far
+/** Renders a sphere of radius 1; returns pixels left open inside, and how far
  * the outline grew in its 99th percentile. */
 std::pair<std::size_t, double>
-drawSphere(std::size_t points, int size)
+drawSphere(const SurfaceCloudPtr& cloud, int size)
 {
   Renderer renderer;
-  const auto cloud = uvol_test::makeSphere(points, 1);
   prepare(renderer, cloud, size, size);
   Camera camera =
       Camera::fit({{0.0, 0.0, 0.0}, 1.0}, from_above, upwards, 30.0, 1.0, 0.72);
@@ -51,12 +50,28 @@ TEST(Footprints, CloseASphereAtAnyDensity)
                                      std::pair(113000, 300),
                                      std::pair(20000, 512),
                                      std::pair(3000, 700)}) {
-    const auto [open, growth] = drawSphere(static_cast<std::size_t>(points), size);
+    const auto [open, growth] =
+        drawSphere(makeSphere(static_cast<std::size_t>(points), 1), size);
     const double spacing =
         std::sqrt(4.0 * 3.14159265 / points) * 0.36 * size; // in pixels
     EXPECT_EQ(open, 0u) << points << " points, " << size;
     EXPECT_LE(growth, std::max(1.0, 0.7 * spacing)) << points << " points, " << size;
   }
+}
+
+TEST(Footprints, CloseWhatLiesBetweenClumps)
+{
+  // As isopoints do: edges of a sample cross the surface side by side.
+  const auto clumps = makeSphere(3000, 1);
+  const auto offsets = makeSphere(2 * clumps->size(), 2);
+  const SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  for (std::size_t i = 0; i < offsets->size(); ++i) {
+    pcl::PointNormal point = (*clumps)[i / 2];
+    point.getVector3fMap() += 0.003f * (*offsets)[i].getVector3fMap();
+    cloud->push_back(point);
+  }
+  for (const int size : {300, 700})
+    EXPECT_EQ(drawSphere(cloud, size).first, 0u) << size;
 }
 
 TEST(Footprints, AreNotDrawnWithoutThem)
