@@ -29,7 +29,7 @@ normalized(const Vector& a)
   return scaled(a, 1.0f / squareRoot(dot(a, a)));
 }
 
-/** Binary logarithm of positive numbers, to 1e-7; about -127 for zero. */
+/** Binary logarithm of positive numbers, to 1e-7. */
 Floats
 log2(const Floats& a)
 {
@@ -109,8 +109,9 @@ addLight(const Shading& s,
   Floats specular{};
   if (s.specular > 0.0f) {
     const Vector half = normalized({l.x + to_eye.x, l.y + to_eye.y, l.z + to_eye.z});
-    const Floats base = minimum(dot(normal, half), fill(1.0f));
-    const Ints is_lit = (cosine > 0.0f) & (base >= s.least_base);
+    const Floats toward = minimum(dot(normal, half), fill(1.0f));
+    const Ints is_lit = (cosine > 0.0f) & (toward >= s.least_base);
+    const Floats base = maximum(toward, fill(s.least_base));
     if (laneBits(is_lit) != 0)
       specular = is_lit ? exp2(log2(base) * s.shininess) * s.specular : Floats{};
   }
