@@ -387,6 +387,9 @@ draw(const Projection& projection,
   }
 }
 
+/** All sums of a pixel. */
+using PixelSums = float __attribute__((vector_size(blended_values * sizeof(float))));
+
 /** The sums of a pixel, those of its segment cleared if it is the first. */
 float*
 sumsAt(const BlendSums& blended, std::ptrdiff_t pixel)
@@ -436,8 +439,7 @@ blend(const Projection& projection,
       // Falls smoothly to zero at the rim.
       const float weight = (1.0f - part) * (1.0f - part);
       float* const sums = sumsAt(blended, pixel);
-      for (int k = 0; k < blended_values; ++k)
-        sums[k] += values[k] * weight;
+      store(sums, load<PixelSums>(sums) + load<PixelSums>(values) * weight);
     });
   }
 }
