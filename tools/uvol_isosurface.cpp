@@ -263,8 +263,8 @@ warnOfReplacedFields(const pcl_uvol::Dataset& input,
                                 "' is left out: isopoints have one of that name.");
 }
 
-/** The picture that -png asks for. */
-void
+/** The picture that -png asks for. Returns what it was drawn on; "" for none. */
+std::string
 draw(const Options& options,
      const Arguments& arguments,
      const uvol_tools::RenderOptions& look,
@@ -274,7 +274,7 @@ draw(const Options& options,
   if (surface.cloud.width == 0) {
     report.warnings.push_back("There is nothing to draw: " + arguments.picture +
                               " was not written.");
-    return;
+    return "";
   }
   const StepTimer timer(report, "picture");
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
@@ -287,6 +287,9 @@ draw(const Options& options,
   renderer.render(image);
   look.decorate(cloud, renderer, image);
   pcl_uvol::savePng(arguments.picture, image);
+  for (const auto& [pass, milliseconds] : renderer.getReport().milliseconds)
+    report.time("picture_" + pass, milliseconds);
+  return renderer.describeBackend();
 }
 
 int
@@ -343,18 +346,18 @@ run(int argc, char** argv)
     save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, save);
   }
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"input", arguments.input},
+      {"output", arguments.output},
+      {"field", field},
+      {"isovalues", joined(arguments.isovalues)},
+      {"scale", joined(scale)},
+      {"interpolation", arguments.interpolation},
+      {"estimated error", describeErrors(isopoints)}};
   if (!arguments.picture.empty())
-    draw(options, arguments, look, output, report);
+    facts.emplace_back("backend", draw(options, arguments, look, output, report));
   total.reset();
-  uvol_tools::printReport(options,
-                          report,
-                          {{"input", arguments.input},
-                           {"output", arguments.output},
-                           {"field", field},
-                           {"isovalues", joined(arguments.isovalues)},
-                           {"scale", joined(scale)},
-                           {"interpolation", arguments.interpolation},
-                           {"estimated error", describeErrors(isopoints)}});
+  uvol_tools::printReport(options, report, facts);
   return 0;
 }
 
