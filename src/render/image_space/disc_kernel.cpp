@@ -276,7 +276,8 @@ public:
     const Ints places =
         (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
     const Floats x = toFloats(column_) + 0.5f - px_, y = toFloats(row_) + 0.5f - py_;
-    const int rows = static_cast<int>(reach_ + 0.5f);
+    const float farthest = reach_ + 0.5f; // of a pixel's middle, rounded down
+    const int rows = static_cast<int>(farthest);
     for (int dy = -rows; dy <= rows; ++dy) {
       const Ints row = row_ + dy;
       const Ints in_band =
