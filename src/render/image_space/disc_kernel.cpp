@@ -209,12 +209,12 @@ struct DiscPolynomials {
     const Vector &a = disc.axis, &c = disc.center;
     const float per_focal = 1.0f / projection.focal;
     const Floats ax = a.x * per_focal, ay = a.y * per_focal;
-    const Floats plane = disc.plane * per_focal;
+    const Floats az = a.z * per_focal;
     toward = disc.plane / c.z;
     toward_x = ax;
     toward_y = ay;
-    const Vector u = {plane - ax * c.x, -(ax * c.y), -(ax * c.z)};
-    const Vector v = {-(ay * c.x), plane - ay * c.y, -(ay * c.z)};
+    const Vector u = {ay * c.y + az * c.z, -(ax * c.y), -(ax * c.z)};
+    const Vector v = {-(ay * c.x), ax * c.x + az * c.z, -(ay * c.z)};
     const Floats rx = disc.radius * ax, ry = disc.radius * ay, r = disc.radius * toward;
     xx = u.x * u.x + u.y * u.y + u.z * u.z - rx * rx;
     xy = 2.0f * (u.x * v.x + u.y * v.y + u.z * v.z - rx * ry);
@@ -270,8 +270,6 @@ public:
     if (laneBits(small_) == 0)
       return;
     const DiscPolynomials p(projection_, disc_);
-    const float per_focal = 1.0f / projection_.focal;
-    const Floats plane = disc_.plane * projection_.per_far;
     const Floats behind = disc_.radius * (back * projection_.per_far);
     const Ints places =
         (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
@@ -284,7 +282,7 @@ public:
           small_ & (row >= fill(band.first_row)) & (row < fill(band.last_row));
       const Floats ey = y + static_cast<float>(dy);
       const Floats linear = p.xy * ey + p.x, one = (p.yy * ey + p.y) * ey + p.one;
-      const Floats qy = slope_y_ + ey * per_focal, sq_ray = qy * qy + 1.0f;
+      const Floats qy = slopeOf(row, projection_.center_y, projection_.focal);
       const Floats toward = p.toward + p.toward_y * ey;
       const int columns = columnsAt(dy);
       for (int dx = -columns; dx <= columns; ++dx) {
@@ -294,9 +292,9 @@ public:
                              (column >= 0) & (column < fill(band.width));
         if (laneBits(covered) == 0)
           continue;
-        const Floats qx = slope_x_ + ex * per_focal;
-        const Floats depth =
-            plane * squareRoot(qx * qx + sq_ray) / (toward + p.toward_x * ex) + behind;
+        const Floats qx = slopeOf(column, projection_.center_x, projection_.focal);
+        const Floats along = disc_.plane / (toward + p.toward_x * ex);
+        const Floats depth = depthAt(projection_, along, qx, qy) + behind;
         keepLanes(laneBits(covered & (depth < 1.0f)),
                   depth,
                   places + (dy * static_cast<int>(band.stride) + dx),
