@@ -13,7 +13,6 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_samples = 1u << 14;
 constexpr std::size_t block_edges = 1u << 10;
 
 /** An edge by sample indices, the lower one in the upper half: sorts by (lower,
@@ -150,40 +149,6 @@ mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads
 }
 
 } // namespace
-
-SampleValues
-gatherValues(const SampleSet& samples,
-             const std::vector<float>& input_values,
-             unsigned threads,
-             Report& report)
-{
-  SampleValues scalar;
-  scalar.values.resize(samples.size());
-  scalar.sources.resize(samples.size());
-  parallelBlocks(
-      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          scalar.sources[i] = samples.getInputIndex(i);
-          scalar.values[i] = input_values[scalar.sources[i]];
-        }
-      });
-  std::uint64_t conflicting = 0;
-  for (const SampleSet::Merged& merged : samples.getMerged()) {
-    std::vector<std::uint32_t> members = merged.members;
-    std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
-      return input_values[a] < input_values[b];
-    });
-    conflicting += input_values[members.front()] != input_values[members.back()];
-    const float median = input_values[members[(members.size() - 1) / 2]];
-    const auto source = *std::find_if(members.begin(), members.end(), [&](auto member) {
-      return input_values[member] == median;
-    });
-    scalar.values[merged.sample] = median;
-    scalar.sources[merged.sample] = source;
-  }
-  report.count("conflicting_duplicates", conflicting);
-  return scalar;
-}
 
 void
 appendIsopoints(const IsopointInput& input,

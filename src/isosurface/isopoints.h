@@ -3,7 +3,7 @@
 // (thesis 2.4).
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include "../neighbors/sample_values.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -11,22 +11,6 @@
 #include <vector>
 
 namespace pcl_uvol {
-
-/** \brief The scalar in leaf order. */
-struct SampleValues {
-  std::vector<float> values;
-  std::vector<std::uint32_t> sources; ///< input index whose value it is
-};
-
-/** \brief Bring values into leaf order; a merged sample takes the lower median of its
- * members' values, and becomes the member that has it.
- * \param report gets the count "conflicting_duplicates": merged samples of unequal
- * values */
-SampleValues
-gatherValues(const SampleSet& samples,
-             const std::vector<float>& input_values,
-             unsigned threads,
-             Report& report);
 
 /** \brief What the isopoints of one isovalue are made from. */
 struct IsopointInput {

@@ -1,46 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isopoints.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
 
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <sstream>
 
 namespace pcl_uvol {
 
 namespace {
-
-constexpr std::size_t block_points = 1u << 14;
-
-/** The scalar of every input point: NaN where float holds no finite value. */
-std::vector<float>
-readValues(const CloudView& cloud, const ScalarField& field, unsigned threads)
-{
-  std::vector<float> values(cloud.count);
-  const FieldComponent& first = field.getComponents().front();
-  const bool is_plain =
-      !field.isLength() && first.datatype == pcl::PCLPointField::FLOAT32;
-  parallelBlocks(
-      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
-        if (is_plain) // most fields: without a call per value
-          for (std::size_t i = begin; i < end; ++i)
-            std::memcpy(&values[i], cloud.point(i) + first.offset, sizeof(float));
-        else
-          for (std::size_t i = begin; i < end; ++i)
-            values[i] = static_cast<float>(field.read(cloud.point(i)));
-        // Adding zero turns -0 into 0, so that medians do not depend on its sign.
-        for (std::size_t i = begin; i < end; ++i)
-          values[i] = std::isfinite(values[i])
-                          ? values[i] + 0.0f
-                          : std::numeric_limits<float>::quiet_NaN();
-      });
-  return values;
-}
 
 std::string
 emptyWarning(double isovalue, const std::string& field, const NodeRanges::Range& range)
@@ -130,13 +100,8 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   {
     const StepTimer timer(report_, "scalar");
     values = readValues(cloud, field, threads_);
-    use.reserve(indices.size());
-    for (const int index : indices)
-      if (!std::isnan(values[static_cast<std::size_t>(index)]))
-        use.push_back(static_cast<std::uint32_t>(index));
+    use = pointsWithValue(values, indices, field);
   }
-  if (use.empty())
-    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
   const std::uint64_t without_value = indices.size() - use.size();
   updateSamples(cloud, std::move(use));
   report_.count("no_value", without_value);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample_values.h"
+
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 14;
+
+} // namespace
+
+std::vector<float>
+readValues(const CloudView& cloud, const ScalarField& field, unsigned threads)
+{
+  std::vector<float> values(cloud.count);
+  const FieldComponent& first = field.getComponents().front();
+  const bool is_plain =
+      !field.isLength() && first.datatype == pcl::PCLPointField::FLOAT32;
+  parallelBlocks(
+      cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
+        if (is_plain) // most fields: without a call per value
+          for (std::size_t i = begin; i < end; ++i)
+            std::memcpy(&values[i], cloud.point(i) + first.offset, sizeof(float));
+        else
+          for (std::size_t i = begin; i < end; ++i)
+            values[i] = static_cast<float>(field.read(cloud.point(i)));
+        // Adding zero turns -0 into 0, so that medians do not depend on its sign.
+        for (std::size_t i = begin; i < end; ++i)
+          values[i] = std::isfinite(values[i])
+                          ? values[i] + 0.0f
+                          : std::numeric_limits<float>::quiet_NaN();
+      });
+  return values;
+}
+
+std::vector<std::uint32_t>
+pointsWithValue(const std::vector<float>& values,
+                const std::vector<int>& indices,
+                const ScalarField& field)
+{
+  std::vector<std::uint32_t> use;
+  use.reserve(indices.size());
+  for (const int index : indices)
+    if (!std::isnan(values[static_cast<std::size_t>(index)]))
+      use.push_back(static_cast<std::uint32_t>(index));
+  if (use.empty())
+    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
+  return use;
+}
+
+SampleValues
+gatherValues(const SampleSet& samples,
+             const std::vector<float>& input_values,
+             unsigned threads,
+             Report& report)
+{
+  SampleValues scalar;
+  scalar.values.resize(samples.size());
+  scalar.sources.resize(samples.size());
+  parallelBlocks(
+      samples.size(), block_points, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          scalar.sources[i] = samples.getInputIndex(i);
+          scalar.values[i] = input_values[scalar.sources[i]];
+        }
+      });
+  std::uint64_t conflicting = 0;
+  for (const SampleSet::Merged& merged : samples.getMerged()) {
+    std::vector<std::uint32_t> members = merged.members;
+    std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
+      return input_values[a] < input_values[b];
+    });
+    conflicting += input_values[members.front()] != input_values[members.back()];
+    const float median = input_values[members[(members.size() - 1) / 2]];
+    const auto source = *std::find_if(members.begin(), members.end(), [&](auto member) {
+      return input_values[member] == median;
+    });
+    scalar.values[merged.sample] = median;
+    scalar.sources[merged.sample] = source;
+  }
+  report.count("conflicting_duplicates", conflicting);
+  return scalar;
+}
+
+} // namespace pcl_uvol
