@@ -166,6 +166,34 @@ laneBits(const Longs& comparison)
 #endif
 }
 
+/** base[index] of every lane. */
+inline Floats
+gather(const float* base, const Ints& index)
+{
+#if defined(__AVX512F__)
+  const __m512 gathered = _mm512_mask_i32gather_ps(
+      _mm512_setzero_ps(), 0xffff, bitCast<__m512i>(index), base, 4);
+  return bitCast<Floats>(gathered);
+#elif defined(__AVX2__)
+  const __m256 gathered = _mm256_i32gather_ps(base, bitCast<__m256i>(index), 4);
+  return bitCast<Floats>(gathered);
+#else
+  Floats gathered{};
+  for (int lane = 0; lane < lanes; ++lane)
+    gathered[lane] = base[index[lane]];
+  return gathered;
+#endif
+}
+
+/** As many whole numbers of 16 bits as a register has lanes. */
+inline Floats
+loadShorts(const std::int16_t* values)
+{
+  using Shorts =
+      std::int16_t __attribute__((vector_size(register_bytes / 2), aligned(2)));
+  return __builtin_convertvector(*reinterpret_cast<const Shorts*>(values), Floats);
+}
+
 /** base[2 * index] of every lane. */
 inline Ints
 gatherEven(const std::uint32_t* base, const Ints& index)

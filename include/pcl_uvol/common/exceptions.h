@@ -45,4 +45,10 @@ public:
   using Exception::Exception;
 };
 
+/** \brief An iteration that grows beyond bounds: nothing came of it. */
+class PCL_UVOL_EXPORTS Diverged : public Exception {
+public:
+  using Exception::Exception;
+};
+
 } // namespace pcl_uvol

@@ -58,6 +58,21 @@ struct EIGEN_ALIGN16 PointIso {
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
+/** \brief First derivatives of a scalar field, per unit of length, and the mean
+ * curvature of its level set, half the divergence of the normalised gradient: 1/length,
+ * positive where the level set bulges towards higher values of the field. NaN where
+ * there are none. */
+struct PointGradient {
+  float gradient_x, gradient_y, gradient_z;
+  float mean_curvature;
+
+  PointGradient()
+  {
+    gradient_x = gradient_y = gradient_z = mean_curvature =
+        std::numeric_limits<float>::quiet_NaN();
+  }
+};
+
 // clang-format off
 POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
     (float, x, x)(float, y, y)(float, z, z)
@@ -65,4 +80,7 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
     (float, isovalue, isovalue)(float, mean_curvature, mean_curvature)
     (float, error, error)(float, edge_length, edge_length)
     (std::uint8_t, support, support))
+POINT_CLOUD_REGISTER_POINT_STRUCT(PointGradient,
+    (float, gradient_x, gradient_x)(float, gradient_y, gradient_y)
+    (float, gradient_z, gradient_z)(float, mean_curvature, mean_curvature))
 // clang-format on

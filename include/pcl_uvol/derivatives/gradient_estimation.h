@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gradients of a scattered scalar field, and the mean curvature of its level sets, at
+// the samples themselves (thesis 3.2, 3.3).
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/derivatives/local_fit.h>
+
+#include <pcl/pcl_base.h>
+#include <pcl/point_traits.h>
+#include <pcl/search/search.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief How gradients are estimated; the setters of GradientEstimation tell more. */
+struct GradientParameters {
+  FitScheme scheme = FitScheme::Quadratic;
+  std::size_t k = 26;
+  unsigned threads = 0;
+  pcl::search::Search<pcl::PointXYZ>::Ptr search; ///< null: FLANN
+};
+
+/** \brief The kernel of GradientEstimation for any cloud.
+ * \param indices points to take part, as neighbours and in the result
+ * \return one gradient per index \throws InvalidArgument as GradientEstimation::compute
+ */
+PCL_UVOL_EXPORTS std::vector<PointGradient>
+estimateGradients(const CloudView& cloud,
+                  const std::vector<int>& indices,
+                  const std::string& field,
+                  const GradientParameters& parameters,
+                  Report& report);
+
+/** \brief Gradient of a scalar field given at scattered points, in the manner of
+ * pcl::IntensityGradientEstimation, but for a field of the volume.
+ *
+ * The gradient of a least-squares polynomial through the nearest samples; see FitScheme
+ * for the two there are. Mean curvature is half the divergence of the normalised
+ * gradient (thesis 3.6): with the quadratic scheme from the polynomial's second
+ * derivatives, with the linear one from the gradients of the neighbours' normalised
+ * gradients (thesis 3.3). Where samples lie on a plane or a line, the derivatives
+ * across it are 0. Exact duplicates count as one sample, with the lower median of their
+ * values. \tparam PointInT with x, y, z \tparam PointOutT with gradient_x/y/z; with
+ * mean_curvature it gets that too */
+template <typename PointInT, typename PointOutT = PointGradient>
+class GradientEstimation : public pcl::PCLBase<PointInT> {
+public:
+  /** \brief Any field of the cloud, see ScalarField. Default `intensity`. */
+  void
+  setScalarField(const std::string& field)
+  {
+    field_ = field;
+  }
+
+  /** \brief Nearest neighbours besides the sample, all others where there are fewer: at
+   * least 3, with the quadratic scheme 9. Default 26, as in the thesis. */
+  void
+  setKSearch(std::size_t k)
+  {
+    parameters_.k = k;
+  }
+
+  /** \brief Default FitScheme::Quadratic. */
+  void
+  setScheme(FitScheme scheme)
+  {
+    parameters_.scheme = scheme;
+  }
+
+  /** \brief How neighbours are found. The search gets the distinct samples as its input
+   * cloud and is called from several threads. Default: null, which is FLANN's exact
+   * search. */
+  void
+  setSearchMethod(const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
+  {
+    parameters_.search = search;
+  }
+
+  /** \brief 0 (default) = all cores. The result does not depend on it. */
+  void
+  setNumberOfThreads(unsigned threads)
+  {
+    parameters_.threads = threads;
+  }
+
+  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
+  void
+  setProgressCallback(const ProgressCallback& progress)
+  {
+    progress_ = progress;
+  }
+
+  /** \brief One output point per input point or index. A point without finite
+   * coordinates or value gets NaN, and the output is then not dense. \throws
+   * InvalidArgument without an input cloud, for an unknown field, no usable sample, or
+   * k out of range; the output is then untouched */
+  void
+  compute(pcl::PointCloud<PointOutT>& output);
+
+  /** \brief Counts and times of the last compute(). Counts: samples, no_value,
+   * non_finite, duplicates, conflicting_duplicates, reduced_fits, singular_fits. */
+  const Report&
+  getReport() const
+  {
+    return report_;
+  }
+
+private:
+  std::string field_ = "intensity";
+  GradientParameters parameters_;
+  ProgressCallback progress_;
+  Report report_;
+};
+
+} // namespace pcl_uvol

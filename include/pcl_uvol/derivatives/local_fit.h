@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Derivatives of a scattered field at a sample, as fixed weights of the differences to
+// its nearest neighbours (thesis 3.2): a least-squares polynomial, solved once.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Which polynomial is fitted to the neighbours. */
+enum class FitScheme {
+  Linear,   ///< thesis 3.2: a plane through the sample and its neighbours, unweighted;
+            ///< first order, little noise
+  Quadratic ///< nine terms that pass through the sample's own value, weight
+            ///< exp(-2 d^2 / h^2), h a little more than the farthest neighbour; second
+            ///< order, with second derivatives (default)
+};
+
+/** \brief First and, with the quadratic scheme, second derivatives: x y z, then xx xy
+ * xz yy yz zz. */
+constexpr std::size_t
+derivativesOf(FitScheme scheme)
+{
+  return scheme == FitScheme::Linear ? 3 : 9;
+}
+
+/** \brief How far a fit got. */
+enum class FitOutcome {
+  Full,
+  Reduced, ///< too few neighbours, or neighbours on a surface of second degree: a plane
+           ///< instead of a quadratic
+  Singular ///< neighbours on a plane or a line, where the derivatives across it are 0;
+           ///< or no neighbours
+};
+
+/** \brief Fits of one sample after another; one object per thread.
+ *
+ * The derivative d of any field f is the sum over the neighbours j of getWeight(d, j) *
+ * (f_j - f). Exact for linear functions, with the quadratic scheme for those of second
+ * degree. */
+class PCL_UVOL_EXPORTS LocalFit {
+public:
+  explicit LocalFit(FitScheme scheme)
+      : scheme_(scheme)
+  {
+  }
+
+  /** \brief Compute the weights at a sample.
+   * \param positions of all samples \param neighbors indices of the others that are
+   * used */
+  FitOutcome
+  fit(const std::vector<Position>& positions,
+      std::uint32_t sample,
+      const std::uint32_t* neighbors,
+      std::size_t count);
+
+  /** \brief Trade the quadratic for a plane with one second derivative, the same along
+   * all axes: for smoothing, where the quadratic's curvature would grow with the
+   * sample's own deviation instead of against it, as beside the rim of a cloud. Exact
+   * for linear functions; curvature across the gradient is right on average for
+   * functions that are straight along it, as distances are. Quadratic scheme only. */
+  void
+  makeIsotropic();
+
+  /** \brief In 1 / length, for second derivatives 1 / length^2. */
+  double
+  getWeight(std::size_t derivative, std::size_t neighbor) const
+  {
+    return weights_[derivative * count_ + neighbor];
+  }
+
+  /** \brief Distance of the farthest neighbour. */
+  double
+  getReach() const
+  {
+    return reach_;
+  }
+
+private:
+  bool
+  fitQuadratic();
+
+  bool
+  fitPlane();
+
+  FitScheme scheme_;
+  std::size_t count_ = 0;
+  double reach_ = 0.0;
+  std::vector<double> offsets_; ///< x y z of the neighbours, divided by the reach
+  std::vector<double> weights_; ///< by derivative, then neighbour
+  std::vector<double> right_;   ///< of the normal equations, alike
+};
+
+} // namespace pcl_uvol

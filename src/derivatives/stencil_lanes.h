@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For vector kernels: the derivatives of a field at a register of samples.
+#pragma once
+
+#include "../common/lanes.h"
+#include "stencil_view.h"
+
+namespace pcl_uvol::PCL_UVOL_SIMD {
+
+/** Registers of a group. */
+constexpr int stencil_registers = static_cast<int>(stencil_lanes) / lanes;
+
+/** The first derivatives of a stencil at the samples of one register of a group; the
+ * others' lanes do not matter to a sample, so that all instruction sets give the same
+ * bytes. \param value of an index, for a register of them \param own values of the
+ * samples themselves */
+template <std::size_t rows, typename Value>
+inline void
+differentiate(const StencilView& stencils,
+              std::size_t group,
+              int part,
+              const Value& value,
+              const Floats& own,
+              Floats* derivatives)
+{
+  const std::uint32_t* indices = stencils.indicesOf(group) + part * lanes;
+  const std::int16_t* weights = stencils.weightsOf(group) + part * lanes;
+  Floats sums[rows]{};
+  for (std::size_t j = 0; j < stencils.neighbors; ++j) {
+    const Floats difference = value(load<Ints>(indices)) - own;
+#pragma GCC unroll 9
+    for (std::size_t row = 0; row < rows; ++row)
+      sums[row] += loadShorts(weights + row * stencil_lanes) * difference;
+    indices += stencil_lanes;
+    weights += stencils.rows * stencil_lanes;
+  }
+  const float* const scales = stencils.scalesOf(group) + part * lanes;
+  for (std::size_t row = 0; row < rows; ++row)
+    derivatives[row] = sums[row] * load<Floats>(scales + row * stencil_lanes);
+}
+
+} // namespace pcl_uvol::PCL_UVOL_SIMD
