@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/level_set.h"
 #include "common/options.h"
 #include "common/progress_bar.h"
 #include "common/render_options.h"
+#include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
@@ -17,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 namespace {
@@ -28,12 +31,13 @@ using uvol_tools::UsageError;
 
 struct Arguments {
   std::string input, output, field, where, picture;
-  std::vector<double> isovalues, xyz, scale;
-  std::string scale_text, outside = "lower", criterion = "kept";
+  std::vector<double> isovalues, xyz;
+  std::string scale, outside = "lower", criterion = "kept";
   std::string interpolation = "smooth", normals = "auto";
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
-  bool drop_bridged = false, ascii = false;
+  std::string mu = "auto";
+  bool smooth = false, drop_bridged = false, ascii = false;
 };
 
 void
@@ -53,7 +57,7 @@ declare(Options& options, Arguments& arguments)
                "use only the points for which it holds: \"experiment=1 && T>4\"");
   options.text("scale",
                "sx,sy,sz|auto",
-               arguments.scale_text,
+               arguments.scale,
                "measure distances in a stretched space; auto: equal spread per axis");
   options.numbers("xyz",
                   "ix,iy,iz",
@@ -72,6 +76,14 @@ declare(Options& options, Arguments& arguments)
                  {"linear", "smooth"},
                  arguments.interpolation,
                  "isopoints along the edges, or on local polynomial fits");
+  options.flag("smooth",
+               arguments.smooth,
+               "smooth noisy or uneven samples by a level set first");
+  options.text("mu",
+               "m|auto",
+               arguments.mu,
+               "with -smooth: weight of the data against smoothness, 0 to 1; auto: by "
+               "the noise");
   options.choice("normals",
                  {"auto", "fit", "pca", "edge"},
                  arguments.normals,
@@ -117,18 +129,6 @@ load(const Arguments& arguments, Report& report)
   return dataset;
 }
 
-Eigen::Array3f
-scaleOf(const Arguments& arguments, const pcl_uvol::CloudView& cloud)
-{
-  if (arguments.scale_text.empty())
-    return Eigen::Array3f::Ones();
-  if (arguments.scale_text == "auto")
-    return pcl_uvol::equalizingScale(cloud);
-  return Eigen::Array3f(static_cast<float>(arguments.scale[0]),
-                        static_cast<float>(arguments.scale[1]),
-                        static_cast<float>(arguments.scale[2]));
-}
-
 template <typename T>
 std::string
 joined(const T& numbers)
@@ -153,6 +153,9 @@ checkCombinations(const Options& options, Arguments& arguments)
     throw UsageError("-normals fit needs -interpolation smooth.");
   if (arguments.normals == "edge" && smooth)
     throw UsageError("-normals edge needs -interpolation linear.");
+  uvol_tools::parseMu(arguments.mu);
+  if (options.given("mu") && !arguments.smooth)
+    throw UsageError("-mu needs -smooth.");
   if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
     throw UsageError("-max-error and -drop-bridged need -interpolation smooth.");
 }
@@ -195,20 +198,21 @@ describeErrors(const pcl::PointCloud<PointIso>& isopoints)
   return text.str();
 }
 
+/** The isopoints of one field of a cloud. */
 pcl::PointCloud<PointIso>
 extract(const Options& options,
         const Arguments& arguments,
+        const pcl::PCLPointCloud2& cloud,
         const std::string& field,
+        const std::vector<double>& isovalues,
         const Eigen::Array3f& scale,
-        const pcl_uvol::Dataset& input,
         pcl_uvol::IsoEdges& edges,
         Report& report)
 {
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&input.cloud, [](const void*) {}));
+  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
   extraction.setScalarField(field);
-  extraction.setIsoValues(arguments.isovalues);
+  extraction.setIsoValues(isovalues);
   extraction.setScale(scale);
   extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
                                                      : pcl_uvol::Outside::Higher);
@@ -224,6 +228,48 @@ extract(const Options& options,
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
   edges = extraction.getEdges();
+  return isopoints;
+}
+
+/** The isopoints of the level sets that start from the isosurfaces. */
+pcl::PointCloud<PointIso>
+extractLevelSets(const Options& options,
+                 const Arguments& arguments,
+                 const pcl::PCLPointCloud2& cloud,
+                 const std::string& field,
+                 const Eigen::Array3f& scale,
+                 pcl_uvol::IsoEdges& edges,
+                 std::vector<std::pair<std::string, std::string>>& facts,
+                 Report& report)
+{
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
+  std::vector<int> all(view.count);
+  std::iota(all.begin(), all.end(), 0);
+  pcl_uvol::LevelSetParameters parameters;
+  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.scale = scale;
+  parameters.threads = options.threads();
+  pcl::PointCloud<PointIso> isopoints;
+  for (const double isovalue : arguments.isovalues) {
+    pcl_uvol::LevelSetSummary summary;
+    const auto phi = pcl_uvol::evolveLevelSet(
+        view, all, field, isovalue, parameters, {}, 0, summary, report);
+    pcl_uvol::IsoEdges found;
+    auto surface = extract(options,
+                           arguments,
+                           uvol_tools::cloudOfPhi(view, phi),
+                           "phi",
+                           {0.0},
+                           scale,
+                           found,
+                           report);
+    for (PointIso& point : surface)
+      point.isovalue = static_cast<float>(isovalue);
+    isopoints += surface;
+    edges.insert(edges.end(), found.begin(), found.end());
+    for (const auto& fact : uvol_tools::describe(summary, arguments.mu == "auto"))
+      facts.push_back(fact);
+  }
   return isopoints;
 }
 
@@ -308,8 +354,7 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   checkCombinations(options, arguments);
-  if (!arguments.scale_text.empty() && arguments.scale_text != "auto")
-    arguments.scale = uvol_tools::parseNumbers("scale", arguments.scale_text, 3);
+  const uvol_tools::ScaleOption scale_option(arguments.scale);
   pcl_uvol::checkSavePath(arguments.output);
   look.check(options);
   if (!arguments.picture.empty())
@@ -324,9 +369,25 @@ run(int argc, char** argv)
   const std::string field = arguments.field.empty()
                                 ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
                                 : arguments.field;
-  const Eigen::Array3f scale = scaleOf(arguments, pcl_uvol::viewOf(input.cloud));
+  const Eigen::Array3f scale = scale_option.scaleOf(pcl_uvol::viewOf(input.cloud));
   pcl_uvol::IsoEdges edges;
-  auto isopoints = extract(options, arguments, field, scale, input, edges, report);
+  std::vector<std::pair<std::string, std::string>> level_set_facts;
+  auto isopoints = arguments.smooth ? extractLevelSets(options,
+                                                       arguments,
+                                                       input.cloud,
+                                                       field,
+                                                       scale,
+                                                       edges,
+                                                       level_set_facts,
+                                                       report)
+                                    : extract(options,
+                                              arguments,
+                                              input.cloud,
+                                              field,
+                                              arguments.isovalues,
+                                              scale,
+                                              edges,
+                                              report);
   replaceNormals(options, arguments, scale, isopoints, report);
   filter(options, arguments, isopoints, edges, report);
 
@@ -354,6 +415,7 @@ run(int argc, char** argv)
       {"scale", joined(scale)},
       {"interpolation", arguments.interpolation},
       {"estimated error", describeErrors(isopoints)}};
+  facts.insert(facts.end(), level_set_facts.begin(), level_set_facts.end());
   if (!arguments.picture.empty())
     facts.emplace_back("backend", draw(options, arguments, look, output, report));
   total.reset();

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "band.h"
+
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_samples = 4096;
+
+/** Samples that a median is taken over, at most. */
+constexpr std::size_t most_measured = 8192;
+
+/** Cells as large as the band is wide: what lies near a crossing sample is in its cell
+ * or beside it. */
+class CoarseCells {
+public:
+  CoarseCells(const Position& low, float size)
+      : low_(low)
+      , per_size_(1.0f / size)
+  {
+  }
+
+  void
+  markAround(const Position& x)
+  {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dz = -1; dz <= 1; ++dz)
+          marked_.push_back(keyOf(x, dx, dy, dz));
+    if (marked_.size() > 2 * distinct_ + most_repeats)
+      unite();
+  }
+
+  /** Before contains(). */
+  void
+  unite()
+  {
+    std::sort(marked_.begin(), marked_.end());
+    marked_.erase(std::unique(marked_.begin(), marked_.end()), marked_.end());
+    distinct_ = marked_.size();
+  }
+
+  bool
+  contains(const Position& x) const
+  {
+    return std::binary_search(marked_.begin(), marked_.end(), keyOf(x, 0, 0, 0));
+  }
+
+private:
+  static constexpr std::size_t most_repeats = 1u << 20;
+
+  /** 21 bits per axis; cells beyond are taken for the last one. */
+  std::uint64_t
+  keyOf(const Position& x, int dx, int dy, int dz) const
+  {
+    constexpr double most = (1 << 21) - 1;
+    const int shift[3] = {dx, dy, dz};
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell =
+          std::floor((static_cast<double>(x[axis]) - low_[axis]) * per_size_) + 1.0 +
+          shift[axis];
+      key = key << 21 | static_cast<std::uint64_t>(std::clamp(cell, 0.0, most));
+    }
+    return key;
+  }
+
+  Position low_;
+  double per_size_;
+  std::vector<std::uint64_t> marked_;
+  std::size_t distinct_ = 0;
+};
+
+struct NearSample {
+  std::uint32_t sample;
+  float distance;
+};
+
+std::vector<NearSample>
+samplesNear(const SampleSet& samples,
+            const std::vector<std::uint32_t>& crossing,
+            float width,
+            unsigned threads)
+{
+  const std::vector<Position>& positions = samples.getPositions();
+  Position low = positions[crossing.front()];
+  std::vector<Position> near;
+  for (const std::uint32_t sample : crossing) {
+    near.push_back(positions[sample]);
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = std::min(low[axis], near.back()[axis]);
+  }
+  CoarseCells cells(low, width);
+  for (const Position& x : near)
+    cells.markAround(x);
+  cells.unite();
+  std::vector<std::uint32_t> all(near.size());
+  std::iota(all.begin(), all.end(), 0u);
+  Report ignored;
+  const auto crossings = SampleSet::build(
+      near.front().x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, threads, ignored);
+  return parallelGather<NearSample>(
+      samples.size(),
+      block_samples,
+      threads,
+      [&](std::size_t begin, std::size_t end, std::vector<NearSample>& found) {
+        NearestFinder finder(*crossings, 1);
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!cells.contains(positions[i]))
+            continue;
+          const float distance =
+              std::sqrt(finder.find(positions[i], width).sq_dists[0]);
+          if (distance <= width)
+            found.push_back({static_cast<std::uint32_t>(i), distance});
+        }
+      });
+}
+
+/** Number the samples by place, and find the neighbours that are no centres. */
+void
+assignPlaces(std::size_t sample_count, Band& band)
+{
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> place(sample_count, none);
+  for (std::size_t i = 0; i < band.centers.size(); ++i)
+    place[band.centers[i]] = static_cast<std::uint32_t>(i);
+  const StencilView stencils = band.stencils.view();
+  for (std::size_t i = 0; i < band.centerPlaces() * stencils.neighbors; ++i)
+    if (place[stencils.indices[i]] == none) {
+      place[stencils.indices[i]] = 0; // found
+      band.others.push_back(stencils.indices[i]);
+    }
+  std::sort(band.others.begin(), band.others.end());
+  for (std::size_t i = 0; i < band.others.size(); ++i)
+    place[band.others[i]] = static_cast<std::uint32_t>(band.centerPlaces() + i);
+  band.stencils.renumber(place);
+}
+
+void
+findSupports(const std::vector<Position>& positions, Band& band)
+{
+  band.supports.assign(band.others.size(), {0, std::numeric_limits<float>::infinity()});
+  const StencilView stencils = band.stencils.view();
+  for (std::size_t i = 0; i < band.centers.size(); ++i) {
+    const std::uint32_t* const row =
+        stencils.indicesOf(i / stencil_lanes) + i % stencil_lanes;
+    for (std::size_t j = 0; j < stencils.neighbors; ++j) {
+      const std::uint32_t place = row[j * stencil_lanes];
+      if (place < band.centerPlaces())
+        continue;
+      const std::size_t other = place - band.centerPlaces();
+      const Position &a = positions[band.centers[i]],
+                     &b = positions[band.others[other]];
+      const float distance = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      if (distance < band.supports[other].distance)
+        band.supports[other] = {static_cast<std::uint32_t>(i), distance};
+    }
+  }
+}
+
+} // namespace
+
+void
+Band::extrapolate(std::vector<float>& phi) const
+{
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const float beside = phi[supports[i].place];
+    phi[centerPlaces() + i] =
+        std::copysign(std::abs(beside) + supports[i].distance, beside);
+  }
+}
+
+double
+spacingOf(double reach, double neighbors)
+{
+  constexpr double ball = 4.0 / 3.0 * 3.14159265358979;
+  return reach * std::cbrt(ball / neighbors);
+}
+
+double
+medianSpacing(const SampleSet& samples,
+              const std::vector<std::uint32_t>& around,
+              std::size_t k,
+              unsigned threads)
+{
+  const std::size_t count = std::min(around.size(), most_measured);
+  const std::size_t neighbors = std::min(k, samples.size() - 1);
+  std::vector<double> spacings(count);
+  parallelBlocks(count, block_samples, threads, [&](auto begin, auto end) {
+    NearestFinder finder(samples, neighbors + 1);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto row =
+          finder.find(samples.getPositions()[around[i * around.size() / count]], 1.0f);
+      const double sq_reach = *std::max_element(row.sq_dists, row.sq_dists + row.size);
+      spacings[i] = spacingOf(std::sqrt(sq_reach), static_cast<double>(neighbors));
+    }
+  });
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
+
+Band
+makeBand(const SampleSet& samples,
+         const std::vector<std::uint32_t>& crossing,
+         double width,
+         FitScheme scheme,
+         std::size_t k,
+         unsigned threads,
+         Report& report)
+{
+  Band band;
+  {
+    const StepTimer timer(report, "band");
+    if (width > 0.0)
+      for (const NearSample& near :
+           samplesNear(samples, crossing, static_cast<float>(width), threads)) {
+        band.centers.push_back(near.sample);
+        band.distance.push_back(near.distance);
+      }
+    else {
+      band.centers.resize(samples.size());
+      std::iota(band.centers.begin(), band.centers.end(), 0u);
+    }
+  }
+  band.stencils.compute(samples, band.centers, scheme, k, threads, report);
+  assignPlaces(samples.size(), band);
+  findSupports(samples.getPositions(), band);
+  return band;
+}
+
+} // namespace pcl_uvol

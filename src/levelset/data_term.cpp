@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "data_term.h"
+
+#include "evolution_kernel.h"
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_groups = 64, block_fits = 64;
+
+/** Of the median slope. */
+constexpr float least_slope = 0.1f;
+
+/** Fits that tell the noise, and samples in each: twice the terms of a quadratic leave
+ * enough degrees of freedom. */
+constexpr std::size_t noise_fits = 4096, noise_samples = 27;
+constexpr int quadratic_terms = 10;
+
+const KernelTable<const EvolutionKernels*> kernel_table{
+    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
+
+template <typename T>
+T
+medianOf(std::vector<T> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Length of the mean gradient over the centres and their neighbours, by place. */
+std::vector<float>
+findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
+{
+  const EvolutionKernels& kernels = *kernel_table.get();
+  const std::size_t centers = band.centerPlaces();
+  std::vector<float> gradient[3], slope(centers), mean(centers), squares(centers, 0.0f);
+  for (auto& coordinate : gradient)
+    coordinate.resize(centers);
+  const StencilView stencils = band.stencils.view();
+  const NormalStep step{stencils,
+                        {f.data(), nullptr, 0.0f},
+                        {gradient[0].data(), gradient[1].data(), gradient[2].data()},
+                        slope.data()};
+  const auto sweep = [&](const auto& body) {
+    parallelBlocks(band.stencils.groups(), block_groups, threads, body);
+  };
+  sweep([&](auto begin, auto end) { kernels.findNormals(step, begin, end); });
+  for (auto& coordinate : gradient) {
+    for (std::size_t i = 0; i < centers; ++i)
+      coordinate[i] *= slope[i];
+    sweep([&](auto begin, auto end) {
+      kernels.average(
+          stencils, coordinate.data(), band.centers.size(), mean.data(), begin, end);
+    });
+    for (std::size_t i = 0; i < centers; ++i)
+      squares[i] += mean[i] * mean[i];
+  }
+  for (float& square : squares)
+    square = std::sqrt(square);
+  return squares;
+}
+
+/** Samples that are no centres take the mean slope of the centres they serve. */
+void
+extendSlopes(const Band& band, std::vector<float>& slopes)
+{
+  const std::size_t centers = band.centerPlaces();
+  slopes.resize(band.places(), 0.0f);
+  std::vector<std::uint32_t> count(band.places(), 0);
+  const StencilView stencils = band.stencils.view();
+  for (std::size_t i = 0; i < band.centers.size(); ++i) {
+    const std::uint32_t* const row =
+        stencils.indicesOf(i / stencil_lanes) + i % stencil_lanes;
+    for (std::size_t j = 0; j < stencils.neighbors; ++j)
+      if (const std::uint32_t place = row[j * stencil_lanes]; place >= centers) {
+        slopes[place] += slopes[i];
+        ++count[place];
+      }
+  }
+  for (std::size_t place = centers; place < band.places(); ++place)
+    slopes[place] /= static_cast<float>(count[place]);
+}
+
+/** Standard deviation of a field about quadratics, per slope; the median over samples
+ * all over the band. */
+double
+findNoise(const Band& band,
+          const SampleSet& samples,
+          const std::vector<float>& f,
+          const std::vector<float>& slopes,
+          unsigned threads)
+{
+  const std::size_t count = std::min(noise_fits, band.centers.size());
+  std::vector<double> noises(count, 0.0);
+  parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
+    NearestFinder finder(samples, noise_samples);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t center = i * band.centers.size() / count;
+      const Position& x = samples.getPositions()[band.centers[center]];
+      const auto row = finder.find(x, band.stencils.getReach()[center]);
+      const auto terms = static_cast<Eigen::Index>(quadratic_terms);
+      if (static_cast<Eigen::Index>(row.size) <= terms)
+        continue;
+      Eigen::MatrixXd a(static_cast<Eigen::Index>(row.size), terms);
+      Eigen::VectorXd b(static_cast<Eigen::Index>(row.size));
+      const double reach = band.stencils.getReach()[center];
+      for (std::size_t j = 0; j < row.size; ++j) {
+        const Position& y = samples.getPositions()[row.samples[j]];
+        double u[3];
+        for (int axis = 0; axis < 3; ++axis)
+          u[axis] = (static_cast<double>(y[axis]) - x[axis]) / reach;
+        const auto r = static_cast<Eigen::Index>(j);
+        a.row(r) << 1.0, u[0], u[1], u[2], u[0] * u[0], u[0] * u[1], u[0] * u[2],
+            u[1] * u[1], u[1] * u[2], u[2] * u[2];
+        b[r] = f[row.samples[j]];
+      }
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(a);
+      const double sq_residual = (b - a * factor.solve(b)).squaredNorm();
+      const auto freedom = static_cast<double>(a.rows() - factor.rank());
+      noises[i] = std::sqrt(sq_residual / freedom) / slopes[center];
+    }
+  });
+  return medianOf(std::move(noises));
+}
+
+} // namespace
+
+DataTerm
+makeDataTerm(const Band& band,
+             const SampleSet& samples,
+             const std::vector<float>& f,
+             unsigned threads,
+             Report& report)
+{
+  const StepTimer timer(report, "data_term");
+  std::vector<float> values(band.places(), 0.0f);
+  band.forPlaces(
+      [&](std::size_t place, std::uint32_t sample) { values[place] = f[sample]; });
+  std::vector<float> slopes = findSlopes(band, values, threads);
+  std::vector<float> known(slopes.begin(),
+                           slopes.begin() +
+                               static_cast<std::ptrdiff_t>(band.centers.size()));
+  const float median = medianOf(std::move(known));
+  extendSlopes(band, slopes);
+  for (float& slope : slopes)
+    slope = std::max(slope, least_slope * median);
+  DataTerm term;
+  term.slope = median;
+  term.noise = findNoise(band, samples, f, slopes, threads);
+  term.target = std::move(values);
+  for (std::size_t place = 0; place < band.places(); ++place)
+    term.target[place] /= slopes[place];
+  return term;
+}
+
+} // namespace pcl_uvol

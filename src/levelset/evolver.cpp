@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolver.h"
+
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_groups = 64;
+
+/** Of the step that the stencil's weights allow. */
+constexpr double safety = 0.9;
+
+/** In spacings: the data pull no more than from that far away. It bounds the speed of a
+ * surface that is not where it belongs yet, and the pull of outliers. */
+constexpr double most_pull = 1.0;
+
+/** Steps are so many times shorter where the surface travels at that speed: central
+ * differences let its waves grow by as little. */
+constexpr double travel_factor = 6.0;
+
+/** Steeper functions are reinitialised before long. */
+constexpr double steepest = 1.5;
+
+/** Samples with shorter steps than that part of most others' take steps that are too
+ * long for them, of a flow that is as much weaker: they end at the same, and later. */
+constexpr double shortest_step = 1.0 / 64.0;
+
+/** Of the samples, those whose steps are the longest. */
+constexpr double long_steps = 0.1;
+
+/** Times that curvature is averaged over neighbours, for what is left as it is: over
+ * about three spacings. More flattens what lies a few spacings from something else. */
+constexpr int reference_averages = 2;
+
+/** Steps until the averages, which change slowly, are taken anew. */
+constexpr std::size_t reference_steps = 4;
+
+/** Of the term that keeps the slope at 1 (thesis 3.4), against the others' 1. */
+constexpr double diffusion_weight = 0.5;
+
+/** The rate of the longest steps with which steps of powers of two below take the least
+ * work in all. \param rates ascending */
+double
+leastWork(const std::vector<double>& rates)
+{
+  constexpr std::size_t candidates = 64;
+  double best = rates.back(), best_work = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i <= candidates; ++i) {
+    const double slowest = rates[i * (rates.size() - 1) / candidates];
+    double work = 0.0;
+    for (const double rate : rates)
+      work += slowest * std::exp2(std::ceil(std::log2(std::max(1.0, rate / slowest))));
+    if (work < best_work) {
+      best_work = work;
+      best = slowest;
+    }
+  }
+  return best;
+}
+
+const KernelTable<const EvolutionKernels*> kernel_table{
+    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
+
+} // namespace
+
+Evolver::Evolver(const Band& band,
+                 const LevelSetParameters& parameters,
+                 double spacing,
+                 double mu,
+                 std::vector<float> phi,
+                 std::vector<float> target)
+    : band_(band)
+    , parameters_(parameters)
+    , spacing_(spacing)
+    , mu_(mu)
+    , kernels_(*kernel_table.get())
+    , centers_(band.centerPlaces())
+    , phi_(std::move(phi))
+    , rate_(phi_.size(), 0.0f)
+    , target_(std::move(target))
+    , next_(centers_)
+    , curvature_(centers_)
+    , slope_(centers_)
+    , sq_length_(centers_, static_cast<float>(spacing * spacing))
+{
+  if (parameters.scheme == FitScheme::Linear)
+    for (auto& coordinate : normals_)
+      coordinate.resize(centers_);
+  if (parameters.flow == CurvatureFlow::Relative) {
+    reference_.resize(centers_);
+    means_.resize(centers_);
+    const double neighbors = static_cast<double>(band.stencils.view().neighbors);
+    for (std::size_t i = 0; i < band.centers.size(); ++i)
+      sq_length_[i] = static_cast<float>(
+          std::pow(spacingOf(band.stencils.getReach()[i], neighbors), 2));
+  }
+  chooseSteps();
+}
+
+void
+Evolver::chooseSteps()
+{
+  // The reciprocal of the step that each sample allows; lengths in spacings.
+  const std::size_t groups = band_.stencils.groups();
+  std::vector<double> rate(groups, 0.0);
+  for (std::size_t i = 0; i < band_.centers.size(); ++i) {
+    const double nearest = band_.stencils.getNearest()[i] / spacing_;
+    const bool is_linear = parameters_.scheme == FitScheme::Linear;
+    // A plane has no second derivatives whose weights would tell.
+    const double gap = std::abs(target_[i] - phi_[i]) / spacing_;
+    const double attraction =
+        parameters_.bound == StepBound::Cfl
+            ? std::sqrt(3.0) * gap / nearest
+            : steepest * (1.0 + travel_factor * std::min(1.0, gap * gap));
+    const double smoothing =
+        parameters_.bound == StepBound::Cfl
+            ? 6.0 / (nearest * nearest)
+            : sq_length_[i] * (is_linear
+                                   ? 26.0 / std::pow(band_.stencils.getReach()[i], 2)
+                                   : band_.stencils.getStiffness()[i]);
+    const double diffusion = parameters_.reinitialization == Reinitialization::Diffusion
+                                 ? diffusion_weight
+                                 : 0.0;
+    rate[i / stencil_lanes] =
+        std::max(rate[i / stencil_lanes],
+                 mu_ * attraction + (1.0 - mu_ + 2.0 * diffusion) * smoothing);
+  }
+  weakness_.assign(groups, 1.0f);
+  class_of_.assign(groups, 0);
+  std::vector<double> sorted = rate;
+  std::sort(sorted.begin(), sorted.end());
+  double slowest = sorted.back();
+  if (parameters_.integration == Integration::Asynchronous) {
+    const double most =
+        sorted[static_cast<std::size_t>(long_steps * static_cast<double>(groups - 1))] /
+        shortest_step;
+    for (double& one : sorted)
+      one = std::min(one, most);
+    slowest = leastWork(sorted);
+    for (std::size_t group = 0; group < groups; ++group) {
+      weakness_[group] = static_cast<float>(std::min(1.0, most / rate[group]));
+      while (weakness_[group] * rate[group] > slowest * std::exp2(class_of_[group]))
+        ++class_of_[group];
+    }
+  }
+  step_ = safety / slowest;
+  const std::size_t count = *std::max_element(class_of_.begin(), class_of_.end()) + 1u;
+  classes_.resize(count);
+  for (std::size_t group = 0; group < groups; ++group)
+    for (std::size_t c = 0; c <= class_of_[group]; ++c)
+      classes_[c].groups.push_back(static_cast<std::uint32_t>(group));
+}
+
+double
+Evolver::periodOf(std::size_t group) const
+{
+  return std::exp2(-static_cast<double>(class_of_[group]));
+}
+
+void
+Evolver::evaluate(const std::vector<std::uint32_t>& groups,
+                  float time,
+                  double step_scale)
+{
+  const bool is_linear = parameters_.scheme == FitScheme::Linear;
+  const StencilView stencils = band_.stencils.view();
+  const TimeLines lines{phi_.data(), rate_.data(), time};
+  if (is_linear) {
+    // Neighbours' normals at this time, whatever their class.
+    const NormalStep step{stencils,
+                          lines,
+                          {normals_[0].data(), normals_[1].data(), normals_[2].data()},
+                          slope_.data()};
+    parallelBlocks(
+        band_.stencils.groups(),
+        block_groups,
+        parameters_.threads,
+        [&](auto begin, auto end) { kernels_.findNormals(step, begin, end); });
+  }
+  const float* const normals[3] = {
+      normals_[0].data(), normals_[1].data(), normals_[2].data()};
+  const double to_distance = parameters_.reinitialization == Reinitialization::Diffusion
+                                 ? diffusion_weight
+                                 : 0.0;
+  parallelBlocks(
+      groups.size(), block_groups, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const double dt =
+              step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
+          const EvolutionStep step{stencils,
+                                   lines,
+                                   target_.data(),
+                                   reference_.empty() ? nullptr : reference_.data(),
+                                   sq_length_.data(),
+                                   static_cast<float>(most_pull * spacing_),
+                                   static_cast<float>(mu_ * dt),
+                                   static_cast<float>((1.0 - mu_) * dt),
+                                   static_cast<float>(to_distance * dt),
+                                   next_.data(),
+                                   curvature_.data(),
+                                   slope_.data()};
+          if (is_linear)
+            kernels_.evolveByNormals(
+                step, normals, band_.centers.size(), groups[i], groups[i] + 1);
+          else
+            kernels_.evolve(step, groups[i], groups[i] + 1);
+        }
+      });
+}
+
+void
+Evolver::commit(const std::vector<std::uint32_t>& groups, float time)
+{
+  parallelBlocks(
+      groups.size(), block_groups, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto per_period = static_cast<float>(1.0 / periodOf(groups[i]));
+          const std::size_t first = groups[i] * stencil_lanes;
+          for (std::size_t j = first; j < first + stencil_lanes; ++j) {
+            const float now = phi_[j] + rate_[j] * time;
+            rate_[j] = (next_[j] - now) * per_period;
+            phi_[j] = now - rate_[j] * time;
+          }
+        }
+      });
+}
+
+void
+Evolver::updateReference()
+{
+  if (reference_.empty() || steps_ % reference_steps != 0)
+    return;
+  if (steps_ == 0)
+    evaluate(classes_.front().groups, 0.0f, 0.0);
+  const StencilView stencils = band_.stencils.view();
+  const float* from = curvature_.data();
+  for (int i = 0; i < reference_averages; ++i) {
+    std::vector<float>& to = i % 2 == reference_averages % 2 ? means_ : reference_;
+    parallelBlocks(band_.stencils.groups(),
+                   block_groups,
+                   parameters_.threads,
+                   [&](auto begin, auto end) {
+                     kernels_.average(
+                         stencils, from, band_.centers.size(), to.data(), begin, end);
+                   });
+    from = to.data();
+  }
+}
+
+LevelSetStep
+Evolver::advance()
+{
+  updateReference();
+  if (parameters_.reinitialization == Reinitialization::Diffusion)
+    band_.extrapolate(phi_);
+  start_ = phi_;
+  const std::size_t ticks = std::size_t{1} << (classes_.size() - 1);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    // At every second tick the finest class alone, at every fourth the next one too...
+    std::size_t coarsest = 0;
+    while (tick % (ticks >> coarsest) != 0)
+      ++coarsest;
+    const auto& groups = classes_[coarsest].groups;
+    const auto time = static_cast<float>(tick) / static_cast<float>(ticks);
+    evaluate(groups, time, 1.0);
+    commit(groups, time);
+  }
+  for (std::size_t i = 0; i < centers_; ++i) {
+    phi_[i] += rate_[i];
+    rate_[i] = 0.0f;
+  }
+  ++steps_;
+  return summarize();
+}
+
+void
+Evolver::setPhi(const std::vector<float>& phi)
+{
+  std::copy_n(phi.begin(), centers_, phi_.begin());
+  steps_ = 0;
+}
+
+LevelSetStep
+Evolver::summarize() const
+{
+  LevelSetStep step{};
+  step.min_slope = std::numeric_limits<double>::infinity();
+  double sq_change = 0.0, error = 0.0, energy = 0.0;
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < band_.centers.size(); ++i) {
+    // Not a number counts as near.
+    if (std::abs(phi_[i]) > spacing_)
+      continue;
+    const double slope = slope_[i];
+    const double change =
+        (static_cast<double>(phi_[i]) - start_[i]) / spacing_ / std::max(slope, 0.1);
+    const double pull = (static_cast<double>(target_[i]) - phi_[i]) / spacing_;
+    sq_change += change * change;
+    error += std::abs(slope - 1.0);
+    energy += 0.5 * mu_ * pull * pull + (1.0 - mu_) * slope;
+    step.min_slope = std::min(step.min_slope, slope);
+    step.max_slope = std::max(step.max_slope, slope);
+    ++near;
+  }
+  if (near == 0)
+    return step;
+  const auto count = static_cast<double>(near);
+  step.change = std::sqrt(sq_change / count) / step_;
+  step.slope_error = error / count;
+  step.energy = energy / count;
+  return step;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time integration of the level-set equation on a band (thesis 3.5).
+#pragma once
+
+#include "band.h"
+#include "evolution_kernel.h"
+#include <pcl_uvol/levelset/level_set_parameters.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The level-set function on a band, and how it is advanced.
+ *
+ * Groups of samples take steps of their own, each half as long as those of the class
+ * before it (thesis 3.5.2, with steps rounded down to powers of two, so that a class
+ * advances in parallel and in a fixed order). With synchronous integration all are in
+ * one class. */
+class Evolver {
+public:
+  /** \param band must outlive the evolver
+   * \param spacing the unit of length
+   * \param mu in [0, 1]
+   * \param phi by place \param target of the data term, by place of the centres */
+  Evolver(const Band& band,
+          const LevelSetParameters& parameters,
+          double spacing,
+          double mu,
+          std::vector<float> phi,
+          std::vector<float> target);
+
+  /** \brief The longest step of all classes, in squared spacings. */
+  double
+  getStep() const
+  {
+    return step_;
+  }
+
+  /** \brief Advance all samples by getStep(). Returns what changed; time and
+   * reinitialized are the caller's. */
+  LevelSetStep
+  advance();
+
+  /** \brief By place. */
+  const std::vector<float>&
+  getPhi() const
+  {
+    return phi_;
+  }
+
+  /** \brief Replace the values at the centres. */
+  void
+  setPhi(const std::vector<float>& phi);
+
+private:
+  /** Groups that are advanced at the same ticks. */
+  struct Class {
+    std::vector<std::uint32_t> groups; ///< ascending, of this class and all finer ones
+  };
+
+  void
+  chooseSteps();
+
+  void
+  updateReference();
+
+  /** Curvature and slope at a time, and phi after the steps of the classes. */
+  void
+  evaluate(const std::vector<std::uint32_t>& groups, float time, double step_scale);
+
+  void
+  commit(const std::vector<std::uint32_t>& groups, float time);
+
+  double
+  periodOf(std::size_t group) const;
+
+  LevelSetStep
+  summarize() const;
+
+  const Band& band_;
+  const LevelSetParameters& parameters_;
+  double spacing_, mu_, step_ = 0.0;
+  const EvolutionKernels& kernels_;
+  std::size_t centers_; ///< places of centres
+  std::vector<float> phi_, rate_, target_;
+  std::vector<float> start_, next_, curvature_, slope_, sq_length_, reference_, means_;
+  std::vector<float> normals_[3];
+  std::vector<std::uint8_t> class_of_; ///< by group
+  std::vector<float> weakness_; ///< by group: part of the flow, see shortest_step
+  std::vector<Class> classes_;  ///< longest steps first
+  std::size_t steps_ = 0;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../neighbors/sample_values.h"
+#include "band.h"
+#include "data_term.h"
+#include "evolver.h"
+#include "reinitialization.h"
+#include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
+
+#include <pcl/impl/pcl_base.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Steps until it is looked whether the zero level nears the border of the band. */
+constexpr std::size_t band_steps = 5;
+
+/** In spacings: the zero level keeps that far from the border. */
+constexpr double band_margin = 2.0;
+
+/** Mean of | |grad phi| - 1 | that asks for a reinitialisation, and steps between two:
+ * a function that starts noisy is smoothed before. */
+constexpr double most_slope_error = 0.3;
+constexpr std::size_t reinitialization_steps = 10;
+
+/** Values beyond so many times the extent of the samples are a divergence. */
+constexpr double most_extents = 100.0;
+
+/** Noise, in spacings, at which data and smoothness count the same. */
+constexpr double balanced_noise = 0.015;
+constexpr double least_mu = 0.03;
+
+void
+checkParameters(const LevelSetParameters& parameters, double isovalue)
+{
+  const auto fail =
+      [](const std::string& what, auto given, const std::string& allowed) {
+        std::ostringstream text;
+        text << what << " is " << given << ": it must be " << allowed << ".";
+        throw InvalidArgument(text.str());
+      };
+  if (!std::isfinite(static_cast<float>(isovalue)))
+    throw InvalidArgument(
+        "LevelSetEvolution has no finite isovalue: call setIsoValue.");
+  if (parameters.mu != LevelSetParameters::automatic &&
+      !(parameters.mu >= 0.0 && parameters.mu <= 1.0))
+    fail("The weight mu", parameters.mu, "in [0, 1]");
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(parameters.scale[axis]) || parameters.scale[axis] <= 0.0f)
+      fail("The scale", parameters.scale[axis], "finite and positive");
+  const std::size_t least = derivativesOf(parameters.scheme);
+  if (parameters.k < least)
+    fail("The number of neighbours",
+         parameters.k,
+         "at least " + std::to_string(least) + " with this scheme");
+  if (parameters.max_steps == 0)
+    fail("The number of steps", parameters.max_steps, "at least 1");
+  if (!(parameters.tolerance > 0.0))
+    fail("The tolerance", parameters.tolerance, "above 0");
+  if (parameters.band_width != 0.0 && !(parameters.band_width >= 1.5 * band_margin))
+    fail("The width of the band",
+         parameters.band_width,
+         "at least 3 spacings, or 0 for none");
+  if (parameters.reinitialization == Reinitialization::Eikonal &&
+      parameters.scheme == FitScheme::Linear)
+    throw InvalidArgument(
+        "Reinitialisation by the Eikonal equation needs the quadratic "
+        "scheme, for its viscosity.");
+}
+
+/** One run, from the cloud to phi. */
+class LevelSetRun {
+public:
+  LevelSetRun(const CloudView& cloud,
+              const std::vector<int>& indices,
+              const std::string& field,
+              double isovalue,
+              const LevelSetParameters& parameters,
+              LevelSetSummary& summary,
+              Report& report)
+      : parameters_(parameters)
+      , summary_(summary)
+      , report_(report)
+  {
+    read(cloud, indices, field, isovalue);
+    start(cloud);
+  }
+
+  void
+  run(const SnapshotCallback& snapshot, std::size_t snapshot_steps)
+  {
+    StepTimer timer(report_, "evolution", parameters_.max_steps);
+    for (std::size_t i = 0; i < parameters_.max_steps && !summary_.converged; ++i) {
+      advance();
+      timer.advance(1);
+      if (snapshot_steps > 0 && summary_.steps.size() % snapshot_steps == 0)
+        snapshot(summary_.steps.size(), result());
+    }
+    if (summary_.converged)
+      timer.advance(parameters_.max_steps - summary_.steps.size());
+    else
+      warnOfStepLimit();
+    report_.count("steps", summary_.steps.size());
+    report_.count("band_samples", band_->centers.size());
+  }
+
+  /** By input index. */
+  std::vector<float>
+  result() const
+  {
+    const std::vector<float> values = current();
+    std::vector<float> phi(cloud_size_, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < samples_->size(); ++i)
+      phi[samples_->getInputIndex(i)] = values[i];
+    for (const SampleSet::Merged& merged : samples_->getMerged())
+      for (const std::uint32_t member : merged.members)
+        phi[member] = values[merged.sample];
+    return phi;
+  }
+
+private:
+  void
+  read(const CloudView& cloud,
+       const std::vector<int>& indices,
+       const std::string& name,
+       double isovalue)
+  {
+    if (indices.empty())
+      throw InvalidArgument("LevelSetEvolution was given an empty cloud.");
+    cloud_size_ = cloud.count;
+    const ScalarField field(cloud.fields, name);
+    const auto values = readValues(cloud, field, parameters_.threads);
+    const auto use = pointsWithValue(values, indices, field);
+    samples_ = SampleSet::build(
+        cloud.xyz(0),
+        cloud.stride(),
+        use,
+        Position{{parameters_.scale[0], parameters_.scale[1], parameters_.scale[2]}},
+        parameters_.threads,
+        report_);
+    report_.count("no_value", indices.size() - use.size());
+    report_.count("samples", samples_->size());
+    if (samples_->size() <= parameters_.k)
+      throw InvalidArgument("There are " + std::to_string(samples_->size()) +
+                            " distinct samples: a stencil of " +
+                            std::to_string(parameters_.k) +
+                            " neighbours needs at least one more than that.");
+    f_ = gatherValues(*samples_, values, parameters_.threads, report_).values;
+    const auto [low, high] = std::minmax_element(f_.begin(), f_.end());
+    if (!(*low < isovalue && isovalue <= *high)) {
+      std::ostringstream text;
+      text << "The isovalue " << isovalue << " does not part the values of " << name
+           << ", which are in [" << *low << ", " << *high
+           << "]: there is no surface to evolve.";
+      throw InvalidArgument(text.str());
+    }
+    for (float& value : f_)
+      value = static_cast<float>(static_cast<double>(value) - isovalue);
+  }
+
+  /** Samples next to the zero level of a function. */
+  std::vector<std::uint32_t>
+  crossingOf(const std::vector<float>& values) const
+  {
+    const KdTree& tree = samples_->getTree();
+    return tree.findCrossing(samples_->getPositions(),
+                             tree.computeRanges(values, parameters_.threads),
+                             0.0f,
+                             parameters_.threads);
+  }
+
+  /** The band, its data term and the values it starts with. */
+  void
+  start(const CloudView& cloud)
+  {
+    const auto surface = crossingOf(f_);
+    summary_.spacing =
+        medianSpacing(*samples_, surface, parameters_.k, parameters_.threads);
+    if (!(summary_.spacing > 0.0))
+      throw InvalidArgument("The samples at the surface have no extent.");
+    const auto initial = initialValues(cloud);
+    phi_ = initial.empty() ? f_ : initial;
+    const auto crossing = initial.empty() ? surface : crossingOf(phi_);
+    if (crossing.empty())
+      throw InvalidArgument("The function that the level set starts from has no zero "
+                            "level among the samples.");
+    makeBand(crossing);
+    summary_.noise = term_.noise / summary_.spacing;
+    summary_.mu =
+        parameters_.mu == LevelSetParameters::automatic
+            ? std::max(least_mu, balanced_noise / (balanced_noise + summary_.noise))
+            : parameters_.mu;
+    if (initial.empty()) {
+      // Far from the surface the sign is all that counts.
+      for (float& value : phi_)
+        value = static_cast<float>(value / term_.slope);
+      band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
+        phi_[sample] = term_.target[place];
+      });
+    }
+    makeEvolver();
+  }
+
+  /** Of a shape or a field, in leaf order; empty if f itself is the start. */
+  std::vector<float>
+  initialValues(const CloudView& cloud) const
+  {
+    const InitialFunction& initial = parameters_.initial;
+    std::vector<float> values;
+    if (!initial.getField().empty()) {
+      const ScalarField field(cloud.fields, initial.getField());
+      for (std::size_t i = 0; i < samples_->size(); ++i) {
+        const double value = field.read(cloud.point(samples_->getInputIndex(i)));
+        if (!std::isfinite(value))
+          throw InvalidArgument("The field " + field.getName() +
+                                " that the level set starts from is not finite "
+                                "everywhere.");
+        values.push_back(static_cast<float>(value));
+      }
+    }
+    else if (initial.getDistance()) {
+      const double side = parameters_.outside == Outside::Lower ? 1.0 : -1.0;
+      for (std::size_t i = 0; i < samples_->size(); ++i) {
+        const Eigen::Vector3d x =
+            Eigen::Vector3f(cloud.xyz(samples_->getInputIndex(i))).cast<double>();
+        values.push_back(static_cast<float>(side * initial.getDistance()(x)));
+      }
+    }
+    return values;
+  }
+
+  void
+  makeBand(const std::vector<std::uint32_t>& crossing)
+  {
+    evolver_.reset();
+    band_ = pcl_uvol::makeBand(*samples_,
+                               crossing,
+                               parameters_.band_width * summary_.spacing,
+                               parameters_.scheme,
+                               parameters_.k,
+                               parameters_.threads,
+                               report_);
+    term_ = makeDataTerm(*band_, *samples_, f_, parameters_.threads, report_);
+  }
+
+  void
+  makeEvolver()
+  {
+    std::vector<float> phi(band_->places(), 0.0f);
+    band_->forPlaces(
+        [&](std::size_t place, std::uint32_t sample) { phi[place] = phi_[sample]; });
+    evolver_.emplace(*band_,
+                     parameters_,
+                     summary_.spacing,
+                     summary_.mu,
+                     std::move(phi),
+                     term_.target);
+  }
+
+  void
+  advance()
+  {
+    LevelSetStep step = evolver_->advance();
+    const double before = summary_.steps.empty() ? 0.0 : summary_.steps.back().time;
+    step.time = before + evolver_->getStep();
+    checkDivergence(step);
+    summary_.steps.push_back(step);
+    const std::size_t count = summary_.steps.size();
+    summary_.converged = step.change < parameters_.tolerance;
+    if (summary_.converged)
+      return;
+    if (count % reinitialization_steps == 0 && step.slope_error > most_slope_error)
+      reinitialize();
+    if (!band_->distance.empty() && count % band_steps == 0)
+      followZeroLevel();
+  }
+
+  void
+  checkDivergence(const LevelSetStep& step) const
+  {
+    const std::vector<float>& phi = evolver_->getPhi();
+    const double most = most_extents * extent();
+    const bool is_bounded = std::all_of(
+        phi.begin(), phi.end(), [&](float value) { return std::abs(value) <= most; });
+    if (is_bounded && std::isfinite(step.change))
+      return;
+    std::ostringstream text;
+    text << "The level set diverged in step " << summary_.steps.size() + 1
+         << ": use a smaller time step, the quadratic scheme or a larger mu.";
+    throw Diverged(text.str());
+  }
+
+  double
+  extent() const
+  {
+    Position low = samples_->getPositions()[0], high = low;
+    for (const Position& x : samples_->getPositions())
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], x[axis]);
+        high[axis] = std::max(high[axis], x[axis]);
+      }
+    return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  }
+
+  void
+  reinitialize()
+  {
+    if (parameters_.reinitialization == Reinitialization::Distance)
+      evolver_->setPhi(distanceToZeroLevel(*band_,
+                                           *samples_,
+                                           current(),
+                                           summary_.spacing,
+                                           parameters_.threads,
+                                           report_));
+    else if (parameters_.reinitialization == Reinitialization::Eikonal)
+      evolver_->setPhi(relaxToDistance(
+          *band_, evolver_->getPhi(), summary_.spacing, parameters_.threads));
+    else
+      return;
+    summary_.steps.back().reinitialized = true;
+    report_.count("reinitializations", 1);
+  }
+
+  /** A new band where the zero level has come near the border of the old one: a sample
+   * there has changed its side. */
+  void
+  followZeroLevel()
+  {
+    const double border = (parameters_.band_width - band_margin) * summary_.spacing;
+    const std::vector<float>& phi = evolver_->getPhi();
+    bool is_near = false;
+    for (std::size_t i = 0; i < band_->centers.size() && !is_near; ++i)
+      is_near = band_->distance[i] > border &&
+                (phi[i] < 0.0f) != (phi_[band_->centers[i]] < 0.0f);
+    if (!is_near)
+      return;
+    phi_ = current();
+    const std::vector<std::uint32_t> crossing = crossingOf(phi_);
+    if (crossing.empty())
+      return;
+    const std::vector<std::uint32_t> old = std::move(band_->centers);
+    makeBand(crossing);
+    // What has not been advanced yet is no farther away than the crossing samples.
+    for (std::size_t i = 0; i < band_->centers.size(); ++i) {
+      const std::uint32_t sample = band_->centers[i];
+      if (!std::binary_search(old.begin(), old.end(), sample))
+        phi_[sample] = std::copysign(
+            std::min(std::abs(phi_[sample]), band_->distance[i]), phi_[sample]);
+    }
+    makeEvolver();
+    report_.count("band_updates", 1);
+  }
+
+  /** By sample. */
+  std::vector<float>
+  current() const
+  {
+    std::vector<float> values = phi_;
+    for (std::size_t i = 0; i < band_->centers.size(); ++i)
+      values[band_->centers[i]] = evolver_->getPhi()[i];
+    return values;
+  }
+
+  void
+  warnOfStepLimit()
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The level set has not converged after " << summary_.steps.size()
+         << " steps: it still moves by " << summary_.steps.back().change
+         << " spacings per unit of time.";
+    report_.warnings.push_back(text.str());
+  }
+
+  const LevelSetParameters& parameters_;
+  LevelSetSummary& summary_;
+  Report& report_;
+  std::size_t cloud_size_ = 0;
+  SampleSet::ConstPtr samples_;
+  std::vector<float> f_;   ///< minus the isovalue, by sample
+  std::vector<float> phi_; ///< by sample; in the band as it was when that was made
+  std::optional<Band> band_;
+  DataTerm term_;
+  std::optional<Evolver> evolver_;
+};
+
+} // namespace
+
+std::vector<float>
+evolveLevelSet(const CloudView& cloud,
+               const std::vector<int>& indices,
+               const std::string& field,
+               double isovalue,
+               const LevelSetParameters& parameters,
+               const SnapshotCallback& snapshot,
+               std::size_t snapshot_steps,
+               LevelSetSummary& summary,
+               Report& report)
+{
+  checkParameters(parameters, isovalue);
+  LevelSetRun run(cloud, indices, field, isovalue, parameters, summary, report);
+  run.run(snapshot, snapshot_steps);
+  return run.result();
+}
+
+template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PointXYZI>;
+template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PCLPointCloud2>;
+
+} // namespace pcl_uvol

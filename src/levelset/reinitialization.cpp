@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reinitialization.h"
+
+#include "../isosurface/isopoints.h"
+#include "evolution_kernel.h"
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_groups = 64, block_places = 1024;
+
+/** In spacings: nearer isopoints stand for the plane through them. */
+constexpr float planar_distance = 1.5f;
+
+/** Relaxation: part of the step that the viscosity allows, its viscosity in spacings,
+ * and the time until what starts at the zero level has crossed a stencil. */
+constexpr double relaxation_safety = 0.5, viscosity = 0.3, relaxation_time = 6.0;
+
+const KernelTable<const EvolutionKernels*> kernel_table{
+    &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
+
+} // namespace
+
+std::vector<float>
+distanceToZeroLevel(const Band& band,
+                    const SampleSet& samples,
+                    const std::vector<float>& phi,
+                    double spacing,
+                    unsigned threads,
+                    Report& report)
+{
+  const StepTimer timer(report, "reinitialization");
+  SampleValues values;
+  values.values = phi;
+  values.sources.resize(phi.size());
+  std::iota(values.sources.begin(), values.sources.end(), 0u);
+  const NodeRanges ranges = samples.getTree().computeRanges(values.values, threads);
+  pcl::PointCloud<PointIso> isopoints;
+  IsoEdges edges;
+  Report ignored;
+  appendIsopoints({samples,
+                   values,
+                   ranges,
+                   AngleCriterion::Kept,
+                   Outside::Higher,
+                   Interpolation::Smooth,
+                   threads},
+                  0.0f,
+                  isopoints,
+                  edges,
+                  ignored);
+  std::vector<float> distance(band.places(), 0.0f);
+  band.forPlaces(
+      [&](std::size_t place, std::uint32_t sample) { distance[place] = phi[sample]; });
+  if (isopoints.empty())
+    return distance;
+
+  // Isopoints lie in the original space, their normals as well.
+  const Position& scale = samples.getScale();
+  std::vector<Position> positions;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<std::uint32_t> all(isopoints.size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (const PointIso& point : isopoints) {
+    positions.push_back({{point.x * scale[0], point.y * scale[1], point.z * scale[2]}});
+    normals.push_back((point.getNormalVector3fMap().array() /
+                       Eigen::Array3f(scale[0], scale[1], scale[2]))
+                          .matrix()
+                          .normalized());
+  }
+  const auto surface = SampleSet::build(
+      positions.front().x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, threads, ignored);
+  const auto planar = static_cast<float>(planar_distance * spacing);
+  const auto measure = [&](NearestFinder& finder, std::size_t place, auto sample) {
+    const Position& x = samples.getPositions()[sample];
+    const auto row = finder.find(x, static_cast<float>(spacing));
+    const float length = std::sqrt(row.sq_dists[0]);
+    const Eigen::Vector3f& normal = normals[surface->getInputIndex(row.samples[0])];
+    const Position& foot = surface->getPositions()[row.samples[0]];
+    float along = 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+      along += (x[axis] - foot[axis]) * normal[axis];
+    distance[place] = length < planar ? along : std::copysign(length, phi[sample]);
+  };
+  parallelBlocks(band.centers.size(), block_places, threads, [&](auto begin, auto end) {
+    NearestFinder finder(*surface, 1);
+    for (std::size_t i = begin; i < end; ++i)
+      measure(finder, i, band.centers[i]);
+  });
+  parallelBlocks(band.others.size(), block_places, threads, [&](auto begin, auto end) {
+    NearestFinder finder(*surface, 1);
+    for (std::size_t i = begin; i < end; ++i)
+      measure(finder, band.centerPlaces() + i, band.others[i]);
+  });
+  return distance;
+}
+
+std::vector<float>
+relaxToDistance(const Band& band,
+                const std::vector<float>& phi,
+                double spacing,
+                unsigned threads)
+{
+  const auto& stiffness = band.stencils.getStiffness();
+  const double stiffest = *std::max_element(stiffness.begin(), stiffness.end());
+  // The trace of the Hessian has at most twice the weight of curvature.
+  const double dt = relaxation_safety / (1.0 + 2.0 * viscosity * spacing * spacing *
+                                                   stiffest); // in spacings
+  const auto h = static_cast<float>(spacing);
+  std::vector<float> now = phi, next = phi, slope(band.centerPlaces()),
+                     sign(band.centerPlaces());
+  for (std::size_t i = 0; i < sign.size(); ++i)
+    sign[i] = phi[i] / std::sqrt(phi[i] * phi[i] + h * h);
+  const auto steps = static_cast<int>(std::ceil(relaxation_time / dt));
+  for (int i = 0; i < steps; ++i) {
+    band.extrapolate(now);
+    const DistanceStep step{band.stencils.view(),
+                            now.data(),
+                            sign.data(),
+                            static_cast<float>(dt * spacing),
+                            static_cast<float>(dt * viscosity * spacing * spacing),
+                            next.data(),
+                            slope.data()};
+    parallelBlocks(
+        band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
+          kernel_table.get()->relaxToDistance(step, begin, end);
+        });
+    now.swap(next);
+  }
+  return now;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Level sets on scattered samples (thesis chapter 3): the laws they obey, the noise
+// they take away, and what they refuse.
+#include "support/clouds.h"
+#include "support/environment.h"
+#include "support/noisy_shapes.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace {
+
+using pcl_uvol::CurvatureFlow;
+using pcl_uvol::FitScheme;
+using pcl_uvol::InitialFunction;
+using pcl_uvol::Integration;
+using pcl_uvol::Interpolation;
+using pcl_uvol::InvalidArgument;
+using pcl_uvol::Reinitialization;
+using Cloud = pcl::PointCloud<pcl::PointXYZI>;
+using Evolution = pcl_uvol::LevelSetEvolution<pcl::PointXYZI>;
+using Vector = Eigen::Vector3d;
+
+/** Random samples of spacing 1 in a cube about the origin; intensity: radius minus the
+ * distance to it. */
+Cloud::Ptr
+makeBall(double radius, double extent, std::uint64_t seed = 1)
+{
+  uvol_test::Random random(seed);
+  const Cloud::Ptr cloud(new Cloud);
+  const auto n = static_cast<std::size_t>(std::pow(2.0 * extent, 3));
+  for (std::size_t i = 0; i < n; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(extent * (2.0 * random.uniform() - 1.0));
+    point.intensity = static_cast<float>(radius) - point.getVector3fMap().norm();
+    cloud->push_back(point);
+  }
+  return cloud;
+}
+
+Cloud::Ptr
+withValues(const Cloud& cloud, const std::vector<float>& values)
+{
+  const Cloud::Ptr other(new Cloud(cloud));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    (*other)[i].intensity = values[i];
+  return other;
+}
+
+/** Distances of the isopoints of phi to the origin. */
+std::vector<double>
+radiiOf(const Cloud& cloud, const std::vector<float>& phi)
+{
+  std::vector<double> radii;
+  for (const PointIso& point :
+       uvol_test::isopoints(withValues(cloud, phi), Interpolation::Smooth))
+    radii.push_back(point.getVector3fMap().cast<double>().norm());
+  return radii;
+}
+
+double
+meanOf(const std::vector<double>& values)
+{
+  double sum = 0.0;
+  for (const double value : values)
+    sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double
+largestDeviation(const std::vector<double>& radii, double expected)
+{
+  double largest = 0.0;
+  for (const double radius : radii)
+    largest = std::max(largest, std::abs(radius - expected));
+  return largest;
+}
+
+std::vector<float>
+evolve(Evolution& evolution, const Cloud::Ptr& cloud)
+{
+  evolution.setInputCloud(cloud);
+  evolution.setIsoValue(0.0);
+  std::vector<float> phi;
+  evolution.evolve(phi);
+  return phi;
+}
+
+/** Mean curvature flow: r(t) = sqrt(r0^2 - 2 t), in squared lengths. */
+TEST(LevelSetEvolution, SphereShrinksByItsCurvature)
+{
+  constexpr double start = 10.0;
+  const auto cloud = makeBall(start, 15.0);
+  for (const Integration integration :
+       {Integration::Asynchronous, Integration::Synchronous}) {
+    Evolution evolution;
+    evolution.setMu(0.0);
+    evolution.setCurvatureFlow(CurvatureFlow::Mean);
+    evolution.setIntegration(integration);
+    evolution.setMaximumSteps(integration == Integration::Asynchronous ? 140 : 400);
+    std::size_t checked = 0;
+    double last = start;
+    evolution.setSnapshotCallback(20, [&](std::size_t steps, const auto& phi) {
+      const auto& summary = evolution.getSummary();
+      const double t =
+          summary.steps[steps - 1].time * summary.spacing * summary.spacing;
+      const double sq_radius = start * start - 2.0 * t;
+      if (sq_radius < 0.25 * start * start)
+        return;
+      last = std::sqrt(sq_radius);
+      EXPECT_NEAR(last, meanOf(radiiOf(*cloud, phi)), 0.02 * last) << steps;
+      ++checked;
+    });
+    evolve(evolution, cloud);
+    EXPECT_GE(checked, 4u);
+    EXPECT_LT(last, 0.6 * start);
+    EXPECT_GT(evolution.getReport().getCount("band_updates"), 0u);
+  }
+}
+
+/** Advection alone, from shapes that are not the surface. */
+TEST(LevelSetEvolution, DataAttractOtherShapes)
+{
+  constexpr double radius = 8.0;
+  const auto cloud = makeBall(radius, 15.0);
+  for (const auto& initial :
+       {InitialFunction::sphere(Vector::Zero(), 1.3 * radius),
+        InitialFunction::box(Vector(-10, -9, -8), Vector(9, 10, 11))}) {
+    Evolution evolution;
+    evolution.setMu(1.0);
+    evolution.setInitialFunction(initial);
+    const auto phi = evolve(evolution, cloud);
+    EXPECT_TRUE(evolution.getSummary().converged);
+    EXPECT_LT(largestDeviation(radiiOf(*cloud, phi), radius), 0.1);
+  }
+}
+
+/** A sphere of radius 10 and a start that is twice as steep on one side as on the
+ * other, and nowhere a distance. */
+struct Reinitialized {
+  pcl_uvol::LevelSetSummary summary;
+  pcl_uvol::Report report;
+  std::vector<double> deviations;
+
+  Reinitialized(Reinitialization way, float slope, std::size_t steps)
+  {
+    constexpr double radius = 10.0;
+    const auto ball = makeBall(radius, 16.0);
+    pcl::PointCloud<pcl::PointXYZINormal> cloud;
+    std::vector<int> all;
+    for (const auto& point : *ball) {
+      pcl::PointXYZINormal other;
+      other.getVector3fMap() = point.getVector3fMap();
+      other.intensity = point.intensity;
+      other.curvature = point.intensity * (point.x > 0.0f ? 2.0f * slope : slope);
+      all.push_back(static_cast<int>(cloud.size()));
+      cloud.push_back(other);
+    }
+    pcl_uvol::LevelSetParameters parameters;
+    parameters.mu = 0.0;
+    parameters.initial = InitialFunction::field("curvature");
+    parameters.reinitialization = way;
+    parameters.max_steps = steps;
+    const auto phi = pcl_uvol::evolveLevelSet(pcl_uvol::viewOf(cloud),
+                                              all,
+                                              "intensity",
+                                              0.0,
+                                              parameters,
+                                              {},
+                                              0,
+                                              summary,
+                                              report);
+    for (const double found : radiiOf(*ball, phi))
+      deviations.push_back(std::abs(found - radius));
+  }
+};
+
+TEST(LevelSetEvolution, ReinitializationRestoresTheSlopeAndKeepsTheSurface)
+{
+  for (const Reinitialization way :
+       {Reinitialization::Distance, Reinitialization::Eikonal}) {
+    const Reinitialized run(way, 1.5f, 12);
+    EXPECT_GT(run.summary.steps.front().slope_error, 0.5);
+    EXPECT_LT(run.summary.steps.back().slope_error, 0.05);
+    EXPECT_EQ(1u, run.report.getCount("reinitializations"));
+    EXPECT_TRUE(run.summary.steps[9].reinitialized);
+    EXPECT_LT(meanOf(run.deviations), 0.1);
+    if (way == Reinitialization::Distance) {
+      EXPECT_LT(largestDeviation(run.deviations, 0.0), 0.1);
+    }
+  }
+  EXPECT_EQ(0u,
+            Reinitialized(Reinitialization::None, 1.5f, 12)
+                .report.getCount("reinitializations"));
+}
+
+/** It flattens what is too steep, slowly. */
+TEST(LevelSetEvolution, DiffusionTermPullsTheSlopeTowardsOne)
+{
+  const Reinitialized without(Reinitialization::None, 1.1f, 60);
+  const Reinitialized run(Reinitialization::Diffusion, 1.1f, 60);
+  EXPECT_LT(run.summary.steps.back().slope_error,
+            0.95 * without.summary.steps.back().slope_error);
+}
+
+/** What the default makes of noise, against the direct surface. */
+void
+expectSmooth(const std::string& shape, bool clustered, double noise, double part)
+{
+  const auto noisy = uvol_test::makeNoisyCloud(shape, clustered, noise, 1);
+  auto direct = uvol_test::isopoints(noisy.cloud, Interpolation::Linear);
+  pcl_uvol::Report report;
+  pcl_uvol::replaceNormals(direct, {}, report);
+  const auto before = uvol_test::measure(noisy, direct);
+  Evolution evolution;
+  const auto phi = evolve(evolution, noisy.cloud);
+  EXPECT_TRUE(evolution.getSummary().converged);
+  EXPECT_NEAR(noisy.noise, evolution.getSummary().noise, 0.1 * noisy.noise);
+  const auto after = uvol_test::measure(
+      noisy,
+      uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Smooth));
+  EXPECT_LT(after.rms, part * before.rms) << shape;
+  EXPECT_LT(after.normal_rms, before.normal_rms / 3.0) << shape;
+  EXPECT_LT(std::abs(after.shift), 0.01 * 22.0) << shape;
+  EXPECT_EQ(noisy.shape.components, after.components) << shape;
+}
+
+TEST(LevelSetEvolution, TakesTheNoiseOffASphere)
+{
+  expectSmooth("sphere", false, 0.05, 1.0 / 3.0);
+}
+
+TEST(LevelSetEvolution, TakesTheNoiseOffATorusOfClusteredSamples)
+{
+  expectSmooth("torus", true, 0.02, 0.5);
+}
+
+TEST(LevelSetEvolution, KeepsTwoSpheresApart)
+{
+  expectSmooth("two_spheres", false, 0.05, 1.0 / 3.0);
+}
+
+Cloud::Ptr
+makeNoisyBall()
+{
+  auto cloud = makeBall(8.0, 13.0);
+  uvol_test::Random random(7);
+  for (auto& point : *cloud)
+    point.intensity += static_cast<float>(random.uniform() - 0.5);
+  return cloud;
+}
+
+TEST(LevelSetEvolution, SameBytesForAnyNumberOfThreads)
+{
+  const auto cloud = makeNoisyBall();
+  for (const FitScheme scheme : {FitScheme::Quadratic, FitScheme::Linear}) {
+    std::vector<float> one;
+    for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+      Evolution evolution;
+      evolution.setScheme(scheme);
+      evolution.setMaximumSteps(15);
+      evolution.setNumberOfThreads(threads);
+      const auto phi = evolve(evolution, cloud);
+      if (threads == 1u)
+        one = phi;
+      EXPECT_EQ(0, std::memcmp(one.data(), phi.data(), sizeof(float) * one.size()))
+          << threads;
+    }
+  }
+}
+
+TEST(LevelSetEvolution, BandAndIntegrationDoNotChangeTheSurface)
+{
+  const auto cloud = makeNoisyBall();
+  const auto deviation = [&](double band, Integration integration) {
+    Evolution evolution;
+    evolution.setMu(0.05);
+    evolution.setBandWidth(band);
+    evolution.setIntegration(integration);
+    const auto phi = evolve(evolution, cloud);
+    EXPECT_TRUE(evolution.getSummary().converged);
+    return withValues(*cloud, phi);
+  };
+  const auto reference = deviation(5.0, Integration::Asynchronous);
+  for (const auto& other : {deviation(0.0, Integration::Asynchronous),
+                            deviation(5.0, Integration::Synchronous)}) {
+    double squares = 0.0;
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < reference->size(); ++i)
+      if (std::abs((*reference)[i].intensity) < 1.0f) {
+        squares += std::pow((*reference)[i].intensity - (*other)[i].intensity, 2);
+        ++near;
+      }
+    EXPECT_GT(near, 1000u);
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(near)), 0.02);
+  }
+}
+
+/** Units of length and value do not matter, nor does the orientation. */
+TEST(LevelSetEvolution, SameSurfaceInOtherUnits)
+{
+  const auto cloud = makeNoisyBall();
+  Evolution evolution;
+  const auto phi = evolve(evolution, cloud);
+  const auto expectSame = [&](double length,
+                              double value,
+                              double offset,
+                              const Eigen::Matrix3d& turn,
+                              double tolerance) {
+    const Cloud::Ptr other(new Cloud(*cloud));
+    for (auto& point : *other) {
+      point.getVector3fMap() =
+          (length * (turn * point.getVector3fMap().cast<double>())).cast<float>();
+      point.intensity = static_cast<float>(value * point.intensity + offset);
+    }
+    Evolution again;
+    again.setInputCloud(other);
+    again.setIsoValue(offset);
+    std::vector<float> scaled;
+    again.evolve(scaled);
+    double squares = 0.0;
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < phi.size(); ++i)
+      if (std::abs(phi[i]) < 1.0f) {
+        squares += std::pow(scaled[i] / length - phi[i], 2);
+        ++near;
+      }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(near)), tolerance)
+        << length << ' ' << value;
+  };
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
+  expectSame(1e-6, 1.0, 0.0, none, 1e-3);
+  expectSame(1e6, 1.0, 0.0, none, 1e-3);
+  expectSame(1.0, 1000.0, 7.0, none, 1e-3);
+  expectSame(1.0,
+             1.0,
+             0.0,
+             Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized()).toRotationMatrix(),
+             0.01);
+}
+
+TEST(LevelSetEvolution, PointsWithoutAValueGetNone)
+{
+  const auto cloud = makeNoisyBall();
+  (*cloud)[3].x = std::numeric_limits<float>::quiet_NaN();
+  (*cloud)[5].intensity = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t i = 100; i < 150; ++i)
+    (*cloud)[i] = (*cloud)[99];
+  Evolution evolution;
+  const auto phi = evolve(evolution, cloud);
+  EXPECT_TRUE(std::isnan(phi[3]) && std::isnan(phi[5]));
+  EXPECT_EQ(phi[99], phi[149]);
+  EXPECT_TRUE(std::isfinite(phi[99]));
+}
+
+TEST(LevelSetEvolution, SaysWhenItHasNotConverged)
+{
+  Evolution evolution;
+  evolution.setMaximumSteps(3);
+  evolve(evolution, makeNoisyBall());
+  EXPECT_FALSE(evolution.getSummary().converged);
+  EXPECT_EQ(3u, evolution.getSummary().steps.size());
+  ASSERT_EQ(1u, evolution.getReport().warnings.size());
+  EXPECT_NE(std::string::npos,
+            evolution.getReport().warnings[0].find("not converged after 3 steps"));
+}
+
+TEST(LevelSetEvolution, PlanarCloudsAreEvolvedInTheirPlane)
+{
+  const auto cloud = makeNoisyBall();
+  for (auto& point : *cloud)
+    point.z = 1.0f;
+  Evolution evolution;
+  evolution.setMaximumSteps(20);
+  for (const float value : evolve(evolution, cloud))
+    EXPECT_TRUE(std::isfinite(value));
+  EXPECT_GT(evolution.getReport().getCount("isotropic_fits"), 0u);
+}
+
+TEST(LevelSetEvolution, RejectsBadInput)
+{
+  const auto cloud = makeNoisyBall();
+  std::vector<float> phi = {1.0f};
+  const auto expectRejected = [&](const auto& spoil) {
+    Evolution evolution;
+    evolution.setInputCloud(cloud);
+    evolution.setIsoValue(0.0);
+    spoil(evolution);
+    EXPECT_THROW(evolution.evolve(phi), InvalidArgument);
+  };
+  expectRejected([](auto& e) { e.setInputCloud(Cloud::Ptr()); });
+  expectRejected([](auto& e) { e.setInputCloud(Cloud::Ptr(new Cloud)); });
+  expectRejected([](auto& e) { e.setScalarField("density"); });
+  expectRejected([](auto& e) { e.setIsoValue(1000.0); });
+  expectRejected([](auto& e) { e.setIsoValue(std::nan("")); });
+  expectRejected([](auto& e) { e.setMu(-0.1); });
+  expectRejected([](auto& e) { e.setMu(1.1); });
+  expectRejected([](auto& e) { e.setMu(std::nan("")); });
+  expectRejected([](auto& e) { e.setKSearch(8); });
+  expectRejected([&](auto& e) { e.setKSearch(cloud->size()); });
+  expectRejected([](auto& e) { e.setMaximumSteps(0); });
+  expectRejected([](auto& e) { e.setTolerance(0.0); });
+  expectRejected([](auto& e) { e.setBandWidth(1.0); });
+  expectRejected([](auto& e) { e.setScale(Eigen::Array3f(1.0f, 0.0f, 1.0f)); });
+  expectRejected([](auto& e) { e.setInitialFunction(InitialFunction::field("phi")); });
+  expectRejected([](auto& e) {
+    e.setInitialFunction(InitialFunction::sphere(Vector(500.0, 0.0, 0.0), 1.0));
+  });
+  expectRejected([](auto& e) {
+    e.setScheme(FitScheme::Linear);
+    e.setReinitialization(Reinitialization::Eikonal);
+  });
+  EXPECT_THROW(InitialFunction::sphere(Vector::Zero(), 0.0), InvalidArgument);
+  EXPECT_THROW(InitialFunction::box(Vector::Ones(), Vector::Zero()), InvalidArgument);
+  EXPECT_THROW(InitialFunction::plane(Vector::Ones(), Vector::Zero()), InvalidArgument);
+  const Cloud::Ptr constant(new Cloud(*cloud));
+  for (auto& point : *constant)
+    point.intensity = 3.0f;
+  expectRejected([&](auto& e) {
+    e.setInputCloud(constant);
+    e.setIsoValue(3.0);
+  });
+  EXPECT_EQ(std::vector<float>{1.0f}, phi);
+}
+
+} // namespace

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "noisy_shapes.h"
+
+#include <pcl/search/kdtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace uvol_test {
+
+namespace {
+
+constexpr double radius = 22.0;
+
+/** Room around a shape, in spacings. */
+constexpr double room = 8.0;
+
+/** Isopoints closer than that belong to one component. */
+constexpr double link = 2.0;
+
+std::size_t
+countComponents(const pcl::PointCloud<PointIso>& surface)
+{
+  const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+  for (const PointIso& point : surface)
+    points->push_back({point.x, point.y, point.z});
+  pcl::search::KdTree<pcl::PointXYZ> search;
+  search.setInputCloud(points);
+  std::vector<bool> known(points->size(), false);
+  std::size_t components = 0;
+  pcl::Indices near;
+  std::vector<float> sq_dists;
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    if (known[i])
+      continue;
+    ++components;
+    known[i] = true;
+    std::vector<std::size_t> open = {i};
+    while (!open.empty()) {
+      const std::size_t here = open.back();
+      open.pop_back();
+      search.radiusSearch((*points)[here], link, near, sq_dists);
+      for (const int j : near)
+        if (!known[static_cast<std::size_t>(j)]) {
+          known[static_cast<std::size_t>(j)] = true;
+          open.push_back(static_cast<std::size_t>(j));
+        }
+    }
+  }
+  return components;
+}
+
+Eigen::Vector3d
+gradientOf(const Shape& shape, const Eigen::Vector3d& x)
+{
+  constexpr double step = 1e-4;
+  Eigen::Vector3d gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d offset = step * Eigen::Vector3d::Unit(axis);
+    gradient[axis] =
+        (shape.distance(x + offset) - shape.distance(x - offset)) / (2.0 * step);
+  }
+  return gradient;
+}
+
+} // namespace
+
+Shape
+makeShape(const std::string& name)
+{
+  if (name == "sphere")
+    return {"sphere", radius + room, 1, [](const Eigen::Vector3d& x) {
+              return radius - x.norm();
+            }};
+  if (name == "torus")
+    return {"torus", radius + 9.0 + room, 1, [](const Eigen::Vector3d& x) {
+              return 9.0 - std::hypot(std::hypot(x[0], x[1]) - radius, x[2]);
+            }};
+  return {"two_spheres", 2.0 * radius + 2.0 + room, 2, [](const Eigen::Vector3d& x) {
+            const double along = std::abs(x[0]) - (radius + 2.0);
+            return radius - std::hypot(along, x[1], x[2]);
+          }};
+}
+
+NoisyCloud
+makeNoisyCloud(const std::string& name,
+               bool clustered,
+               double noise,
+               std::uint64_t seed)
+{
+  constexpr double pi = 3.14159265358979;
+  NoisyCloud noisy{
+      makeShape(name),
+      clustered,
+      noise * radius,
+      pcl::PointCloud<pcl::PointXYZI>::Ptr(new pcl::PointCloud<pcl::PointXYZI>)};
+  const double extent = noisy.shape.extent;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> coordinate(-extent, extent),
+      length(0.0, std::sqrt(3.0) * extent);
+  std::normal_distribution<double> normal;
+  // Density 1, or (radius / r)^2: as many samples in every shell of equal thickness.
+  const auto tries =
+      static_cast<std::size_t>(clustered ? 4.0 * pi * radius * radius * length.max()
+                                         : std::pow(2.0 * extent, 3));
+  for (std::size_t i = 0; i < tries; ++i) {
+    Eigen::Vector3d x;
+    if (clustered) {
+      x = Eigen::Vector3d(normal(random), normal(random), normal(random));
+      x *= length(random) / x.norm();
+    }
+    else
+      x = Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random));
+    const double value = noisy.shape.distance(x) + noisy.noise * normal(random);
+    // Samples far outside of the shape are of no use to anybody.
+    if (x.cwiseAbs().maxCoeff() > extent || noisy.shape.distance(x) < -room)
+      continue;
+    pcl::PointXYZI point;
+    point.getVector3fMap() = x.cast<float>();
+    point.intensity = static_cast<float>(value);
+    noisy.cloud->push_back(point);
+  }
+  return noisy;
+}
+
+pcl::PointCloud<PointIso>
+isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
+          pcl_uvol::Interpolation interpolation)
+{
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setIsoValue(0.0);
+  extraction.setInterpolation(interpolation);
+  pcl::PointCloud<PointIso> surface;
+  extraction.extract(surface);
+  return surface;
+}
+
+SurfaceQuality
+measure(const NoisyCloud& noisy, const pcl::PointCloud<PointIso>& surface)
+{
+  constexpr double degrees = 180.0 / 3.14159265358979;
+  double sum = 0.0, squares = 0.0, angles = 0.0;
+  for (const PointIso& point : surface) {
+    const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
+    const double inside = noisy.shape.distance(x);
+    const Eigen::Vector3d outwards = -gradientOf(noisy.shape, x);
+    const Eigen::Vector3d normal = point.getNormalVector3fMap().cast<double>();
+    const double angle =
+        degrees * std::acos(std::clamp(normal.dot(outwards.normalized()), -1.0, 1.0));
+    sum += inside;
+    squares += inside * inside;
+    angles += angle * angle;
+  }
+  const auto count = static_cast<double>(surface.size());
+  return {std::sqrt(squares / count),
+          sum / count,
+          std::sqrt(angles / count),
+          countComponents(surface)};
+}
+
+} // namespace uvol_test

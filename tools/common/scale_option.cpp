@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scale_option.h"
+
+#include "options.h"
+#include <pcl_uvol/neighbors/anisotropy.h>
+
+namespace uvol_tools {
+
+ScaleOption::ScaleOption(const std::string& text)
+    : is_automatic_(text == "auto")
+    , factors_(3, 1.0)
+{
+  if (!is_automatic_ && !text.empty())
+    factors_ = parseNumbers("scale", text, 3);
+}
+
+Eigen::Array3f
+ScaleOption::scaleOf(const pcl_uvol::CloudView& cloud) const
+{
+  if (is_automatic_)
+    return pcl_uvol::equalizingScale(cloud);
+  return Eigen::Array3d(factors_.data()).cast<float>();
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A smooth level-set function of scattered samples (thesis chapter 3).
+#include "common/level_set.h"
+#include "common/options.h"
+#include "common/progress_bar.h"
+#include "common/scale_option.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::InitialFunction;
+using pcl_uvol::LevelSetParameters;
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+
+struct Arguments {
+  std::string input, output, field, scale, mu = "auto", table;
+  std::string scheme = "quadratic", flow = "relative", bound = "stencil";
+  std::string integration = "asynchronous", reinitialization = "distance";
+  std::string outside = "lower", start_field;
+  std::vector<double> iso, sphere, box, plane;
+  std::uint64_t k = 26, steps = 400, snapshots = 0;
+  double tolerance = 0.002, band = 5.0;
+  bool ascii = false;
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  constexpr std::uint64_t many = 1000000;
+  options.file("in", arguments.input);
+  options.file("out", arguments.output);
+  options.numbers("iso", "v", 1, arguments.iso, "isovalue (required)");
+  options.text("field",
+               "name",
+               arguments.field,
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
+               "else the only candidate)");
+  options.text("mu",
+               "m|auto",
+               arguments.mu,
+               "weight of the data against smoothness, 0 to 1; auto: by the noise");
+  options.choice("scheme",
+                 {"quadratic", "linear"},
+                 arguments.scheme,
+                 "local fits; linear: the thesis's, unstable on noise");
+  options.choice("flow",
+                 {"relative", "mean"},
+                 arguments.flow,
+                 "smooth by the curvature less its local mean, or by the mean "
+                 "curvature as in the thesis, which shrinks");
+  options.choice("integration",
+                 {"asynchronous", "synchronous"},
+                 arguments.integration,
+                 "every sample its own time step, or one for all");
+  options.choice("bound",
+                 {"stencil", "cfl"},
+                 arguments.bound,
+                 "time steps by the stencils' weights, or by the thesis's condition");
+  options.choice("reinit",
+                 {"distance", "eikonal", "diffusion", "none"},
+                 arguments.reinitialization,
+                 "what keeps the slope at 1: distance to the isopoints, the Eikonal "
+                 "equation, or a diffusion term");
+  options.number("band",
+                 arguments.band,
+                 0.0,
+                 std::numeric_limits<double>::max(),
+                 "advance only samples so many spacings from the surface; 0: all");
+  options.integer("k", arguments.k, 3, 1000, "nearest neighbours of a stencil");
+  options.integer("steps", arguments.steps, 1, many, "time steps at most");
+  options.number("tolerance",
+                 arguments.tolerance,
+                 std::numeric_limits<double>::min(),
+                 std::numeric_limits<double>::max(),
+                 "end when the surface moves by less, in spacings per unit of time");
+  options.numbers(
+      "sphere", "x,y,z,r", 4, arguments.sphere, "start from a sphere's distance");
+  options.numbers(
+      "box", "x0,y0,z0,x1,y1,z1", 6, arguments.box, "start from a box's distance");
+  options.numbers("plane",
+                  "x,y,z,nx,ny,nz",
+                  6,
+                  arguments.plane,
+                  "start from a plane's distance; the normal looks outside");
+  options.text(
+      "start", "name", arguments.start_field, "start from a field, such as phi");
+  options.choice("outside",
+                 {"lower", "higher"},
+                 arguments.outside,
+                 "the outside of -sphere, -box and -plane is where values are so");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               arguments.scale,
+               "measure distances in a stretched space; auto: equal spread per axis");
+  options.integer("snapshots",
+                  arguments.snapshots,
+                  1,
+                  many,
+                  "write the zero level every so many steps, as out_00010.ply");
+  options.text("csv", "out.csv", arguments.table, "write a table of all steps");
+  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+}
+
+InitialFunction
+initialOf(const Options& options, const Arguments& arguments)
+{
+  const auto given = {options.given("sphere"),
+                      options.given("box"),
+                      options.given("plane"),
+                      options.given("start")};
+  if (std::count(given.begin(), given.end(), true) > 1)
+    throw UsageError("Only one of -sphere, -box, -plane and -start can be given.");
+  const auto vector = [](const std::vector<double>& numbers, std::size_t first) {
+    return Eigen::Vector3d(numbers[first], numbers[first + 1], numbers[first + 2]);
+  };
+  if (options.given("sphere"))
+    return InitialFunction::sphere(vector(arguments.sphere, 0), arguments.sphere[3]);
+  if (options.given("box"))
+    return InitialFunction::box(vector(arguments.box, 0), vector(arguments.box, 3));
+  if (options.given("plane"))
+    return InitialFunction::plane(vector(arguments.plane, 0),
+                                  vector(arguments.plane, 3));
+  if (options.given("start"))
+    return InitialFunction::field(arguments.start_field);
+  return {};
+}
+
+LevelSetParameters
+parametersOf(const Options& options, const Arguments& arguments)
+{
+  LevelSetParameters parameters;
+  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.scheme = arguments.scheme == "linear" ? pcl_uvol::FitScheme::Linear
+                                                   : pcl_uvol::FitScheme::Quadratic;
+  parameters.flow = arguments.flow == "mean" ? pcl_uvol::CurvatureFlow::Mean
+                                             : pcl_uvol::CurvatureFlow::Relative;
+  parameters.bound = arguments.bound == "cfl" ? pcl_uvol::StepBound::Cfl
+                                              : pcl_uvol::StepBound::Stencil;
+  parameters.integration = arguments.integration == "synchronous"
+                               ? pcl_uvol::Integration::Synchronous
+                               : pcl_uvol::Integration::Asynchronous;
+  using pcl_uvol::Reinitialization;
+  parameters.reinitialization = std::map<std::string, Reinitialization>{
+      {"none", Reinitialization::None},
+      {"distance", Reinitialization::Distance},
+      {"eikonal", Reinitialization::Eikonal},
+      {"diffusion", Reinitialization::Diffusion}}[arguments.reinitialization];
+  parameters.initial = initialOf(options, arguments);
+  parameters.outside = arguments.outside == "lower" ? pcl_uvol::Outside::Lower
+                                                    : pcl_uvol::Outside::Higher;
+  parameters.k = arguments.k;
+  parameters.max_steps = arguments.steps;
+  parameters.tolerance = arguments.tolerance;
+  parameters.band_width = arguments.band;
+  parameters.threads = options.threads();
+  return parameters;
+}
+
+void
+writeTable(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
+{
+  std::ostringstream table;
+  table << "step,time,change,min_slope,max_slope,slope_error,energy,reinitialized\n";
+  for (std::size_t i = 0; i < summary.steps.size(); ++i) {
+    const auto& step = summary.steps[i];
+    table << i + 1 << ',' << step.time << ',' << step.change << ',' << step.min_slope
+          << ',' << step.max_slope << ',' << step.slope_error << ',' << step.energy
+          << ',' << step.reinitialized << '\n';
+  }
+  pcl_uvol::writeAtomically(path, [&](const std::string& temporary_path) {
+    std::ofstream file(temporary_path);
+    file << table.str();
+    file.close();
+    if (!file)
+      throw pcl_uvol::IOError("Cannot write " + path + ".");
+  });
+}
+
+/** The zero level of phi. */
+pcl_uvol::Dataset
+zeroLevel(const pcl_uvol::Dataset& input,
+          const Eigen::Array3f& scale,
+          unsigned threads,
+          const std::vector<float>& phi)
+{
+  const auto cloud = uvol_tools::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  extraction.setScalarField("phi");
+  extraction.setIsoValue(0.0);
+  extraction.setScale(scale);
+  extraction.setNumberOfThreads(threads);
+  pcl::PointCloud<PointIso> isopoints;
+  extraction.extract(isopoints);
+  pcl_uvol::Dataset surface;
+  surface.origin = input.origin;
+  surface.double_coordinates = input.double_coordinates;
+  pcl::toPCLPointCloud2(isopoints, surface.cloud);
+  return surface;
+}
+
+/** out.ply becomes out_00010.ply. */
+std::string
+snapshotPath(const std::string& output, std::size_t steps)
+{
+  const std::size_t dot = output.rfind('.');
+  std::ostringstream path;
+  path << output.substr(0, dot) << '_' << std::setw(5) << std::setfill('0') << steps
+       << output.substr(dot);
+  return path.str();
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options(
+      "uvol_levelset",
+      "in.pcd out.ply -iso v [options]",
+      "Smooths a noisy or unevenly sampled scalar field about an isosurface "
+      "by a level set on the samples, and writes it as the field phi: about "
+      "the distance to the surface, positive where values are higher.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  if (arguments.iso.empty())
+    throw UsageError("-iso is missing: give one isovalue, as in -iso 0.3.");
+  LevelSetParameters parameters = parametersOf(options, arguments);
+  const uvol_tools::ScaleOption scale(arguments.scale);
+  pcl_uvol::checkSavePath(arguments.output);
+
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  auto total = std::make_unique<StepTimer>(report, "total");
+  pcl_uvol::Dataset dataset;
+  {
+    const StepTimer timer(report, "read");
+    dataset = pcl_uvol::loadDataset(arguments.input);
+    report.warnings = dataset.notes;
+  }
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  parameters.scale = scale.scaleOf(view);
+  const std::string field =
+      arguments.field.empty() ? pcl_uvol::ScalarField::defaultName(dataset.cloud.fields)
+                              : arguments.field;
+  std::vector<int> all(view.count);
+  std::iota(all.begin(), all.end(), 0);
+  pcl_uvol::LevelSetSummary summary;
+  const std::vector<float> phi = pcl_uvol::evolveLevelSet(
+      view,
+      all,
+      field,
+      arguments.iso.front(),
+      parameters,
+      [&](std::size_t steps, const std::vector<float>& values) {
+        pcl_uvol::saveDataset(
+            snapshotPath(arguments.output, steps),
+            zeroLevel(dataset, parameters.scale, options.threads(), values),
+            {});
+      },
+      arguments.snapshots,
+      summary,
+      report);
+
+  pcl_uvol::Dataset result = dataset;
+  {
+    const StepTimer timer(report, "write");
+    result.cloud = uvol_tools::cloudOfPhi(view, phi);
+    pcl_uvol::IsoEdges same;
+    for (std::uint32_t i = 0; i < view.count; ++i)
+      same.push_back({i, i, 0.0f});
+    pcl_uvol::interpolateFields(dataset.cloud, same, result.cloud, options.threads());
+    pcl_uvol::SaveOptions save;
+    save.ascii = arguments.ascii;
+    pcl_uvol::saveDataset(arguments.output, result, save);
+    if (!arguments.table.empty())
+      writeTable(arguments.table, summary);
+  }
+  report.count("points", view.count);
+  total.reset();
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"input", arguments.input}, {"output", arguments.output}, {"field", field}};
+  for (const auto& fact : uvol_tools::describe(summary, arguments.mu == "auto"))
+    facts.push_back(fact);
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_levelset", [&] { return run(argc, argv); });
+}
