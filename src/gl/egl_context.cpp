@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "context_thread.h"
+#include "headless_context.h"
 #include "shared_library.h"
-#include <pcl_uvol/gl/context.h>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -63,13 +62,13 @@ hasExtension(const char* list, const std::string& name)
   return names.find(" " + name + " ") != std::string::npos;
 }
 
-class EglContext : public GlContext {
+class EglContext : public HeadlessContext {
 public:
   EglContext(EglDevice device, const std::string& library)
-      : GlContext("egl")
+      : HeadlessContext("egl")
       , egl_(SharedLibrary({library}, advice))
   {
-    thread_.run([&] {
+    run([&] {
       if (!createOn(device)) {
         destroy();
         throw GlError(std::string("EGL has no OpenGL 3.3 core context ") +
@@ -81,13 +80,7 @@ public:
 
   ~EglContext() override
   {
-    thread_.run([this] { destroy(); });
-  }
-
-  void
-  run(const std::function<void()>& task) override
-  {
-    thread_.run(task);
+    run([this] { destroy(); });
   }
 
   Function
@@ -190,7 +183,6 @@ private:
   Egl egl_;
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLContext context_ = EGL_NO_CONTEXT;
-  ContextThread thread_;
 };
 
 } // namespace

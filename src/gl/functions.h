@@ -82,6 +82,7 @@ namespace pcl_uvol {
 
 /** \brief gl.DrawArrays is glDrawArrays of one context. */
 struct GlFunctions {
+// NOLINTNEXTLINE: the name that is declared cannot stand in parentheses
 #define PCL_UVOL_GL_MEMBER(name) decltype(&::gl##name) name;
   PCL_UVOL_GL_FUNCTIONS(PCL_UVOL_GL_MEMBER)
 #undef PCL_UVOL_GL_MEMBER

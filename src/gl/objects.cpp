@@ -19,6 +19,25 @@ logOf(GLuint object, GetParameter get_parameter, GetLog get_log)
   return log;
 }
 
+/** A name that GL gives out and takes back by two functions such as GenBuffers and
+ * DeleteBuffers. */
+template <auto generate, auto release>
+GlName
+makeName(const GlFunctions& gl)
+{
+  GLuint name = 0;
+  (gl.*generate)(1, &name);
+  return {gl, name, [](const GlFunctions& functions, GLuint given) {
+            (functions.*release)(1, &given);
+          }};
+}
+
+GlName
+makeTextureName(const GlFunctions& gl)
+{
+  return makeName<&GlFunctions::GenTextures, &GlFunctions::DeleteTextures>(gl);
+}
+
 GlName
 compile(const GlFunctions& gl, GLenum kind, const std::string& source)
 {
@@ -36,16 +55,6 @@ compile(const GlFunctions& gl, GLenum kind, const std::string& source)
         "The driver does not compile a shader, use the cpu backend instead: " +
         logOf(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog));
   return shader;
-}
-
-GlName
-makeTextureName(const GlFunctions& gl)
-{
-  GLuint name = 0;
-  gl.GenTextures(1, &name);
-  return {gl, name, [](const GlFunctions& functions, GLuint texture) {
-            functions.DeleteTextures(1, &texture);
-          }};
 }
 
 /** Any kind of pixels that a texture of this format may be made from. */
@@ -69,21 +78,13 @@ transferFormat(GLenum format)
 GlName
 makeBuffer(const GlFunctions& gl)
 {
-  GLuint name = 0;
-  gl.GenBuffers(1, &name);
-  return {gl, name, [](const GlFunctions& functions, GLuint buffer) {
-            functions.DeleteBuffers(1, &buffer);
-          }};
+  return makeName<&GlFunctions::GenBuffers, &GlFunctions::DeleteBuffers>(gl);
 }
 
 GlName
 makeVertexArray(const GlFunctions& gl)
 {
-  GLuint name = 0;
-  gl.GenVertexArrays(1, &name);
-  return {gl, name, [](const GlFunctions& functions, GLuint array) {
-            functions.DeleteVertexArrays(1, &array);
-          }};
+  return makeName<&GlFunctions::GenVertexArrays, &GlFunctions::DeleteVertexArrays>(gl);
 }
 
 GlName
@@ -124,12 +125,9 @@ makeFramebuffer(const GlFunctions& gl,
                 std::initializer_list<const GlName*> colors,
                 const GlName* depth)
 {
-  GLuint name = 0;
-  gl.GenFramebuffers(1, &name);
-  GlName framebuffer(gl, name, [](const GlFunctions& functions, GLuint target) {
-    functions.DeleteFramebuffers(1, &target);
-  });
-  gl.BindFramebuffer(GL_FRAMEBUFFER, name);
+  GlName framebuffer =
+      makeName<&GlFunctions::GenFramebuffers, &GlFunctions::DeleteFramebuffers>(gl);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
   GLenum attachment = GL_COLOR_ATTACHMENT0;
   for (const GlName* color : colors)
     gl.FramebufferTexture2D(

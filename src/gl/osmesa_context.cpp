@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "context_thread.h"
+#include "headless_context.h"
 #include "shared_library.h"
-#include <pcl_uvol/gl/context.h>
 
 #include <GL/glcorearb.h>
 #include <array>
@@ -39,30 +38,24 @@ struct OsMesa {
   }
 };
 
-class OsMesaContext : public GlContext {
+class OsMesaContext : public HeadlessContext {
 public:
   explicit OsMesaContext(const std::vector<std::string>& libraries)
-      : GlContext("osmesa")
+      : HeadlessContext("osmesa")
       , osmesa_(SharedLibrary(libraries, advice))
   {
     try {
-      thread_.run([this] { create(); });
+      run([this] { create(); });
     }
     catch (...) {
-      thread_.run([this] { destroy(); });
+      run([this] { destroy(); });
       throw;
     }
   }
 
   ~OsMesaContext() override
   {
-    thread_.run([this] { destroy(); });
-  }
-
-  void
-  run(const std::function<void()>& task) override
-  {
-    thread_.run(task);
+    run([this] { destroy(); });
   }
 
   Function
@@ -110,7 +103,6 @@ private:
   OsMesa osmesa_;
   OsMesaHandle handle_ = nullptr;
   std::array<unsigned char, 4> pixel_{};
-  ContextThread thread_;
 };
 
 } // namespace

@@ -181,12 +181,12 @@ public:
             double(view_.rotation[3 * row + axis]) * cloud_.getCoordinates(axis)[point];
     }
     const double per_z = view_.focal / c[2];
-    const double column = double(pixel % view_.width) + View::guard + 0.5;
-    const double row = double(pixel / view_.width) + View::guard + 0.5;
+    const std::size_t column = pixel % view_.width, row = pixel / view_.width;
     const double disc =
         cloud_.getFootprints().empty() ? 0.0 : per_z * cloud_.getFootprints()[point];
-    return std::hypot(view_.center_x + c[0] * per_z - column,
-                      view_.center_y + c[1] * per_z - row) -
+    constexpr double middle = View::guard + 0.5;
+    return std::hypot(view_.center_x + c[0] * per_z - (column + middle),
+                      view_.center_y + c[1] * per_z - (row + middle)) -
            2.0 * disc; // seen from the side, close to the eye
   }
 

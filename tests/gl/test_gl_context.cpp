@@ -114,9 +114,9 @@ TEST_P(GlContextOfEveryKind, TasksOfManyThreadsRunOneByOne)
 {
   const ContextPtr context = create();
   std::atomic<int> running{0}, overlaps{0}, done{0};
-  std::vector<std::thread> threads;
-  for (int i = 0; i < 8; ++i)
-    threads.emplace_back([&] {
+  std::thread threads[8];
+  for (std::thread& thread : threads)
+    thread = std::thread([&] {
       for (int j = 0; j < 50; ++j)
         context->run([&] {
           overlaps += running++ > 0;

@@ -160,6 +160,27 @@ protected:
     setProjection(0.5f * view_->near, 2.0f * view_->far, target_.projection);
   }
 
+  /** What a window shows from the lower left, after drawing into it. */
+  struct Shown {
+    std::vector<std::uint8_t> colors;
+    std::vector<float> depths;
+  };
+
+  Shown
+  drawIntoWindow(Report& report)
+  {
+    Shown shown;
+    context_->run([&] {
+      const Window window(context_);
+      target_.name = window.getFramebuffer();
+      backend_->renderToFramebuffer(
+          {*scene_.cloud, *view_, settings_, {}, 0}, target_, report);
+      shown.colors = window.read<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
+      shown.depths = window.read<float>(GL_DEPTH_COMPONENT, GL_FLOAT, 1);
+    });
+    return shown;
+  }
+
   Scene scene_;
   pcl_uvol::ImageSpaceSettings settings_;
   std::shared_ptr<GlContext> context_;
@@ -177,16 +198,7 @@ TEST_P(GlWindow, ShowsTheImageWhereNothingIsInFront)
 {
   Report report;
   const Image image = draw(*backend_, scene_, settings_, report, width, height);
-  std::vector<std::uint8_t> colors;
-  std::vector<float> depths;
-  context_->run([&] {
-    const Window window(context_);
-    target_.name = window.getFramebuffer();
-    backend_->renderToFramebuffer(
-        {*scene_.cloud, *view_, settings_, {}, 0}, target_, report);
-    colors = window.read<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
-    depths = window.read<float>(GL_DEPTH_COMPONENT, GL_FLOAT, 1);
-  });
+  const auto [colors, depths] = drawIntoWindow(report);
   int shown = 0, hidden = 0;
   for (int y = 0; y < window_height; ++y)
     for (int x = 0; x < window_width; ++x) {
@@ -232,14 +244,7 @@ TEST_P(GlWindow, AntiAliasedBordersBlend)
   settings_.anti_aliasing = true;
   Report report;
   const Image image = draw(*backend_, scene_, settings_, report, width, height);
-  std::vector<std::uint8_t> colors;
-  context_->run([&] {
-    const Window window(context_);
-    target_.name = window.getFramebuffer();
-    backend_->renderToFramebuffer(
-        {*scene_.cloud, *view_, settings_, {}, 0}, target_, report);
-    colors = window.read<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
-  });
+  const auto colors = drawIntoWindow(report).colors;
   int blended = 0;
   for (int row = 0; row < height; ++row)
     for (int column = window_width / 2 - left; column < width; ++column) {

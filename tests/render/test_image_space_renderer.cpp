@@ -15,7 +15,6 @@ using pcl_uvol::Camera;
 using pcl_uvol::Image;
 using pcl_uvol::ImageSpaceSettings;
 using pcl_uvol::InvalidArgument;
-using pcl_uvol::View;
 
 TEST(ImageSpaceRenderer, GivesTheSameBytesOnAnyNumberOfThreads)
 {

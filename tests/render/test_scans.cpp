@@ -29,8 +29,8 @@ struct Scan {
   const char* file;
   std::uint64_t points; ///< scattered over the mesh; 0: its vertices
   Eigen::Vector3d from;
-  int size;
   double zoom;
+  int size;
   int erosion; ///< pixels within the mesh's outline that may be open
 };
 
@@ -43,12 +43,12 @@ PrintTo(const Scan& scan, std::ostream* out)
 // The dragon's crest has notches between vertices several pixels apart, which only the
 // mesh fills. The blade's vertices lie on its edges: flat parts have next to none.
 const Scan scans[] = {
-    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 512, 1.0, 1},
-    {"bunny.ply", 0, {-1.0, 0.5, 0.3}, 1024, 1.0, 1},
-    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 512, 10.0, 1},
-    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 512, 1.0, 1},
-    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1024, 1.0, 2},
-    {"turbineblade.ply", 883000, {1.0, 0.3, 0.4}, 1024, 1.0, 1},
+    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 1.0, 512, 1},
+    {"bunny.ply", 0, {-1.0, 0.5, 0.3}, 1.0, 1024, 1},
+    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 10.0, 512, 1},
+    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 512, 1},
+    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 1024, 2},
+    {"turbineblade.ply", 883000, {1.0, 0.3, 0.4}, 1.0, 1024, 1},
 };
 
 /** The mesh's vertices with the normals of the file, or points scattered over it. */

@@ -86,4 +86,21 @@ VirtualDisplay::isInstalled()
   return std::system("command -v Xvfb >/dev/null") == 0;
 }
 
+std::unique_ptr<VirtualDisplay> DisplayTest::display_;
+
+void
+DisplayTest::TearDownTestSuite()
+{
+  display_.reset();
+}
+
+void
+DisplayTest::SetUp()
+{
+  if (!VirtualDisplay::isInstalled())
+    GTEST_SKIP() << "Xvfb is not installed";
+  if (display_ == nullptr)
+    display_ = std::make_unique<VirtualDisplay>();
+}
+
 } // namespace uvol_test

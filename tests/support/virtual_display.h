@@ -2,6 +2,9 @@
 // A display for tests that open windows.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <memory>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -27,6 +30,21 @@ public:
 private:
   pid_t server_ = 0;
   std::string previous_; // $DISPLAY
+};
+
+/** \brief Fixture of tests that open windows: one display for all of them, as VTK keeps
+ * connections to it. A SetUp() of theirs calls this one first, and uses the display
+ * only if not IsSkipped(). */
+class DisplayTest : public testing::Test {
+protected:
+  static void
+  TearDownTestSuite();
+
+  void
+  SetUp() override;
+
+private:
+  static std::unique_ptr<VirtualDisplay> display_;
 };
 
 } // namespace uvol_test

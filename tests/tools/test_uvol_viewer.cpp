@@ -44,23 +44,13 @@ makeVolume()
   return volume;
 }
 
-/** A temporary folder to work in, and a display. */
-class UvolViewer : public testing::Test {
+/** A display, and a temporary folder to work in. */
+class UvolViewer : public uvol_test::DisplayTest {
 protected:
-  static void
-  TearDownTestSuite()
-  {
-    delete display_;
-    display_ = nullptr;
-  }
-
   void
   SetUp() override
   {
-    if (!uvol_test::VirtualDisplay::isInstalled())
-      GTEST_SKIP() << "Xvfb is not installed";
-    if (display_ == nullptr) // one for all: VTK keeps connections to it
-      display_ = new uvol_test::VirtualDisplay;
+    DisplayTest::SetUp();
     std::filesystem::current_path(folder_ / "");
   }
 
@@ -81,12 +71,7 @@ protected:
   }
 
   uvol_test::TemporaryFolder folder_;
-
-private:
-  static uvol_test::VirtualDisplay* display_;
 };
-
-uvol_test::VirtualDisplay* UvolViewer::display_ = nullptr;
 
 /** The window of a cloud, with the options of the tool. */
 class OpenWindow {

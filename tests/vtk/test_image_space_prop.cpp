@@ -96,22 +96,14 @@ expectNearerSphereSeen(const Image& image, double fov)
   EXPECT_LE(wrong, (red + grey) / 100);
 }
 
-class ImageSpacePropTest : public testing::Test {
+class ImageSpacePropTest : public uvol_test::DisplayTest {
 protected:
-  static void
-  TearDownTestSuite()
-  {
-    delete display_;
-    display_ = nullptr;
-  }
-
   void
   SetUp() override
   {
-    if (!uvol_test::VirtualDisplay::isInstalled())
-      GTEST_SKIP() << "Xvfb is not installed";
-    if (display_ == nullptr) // one for all: VTK keeps connections to it
-      display_ = new uvol_test::VirtualDisplay;
+    DisplayTest::SetUp();
+    if (IsSkipped())
+      return;
     window_->SetMultiSamples(0);
     window_->SetSize(width, height);
     window_->AddRenderer(renderer_);
@@ -217,12 +209,7 @@ protected:
   vtkNew<ImageSpaceProp> prop_;
   std::string errors_;
   int error_count_ = 0;
-
-private:
-  static uvol_test::VirtualDisplay* display_;
 };
-
-uvol_test::VirtualDisplay* ImageSpacePropTest::display_ = nullptr;
 
 TEST_F(ImageSpacePropTest, LooksAsOnTheCpu)
 {

@@ -43,7 +43,7 @@ public:
   {
     if (rows_ <= 0 || columns_ <= 0)
       return 0;
-    changed_.assign(static_cast<std::size_t>((rows_ + 2) * (cells_ + 2)), 1);
+    changed_.assign(index(rows_, cells_) + 1, 1);
     int iterations = 0;
     while (iterations < most && iterate())
       ++iterations;
@@ -112,7 +112,8 @@ private:
   std::size_t
   index(int row, int cell) const
   {
-    return static_cast<std::size_t>((row + 1) * (cells_ + 2) + cell + 1);
+    const auto per_row = static_cast<std::ptrdiff_t>(cells_) + 2;
+    return static_cast<std::size_t>(per_row * (row + 1) + cell + 1);
   }
 
   bool

@@ -52,7 +52,7 @@ smooth(const ShadedRow& source,
       sq_length += normal[k] * normal[k];
     }
     const Floats shrink =
-        is_surface & (sq_length > 0.0f) ? 1.0f / squareRoot(sq_length) : Floats{};
+        (is_surface & (sq_length > 0.0f)) ? 1.0f / squareRoot(sq_length) : Floats{};
     for (int k = 0; k < 3; ++k)
       store(target.normal[k] + i, normal[k] * shrink);
   }

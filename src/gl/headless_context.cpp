@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "context_thread.h"
+#include "headless_context.h"
 
 #include <utility>
 
 namespace pcl_uvol {
 
-ContextThread::ContextThread()
-    : thread_([this] { work(); })
+HeadlessContext::HeadlessContext(const std::string& name)
+    : GlContext(name)
+    , thread_([this] { work(); })
 {
 }
 
-ContextThread::~ContextThread()
+HeadlessContext::~HeadlessContext()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -21,7 +22,7 @@ ContextThread::~ContextThread()
 }
 
 void
-ContextThread::run(const std::function<void()>& task)
+HeadlessContext::run(const std::function<void()>& task)
 {
   if (std::this_thread::get_id() == thread_.get_id())
     return task();
@@ -36,7 +37,7 @@ ContextThread::run(const std::function<void()>& task)
 }
 
 void
-ContextThread::work()
+HeadlessContext::work()
 {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
