@@ -74,6 +74,65 @@ TEST(Footprints, CloseWhatLiesBetweenClumps)
     EXPECT_EQ(drawSphere(cloud, size).first, 0u) << size;
 }
 
+/** Footprints are so much larger than what they cover, for curvature's sake. */
+constexpr double room = 1.05;
+
+/** Looks straight at a grid of equilateral triangles that fills the image and more.
+ * \param hole radius of its holes in pixels, with room \return pixels seen */
+std::size_t
+drawGrid(double hole, int size, bool with_footprints)
+{
+  Camera camera;
+  camera.eye = {0.0, 0.0, 1.0};
+  camera.at = Eigen::Vector3d::Zero();
+  camera.up = upwards;
+  camera.vertical_fov = 5.0;
+  const double pixel = 2.0 * std::tan(camera.vertical_fov * 3.14159265 / 360.0) / size;
+  const double spacing = std::sqrt(3.0) * hole / room * pixel;
+  const SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  const int lines = static_cast<int>(0.7 * size * pixel / spacing);
+  for (int line = -lines; line <= lines; ++line)
+    for (int i = -lines; i <= lines; ++i) {
+      pcl::PointNormal point;
+      point.x = static_cast<float>(spacing * (i + 0.5 * (line & 1)));
+      point.y = static_cast<float>(spacing * line * std::sqrt(0.75));
+      point.normal_z = 1.0f;
+      cloud->push_back(point);
+    }
+  Renderer renderer;
+  prepare(renderer, cloud, size, size);
+  renderer.setCamera(camera);
+  renderer.settings().footprints = with_footprints;
+  Image image;
+  renderer.render(image);
+  return seenPixels(image);
+}
+
+TEST(Footprints, CloseHolesThatTheMasksLeave)
+{
+  constexpr int size = 200;
+  for (const double hole : {1.0, 1.3, 1.55, 1.8, 2.0, 2.2, 2.4, 2.6, 4.0})
+    EXPECT_EQ(drawGrid(hole, size, true), std::size_t{size} * size) << hole;
+  for (const double hole : {1.55, 2.0, 2.4}) // what is tested is due to them
+    EXPECT_LT(drawGrid(hole, size, false), 0.8 * size * size) << hole;
+}
+
+TEST(Footprints, CloseFewLargeHolesAmongDensePoints)
+{
+  // Blocks are dense on the average; in each hole a disc is due.
+  const auto sphere = makeSphere(60000, 1);
+  const SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  const auto holes = makeSphere(200, 2);
+  for (const auto& point : *sphere)
+    if (std::none_of(holes->begin(), holes->end(), [&](const auto& hole) {
+          return (hole.getVector3fMap() - point.getVector3fMap()).norm() < 0.022f;
+        }))
+      cloud->push_back(point);
+  EXPECT_LT(cloud->size(), sphere->size() - 1000);
+  for (const int size : {300, 450})
+    EXPECT_EQ(drawSphere(cloud, size).first, 0u) << size;
+}
+
 TEST(Footprints, AreNotDrawnWithoutThem)
 {
   Renderer renderer;
