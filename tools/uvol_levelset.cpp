@@ -248,6 +248,8 @@ run(int argc, char** argv)
   LevelSetParameters parameters = parametersOf(options, arguments);
   const uvol_tools::ScaleOption scale(arguments.scale);
   pcl_uvol::checkSavePath(arguments.output);
+  if (!arguments.table.empty())
+    pcl_uvol::checkSavePath(arguments.table);
 
   Report report;
   uvol_tools::ProgressBar bar;

@@ -34,6 +34,15 @@ TEST(SimdLevels, SameBytes)
   EXPECT_GT(baseline.size(), 100000u);
   EXPECT_EQ(baseline, fileOf("avx2", extract, out));
   EXPECT_EQ(baseline, fileOf("avx512", extract, out));
+  for (const char* scheme : {"quadratic", "linear"}) {
+    const std::string evolve = "uvol_levelset " + in + " " + out +
+                               " -field gyroid -iso 0.2 -steps 6 -scheme " + scheme;
+    const std::string phi = fileOf("baseline", evolve, out);
+    EXPECT_GT(phi.size(), 100000u);
+    EXPECT_EQ(phi, fileOf("avx2", evolve, out)) << scheme;
+    EXPECT_EQ(phi, fileOf("avx512", evolve, out)) << scheme;
+  }
+  ASSERT_EQ(baseline, fileOf("baseline", extract, out));
   // Dense and sparse, with every pass.
   for (const char* size : {"150", "900"}) {
     const std::string draw = "uvol_render " + out + " " + picture +
