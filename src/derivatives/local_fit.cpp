@@ -21,8 +21,8 @@ constexpr double weight_exponent = 2.0, weight_radius = 1.05;
 constexpr double smallest_pivot = 1e-7;
 
 /** Of the largest eigenvalue: neighbours extend less than a ten thousandth as far
- * across as along. */
-constexpr double smallest_eigenvalue = 1e-8;
+ * across as along; for smoothing less than a fifth. */
+constexpr double smallest_eigenvalue = 1e-8, smoothing_eigenvalue = 0.04;
 
 /** Terms of a quadratic about the sample: x y z, xx xy xz yy yz zz, halved where the
  * second derivative is twice the factor. */
@@ -69,7 +69,7 @@ LocalFit::fit(const std::vector<Position>& positions,
     offset /= reach_;
   if (scheme_ == FitScheme::Quadratic && count >= terms && fitQuadratic())
     return FitOutcome::Full;
-  if (!fitPlane())
+  if (!fitPlane(smallest_eigenvalue))
     return FitOutcome::Singular;
   return scheme_ == FitScheme::Linear ? FitOutcome::Full : FitOutcome::Reduced;
 }
@@ -138,7 +138,7 @@ LocalFit::fitQuadratic()
 }
 
 bool
-LocalFit::fitPlane()
+LocalFit::fitPlane(double least_eigenvalue)
 {
   // About the mean of the neighbours and the sample itself, which takes care of the
   // constant term.
@@ -157,7 +157,7 @@ LocalFit::fitPlane()
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
   bool is_regular = true;
   for (int i = 0; i < 3; ++i) {
-    if (!(values[i] > smallest_eigenvalue * values[2])) {
+    if (!(values[i] > least_eigenvalue * values[2])) {
       is_regular = false;
       continue;
     }
@@ -180,7 +180,7 @@ LocalFit::makeIsotropic()
   // Of the squared deviations from the plane: less would be none.
   constexpr double least_curvature = 0.05;
   std::fill(weights_.begin(), weights_.end(), 0.0);
-  fitPlane();
+  fitPlane(smoothing_eigenvalue);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t j = 0; j < count_; ++j)
     sum += Eigen::Map<const Eigen::Vector3d>(&offsets_[3 * j]);

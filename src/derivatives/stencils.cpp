@@ -24,6 +24,10 @@ constexpr std::size_t cube_directions = 13;
  * deviation, and waves of that direction grow. */
 constexpr double least_feedback = 0.1;
 
+/** Stiffness times the squared reach: about 12 for random samples. Much stiffer
+ * curvature is that of samples nearly on a line or a plane, and mostly noise. */
+constexpr double most_stiffness = 50.0;
+
 /** What the curvature (tr H - n^T H n) / 2 does with the values, over unit vectors n:
  * the axes and diagonals of a cube, which no direction is far from. */
 struct CurvatureWeights {
@@ -119,7 +123,8 @@ Stencils::compute(const SampleSet& samples,
           fit.fit(positions, center, neighbors.data(), neighbors.size());
       if (scheme == FitScheme::Quadratic) {
         CurvatureWeights weights = curvatureWeightsOf(fit, neighbors.size());
-        if (outcome != FitOutcome::Full || weights.feedback < least_feedback) {
+        if (outcome != FitOutcome::Full || weights.feedback < least_feedback ||
+            weights.stiffness * fit.getReach() * fit.getReach() > most_stiffness) {
           fit.makeIsotropic();
           weights = curvatureWeightsOf(fit, neighbors.size());
           ++isotropic;

@@ -37,30 +37,50 @@ medianOf(std::vector<T> values)
   return *middle;
 }
 
+/** Call body(first, last) for blocks of a band's groups, in parallel. */
+template <typename Body>
+void
+sweep(const Band& band, unsigned threads, const Body& body)
+{
+  parallelBlocks(band.stencils.groups(), block_groups, threads, body);
+}
+
+/** Gradients of a field at the centres, as normal and slope. */
+struct Gradients {
+  std::vector<float> normal[3], slope;
+
+  Gradients(const Band& band, const std::vector<float>& f, unsigned threads)
+      : slope(band.centerPlaces())
+  {
+    for (auto& coordinate : normal)
+      coordinate.resize(band.centerPlaces());
+    const NormalStep step{band.stencils.view(),
+                          {f.data(), nullptr, 0.0f},
+                          {normal[0].data(), normal[1].data(), normal[2].data()},
+                          slope.data()};
+    sweep(band, threads, [&](auto begin, auto end) {
+      kernel_table.get()->findNormals(step, begin, end);
+    });
+  }
+};
+
 /** Length of the mean gradient over the centres and their neighbours, by place. */
 std::vector<float>
 findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
 {
-  const EvolutionKernels& kernels = *kernel_table.get();
   const std::size_t centers = band.centerPlaces();
-  std::vector<float> gradient[3], slope(centers), mean(centers), squares(centers, 0.0f);
-  for (auto& coordinate : gradient)
-    coordinate.resize(centers);
-  const StencilView stencils = band.stencils.view();
-  const NormalStep step{stencils,
-                        {f.data(), nullptr, 0.0f},
-                        {gradient[0].data(), gradient[1].data(), gradient[2].data()},
-                        slope.data()};
-  const auto sweep = [&](const auto& body) {
-    parallelBlocks(band.stencils.groups(), block_groups, threads, body);
-  };
-  sweep([&](auto begin, auto end) { kernels.findNormals(step, begin, end); });
-  for (auto& coordinate : gradient) {
+  Gradients gradients(band, f, threads);
+  std::vector<float> mean(centers), squares(centers, 0.0f);
+  for (auto& coordinate : gradients.normal) {
     for (std::size_t i = 0; i < centers; ++i)
-      coordinate[i] *= slope[i];
-    sweep([&](auto begin, auto end) {
-      kernels.average(
-          stencils, coordinate.data(), band.centers.size(), mean.data(), begin, end);
+      coordinate[i] *= gradients.slope[i];
+    sweep(band, threads, [&](auto begin, auto end) {
+      kernel_table.get()->average(band.stencils.view(),
+                                  coordinate.data(),
+                                  band.centers.size(),
+                                  mean.data(),
+                                  begin,
+                                  end);
     });
     for (std::size_t i = 0; i < centers; ++i)
       squares[i] += mean[i] * mean[i];
@@ -68,6 +88,17 @@ findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
   for (float& square : squares)
     square = std::sqrt(square);
   return squares;
+}
+
+/** How far a function is from a distance, in the mean over the centres. */
+double
+findSlopeError(const Band& band, const std::vector<float>& phi, unsigned threads)
+{
+  const Gradients gradients(band, phi, threads);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < band.centers.size(); ++i)
+    sum += std::abs(static_cast<double>(gradients.slope[i]) - 1.0);
+  return sum / static_cast<double>(band.centers.size());
 }
 
 /** Samples that are no centres take the mean slope of the centres they serve. */
@@ -160,6 +191,7 @@ makeDataTerm(const Band& band,
   term.target = std::move(values);
   for (std::size_t place = 0; place < band.places(); ++place)
     term.target[place] /= slopes[place];
+  term.slope_error = findSlopeError(band, term.target, threads);
   return term;
 }
 

@@ -13,6 +13,7 @@ struct DataTerm {
   std::vector<float> target; ///< (f - f_iso) / |grad f|
   double noise;              ///< standard deviation of target, by the residuals of fits
   double slope;              ///< median of |grad f|
+  double slope_error;        ///< mean of | |grad target| - 1 |
 };
 
 /** \brief Scale a field to a distance.

@@ -96,7 +96,8 @@ finish(const EvolutionStep& step,
     bend -= load<Floats>(step.reference + i);
   const Floats most = fill(step.most_pull);
   const Floats gap = load<Floats>(step.target + i) - own;
-  const Floats pull = minimum(maximum(gap, -most), most) * slope;
+  const Floats pull =
+      minimum(maximum(gap, -most), most) * minimum(slope, fill(step.most_slope));
   store(step.curvature + i, curvature);
   store(step.next + i,
         own + step.advection * pull +

@@ -26,6 +26,7 @@ struct EvolutionStep {
   const float* reference; ///< curvature times slope that is left as it is; null: 0
   const float* sq_length; ///< squared unit of length of the curvature terms
   float most_pull;        ///< farther targets pull no more than one that far away
+  float most_slope;       ///< steeper places are pulled no faster
   float advection;        ///< mu dt
   float diffusion;        ///< (1 - mu) dt
   float to_distance;      ///< weight times dt of the term of 3.4 that keeps the slope

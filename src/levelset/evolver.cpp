@@ -26,8 +26,12 @@ constexpr double most_pull = 1.0;
  * differences let its waves grow by as little. */
 constexpr double travel_factor = 6.0;
 
-/** Steeper functions are reinitialised before long. */
+/** Slopes count as no greater for the pull of the data: where samples lie nearly on a
+ * line or a plane, they are anything. */
 constexpr double steepest = 1.5;
+
+/** In median spacings: samples that lie farther apart are not smoothed over more. */
+constexpr double longest_spacing = 2.0;
 
 /** Samples with shorter steps than that part of most others' take steps that are too
  * long for them, of a flow that is as much weaker: they end at the same, and later. */
@@ -99,8 +103,15 @@ Evolver::Evolver(const Band& band,
     means_.resize(centers_);
     const double neighbors = static_cast<double>(band.stencils.view().neighbors);
     for (std::size_t i = 0; i < band.centers.size(); ++i)
-      sq_length_[i] = static_cast<float>(
-          std::pow(spacingOf(band.stencils.getReach()[i], neighbors), 2));
+      // A stencil without curvature has no part in what its neighbours' is.
+      sq_length_[i] =
+          parameters.scheme == FitScheme::Quadratic &&
+                  band.stencils.getStiffness()[i] == 0.0f
+              ? 0.0f
+              : static_cast<float>(
+                    std::pow(std::min(spacingOf(band.stencils.getReach()[i], neighbors),
+                                      longest_spacing * spacing),
+                             2));
   }
   chooseSteps();
 }
@@ -201,6 +212,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                                    reference_.empty() ? nullptr : reference_.data(),
                                    sq_length_.data(),
                                    static_cast<float>(most_pull * spacing_),
+                                   static_cast<float>(steepest),
                                    static_cast<float>(mu_ * dt),
                                    static_cast<float>((1.0 - mu_) * dt),
                                    static_cast<float>(to_distance * dt),

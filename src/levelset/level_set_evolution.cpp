@@ -24,8 +24,9 @@ constexpr std::size_t band_steps = 5;
 /** In spacings: the zero level keeps that far from the border. */
 constexpr double band_margin = 2.0;
 
-/** Mean of | |grad phi| - 1 | that asks for a reinitialisation, and steps between two:
- * a function that starts noisy is smoothed before. */
+/** Mean of | |grad phi| - 1 | that asks for a reinitialisation, beyond that of the data
+ * term, which would bring it back; and steps between two: a function that starts noisy
+ * is smoothed before. */
 constexpr double most_slope_error = 0.3;
 constexpr std::size_t reinitialization_steps = 10;
 
@@ -275,7 +276,8 @@ private:
     summary_.converged = step.change < parameters_.tolerance;
     if (summary_.converged)
       return;
-    if (count % reinitialization_steps == 0 && step.slope_error > most_slope_error)
+    if (count % reinitialization_steps == 0 &&
+        step.slope_error > most_slope_error + term_.slope_error)
       reinitialize();
     if (!band_->distance.empty() && count % band_steps == 0)
       followZeroLevel();

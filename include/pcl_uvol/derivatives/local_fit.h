@@ -85,8 +85,10 @@ private:
   bool
   fitQuadratic();
 
+  /** False if the neighbours extend less across some direction, the derivative along
+   * which is then 0. */
   bool
-  fitPlane();
+  fitPlane(double least_eigenvalue);
 
   FitScheme scheme_;
   std::size_t count_ = 0;
