@@ -163,6 +163,21 @@ private:
     }
     for (float& value : f_)
       value = static_cast<float>(static_cast<double>(value) - isovalue);
+    largest_phi_ = largestPhi();
+  }
+
+  /** Beyond it the function has diverged. */
+  double
+  largestPhi() const
+  {
+    Position low = samples_->getPositions()[0], high = low;
+    for (const Position& x : samples_->getPositions())
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], x[axis]);
+        high[axis] = std::max(high[axis], x[axis]);
+      }
+    return most_extents *
+           std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   }
 
   /** Samples next to the zero level of a function. */
@@ -287,27 +302,15 @@ private:
   checkDivergence(const LevelSetStep& step) const
   {
     const std::vector<float>& phi = evolver_->getPhi();
-    const double most = most_extents * extent();
-    const bool is_bounded = std::all_of(
-        phi.begin(), phi.end(), [&](float value) { return std::abs(value) <= most; });
+    const bool is_bounded = std::all_of(phi.begin(), phi.end(), [&](float value) {
+      return std::abs(value) <= largest_phi_;
+    });
     if (is_bounded && std::isfinite(step.change))
       return;
     std::ostringstream text;
     text << "The level set diverged in step " << summary_.steps.size() + 1
          << ": use a smaller time step, the quadratic scheme or a larger mu.";
     throw Diverged(text.str());
-  }
-
-  double
-  extent() const
-  {
-    Position low = samples_->getPositions()[0], high = low;
-    for (const Position& x : samples_->getPositions())
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], x[axis]);
-        high[axis] = std::max(high[axis], x[axis]);
-      }
-    return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   }
 
   void
@@ -384,6 +387,7 @@ private:
   LevelSetSummary& summary_;
   Report& report_;
   std::size_t cloud_size_ = 0;
+  double largest_phi_ = 0.0;
   SampleSet::ConstPtr samples_;
   std::vector<float> f_;   ///< minus the isovalue, by sample
   std::vector<float> phi_; ///< by sample; in the band as it was when that was made

@@ -4,7 +4,9 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/derivatives/impl/gradient_estimation.hpp>
+#include <pcl_uvol/derivatives/local_fit.h>
 #include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <Eigen/LU>
