@@ -189,9 +189,16 @@ gather(const float* base, const Ints& index)
 inline Floats
 loadShorts(const std::int16_t* values)
 {
+#if defined(__AVX512F__)
+  // Compilers take the widening apart.
+  const __m256i shorts = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  const auto ints = bitCast<Ints>(_mm512_maskz_cvtepi16_epi32(0xffff, shorts));
+  return __builtin_convertvector(ints, Floats);
+#else
   using Shorts =
       std::int16_t __attribute__((vector_size(register_bytes / 2), aligned(2)));
   return __builtin_convertvector(*reinterpret_cast<const Shorts*>(values), Floats);
+#endif
 }
 
 /** base[2 * index] of every lane. */

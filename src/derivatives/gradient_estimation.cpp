@@ -62,7 +62,7 @@ public:
         const double difference =
             static_cast<double>(f[neighbors_[i].first[j]]) - static_cast<double>(f[i]);
         for (std::size_t row = 0; row < derivativesOf(parameters_.scheme); ++row)
-          d[row] += fit.getWeight(row, j) * difference;
+          d[row] += fit.getWeights(row)[j] * difference;
       }
       found[i] = {Eigen::Vector3d(d), curvatureOf(d)};
     });
@@ -115,7 +115,7 @@ private:
         if (!(length > 0.0))
           continue;
         for (int axis = 0; axis < 3; ++axis)
-          divergence += fit.getWeight(static_cast<std::size_t>(axis), j) *
+          divergence += fit.getWeights(static_cast<std::size_t>(axis))[j] *
                         (other[axis] / length - normal[axis]);
       }
       found[i].mean_curvature = 0.5 * divergence;

@@ -77,9 +77,8 @@ LocalFit::fit(const std::vector<Position>& positions,
 bool
 LocalFit::fitQuadratic()
 {
-  // Normal equations, and what the weights solve them for, a row per term.
+  // Normal equations. The weights begin as what they are solved for, a row per term.
   double factor[terms][terms] = {};
-  right_.resize(terms * count_);
   for (std::size_t j = 0; j < count_; ++j) {
     const double* const u = &offsets_[3 * j];
     const double sq_dist = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
@@ -89,7 +88,7 @@ LocalFit::fitQuadratic()
     setTerms(u, term);
     for (std::size_t i = 0; i < terms; ++i) {
       const double weighted = weight * term[i];
-      right_[i * count_ + j] = weighted;
+      weights_[i * count_ + j] = weighted;
       for (std::size_t l = 0; l <= i; ++l)
         factor[i][l] += weighted * term[l];
     }
@@ -104,36 +103,29 @@ LocalFit::fitQuadratic()
     const double diagonal = factor[i][i];
     for (std::size_t m = 0; m < i; ++m)
       factor[i][i] -= factor[i][m] * factor[i][m];
-    if (!(factor[i][i] > smallest_pivot * diagonal))
+    if (!(factor[i][i] > smallest_pivot * diagonal)) {
+      std::fill(weights_.begin(), weights_.end(), 0.0);
       return false;
+    }
     factor[i][i] = std::sqrt(factor[i][i]);
   }
   // All neighbours side by side.
-  const auto subtract = [&](std::size_t from, std::size_t row, double times) {
-    double* const target = &right_[row * count_];
-    const double* const source = &right_[from * count_];
-    for (std::size_t j = 0; j < count_; ++j)
-      target[j] -= times * source[j];
-  };
-  const auto divide = [&](std::size_t row, double by) {
-    for (std::size_t j = 0; j < count_; ++j)
-      right_[row * count_ + j] /= by;
+  const auto row = [&](std::size_t i) {
+    return Eigen::Map<Eigen::ArrayXd>(&weights_[i * count_],
+                                      static_cast<Eigen::Index>(count_));
   };
   for (std::size_t i = 0; i < terms; ++i) {
     for (std::size_t l = 0; l < i; ++l)
-      subtract(l, i, factor[i][l]);
-    divide(i, factor[i][i]);
+      row(i) -= factor[i][l] * row(l);
+    row(i) *= 1.0 / factor[i][i];
   }
   for (std::size_t i = terms; i-- > 0;) {
     for (std::size_t l = i + 1; l < terms; ++l)
-      subtract(l, i, factor[l][i]);
-    divide(i, factor[i][i]);
+      row(i) -= factor[l][i] * row(l);
+    row(i) *= 1.0 / factor[i][i];
   }
-  for (std::size_t i = 0; i < terms; ++i) {
-    const double unit = i < 3 ? reach_ : reach_ * reach_;
-    for (std::size_t j = 0; j < count_; ++j)
-      weights_[i * count_ + j] = right_[i * count_ + j] / unit;
-  }
+  for (std::size_t i = 0; i < terms; ++i)
+    row(i) *= 1.0 / (i < 3 ? reach_ : reach_ * reach_);
   return true;
 }
 
@@ -186,8 +178,7 @@ LocalFit::makeIsotropic()
     sum += Eigen::Map<const Eigen::Vector3d>(&offsets_[3 * j]);
   // The sum of the deviations from the plane through the sample, and what it is for
   // half the squared distance.
-  std::vector<double>& deviation = right_;
-  deviation.assign(count_, 1.0);
+  std::vector<double> deviation(count_, 1.0);
   double curvature = 0.0, squares = 0.0;
   for (std::size_t j = 0; j < count_; ++j) {
     for (std::size_t axis = 0; axis < 3; ++axis)

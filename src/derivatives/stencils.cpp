@@ -4,6 +4,8 @@
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -52,29 +54,22 @@ curvatureWeightsOf(const LocalFit& fit, std::size_t count)
                                                   {1, 1, -1},
                                                   {1, -1, 1},
                                                   {-1, 1, 1}};
-  double sums[cube_directions] = {}, absolute[cube_directions] = {};
-  for (std::size_t j = 0; j < count; ++j) {
-    const double h[6] = {fit.getWeight(xx, j),
-                         fit.getWeight(xy, j),
-                         fit.getWeight(xz, j),
-                         fit.getWeight(yy, j),
-                         fit.getWeight(yz, j),
-                         fit.getWeight(zz, j)};
-    for (std::size_t i = 0; i < cube_directions; ++i) {
-      const int* const n = directions[i];
-      const int sq_length = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-      const double along =
-          n[0] * n[0] * h[0] + n[1] * n[1] * h[3] + n[2] * n[2] * h[5] +
-          2.0 * (n[0] * n[1] * h[1] + n[0] * n[2] * h[2] + n[1] * n[2] * h[4]);
-      const double weight = 0.5 * (h[0] + h[3] + h[5] - along / sq_length);
-      sums[i] += weight;
-      absolute[i] += std::abs(weight);
-    }
-  }
+  const auto of = [&](std::size_t derivative) {
+    return Eigen::Map<const Eigen::ArrayXd>(fit.getWeights(derivative),
+                                            static_cast<Eigen::Index>(count));
+  };
   CurvatureWeights weights{0.0, 1.0};
-  for (std::size_t i = 0; i < cube_directions; ++i) {
-    weights.stiffness = std::max(weights.stiffness, absolute[i]);
-    weights.feedback = std::min(weights.feedback, sums[i] / absolute[i]);
+  for (const auto& n : directions) {
+    const double per_length = 1.0 / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const auto across = [&](int i, int j) {
+      return 0.5 * ((i == j ? 1.0 : 0.0) - n[i] * n[j] * per_length);
+    };
+    const auto weight = across(0, 0) * of(xx) + across(1, 1) * of(yy) +
+                        across(2, 2) * of(zz) + 2.0 * across(0, 1) * of(xy) +
+                        2.0 * across(0, 2) * of(xz) + 2.0 * across(1, 2) * of(yz);
+    const double absolute = weight.abs().sum();
+    weights.stiffness = std::max(weights.stiffness, absolute);
+    weights.feedback = std::min(weights.feedback, weight.sum() / absolute);
   }
   return weights;
 }
@@ -154,15 +149,17 @@ Stencils::store(const LocalFit& fit,
   for (std::size_t j = 0; j < count; ++j)
     indices[j * stencil_lanes] = neighbors[j];
   for (std::size_t row = 0; row < rows_; ++row) {
+    const double* const row_weights = fit.getWeights(row);
     double largest = 0.0;
     for (std::size_t j = 0; j < count; ++j)
-      largest = std::max(largest, std::abs(fit.getWeight(row, j)));
+      largest = std::max(largest, std::abs(row_weights[j]));
     if (largest == 0.0)
       continue;
     scales[row * stencil_lanes] = static_cast<float>(largest / largest_weight);
+    const double steps = largest_weight / largest;
     for (std::size_t j = 0; j < count; ++j)
       weights[(j * rows_ + row) * stencil_lanes] = static_cast<std::int16_t>(
-          std::lround(fit.getWeight(row, j) / largest * largest_weight));
+          row_weights[j] * steps + std::copysign(0.5, row_weights[j]));
   }
 }
 

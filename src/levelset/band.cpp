@@ -18,65 +18,48 @@ constexpr std::size_t block_samples = 4096;
 /** Samples that a median is taken over, at most. */
 constexpr std::size_t most_measured = 8192;
 
-/** Cells as large as the band is wide: what lies near a crossing sample is in its cell
- * or beside it. */
-class CoarseCells {
+/** Samples that share a look at what is near, crossing or not. */
+constexpr std::size_t shared_samples = 64;
+
+/** Marks the samples of a box, and some beside it. */
+class BoxMarker {
 public:
-  CoarseCells(const Position& low, float size)
-      : low_(low)
-      , per_size_(1.0f / size)
+  explicit BoxMarker(const SampleSet& samples)
+      : tree_(samples.getTree())
+      , marked_(samples.size(), false)
   {
   }
 
   void
-  markAround(const Position& x)
+  mark(const Position& low, const Position& high)
   {
-    for (int dx = -1; dx <= 1; ++dx)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dz = -1; dz <= 1; ++dz)
-          marked_.push_back(keyOf(x, dx, dy, dz));
-    if (marked_.size() > 2 * distinct_ + most_repeats)
-      unite();
-  }
-
-  /** Before contains(). */
-  void
-  unite()
-  {
-    std::sort(marked_.begin(), marked_.end());
-    marked_.erase(std::unique(marked_.begin(), marked_.end()), marked_.end());
-    distinct_ = marked_.size();
+    mark(tree_.getRoot(), low, high);
   }
 
   bool
-  contains(const Position& x) const
+  isMarked(std::size_t sample) const
   {
-    return std::binary_search(marked_.begin(), marked_.end(), keyOf(x, 0, 0, 0));
+    return marked_[sample];
   }
 
 private:
-  static constexpr std::size_t most_repeats = 1u << 20;
-
-  /** 21 bits per axis; cells beyond are taken for the last one. */
-  std::uint64_t
-  keyOf(const Position& x, int dx, int dy, int dz) const
+  void
+  mark(const KdNode& node, const Position& low, const Position& high)
   {
-    constexpr double most = (1 << 21) - 1;
-    const int shift[3] = {dx, dy, dz};
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double cell =
-          std::floor((static_cast<double>(x[axis]) - low_[axis]) * per_size_) + 1.0 +
-          shift[axis];
-      key = key << 21 | static_cast<std::uint64_t>(std::clamp(cell, 0.0, most));
+    if (node.count <= shared_samples) {
+      std::fill_n(marked_.begin() + node.begin, node.count, true);
+      return;
     }
-    return key;
+    const int axis = tree_.getAxis(node.depth);
+    const float plane = tree_.getPlane(node).coordinate;
+    if (low[axis] <= plane)
+      mark(node.left(), low, high);
+    if (high[axis] >= plane)
+      mark(node.right(), low, high);
   }
 
-  Position low_;
-  double per_size_;
-  std::vector<std::uint64_t> marked_;
-  std::size_t distinct_ = 0;
+  const KdTree& tree_;
+  std::vector<char> marked_;
 };
 
 struct NearSample {
@@ -91,17 +74,21 @@ samplesNear(const SampleSet& samples,
             unsigned threads)
 {
   const std::vector<Position>& positions = samples.getPositions();
-  Position low = positions[crossing.front()];
   std::vector<Position> near;
-  for (const std::uint32_t sample : crossing) {
+  for (const std::uint32_t sample : crossing)
     near.push_back(positions[sample]);
-    for (int axis = 0; axis < 3; ++axis)
-      low[axis] = std::min(low[axis], near.back()[axis]);
+  BoxMarker marker(samples);
+  // Crossing samples lie in spatial order: so many of them span a small box.
+  for (std::size_t begin = 0; begin < near.size(); begin += shared_samples) {
+    Position low = near[begin], high = low;
+    const std::size_t end = std::min(near.size(), begin + shared_samples);
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], near[i][axis] - width);
+        high[axis] = std::max(high[axis], near[i][axis] + width);
+      }
+    marker.mark(low, high);
   }
-  CoarseCells cells(low, width);
-  for (const Position& x : near)
-    cells.markAround(x);
-  cells.unite();
   std::vector<std::uint32_t> all(near.size());
   std::iota(all.begin(), all.end(), 0u);
   Report ignored;
@@ -113,13 +100,20 @@ samplesNear(const SampleSet& samples,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<NearSample>& found) {
         NearestFinder finder(*crossings, 1);
-        for (std::size_t i = begin; i < end; ++i) {
-          if (!cells.contains(positions[i]))
-            continue;
-          const float distance =
-              std::sqrt(finder.find(positions[i], width).sq_dists[0]);
-          if (distance <= width)
-            found.push_back({static_cast<std::uint32_t>(i), distance});
+        for (std::size_t first = begin; first < end; first += shared_samples) {
+          const std::size_t last = std::min(end, first + shared_samples);
+          bool is_expected = false;
+          for (std::size_t i = first; i < last; ++i) {
+            if (!marker.isMarked(i))
+              continue;
+            if (!is_expected)
+              finder.expect(&positions[first], last - first);
+            is_expected = true;
+            const auto row = finder.findWithin(positions[i], width);
+            if (row.size > 0 && row.sq_dists[0] <= width * width)
+              found.push_back(
+                  {static_cast<std::uint32_t>(i), std::sqrt(row.sq_dists[0])});
+          }
         }
       });
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pcl_uvol {
 
@@ -90,15 +91,41 @@ findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
   return squares;
 }
 
-/** How far a function is from a distance, in the mean over the centres. */
+/** Centres with a neighbour beyond the surface, or all if no surface is near: what the
+ * data are like there counts, however far the band goes. */
+std::vector<std::uint32_t>
+findSurface(const Band& band, const std::vector<float>& f)
+{
+  std::vector<std::uint32_t> surface;
+  const StencilView stencils = band.stencils.view();
+  for (std::size_t i = 0; i < band.centers.size(); ++i) {
+    const std::uint32_t* const row =
+        stencils.indicesOf(i / stencil_lanes) + i % stencil_lanes;
+    for (std::size_t j = 0; j < stencils.neighbors; ++j)
+      if ((f[row[j * stencil_lanes]] < 0.0f) != (f[i] < 0.0f)) {
+        surface.push_back(static_cast<std::uint32_t>(i));
+        break;
+      }
+  }
+  if (surface.empty()) {
+    surface.resize(band.centers.size());
+    std::iota(surface.begin(), surface.end(), 0u);
+  }
+  return surface;
+}
+
+/** How far a function is from a distance, in the mean over some centres. */
 double
-findSlopeError(const Band& band, const std::vector<float>& phi, unsigned threads)
+findSlopeError(const Band& band,
+               const std::vector<std::uint32_t>& centers,
+               const std::vector<float>& phi,
+               unsigned threads)
 {
   const Gradients gradients(band, phi, threads);
   double sum = 0.0;
-  for (std::size_t i = 0; i < band.centers.size(); ++i)
-    sum += std::abs(static_cast<double>(gradients.slope[i]) - 1.0);
-  return sum / static_cast<double>(band.centers.size());
+  for (const std::uint32_t center : centers)
+    sum += std::abs(static_cast<double>(gradients.slope[center]) - 1.0);
+  return sum / static_cast<double>(centers.size());
 }
 
 /** Samples that are no centres take the mean slope of the centres they serve. */
@@ -122,21 +149,22 @@ extendSlopes(const Band& band, std::vector<float>& slopes)
     slopes[place] /= static_cast<float>(count[place]);
 }
 
-/** Standard deviation of a field about quadratics, per slope; the median over samples
- * all over the band. */
+/** Standard deviation of a field about quadratics, per slope; the median over some of
+ * the centres. */
 double
 findNoise(const Band& band,
+          const std::vector<std::uint32_t>& centers,
           const SampleSet& samples,
           const std::vector<float>& f,
           const std::vector<float>& slopes,
           unsigned threads)
 {
-  const std::size_t count = std::min(noise_fits, band.centers.size());
+  const std::size_t count = std::min(noise_fits, centers.size());
   std::vector<double> noises(count, 0.0);
   parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, noise_samples);
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t center = i * band.centers.size() / count;
+      const std::uint32_t center = centers[i * centers.size() / count];
       const Position& x = samples.getPositions()[band.centers[center]];
       const auto row = finder.find(x, band.stencils.getReach()[center]);
       const auto terms = static_cast<Eigen::Index>(quadratic_terms);
@@ -178,20 +206,21 @@ makeDataTerm(const Band& band,
   band.forPlaces(
       [&](std::size_t place, std::uint32_t sample) { values[place] = f[sample]; });
   std::vector<float> slopes = findSlopes(band, values, threads);
-  std::vector<float> known(slopes.begin(),
-                           slopes.begin() +
-                               static_cast<std::ptrdiff_t>(band.centers.size()));
+  const auto surface = findSurface(band, values);
+  std::vector<float> known;
+  for (const std::uint32_t center : surface)
+    known.push_back(slopes[center]);
   const float median = medianOf(std::move(known));
   extendSlopes(band, slopes);
   for (float& slope : slopes)
     slope = std::max(slope, least_slope * median);
   DataTerm term;
   term.slope = median;
-  term.noise = findNoise(band, samples, f, slopes, threads);
+  term.noise = findNoise(band, surface, samples, f, slopes, threads);
   term.target = std::move(values);
   for (std::size_t place = 0; place < band.places(); ++place)
     term.target[place] /= slopes[place];
-  term.slope_error = findSlopeError(band, term.target, threads);
+  term.slope_error = findSlopeError(band, surface, term.target, threads);
   return term;
 }
 

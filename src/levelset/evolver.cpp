@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/parallel.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -13,7 +14,7 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr std::size_t block_groups = 64;
+constexpr std::size_t block_groups = 64, block_places = 16384;
 
 /** Of the step that the stencil's weights allow. */
 constexpr double safety = 0.9;
@@ -285,10 +286,13 @@ Evolver::advance()
     evaluate(groups, time, 1.0);
     commit(groups, time);
   }
-  for (std::size_t i = 0; i < centers_; ++i) {
-    phi_[i] += rate_[i];
-    rate_[i] = 0.0f;
-  }
+  parallelBlocks(
+      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          phi_[i] += rate_[i];
+          rate_[i] = 0.0f;
+        }
+      });
   ++steps_;
   return summarize();
 }
@@ -300,34 +304,68 @@ Evolver::setPhi(const std::vector<float>& phi)
   steps_ = 0;
 }
 
+bool
+Evolver::isBounded(double largest) const
+{
+  std::atomic<bool> bounded{true};
+  parallelBlocks(
+      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i)
+          if (!(std::abs(phi_[i]) <= largest))
+            bounded = false;
+      });
+  return bounded;
+}
+
 LevelSetStep
 Evolver::summarize() const
 {
-  LevelSetStep step{};
-  step.min_slope = std::numeric_limits<double>::infinity();
-  double sq_change = 0.0, error = 0.0, energy = 0.0;
-  std::size_t near = 0;
-  for (std::size_t i = 0; i < band_.centers.size(); ++i) {
-    // Not a number counts as near.
-    if (std::abs(phi_[i]) > spacing_)
-      continue;
+  struct Sums {
+    double sq_change = 0.0, slope_error = 0.0, energy = 0.0,
+           min_slope = std::numeric_limits<double>::infinity(), max_slope = 0.0;
+    std::size_t near = 0;
+  };
+  const auto add = [&](std::size_t i, Sums& sums) {
     const double slope = slope_[i];
     const double change =
         (static_cast<double>(phi_[i]) - start_[i]) / spacing_ / std::max(slope, 0.1);
     const double pull = (static_cast<double>(target_[i]) - phi_[i]) / spacing_;
-    sq_change += change * change;
-    error += std::abs(slope - 1.0);
-    energy += 0.5 * mu_ * pull * pull + (1.0 - mu_) * slope;
-    step.min_slope = std::min(step.min_slope, slope);
-    step.max_slope = std::max(step.max_slope, slope);
-    ++near;
+    sums.sq_change += change * change;
+    sums.slope_error += std::abs(slope - 1.0);
+    sums.energy += 0.5 * mu_ * pull * pull + (1.0 - mu_) * slope;
+    sums.min_slope = std::min(sums.min_slope, slope);
+    sums.max_slope = std::max(sums.max_slope, slope);
+    ++sums.near;
+  };
+  // Block by block, in one order for any number of threads.
+  const auto parts = parallelGather<Sums>(band_.centers.size(),
+                                          block_places,
+                                          parameters_.threads,
+                                          [&](auto begin, auto end, auto& found) {
+                                            Sums sums;
+                                            for (std::size_t i = begin; i < end; ++i)
+                                              // Not a number counts as near.
+                                              if (!(std::abs(phi_[i]) > spacing_))
+                                                add(i, sums);
+                                            found.push_back(sums);
+                                          });
+  LevelSetStep step{};
+  step.min_slope = std::numeric_limits<double>::infinity();
+  std::size_t near = 0;
+  for (const Sums& part : parts) {
+    step.change += part.sq_change;
+    step.slope_error += part.slope_error;
+    step.energy += part.energy;
+    step.min_slope = std::min(step.min_slope, part.min_slope);
+    step.max_slope = std::max(step.max_slope, part.max_slope);
+    near += part.near;
   }
   if (near == 0)
     return step;
   const auto count = static_cast<double>(near);
-  step.change = std::sqrt(sq_change / count) / step_;
-  step.slope_error = error / count;
-  step.energy = energy / count;
+  step.change = std::sqrt(step.change / count) / step_;
+  step.slope_error /= count;
+  step.energy /= count;
   return step;
 }
 

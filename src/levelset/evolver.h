@@ -50,6 +50,10 @@ public:
     return phi_;
   }
 
+  /** \brief Whether all values at the centres are numbers up to that. */
+  bool
+  isBounded(double largest) const;
+
   /** \brief Replace the values at the centres. */
   void
   setPhi(const std::vector<float>& phi);

@@ -301,11 +301,7 @@ private:
   void
   checkDivergence(const LevelSetStep& step) const
   {
-    const std::vector<float>& phi = evolver_->getPhi();
-    const bool is_bounded = std::all_of(phi.begin(), phi.end(), [&](float value) {
-      return std::abs(value) <= largest_phi_;
-    });
-    if (is_bounded && std::isfinite(step.change))
+    if (evolver_->isBounded(largest_phi_) && std::isfinite(step.change))
       return;
     std::ostringstream text;
     text << "The level set diverged in step " << summary_.steps.size() + 1

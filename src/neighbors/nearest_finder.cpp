@@ -18,9 +18,9 @@ constexpr std::uint32_t whole_subtree = 16;
 constexpr float expected_margin = 1.2f;
 /** Points farther apart, in multiples of the reach, are not worth a box in common. */
 constexpr float shared_extent = 3.0f;
-/** Candidates per neighbour that a box may hold: where density changes that much, each
- * point is searched for on its own. */
-constexpr std::size_t crowd_per_neighbor = 100;
+/** Candidates that a box may hold, at least, and per neighbour: where density changes
+ * that much, each point is searched for on its own. */
+constexpr std::size_t least_crowd = 2000, crowd_per_neighbor = 100;
 /** Guesses of a limit between two distances before they are taken for equal. */
 constexpr int most_guesses = 16;
 /** Room for rounding, where a box must not be too small by one bit. */
@@ -64,7 +64,7 @@ NearestFinder::gatherBelow(const KdNode& node)
 {
   if (node.count <= whole_subtree) {
     appendInside(node.begin, node.begin + node.count);
-    return candidate_count_ <= crowd_per_neighbor * k_;
+    return candidate_count_ <= std::max(least_crowd, crowd_per_neighbor * k_);
   }
   // Samples of the plane's own coordinate lie on either side of it.
   const KdTree& tree = samples_.getTree();
@@ -249,7 +249,20 @@ NearestFinder::find(const Position& point, float length)
 {
   if (!searchInBox(point, length))
     searchAlone(point);
-  return {found_samples_.data(), found_sq_dist_.data(), found_count_};
+  return found();
+}
+
+NearestFinder::Row
+NearestFinder::findWithin(const Position& point, float radius)
+{
+  reach_ = radius;
+  if ((margin_ == no_box || marginAt(point) < radius) &&
+      !gather(point, point, expected_margin * radius))
+    searchAlone(point);
+  else
+    select(point);
+  reach_ = radius;
+  return found();
 }
 
 } // namespace pcl_uvol

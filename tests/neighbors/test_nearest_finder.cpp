@@ -88,6 +88,38 @@ TEST_P(NearestFinderOnEveryShape, ExpectingPointsChangesNothing)
   }
 }
 
+TEST_P(NearestFinderOnEveryShape, WithinARadiusTheNearestAreFound)
+{
+  const auto samples = buildSamples(*uvol_test::makeCloud(GetParam(), 2000, 7));
+  uvol_test::Random random(3);
+  for (const std::size_t k : {std::size_t(1), std::size_t(20)}) {
+    NearestFinder finder(*samples, k);
+    for (int i = 0; i < 60; ++i) {
+      Position point = samples->getPositions()[static_cast<std::size_t>(
+          random.uniform() * static_cast<double>(samples->size()))];
+      for (int axis = 0; axis < 3; ++axis)
+        point[axis] += 0.2f * static_cast<float>(random.uniform() - 0.5);
+      const auto radius = static_cast<float>(0.02 + 0.3 * random.uniform());
+      const auto within = [&](std::vector<std::uint32_t> indices) {
+        indices.erase(std::remove_if(indices.begin(),
+                                     indices.end(),
+                                     [&](std::uint32_t index) {
+                                       const Position& x =
+                                           samples->getPositions()[index];
+                                       return std::hypot(x[0] - point[0],
+                                                         x[1] - point[1],
+                                                         x[2] - point[2]) > radius;
+                                     }),
+                      indices.end());
+        return indices;
+      };
+      ASSERT_EQ(within(bruteForce(*samples, point, k)),
+                within(indicesOf(finder.findWithin(point, radius))))
+          << "k " << k << ", point " << i;
+    }
+  }
+}
+
 /** Twelve orders of magnitude of density: a box for one point holds all the others. */
 TEST(NearestFinder, AnyDensity)
 {

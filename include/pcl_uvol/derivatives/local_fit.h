@@ -40,9 +40,9 @@ enum class FitOutcome {
 
 /** \brief Fits of one sample after another; one object per thread.
  *
- * The derivative d of any field f is the sum over the neighbours j of getWeight(d, j) *
- * (f_j - f). Exact for linear functions, with the quadratic scheme for those of second
- * degree. */
+ * The derivative d of any field f is the sum over the neighbours j of getWeights(d)[j]
+ * * (f_j - f). Exact for linear functions, with the quadratic scheme for those of
+ * second degree. */
 class PCL_UVOL_EXPORTS LocalFit {
 public:
   explicit LocalFit(FitScheme scheme)
@@ -67,11 +67,11 @@ public:
   void
   makeIsotropic();
 
-  /** \brief In 1 / length, for second derivatives 1 / length^2. */
-  double
-  getWeight(std::size_t derivative, std::size_t neighbor) const
+  /** \brief By neighbour, in 1 / length, for second derivatives 1 / length^2. */
+  const double*
+  getWeights(std::size_t derivative) const
   {
-    return weights_[derivative * count_ + neighbor];
+    return &weights_[derivative * count_];
   }
 
   /** \brief Distance of the farthest neighbour. */
@@ -95,7 +95,6 @@ private:
   double reach_ = 0.0;
   std::vector<double> offsets_; ///< x y z of the neighbours, divided by the reach
   std::vector<double> weights_; ///< by derivative, then neighbour
-  std::vector<double> right_;   ///< of the normal equations, alike
 };
 
 } // namespace pcl_uvol

@@ -39,6 +39,11 @@ public:
   Row
   find(const Position& point, float length);
 
+  /** \brief Those of the k nearest that are no farther than a radius, > 0; what else
+   * the row holds is not known to be nearest. It may be empty. */
+  Row
+  findWithin(const Position& point, float radius);
+
   /** \brief Prepare for points that are looked up next: close ones then share one box.
    */
   void
@@ -79,6 +84,12 @@ private:
 
   void
   select(const Position& point);
+
+  Row
+  found() const
+  {
+    return {found_samples_.data(), found_sq_dist_.data(), found_count_};
+  }
 
   const SampleSet& samples_;
   std::size_t k_;
