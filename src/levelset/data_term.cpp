@@ -21,6 +21,9 @@ constexpr std::size_t block_groups = 64, block_fits = 64;
 /** Of the median slope. */
 constexpr float least_slope = 0.1f;
 
+/** Neighbour by neighbour, slopes of the surface reach as far as the band. */
+constexpr int spreading_passes = 5;
+
 /** Fits that tell the noise, and samples in each: twice the terms of a quadratic leave
  * enough degrees of freedom. */
 constexpr std::size_t noise_fits = 4096, noise_samples = 27;
@@ -71,21 +74,25 @@ findSlopes(const Band& band, const std::vector<float>& f, unsigned threads)
 {
   const std::size_t centers = band.centerPlaces();
   Gradients gradients(band, f, threads);
-  std::vector<float> mean(centers), squares(centers, 0.0f);
-  for (auto& coordinate : gradients.normal) {
+  std::vector<float> means[3], squares(centers, 0.0f);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    means[axis].resize(centers);
     for (std::size_t i = 0; i < centers; ++i)
-      coordinate[i] *= gradients.slope[i];
-    sweep(band, threads, [&](auto begin, auto end) {
-      kernel_table.get()->average(band.stencils.view(),
-                                  coordinate.data(),
-                                  band.centers.size(),
-                                  mean.data(),
-                                  begin,
-                                  end);
-    });
+      gradients.normal[axis][i] *= gradients.slope[i];
+  }
+  const AverageStep step{band.stencils.view(),
+                         band.centers.size(),
+                         3,
+                         {gradients.normal[0].data(),
+                          gradients.normal[1].data(),
+                          gradients.normal[2].data()},
+                         {means[0].data(), means[1].data(), means[2].data()}};
+  sweep(band, threads, [&](auto begin, auto end) {
+    kernel_table.get()->average(step, begin, end);
+  });
+  for (const auto& mean : means)
     for (std::size_t i = 0; i < centers; ++i)
       squares[i] += mean[i] * mean[i];
-  }
   for (float& square : squares)
     square = std::sqrt(square);
   return squares;
@@ -126,6 +133,46 @@ findSlopeError(const Band& band,
   for (const std::uint32_t center : centers)
     sum += std::abs(static_cast<double>(gradients.slope[center]) - 1.0);
   return sum / static_cast<double>(centers.size());
+}
+
+/** The slopes at the surface beside each place: those of surface centres, handed on
+ * from neighbour to neighbour; beyond, their median. */
+std::vector<float>
+spreadSlopes(const Band& band,
+             const std::vector<std::uint32_t>& surface,
+             const std::vector<float>& slopes,
+             float median)
+{
+  const StencilView stencils = band.stencils.view();
+  std::vector<float> spread(band.places(), 0.0f);
+  for (const std::uint32_t center : surface)
+    spread[center] = slopes[center];
+  for (int pass = 0; pass < spreading_passes; ++pass) {
+    const std::vector<float> known = spread;
+    std::vector<std::uint32_t> count(band.places(), 0);
+    const auto add = [&](std::size_t to, std::size_t from) {
+      if (known[from] == 0.0f || (pass > 0 && known[to] != 0.0f))
+        return;
+      spread[to] = (count[to] == 0 ? 0.0f : spread[to]) + known[from];
+      ++count[to];
+    };
+    for (std::size_t i = 0; i < band.centers.size(); ++i) {
+      const std::uint32_t* const row =
+          stencils.indicesOf(i / stencil_lanes) + i % stencil_lanes;
+      add(i, i);
+      for (std::size_t j = 0; j < stencils.neighbors; ++j) {
+        const std::uint32_t place = row[j * stencil_lanes];
+        add(i, place);
+        if (place >= band.centerPlaces())
+          add(place, i);
+      }
+    }
+    for (std::size_t place = 0; place < band.places(); ++place)
+      if (count[place] > 0)
+        spread[place] /= static_cast<float>(count[place]);
+  }
+  std::replace(spread.begin(), spread.end(), 0.0f, median);
+  return spread;
 }
 
 /** Samples that are no centres take the mean slope of the centres they serve. */
@@ -214,12 +261,17 @@ makeDataTerm(const Band& band,
   extendSlopes(band, slopes);
   for (float& slope : slopes)
     slope = std::max(slope, least_slope * median);
+  const std::vector<float> spread = spreadSlopes(band, surface, slopes, median);
   DataTerm term;
   term.slope = median;
   term.noise = findNoise(band, surface, samples, f, slopes, threads);
   term.target = std::move(values);
-  for (std::size_t place = 0; place < band.places(); ++place)
-    term.target[place] /= slopes[place];
+  term.trust.assign(band.centerPlaces(), 0.0f);
+  for (std::size_t place = 0; place < band.places(); ++place) {
+    term.target[place] /= 0.5f * (slopes[place] + spread[place]);
+    if (place < band.centers.size())
+      term.trust[place] = std::min(1.0f, std::pow(slopes[place] / spread[place], 2.0f));
+  }
   term.slope_error = findSlopeError(band, surface, term.target, threads);
   return term;
 }

@@ -11,6 +11,7 @@ namespace pcl_uvol {
 /** \brief By place of a band, in units of length. */
 struct DataTerm {
   std::vector<float> target; ///< (f - f_iso) / |grad f|
+  std::vector<float> trust;  ///< by place of the centres, in (0, 1]
   double noise;              ///< standard deviation of target, by the residuals of fits
   double slope;              ///< median of |grad f|
   double slope_error;        ///< mean of | |grad target| - 1 |

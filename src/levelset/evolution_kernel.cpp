@@ -93,11 +93,12 @@ finish(const EvolutionStep& step,
 {
   Floats bend = curvature;
   if (step.reference != nullptr)
-    bend -= load<Floats>(step.reference + i);
+    bend -= load<Floats>(step.reference + i) * slope;
   const Floats most = fill(step.most_pull);
-  const Floats gap = load<Floats>(step.target + i) - own;
-  const Floats pull =
-      minimum(maximum(gap, -most), most) * minimum(slope, fill(step.most_slope));
+  const Floats target = load<Floats>(step.target + i), gap = target - own;
+  const Floats trust = target * own < 0.0f ? fill(1.0f) : load<Floats>(step.trust + i);
+  const Floats pull = trust * minimum(maximum(gap, -most), most) *
+                      minimum(slope, fill(step.most_slope));
   store(step.curvature + i, curvature);
   store(step.next + i,
         own + step.advection * pull +
@@ -206,26 +207,42 @@ relaxToDistance(const DistanceStep& step, std::size_t first, std::size_t last)
   });
 }
 
+template <std::size_t fields>
 void
-average(const StencilView& stencils,
-        const float* values,
-        std::size_t centers,
-        float* means,
-        std::size_t first,
-        std::size_t last)
+averageFields(const AverageStep& step, std::size_t first, std::size_t last)
 {
-  const Ints end = fill(static_cast<std::int32_t>(centers));
+  const Ints end = fill(static_cast<std::int32_t>(step.centers));
   forRegisters(first, last, [&](std::size_t i, std::size_t group, int part) {
-    Floats sum = load<Floats>(values + i), count = fill(1.0f);
-    const std::uint32_t* indices = stencils.indicesOf(group) + part * lanes;
-    for (std::size_t j = 0; j < stencils.neighbors; ++j, indices += stencil_lanes) {
+    Floats sums[fields], count = fill(1.0f);
+    for (std::size_t field = 0; field < fields; ++field)
+      sums[field] = load<Floats>(step.values[field] + i);
+    const std::uint32_t* indices = step.stencils.indicesOf(group) + part * lanes;
+    for (std::size_t j = 0; j < step.stencils.neighbors;
+         ++j, indices += stencil_lanes) {
+      fetchAhead(indices, stencil_lanes);
       const Ints index = load<Ints>(indices);
       const Ints is_center = index < end;
-      sum += is_center ? gather(values, is_center ? index : Ints{}) : Floats{};
+      for (std::size_t field = 0; field < fields; ++field)
+        sums[field] += is_center
+                           ? gather(step.values[field], is_center ? index : Ints{})
+                           : Floats{};
       count += is_center ? fill(1.0f) : Floats{};
     }
-    store(means + i, sum / count);
+    for (std::size_t field = 0; field < fields; ++field)
+      store(step.means[field] + i, sums[field] / count);
   });
+}
+
+void
+average(const AverageStep& step, std::size_t first, std::size_t last)
+{
+  static_assert(AverageStep::most_fields == 3, "as many cases");
+  if (step.fields == 1)
+    averageFields<1>(step, first, last);
+  else if (step.fields == 2)
+    averageFields<2>(step, first, last);
+  else
+    averageFields<3>(step, first, last);
 }
 
 } // namespace

@@ -22,8 +22,9 @@ struct TimeLines {
 struct EvolutionStep {
   StencilView stencils;
   TimeLines lines;
-  const float* target;    ///< f - f_iso as a distance
-  const float* reference; ///< curvature times slope that is left as it is; null: 0
+  const float* target; ///< f - f_iso as a distance
+  const float* trust;  ///< part of the pull of targets on the own side of the surface
+  const float* reference; ///< curvature that is left as it is; null: 0
   const float* sq_length; ///< squared unit of length of the curvature terms
   float most_pull;        ///< farther targets pull no more than one that far away
   float most_slope;       ///< steeper places are pulled no faster
@@ -55,6 +56,17 @@ struct NormalStep {
   float* slope;
 };
 
+/** Means of some fields over neighbours. */
+struct AverageStep {
+  static constexpr std::size_t most_fields = 3;
+
+  StencilView stencils;
+  std::size_t centers; ///< that count
+  std::size_t fields;  ///< 1 to most_fields
+  const float* values[most_fields];
+  float* means[most_fields];
+};
+
 /** \brief One instruction set's versions, for groups first to last - 1. */
 struct EvolutionKernels {
   /** Curvature from second derivatives: (tr H - n^T H n) / 2. */
@@ -75,13 +87,8 @@ struct EvolutionKernels {
                           std::size_t first,
                           std::size_t last);
 
-  /** Mean over each centre and its neighbours, those that are no centres left out. */
-  void (*average)(const StencilView& stencils,
-                  const float* values,
-                  std::size_t centers,
-                  float* means,
-                  std::size_t first,
-                  std::size_t last);
+  /** Means over each centre and its neighbours, those that are no centres left out. */
+  void (*average)(const AverageStep& step, std::size_t first, std::size_t last);
 };
 
 namespace baseline {

@@ -41,9 +41,9 @@ constexpr double shortest_step = 1.0 / 64.0;
 /** Of the samples, those whose steps are the longest. */
 constexpr double long_steps = 0.1;
 
-/** Times that curvature is averaged over neighbours, for what is left as it is: over
- * about three spacings. More flattens what lies a few spacings from something else. */
-constexpr int reference_averages = 2;
+/** Mean slopes count as no smaller: where the function is flat, its curvature is
+ * anything. */
+constexpr float smallest_mean_slope = 0.1f;
 
 /** Steps until the averages, which change slowly, are taken anew. */
 constexpr std::size_t reference_steps = 4;
@@ -81,8 +81,9 @@ Evolver::Evolver(const Band& band,
                  double spacing,
                  double mu,
                  std::vector<float> phi,
-                 std::vector<float> target)
+                 const DataTerm& term)
     : band_(band)
+    , term_(term)
     , parameters_(parameters)
     , spacing_(spacing)
     , mu_(mu)
@@ -90,18 +91,17 @@ Evolver::Evolver(const Band& band,
     , centers_(band.centerPlaces())
     , phi_(std::move(phi))
     , rate_(phi_.size(), 0.0f)
-    , target_(std::move(target))
     , next_(centers_)
-    , curvature_(centers_)
-    , slope_(centers_)
     , sq_length_(centers_, static_cast<float>(spacing * spacing))
+    , bend_{std::vector<float>(centers_), std::vector<float>(centers_)}
 {
   if (parameters.scheme == FitScheme::Linear)
     for (auto& coordinate : normals_)
       coordinate.resize(centers_);
   if (parameters.flow == CurvatureFlow::Relative) {
     reference_.resize(centers_);
-    means_.resize(centers_);
+    for (auto& means : means_)
+      means.resize(centers_);
     const double neighbors = static_cast<double>(band.stencils.view().neighbors);
     for (std::size_t i = 0; i < band.centers.size(); ++i)
       // A stencil without curvature has no part in what its neighbours' is.
@@ -127,7 +127,7 @@ Evolver::chooseSteps()
     const double nearest = band_.stencils.getNearest()[i] / spacing_;
     const bool is_linear = parameters_.scheme == FitScheme::Linear;
     // A plane has no second derivatives whose weights would tell.
-    const double gap = std::abs(target_[i] - phi_[i]) / spacing_;
+    const double gap = std::abs(term_.target[i] - phi_[i]) / spacing_;
     const double attraction =
         parameters_.bound == StepBound::Cfl
             ? std::sqrt(3.0) * gap / nearest
@@ -190,7 +190,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
     const NormalStep step{stencils,
                           lines,
                           {normals_[0].data(), normals_[1].data(), normals_[2].data()},
-                          slope_.data()};
+                          bend_[1].data()};
     parallelBlocks(
         band_.stencils.groups(),
         block_groups,
@@ -209,7 +209,8 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
               step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
           const EvolutionStep step{stencils,
                                    lines,
-                                   target_.data(),
+                                   term_.target.data(),
+                                   term_.trust.data(),
                                    reference_.empty() ? nullptr : reference_.data(),
                                    sq_length_.data(),
                                    static_cast<float>(most_pull * spacing_),
@@ -218,8 +219,8 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                                    static_cast<float>((1.0 - mu_) * dt),
                                    static_cast<float>(to_distance * dt),
                                    next_.data(),
-                                   curvature_.data(),
-                                   slope_.data()};
+                                   bend_[0].data(),
+                                   bend_[1].data()};
           if (is_linear)
             kernels_.evolveByNormals(
                 step, normals, band_.centers.size(), groups[i], groups[i] + 1);
@@ -253,19 +254,26 @@ Evolver::updateReference()
     return;
   if (steps_ == 0)
     evaluate(classes_.front().groups, 0.0f, 0.0);
-  const StencilView stencils = band_.stencils.view();
-  const float* from = curvature_.data();
-  for (int i = 0; i < reference_averages; ++i) {
-    std::vector<float>& to = i % 2 == reference_averages % 2 ? means_ : reference_;
+  const auto average = [&](const std::vector<float>* from, std::vector<float>* to) {
+    const AverageStep step{band_.stencils.view(),
+                           band_.centers.size(),
+                           2,
+                           {from[0].data(), from[1].data()},
+                           {to[0].data(), to[1].data()}};
     parallelBlocks(band_.stencils.groups(),
                    block_groups,
                    parameters_.threads,
-                   [&](auto begin, auto end) {
-                     kernels_.average(
-                         stencils, from, band_.centers.size(), to.data(), begin, end);
-                   });
-    from = to.data();
-  }
+                   [&](auto begin, auto end) { kernels_.average(step, begin, end); });
+  };
+  // Twice is over about three spacings; more flattens what lies a few spacings from
+  // something else.
+  average(bend_, means_);
+  average(means_, means_ + 2);
+  parallelBlocks(
+      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i)
+          reference_[i] = means_[2][i] / std::max(means_[3][i], smallest_mean_slope);
+      });
 }
 
 LevelSetStep
@@ -326,10 +334,10 @@ Evolver::summarize() const
     std::size_t near = 0;
   };
   const auto add = [&](std::size_t i, Sums& sums) {
-    const double slope = slope_[i];
+    const double slope = bend_[1][i];
     const double change =
         (static_cast<double>(phi_[i]) - start_[i]) / spacing_ / std::max(slope, 0.1);
-    const double pull = (static_cast<double>(target_[i]) - phi_[i]) / spacing_;
+    const double pull = (static_cast<double>(term_.target[i]) - phi_[i]) / spacing_;
     sums.sq_change += change * change;
     sums.slope_error += std::abs(slope - 1.0);
     sums.energy += 0.5 * mu_ * pull * pull + (1.0 - mu_) * slope;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "band.h"
+#include "data_term.h"
 #include "evolution_kernel.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
@@ -20,16 +21,16 @@ namespace pcl_uvol {
  * one class. */
 class Evolver {
 public:
-  /** \param band must outlive the evolver
+  /** \param band and \param term must outlive the evolver
    * \param spacing the unit of length
    * \param mu in [0, 1]
-   * \param phi by place \param target of the data term, by place of the centres */
+   * \param phi by place */
   Evolver(const Band& band,
           const LevelSetParameters& parameters,
           double spacing,
           double mu,
           std::vector<float> phi,
-          std::vector<float> target);
+          const DataTerm& term);
 
   /** \brief The longest step of all classes, in squared spacings. */
   double
@@ -84,12 +85,15 @@ private:
   summarize() const;
 
   const Band& band_;
+  const DataTerm& term_;
   const LevelSetParameters& parameters_;
   double spacing_, mu_, step_ = 0.0;
   const EvolutionKernels& kernels_;
   std::size_t centers_; ///< places of centres
-  std::vector<float> phi_, rate_, target_;
-  std::vector<float> start_, next_, curvature_, slope_, sq_length_, reference_, means_;
+  std::vector<float> phi_, rate_;
+  std::vector<float> start_, next_, sq_length_, reference_;
+  std::vector<float> bend_[2];  ///< curvature times slope, slope
+  std::vector<float> means_[4]; ///< of both, and of these
   std::vector<float> normals_[3];
   std::vector<std::uint8_t> class_of_; ///< by group
   std::vector<float> weakness_; ///< by group: part of the flow, see shortest_step

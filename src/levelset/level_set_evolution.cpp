@@ -271,12 +271,8 @@ private:
     std::vector<float> phi(band_->places(), 0.0f);
     band_->forPlaces(
         [&](std::size_t place, std::uint32_t sample) { phi[place] = phi_[sample]; });
-    evolver_.emplace(*band_,
-                     parameters_,
-                     summary_.spacing,
-                     summary_.mu,
-                     std::move(phi),
-                     term_.target);
+    evolver_.emplace(
+        *band_, parameters_, summary_.spacing, summary_.mu, std::move(phi), term_);
   }
 
   void

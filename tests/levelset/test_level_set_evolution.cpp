@@ -13,8 +13,13 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <utility>
 
 namespace {
 
@@ -274,6 +279,53 @@ TEST(LevelSetEvolution, SameBytesForAnyNumberOfThreads)
         one = phi;
       EXPECT_EQ(0, std::memcmp(one.data(), phi.data(), sizeof(float) * one.size()))
           << threads;
+    }
+  }
+}
+
+TEST(LevelSetEvolution, SameValuesInAnyOrderOfTheInput)
+{
+  const auto cloud = makeNoisyBall();
+  std::vector<std::uint32_t> order(cloud->size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::shuffle(order.begin(), order.end(), std::mt19937(5)); // NOLINT: the same always
+  const Cloud::Ptr shuffled(new Cloud);
+  for (const std::uint32_t i : order)
+    shuffled->push_back((*cloud)[i]);
+  Evolution evolution;
+  evolution.setMaximumSteps(15);
+  const auto expected = evolve(evolution, cloud);
+  const auto phi = evolve(evolution, shuffled);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    ASSERT_EQ(expected[order[i]], phi[i]);
+}
+
+/** Fields are seldom distances: densities fall exponentially, and most are flat but for
+ * the surroundings of the surface. The surface must not move for that, band or no band.
+ */
+TEST(LevelSetEvolution, AnyProfileOfTheFieldKeepsTheSurface)
+{
+  const std::pair<const char*, std::function<float(float)>> profiles[] = {
+      {"flat", [](float d) { return std::clamp(d, -3.0f, 3.0f); }},
+      {"saturating", [](float d) { return 2.0f * std::tanh(0.5f * d); }},
+      {"exponential", [](float d) { return 3.0f * (std::exp(d / 3.0f) - 1.0f); }}};
+  for (const auto& [name, profile] : profiles) {
+    auto cloud = makeBall(10.0, 16.0);
+    uvol_test::Random random(7);
+    for (auto& point : *cloud)
+      point.intensity =
+          profile(point.intensity) + static_cast<float>(random.uniform() - 0.5);
+    double noise = 0.0;
+    for (const double band : {5.0, 0.0}) {
+      Evolution evolution;
+      evolution.setBandWidth(band);
+      const auto radii = radiiOf(*cloud, evolve(evolution, cloud));
+      EXPECT_TRUE(evolution.getSummary().converged) << name << ' ' << band;
+      EXPECT_NEAR(10.0, meanOf(radii), 0.05) << name << ' ' << band;
+      EXPECT_LT(largestDeviation(radii, 10.0), 0.3) << name << ' ' << band;
+      if (band > 0.0)
+        noise = evolution.getSummary().noise;
+      EXPECT_FLOAT_EQ(noise, evolution.getSummary().noise);
     }
   }
 }
