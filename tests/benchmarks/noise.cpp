@@ -3,14 +3,18 @@
 // values, and by level sets.
 #include "support/clouds.h"
 #include "support/noisy_shapes.h"
+#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/neighbors/nearest_neighbors.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
+#include <Eigen/QR>
+
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -35,22 +39,39 @@ printRow(const NoisyCloud& noisy, const std::string& method, const Surface& surf
   std::fflush(stdout);
 }
 
-/** f replaced by its mean over a sample and its 26 nearest neighbours. */
+/** f replaced by the value at each sample of the polynomial that fits it and its k
+ * nearest neighbours best, unweighted. \param degree 0 for the mean, or 2 */
 Cloud::Ptr
-localMean(const Cloud& cloud)
+localFit(const Cloud& cloud, std::size_t k, int degree)
 {
   pcl_uvol::Report report;
   const auto samples = uvol_test::buildSamples(cloud);
-  const auto graph = pcl_uvol::computeNearestNeighbors(*samples, 26, 0, report);
-  const Cloud::Ptr mean(new Cloud(cloud));
-  for (std::size_t i = 0; i < graph.size(); ++i) {
-    double sum = cloud[samples->getInputIndex(i)].intensity;
-    for (const std::uint32_t j : graph[i])
-      sum += cloud[samples->getInputIndex(j)].intensity;
-    (*mean)[samples->getInputIndex(i)].intensity =
-        static_cast<float>(sum / static_cast<double>(graph[i].size() + 1));
-  }
-  return mean;
+  const auto graph = pcl_uvol::computeNearestNeighbors(*samples, k, 0, report);
+  const Cloud::Ptr fitted(new Cloud(cloud));
+  pcl_uvol::parallelBlocks(graph.size(), 1024, 0, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto center = samples->getInputIndex(i);
+      std::vector<std::uint32_t> points{center};
+      for (const std::uint32_t j : graph[i])
+        points.push_back(samples->getInputIndex(j));
+      Eigen::MatrixXd terms(points.size(), degree == 0 ? 1 : 10);
+      Eigen::VectorXd values(points.size());
+      for (std::size_t j = 0; j < points.size(); ++j) {
+        const auto row = static_cast<Eigen::Index>(j);
+        const Eigen::Vector3d u =
+            (cloud[points[j]].getVector3fMap() - cloud[center].getVector3fMap())
+                .cast<double>();
+        terms(row, 0) = 1.0;
+        if (degree == 2)
+          terms.row(row).tail(9) << u.transpose(), u[0] * u[0], u[1] * u[1],
+              u[2] * u[2], u[0] * u[1], u[0] * u[2], u[1] * u[2];
+        values[row] = cloud[points[j]].intensity;
+      }
+      (*fitted)[center].intensity =
+          static_cast<float>(terms.householderQr().solve(values)[0]);
+    }
+  });
+  return fitted;
 }
 
 struct Setting {
@@ -122,11 +143,19 @@ main(int argc, char** argv)
   printRow(noisy, "direct linear, PCA", direct);
   printRow(
       noisy, "direct smooth", uvol_test::isopoints(noisy.cloud, Interpolation::Smooth));
-  const auto mean = localMean(*noisy.cloud);
-  printRow(
-      noisy, "local mean, linear", uvol_test::isopoints(mean, Interpolation::Linear));
-  printRow(
-      noisy, "local mean, smooth", uvol_test::isopoints(mean, Interpolation::Smooth));
+  const struct {
+    const char* name;
+    std::size_t k;
+    int degree;
+  } fits[] = {{"mean of 27", 26, 0},
+              {"mean of 101", 100, 0},
+              {"quadratic fit of 27", 26, 2},
+              {"quadratic fit of 101", 100, 2}};
+  for (const auto& fit : fits)
+    printRow(noisy,
+             fit.name,
+             uvol_test::isopoints(localFit(*noisy.cloud, fit.k, fit.degree),
+                                  Interpolation::Smooth));
   for (int i = 4; i < argc; ++i) {
     const double mu = std::atof(argv[i]);
     evolveAndPrint(noisy,
