@@ -238,9 +238,9 @@ TEST_P(LevelSetOfNoise, IsSmoothAndInItsPlace)
   Evolution evolution;
   const auto phi = evolve(evolution, noisy.cloud);
   EXPECT_TRUE(evolution.getSummary().converged);
-  if (noisy.shape.components ==
-      1) // between two surfaces there is no slope to tell it by
-    EXPECT_NEAR(noisy.noise, evolution.getSummary().noise, 0.1 * noisy.noise);
+  // Between two surfaces there is hardly a slope to tell it by.
+  const double part = noisy.shape.components == 1 ? 0.1 : 0.4;
+  EXPECT_NEAR(noisy.noise, evolution.getSummary().noise, part * noisy.noise);
   const auto after = uvol_test::measure(
       noisy,
       uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Smooth));
