@@ -43,7 +43,7 @@ constexpr double long_steps = 0.1;
 
 /** Mean slopes count as no smaller: where the function is flat, its curvature is
  * anything. */
-constexpr float smallest_mean_slope = 0.1f;
+constexpr float least_mean_slope = 0.1f;
 
 /** Steps until the averages, which change slowly, are taken anew. */
 constexpr std::size_t reference_steps = 4;
@@ -91,9 +91,11 @@ Evolver::Evolver(const Band& band,
     , centers_(band.centerPlaces())
     , phi_(std::move(phi))
     , rate_(phi_.size(), 0.0f)
+    , start_(centers_)
     , next_(centers_)
+    , curvature_(centers_)
+    , slope_(centers_)
     , sq_length_(centers_, static_cast<float>(spacing * spacing))
-    , bend_{std::vector<float>(centers_), std::vector<float>(centers_)}
 {
   if (parameters.scheme == FitScheme::Linear)
     for (auto& coordinate : normals_)
@@ -115,6 +117,17 @@ Evolver::Evolver(const Band& band,
                              2));
   }
   chooseSteps();
+}
+
+template <typename Visit>
+void
+Evolver::forCenters(const Visit& visit) const
+{
+  parallelBlocks(
+      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
+        for (std::size_t i = begin; i < end; ++i)
+          visit(i);
+      });
 }
 
 void
@@ -166,9 +179,12 @@ Evolver::chooseSteps()
   step_ = safety / slowest;
   const std::size_t count = *std::max_element(class_of_.begin(), class_of_.end()) + 1u;
   classes_.resize(count);
-  for (std::size_t group = 0; group < groups; ++group)
+  for (std::size_t group = 0; group < groups; ++group) {
     for (std::size_t c = 0; c <= class_of_[group]; ++c)
       classes_[c].groups.push_back(static_cast<std::uint32_t>(group));
+    updates_ += std::min(stencil_lanes, band_.centers.size() - group * stencil_lanes)
+                << class_of_[group];
+  }
 }
 
 double
@@ -190,7 +206,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
     const NormalStep step{stencils,
                           lines,
                           {normals_[0].data(), normals_[1].data(), normals_[2].data()},
-                          bend_[1].data()};
+                          slope_.data()};
     parallelBlocks(
         band_.stencils.groups(),
         block_groups,
@@ -219,8 +235,8 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                                    static_cast<float>((1.0 - mu_) * dt),
                                    static_cast<float>(to_distance * dt),
                                    next_.data(),
-                                   bend_[0].data(),
-                                   bend_[1].data()};
+                                   curvature_.data(),
+                                   slope_.data()};
           if (is_linear)
             kernels_.evolveByNormals(
                 step, normals, band_.centers.size(), groups[i], groups[i] + 1);
@@ -254,35 +270,30 @@ Evolver::updateReference()
     return;
   if (steps_ == 0)
     evaluate(classes_.front().groups, 0.0f, 0.0);
-  const auto average = [&](const std::vector<float>* from, std::vector<float>* to) {
-    const AverageStep step{band_.stencils.view(),
-                           band_.centers.size(),
-                           2,
-                           {from[0].data(), from[1].data()},
-                           {to[0].data(), to[1].data()}};
+  const auto average = [&](const AverageStep& step) {
     parallelBlocks(band_.stencils.groups(),
                    block_groups,
                    parameters_.threads,
                    [&](auto begin, auto end) { kernels_.average(step, begin, end); });
   };
-  // Twice is over about three spacings; more flattens what lies a few spacings from
-  // something else.
-  average(bend_, means_);
-  average(means_, means_ + 2);
-  parallelBlocks(
-      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i)
-          reference_[i] = means_[2][i] / std::max(means_[3][i], smallest_mean_slope);
-      });
+  const StencilView stencils = band_.stencils.view();
+  const std::size_t centers = band_.centers.size();
+  average({stencils,
+           centers,
+           2,
+           {curvature_.data(), slope_.data()},
+           {means_[0].data(), means_[1].data()}});
+  forCenters(
+      [&](std::size_t i) { means_[0][i] /= std::max(means_[1][i], least_mean_slope); });
+  // Once more, over about three spacings in all; more flattens what lies a few spacings
+  // from something else.
+  average({stencils, centers, 1, {means_[0].data()}, {reference_.data()}});
 }
 
-LevelSetStep
-Evolver::advance()
+void
+Evolver::advanceByClasses()
 {
-  updateReference();
-  if (parameters_.reinitialization == Reinitialization::Diffusion)
-    band_.extrapolate(phi_);
-  start_ = phi_;
+  forCenters([&](std::size_t i) { start_[i] = phi_[i]; });
   const std::size_t ticks = std::size_t{1} << (classes_.size() - 1);
   for (std::size_t tick = 0; tick < ticks; ++tick) {
     // At every second tick the finest class alone, at every fourth the next one too...
@@ -294,13 +305,27 @@ Evolver::advance()
     evaluate(groups, time, 1.0);
     commit(groups, time);
   }
-  parallelBlocks(
-      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          phi_[i] += rate_[i];
-          rate_[i] = 0.0f;
-        }
-      });
+  forCenters([&](std::size_t i) {
+    phi_[i] += rate_[i];
+    rate_[i] = 0.0f;
+  });
+}
+
+LevelSetStep
+Evolver::advance()
+{
+  updateReference();
+  if (parameters_.reinitialization == Reinitialization::Diffusion)
+    band_.extrapolate(phi_);
+  if (classes_.size() == 1) {
+    evaluate(classes_.front().groups, 0.0f, 1.0);
+    forCenters([&](std::size_t i) {
+      start_[i] = phi_[i];
+      phi_[i] = next_[i];
+    });
+  }
+  else
+    advanceByClasses();
   ++steps_;
   return summarize();
 }
@@ -334,7 +359,7 @@ Evolver::summarize() const
     std::size_t near = 0;
   };
   const auto add = [&](std::size_t i, Sums& sums) {
-    const double slope = bend_[1][i];
+    const double slope = slope_[i];
     const double change =
         (static_cast<double>(phi_[i]) - start_[i]) / spacing_ / std::max(slope, 0.1);
     const double pull = (static_cast<double>(term_.target[i]) - phi_[i]) / spacing_;

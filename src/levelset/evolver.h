@@ -39,6 +39,13 @@ public:
     return step_;
   }
 
+  /** \brief Times that a sample is advanced in such a step, in all. */
+  std::size_t
+  getUpdates() const
+  {
+    return updates_;
+  }
+
   /** \brief Advance all samples by getStep(). Returns what changed; time and
    * reinitialized are the caller's. */
   LevelSetStep
@@ -71,6 +78,14 @@ private:
   void
   updateReference();
 
+  void
+  advanceByClasses();
+
+  /** Call visit(place) for all places of centres, in parallel. */
+  template <typename Visit>
+  void
+  forCenters(const Visit& visit) const;
+
   /** Curvature and slope at a time, and phi after the steps of the classes. */
   void
   evaluate(const std::vector<std::uint32_t>& groups, float time, double step_scale);
@@ -91,14 +106,13 @@ private:
   const EvolutionKernels& kernels_;
   std::size_t centers_; ///< places of centres
   std::vector<float> phi_, rate_;
-  std::vector<float> start_, next_, sq_length_, reference_;
-  std::vector<float> bend_[2];  ///< curvature times slope, slope
-  std::vector<float> means_[4]; ///< of both, and of these
+  std::vector<float> start_, next_, curvature_, slope_, sq_length_, reference_;
+  std::vector<float> means_[2]; ///< of curvature times slope, and of slope
   std::vector<float> normals_[3];
   std::vector<std::uint8_t> class_of_; ///< by group
   std::vector<float> weakness_; ///< by group: part of the flow, see shortest_step
   std::vector<Class> classes_;  ///< longest steps first
-  std::size_t steps_ = 0;
+  std::size_t steps_ = 0, updates_ = 0;
 };
 
 } // namespace pcl_uvol

@@ -279,6 +279,7 @@ private:
   advance()
   {
     LevelSetStep step = evolver_->advance();
+    report_.count("updates", evolver_->getUpdates());
     const double before = summary_.steps.empty() ? 0.0 : summary_.steps.back().time;
     step.time = before + evolver_->getStep();
     checkDivergence(step);

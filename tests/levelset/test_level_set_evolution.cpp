@@ -392,6 +392,43 @@ TEST(LevelSetEvolution, BandAndIntegrationDoNotChangeTheSurface)
   }
 }
 
+/** Thesis 3.5.2: a few samples that lie close bound the steps of all, unless every
+ * sample takes its own. */
+TEST(LevelSetEvolution, AsynchronousStepsSpareThoseOfAFewSamples)
+{
+  const auto cloud = makeBall(6.0, 9.0);
+  uvol_test::Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const double distance = 0.2 * std::pow(10.0, random.uniform());
+    Vector x;
+    for (int axis = 0; axis < 3; ++axis)
+      x[axis] = 2.0 * random.uniform() - 1.0;
+    x = 6.0 * Vector::UnitX() + distance * x.normalized();
+    pcl::PointXYZI point;
+    point.getVector3fMap() = x.cast<float>();
+    point.intensity = static_cast<float>(6.0 - x.norm());
+    cloud->push_back(point);
+  }
+  std::uint64_t updates[2];
+  double radius[2];
+  for (const Integration integration :
+       {Integration::Synchronous, Integration::Asynchronous}) {
+    Evolution evolution;
+    evolution.setMu(0.5);
+    evolution.setCurvatureFlow(CurvatureFlow::Mean);
+    evolution.setIntegration(integration);
+    evolution.setMaximumSteps(100000);
+    const auto phi = evolve(evolution, cloud);
+    EXPECT_TRUE(evolution.getSummary().converged);
+    updates[static_cast<int>(integration)] = evolution.getReport().getCount("updates");
+    radius[static_cast<int>(integration)] = meanOf(radiiOf(*cloud, phi));
+  }
+  constexpr auto synchronous = static_cast<int>(Integration::Synchronous),
+                 asynchronous = static_cast<int>(Integration::Asynchronous);
+  EXPECT_GT(updates[synchronous], 5 * updates[asynchronous]);
+  EXPECT_NEAR(radius[synchronous], radius[asynchronous], 0.02);
+}
+
 /** Units of length and value do not matter, nor does the orientation. */
 TEST(LevelSetEvolution, SameSurfaceInOtherUnits)
 {

@@ -211,7 +211,8 @@ public:
 
   /** \brief Counts and times of the last evolve(). Counts: samples, no_value,
    * non_finite, duplicates, conflicting_duplicates, band_samples, isotropic_fits,
-   * steps, band_updates, reinitializations. */
+   * steps, updates (times that a sample was advanced), band_updates, reinitializations.
+   */
   const Report&
   getReport() const
   {
