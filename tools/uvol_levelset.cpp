@@ -7,6 +7,8 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/io/line_plot.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -33,7 +35,7 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, field, scale, mu = "auto", table;
+  std::string input, output, field, scale, mu = "auto", table, plot;
   std::string scheme = "quadratic", flow = "relative", bound = "stencil";
   std::string integration = "asynchronous", reinitialization = "distance";
   std::string outside = "lower", start_field;
@@ -118,6 +120,7 @@ declare(Options& options, Arguments& arguments)
                   many,
                   "write the zero level every so many steps, as out_00010.ply");
   options.text("csv", "out.csv", arguments.table, "write a table of all steps");
+  options.text("plot", "out.png", arguments.plot, "draw how it converged");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -196,6 +199,21 @@ writeTable(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
   });
 }
 
+void
+writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
+{
+  std::vector<pcl_uvol::PlotLine> lines = {
+      {"change of the zero level, spacings per unit of time", {}},
+      {"mean of | |grad phi| - 1 |", {}},
+      {"energy", {}}};
+  for (const auto& step : summary.steps) {
+    lines[0].values.push_back(step.change);
+    lines[1].values.push_back(step.slope_error);
+    lines[2].values.push_back(step.energy);
+  }
+  pcl_uvol::savePng(path, pcl_uvol::drawLinePlot(lines, "step"));
+}
+
 /** The zero level of phi. */
 pcl_uvol::Dataset
 zeroLevel(const pcl_uvol::Dataset& input,
@@ -250,6 +268,8 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
     pcl_uvol::checkSavePath(arguments.table);
+  if (!arguments.plot.empty())
+    pcl_uvol::checkPngPath(arguments.plot);
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -301,6 +321,8 @@ run(int argc, char** argv)
     pcl_uvol::saveDataset(arguments.output, result, save);
     if (!arguments.table.empty())
       writeTable(arguments.table, summary);
+    if (!arguments.plot.empty())
+      writePlot(arguments.plot, summary);
   }
   report.count("points", view.count);
   total.reset();

@@ -21,6 +21,9 @@ namespace {
 /** Steps until it is looked whether the zero level nears the border of the band. */
 constexpr std::size_t band_steps = 5;
 
+/** Of a whole run, for its progress. */
+constexpr std::uint64_t progress_parts = 1000;
+
 /** In spacings: the zero level keeps that far from the border. */
 constexpr double band_margin = 2.0;
 
@@ -96,16 +99,18 @@ public:
   void
   run(const SnapshotCallback& snapshot, std::size_t snapshot_steps)
   {
-    StepTimer timer(report_, "evolution", parameters_.max_steps);
+    StepTimer timer(report_, "evolution", progress_parts);
+    std::uint64_t told = 0;
     for (std::size_t i = 0; i < parameters_.max_steps && !summary_.converged; ++i) {
       advance();
-      timer.advance(1);
+      const std::uint64_t done = std::max(told, partsDone());
+      timer.advance(done - told);
+      told = done;
       if (snapshot_steps > 0 && summary_.steps.size() % snapshot_steps == 0)
         snapshot(summary_.steps.size(), result());
     }
-    if (summary_.converged)
-      timer.advance(parameters_.max_steps - summary_.steps.size());
-    else
+    timer.advance(progress_parts - told);
+    if (!summary_.converged)
       warnOfStepLimit();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
@@ -293,6 +298,20 @@ private:
       reinitialize();
     if (!band_->distance.empty() && count % band_steps == 0)
       followZeroLevel();
+  }
+
+  /** How far the run is: changes fall about exponentially. */
+  std::uint64_t
+  partsDone() const
+  {
+    const auto& steps = summary_.steps;
+    const double by_steps =
+        static_cast<double>(steps.size()) / static_cast<double>(parameters_.max_steps);
+    const double to_go = std::log(steps.back().change / parameters_.tolerance),
+                 all = std::log(steps.front().change / parameters_.tolerance);
+    const double by_change = all > 0.0 ? 1.0 - to_go / all : 0.0;
+    return static_cast<std::uint64_t>(
+        progress_parts * std::clamp(std::max(by_steps, by_change), 0.0, 1.0));
   }
 
   void

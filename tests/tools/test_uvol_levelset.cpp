@@ -93,11 +93,13 @@ TEST_F(LevelSetTool, RefusesNonsense)
   expectRefused("-iso 17", 1, "does not part the values of torus");
   expectRefused("-iso 0 -start phi", 1, "phi");
   expectRefused("-iso 0 -csv " + path("no/such/folder.csv"), 1, "folder.csv");
+  expectRefused("-iso 0 -plot " + path("plot.jpg"), 1, "plot.jpg");
 }
 
 TEST_F(LevelSetTool, WritesPhiBesideEveryField)
 {
-  const auto result = run("-iso 0 -csv " + path("steps.csv") + " -snapshots 5");
+  const auto result = run("-iso 0 -csv " + path("steps.csv") + " -plot " +
+                          path("steps.png") + " -snapshots 5");
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.out.find("converged after"));
   EXPECT_NE(std::string::npos, result.out.find("automatic: by the noise"));
@@ -108,6 +110,7 @@ TEST_F(LevelSetTool, WritesPhiBesideEveryField)
   const std::string table = uvol_test::readFile(path("steps.csv"));
   EXPECT_EQ(0u, table.find("step,time,change,min_slope,max_slope,slope_error,energy"));
   EXPECT_GT(std::count(table.begin(), table.end(), '\n'), 10);
+  EXPECT_EQ("\x89PNG", uvol_test::readFile(path("steps.png")).substr(0, 4));
   EXPECT_LT(deviation(path("out_00010.ply")), 0.03);
   // The zero level of what was written is the smooth surface.
   ASSERT_EQ(0,
