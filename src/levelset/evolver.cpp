@@ -371,17 +371,18 @@ Evolver::summarize() const
     ++sums.near;
   };
   // Block by block, in one order for any number of threads.
-  const auto parts = parallelGather<Sums>(band_.centers.size(),
-                                          block_places,
-                                          parameters_.threads,
-                                          [&](auto begin, auto end, auto& found) {
-                                            Sums sums;
-                                            for (std::size_t i = begin; i < end; ++i)
-                                              // Not a number counts as near.
-                                              if (!(std::abs(phi_[i]) > spacing_))
-                                                add(i, sums);
-                                            found.push_back(sums);
-                                          });
+  const auto parts =
+      parallelGather<Sums>(band_.centers.size(),
+                           block_places,
+                           parameters_.threads,
+                           [&](auto begin, auto end, auto& found) {
+                             Sums sums;
+                             for (std::size_t i = begin; i < end; ++i)
+                               // Not a number counts as near.
+                               if (!(std::abs(phi_[i]) > spacing_ * slope_[i]))
+                                 add(i, sums);
+                             found.push_back(sums);
+                           });
   LevelSetStep step{};
   step.min_slope = std::numeric_limits<double>::infinity();
   std::size_t near = 0;
