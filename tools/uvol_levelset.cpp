@@ -60,7 +60,8 @@ declare(Options& options, Arguments& arguments)
   options.text("mu",
                "m|auto",
                arguments.mu,
-               "weight of the data against smoothness, 0 to 1; auto: by the noise");
+               "weight of the data against smoothness, 0 to 1; auto: by the noise, "
+               "more where smoothing takes details away");
   options.choice("scheme",
                  {"quadratic", "linear"},
                  arguments.scheme,

@@ -45,6 +45,9 @@ constexpr double long_steps = 0.1;
  * anything. */
 constexpr float least_mean_slope = 0.1f;
 
+/** So do mean weights of the data. */
+constexpr float least_trust = 1e-3f;
+
 /** Steps until the averages, which change slowly, are taken anew. */
 constexpr std::size_t reference_steps = 4;
 
@@ -96,14 +99,13 @@ Evolver::Evolver(const Band& band,
     , curvature_(centers_)
     , slope_(centers_)
     , sq_length_(centers_, static_cast<float>(spacing * spacing))
+    , sums_{std::vector<float>(centers_), std::vector<float>(centers_)}
 {
   if (parameters.scheme == FitScheme::Linear)
     for (auto& coordinate : normals_)
       coordinate.resize(centers_);
   if (parameters.flow == CurvatureFlow::Relative) {
     reference_.resize(centers_);
-    for (auto& means : means_)
-      means.resize(centers_);
     const double neighbors = static_cast<double>(band.stencils.view().neighbors);
     for (std::size_t i = 0; i < band.centers.size(); ++i)
       // A stencil without curvature has no part in what its neighbours' is.
@@ -270,6 +272,16 @@ Evolver::updateReference()
     return;
   if (steps_ == 0)
     evaluate(classes_.front().groups, 0.0f, 0.0);
+  // Of curvature times slope: where the function is flat, its curvature is anything.
+  averageTwice(curvature_, slope_, least_mean_slope, reference_);
+}
+
+void
+Evolver::averageTwice(const std::vector<float>& values,
+                      const std::vector<float>& weights,
+                      float least_weight,
+                      std::vector<float>& means)
+{
   const auto average = [&](const AverageStep& step) {
     parallelBlocks(band_.stencils.groups(),
                    block_groups,
@@ -281,13 +293,28 @@ Evolver::updateReference()
   average({stencils,
            centers,
            2,
-           {curvature_.data(), slope_.data()},
-           {means_[0].data(), means_[1].data()}});
+           {values.data(), weights.data()},
+           {sums_[0].data(), sums_[1].data()}});
   forCenters(
-      [&](std::size_t i) { means_[0][i] /= std::max(means_[1][i], least_mean_slope); });
-  // Once more, over about three spacings in all; more flattens what lies a few spacings
-  // from something else.
-  average({stencils, centers, 1, {means_[0].data()}, {reference_.data()}});
+      [&](std::size_t i) { sums_[0][i] /= std::max(sums_[1][i], least_weight); });
+  average({stencils, centers, 1, {sums_[0].data()}, {means.data()}});
+}
+
+double
+Evolver::findPattern()
+{
+  std::vector<float> pull(centers_), means(centers_);
+  forCenters(
+      [&](std::size_t i) { pull[i] = term_.trust[i] * (term_.target[i] - phi_[i]); });
+  averageTwice(pull, term_.trust, least_trust, means);
+  double squares = 0.0;
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < band_.centers.size(); ++i)
+    if (isNear(i)) {
+      squares += static_cast<double>(means[i]) * means[i];
+      ++near;
+    }
+  return near > 0 ? std::sqrt(squares / static_cast<double>(near)) / spacing_ : 0.0;
 }
 
 void
@@ -333,7 +360,7 @@ Evolver::advance()
 void
 Evolver::setPhi(const std::vector<float>& phi)
 {
-  std::copy_n(phi.begin(), centers_, phi_.begin());
+  phi_ = phi;
   steps_ = 0;
 }
 

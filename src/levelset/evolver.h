@@ -7,6 +7,8 @@
 #include "evolution_kernel.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -51,6 +53,12 @@ public:
   LevelSetStep
   advance();
 
+  /** \brief Root mean square, in spacings, of the data's pull at the zero level once it
+   * is averaged over about three spacings: noise leaves little of itself, a surface
+   * that was smoothed away more. */
+  double
+  findPattern();
+
   /** \brief By place. */
   const std::vector<float>&
   getPhi() const
@@ -62,7 +70,7 @@ public:
   bool
   isBounded(double largest) const;
 
-  /** \brief Replace the values at the centres. */
+  /** \brief Replace all values. */
   void
   setPhi(const std::vector<float>& phi);
 
@@ -80,6 +88,24 @@ private:
 
   void
   advanceByClasses();
+
+  /** Weighted means over the neighbours of the neighbours: about three spacings. More
+   * would flatten what lies a few spacings from something else.
+   * \param values already times their weights
+   * \param least_weight mean weights count as no smaller */
+  void
+  averageTwice(const std::vector<float>& values,
+               const std::vector<float>& weights,
+               float least_weight,
+               std::vector<float>& means);
+
+  /** Whether a centre is within a spacing of the zero level, also where the function is
+   * flat; not a number is. */
+  bool
+  isNear(std::size_t center) const
+  {
+    return !(std::abs(phi_[center]) > spacing_ * std::min(1.0f, slope_[center]));
+  }
 
   /** Call visit(place) for all places of centres, in parallel. */
   template <typename Visit>
@@ -107,7 +133,7 @@ private:
   std::size_t centers_; ///< places of centres
   std::vector<float> phi_, rate_;
   std::vector<float> start_, next_, curvature_, slope_, sq_length_, reference_;
-  std::vector<float> means_[2]; ///< of curvature times slope, and of slope
+  std::vector<float> sums_[2]; ///< weighted values and weights
   std::vector<float> normals_[3];
   std::vector<std::uint8_t> class_of_; ///< by group
   std::vector<float> weakness_; ///< by group: part of the flow, see shortest_step

@@ -21,6 +21,12 @@ namespace {
 /** Steps until it is looked whether the zero level nears the border of the band. */
 constexpr std::size_t band_steps = 5;
 
+/** What averages may leave of the noise in the data's pull, and steps until they are
+ * looked at: 0.08 to 0.13 of it where the surface is in its place, 0.3 where details of
+ * six spacings are smoothed away. */
+constexpr double most_pattern = 0.14;
+constexpr std::size_t pattern_steps = 20;
+
 /** Of a whole run, for its progress. */
 constexpr std::uint64_t progress_parts = 1000;
 
@@ -291,6 +297,14 @@ private:
     summary_.steps.push_back(step);
     const std::size_t count = summary_.steps.size();
     summary_.converged = step.change < parameters_.tolerance;
+    if (parameters_.mu == LevelSetParameters::automatic &&
+        (summary_.converged || count % pattern_steps == 0) && isTooSmooth()) {
+      summary_.converged = false;
+      summary_.mu = std::min(1.0, 2.0 * summary_.mu);
+      phi_ = current();
+      makeEvolver();
+      report_.count("mu_doubled", 1);
+    }
     if (summary_.converged)
       return;
     if (count % reinitialization_steps == 0 &&
@@ -323,6 +337,13 @@ private:
     text << "The level set diverged in step " << summary_.steps.size() + 1
          << ": use a smaller time step, the quadratic scheme or a larger mu.";
     throw Diverged(text.str());
+  }
+
+  /** Whether smoothing has taken more away than noise. */
+  bool
+  isTooSmooth()
+  {
+    return summary_.mu < 1.0 && evolver_->findPattern() > most_pattern * summary_.noise;
   }
 
   void

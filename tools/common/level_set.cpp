@@ -59,7 +59,8 @@ describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic)
           {"noise", text(summary.noise, " spacings")},
           {"mu",
            text(summary.mu,
-                mu_is_automatic ? " (automatic: by the noise; 1 follows the data, 0 "
+                mu_is_automatic ? " (automatic: by the noise and what smoothing left; "
+                                  "1 follows the data, 0 "
                                   "only smooths)"
                                 : "")},
           {"level set",
