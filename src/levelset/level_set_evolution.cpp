@@ -21,10 +21,13 @@ namespace {
 /** Steps until it is looked whether the zero level nears the border of the band. */
 constexpr std::size_t band_steps = 5;
 
-/** What averages may leave of the noise in the data's pull, and steps until they are
- * looked at: 0.08 to 0.13 of it where the surface is in its place, 0.3 where details of
- * six spacings are smoothed away. */
-constexpr double most_pattern = 0.14;
+/** What averages may leave of the noise in the data's pull: 0.08 to 0.13 of it where
+ * the surface is in its place, 0.3 where details of six spacings are smoothed away. And
+ * what nobody sees, in spacings, such as the terraces of values in 8 bits. */
+constexpr double most_pattern = 0.15, invisible_pattern = 0.03;
+
+/** Steps until it is looked at, and by what mu is raised then. */
+constexpr double mu_factor = 1.5;
 constexpr std::size_t pattern_steps = 20;
 
 /** Of a whole run, for its progress. */
@@ -300,10 +303,10 @@ private:
     if (parameters_.mu == LevelSetParameters::automatic &&
         (summary_.converged || count % pattern_steps == 0) && isTooSmooth()) {
       summary_.converged = false;
-      summary_.mu = std::min(1.0, 2.0 * summary_.mu);
+      summary_.mu = std::min(1.0, mu_factor * summary_.mu);
       phi_ = current();
       makeEvolver();
-      report_.count("mu_doubled", 1);
+      report_.count("mu_raised", 1);
     }
     if (summary_.converged)
       return;
@@ -343,7 +346,9 @@ private:
   bool
   isTooSmooth()
   {
-    return summary_.mu < 1.0 && evolver_->findPattern() > most_pattern * summary_.noise;
+    return summary_.mu < 1.0 &&
+           evolver_->findPattern() >
+               std::max(most_pattern * summary_.noise, invisible_pattern);
   }
 
   void

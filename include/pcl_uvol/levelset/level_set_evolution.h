@@ -75,7 +75,7 @@ public:
     parameters_.mu = mu;
   }
 
-  /** \brief Choose mu by the noise of the data, and double it whenever the data pull
+  /** \brief Choose mu by the noise of the data, and raise it whenever the data pull
    * the surface in one direction over several spacings: smoothing has taken away what
    * is no noise. */
   void
@@ -214,7 +214,7 @@ public:
   /** \brief Counts and times of the last evolve(). Counts: samples, no_value,
    * non_finite, duplicates, conflicting_duplicates, band_samples, isotropic_fits,
    * steps, updates (times that a sample was advanced), band_updates, reinitializations,
-   * mu_doubled.
+   * mu_raised.
    */
   const Report&
   getReport() const

@@ -84,7 +84,7 @@ struct LevelSetSummary {
   double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, as the
                         ///< residuals of local fits tell it
   double mu = 0.0;      ///< as given, or chosen by the noise and, if smoothing takes
-                        ///< more away than that, doubled on the way
+                        ///< more away than that, raised on the way
   bool converged = false;
   std::vector<LevelSetStep> steps;
 };
