@@ -24,6 +24,7 @@ becomeServer(int pipe_end, std::vector<std::string> arguments)
                    {"Xvfb",
                     "-displayfd",
                     std::to_string(pipe_end),
+                    "-noreset", // it would refuse who comes while it resets itself
                     "-screen",
                     "0",
                     "640x480x24",
