@@ -251,9 +251,8 @@ extractLevelSets(const Options& options,
   parameters.threads = options.threads();
   pcl::PointCloud<PointIso> isopoints;
   for (const double isovalue : arguments.isovalues) {
-    pcl_uvol::LevelSetSummary summary;
-    const auto phi = pcl_uvol::evolveLevelSet(
-        view, all, field, isovalue, parameters, {}, 0, summary, report);
+    const auto [phi, summary] =
+        pcl_uvol::evolveLevelSet(view, all, field, isovalue, parameters, report);
     pcl_uvol::IsoEdges found;
     auto surface = extract(options,
                            arguments,

@@ -292,22 +292,15 @@ run(int argc, char** argv)
                               : arguments.field;
   std::vector<int> all(view.count);
   std::iota(all.begin(), all.end(), 0);
-  pcl_uvol::LevelSetSummary summary;
-  const std::vector<float> phi = pcl_uvol::evolveLevelSet(
-      view,
-      all,
-      field,
-      arguments.iso.front(),
-      parameters,
-      [&](std::size_t steps, const std::vector<float>& values) {
-        pcl_uvol::saveDataset(
-            snapshotPath(arguments.output, steps),
-            zeroLevel(dataset, parameters.scale, options.threads(), values),
-            {});
-      },
-      arguments.snapshots,
-      summary,
-      report);
+  parameters.snapshot_steps = arguments.snapshots;
+  parameters.snapshot = [&](const pcl_uvol::LevelSetSummary& summary,
+                            const std::vector<float>& phi) {
+    pcl_uvol::saveDataset(snapshotPath(arguments.output, summary.steps.size()),
+                          zeroLevel(dataset, parameters.scale, options.threads(), phi),
+                          {});
+  };
+  const auto [phi, summary] = pcl_uvol::evolveLevelSet(
+      view, all, field, arguments.iso.front(), parameters, report);
 
   pcl_uvol::Dataset result = dataset;
   {

@@ -54,7 +54,7 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
     report_.counts = sampled_report_.counts;
   else {
     Report built;
-    built.progress = progress_;
+    built.progress = report_.progress;
     samples_ = SampleSet::build(cloud.xyz(0),
                                 cloud.stride(),
                                 use,
@@ -126,8 +126,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   checkParameters();
   if (indices.empty())
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
-  report_ = Report();
-  report_.progress = progress_;
+  startReport();
   updateScalar(cloud, indices);
 
   const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];

@@ -95,18 +95,16 @@ public:
               const std::string& field,
               double isovalue,
               const LevelSetParameters& parameters,
-              LevelSetSummary& summary,
               Report& report)
       : parameters_(parameters)
-      , summary_(summary)
       , report_(report)
   {
     read(cloud, indices, field, isovalue);
     start(cloud);
   }
 
-  void
-  run(const SnapshotCallback& snapshot, std::size_t snapshot_steps)
+  LevelSet
+  run()
   {
     StepTimer timer(report_, "evolution", progress_parts);
     std::uint64_t told = 0;
@@ -115,19 +113,22 @@ public:
       const std::uint64_t done = std::max(told, partsDone());
       timer.advance(done - told);
       told = done;
-      if (snapshot_steps > 0 && summary_.steps.size() % snapshot_steps == 0)
-        snapshot(summary_.steps.size(), result());
+      if (parameters_.snapshot_steps > 0 &&
+          summary_.steps.size() % parameters_.snapshot_steps == 0)
+        parameters_.snapshot(summary_, phiOfCloud());
     }
     timer.advance(progress_parts - told);
     if (!summary_.converged)
       warnOfStepLimit();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
+    return {phiOfCloud(), summary_};
   }
 
+private:
   /** By input index. */
   std::vector<float>
-  result() const
+  phiOfCloud() const
   {
     const std::vector<float> values = current();
     std::vector<float> phi(cloud_size_, std::numeric_limits<float>::quiet_NaN());
@@ -139,7 +140,6 @@ public:
     return phi;
   }
 
-private:
   void
   read(const CloudView& cloud,
        const std::vector<int>& indices,
@@ -422,7 +422,7 @@ private:
   }
 
   const LevelSetParameters& parameters_;
-  LevelSetSummary& summary_;
+  LevelSetSummary summary_;
   Report& report_;
   std::size_t cloud_size_ = 0;
   double largest_phi_ = 0.0;
@@ -436,21 +436,16 @@ private:
 
 } // namespace
 
-std::vector<float>
+LevelSet
 evolveLevelSet(const CloudView& cloud,
                const std::vector<int>& indices,
                const std::string& field,
                double isovalue,
                const LevelSetParameters& parameters,
-               const SnapshotCallback& snapshot,
-               std::size_t snapshot_steps,
-               LevelSetSummary& summary,
                Report& report)
 {
   checkParameters(parameters, isovalue);
-  LevelSetRun run(cloud, indices, field, isovalue, parameters, summary, report);
-  run.run(snapshot, snapshot_steps);
-  return run.result();
+  return LevelSetRun(cloud, indices, field, isovalue, parameters, report).run();
 }
 
 template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PointXYZI>;

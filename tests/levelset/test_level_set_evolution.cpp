@@ -115,15 +115,14 @@ TEST(LevelSetEvolution, SphereShrinksByItsCurvature)
     evolution.setMaximumSteps(integration == Integration::Asynchronous ? 250 : 800);
     std::size_t checked = 0;
     double last = start;
-    evolution.setSnapshotCallback(5, [&](std::size_t steps, const auto& phi) {
-      const auto& summary = evolution.getSummary();
-      const double t =
-          summary.steps[steps - 1].time * summary.spacing * summary.spacing;
+    evolution.setSnapshotCallback(5, [&](const auto& summary, const auto& phi) {
+      const double t = summary.steps.back().time * summary.spacing * summary.spacing;
       const double sq_radius = start * start - 2.0 * t;
       if (sq_radius < 0.25 * start * start)
         return;
       last = std::sqrt(sq_radius);
-      EXPECT_NEAR(last, meanOf(radiiOf(*cloud, phi)), 0.02 * last) << steps;
+      EXPECT_NEAR(last, meanOf(radiiOf(*cloud, phi)), 0.02 * last)
+          << summary.steps.size();
       ++checked;
     });
     evolve(evolution, cloud);
@@ -176,17 +175,11 @@ struct Reinitialized {
     parameters.initial = InitialFunction::field("curvature");
     parameters.reinitialization = way;
     parameters.max_steps = steps;
-    const auto phi = pcl_uvol::evolveLevelSet(pcl_uvol::viewOf(cloud),
-                                              all,
-                                              "intensity",
-                                              0.0,
-                                              parameters,
-                                              {},
-                                              0,
-                                              summary,
-                                              report);
-    for (const double found : radiiOf(*ball, phi))
-      deviations.push_back(std::abs(found - radius));
+    const pcl_uvol::LevelSet found = pcl_uvol::evolveLevelSet(
+        pcl_uvol::viewOf(cloud), all, "intensity", 0.0, parameters, report);
+    summary = found.summary;
+    for (const double distance : radiiOf(*ball, found.phi))
+      deviations.push_back(std::abs(distance - radius));
   }
 };
 

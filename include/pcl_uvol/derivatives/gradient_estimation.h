@@ -6,7 +6,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/derivatives/local_fit.h>
 
 #include <pcl/pcl_base.h>
@@ -50,7 +50,7 @@ estimateGradients(const CloudView& cloud,
  * values. \tparam PointInT with x, y, z \tparam PointOutT with gradient_x/y/z; with
  * mean_curvature it gets that too */
 template <typename PointInT, typename PointOutT = PointGradient>
-class GradientEstimation : public pcl::PCLBase<PointInT> {
+class GradientEstimation : public pcl::PCLBase<PointInT>, public Stage {
 public:
   /** \brief Any field of the cloud, see ScalarField. Default `intensity`. */
   void
@@ -83,40 +83,19 @@ public:
     parameters_.search = search;
   }
 
-  /** \brief 0 (default) = all cores. The result does not depend on it. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    parameters_.threads = threads;
-  }
-
-  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
-  void
-  setProgressCallback(const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
-
   /** \brief One output point per input point or index. A point without finite
    * coordinates or value gets NaN, and the output is then not dense. \throws
    * InvalidArgument without an input cloud, for an unknown field, no usable sample, or
-   * k out of range; the output is then untouched */
+   * k out of range; the output is then untouched
+   *
+   * Counts of the report: samples, no_value, non_finite, duplicates,
+   * conflicting_duplicates, reduced_fits, singular_fits. */
   void
   compute(pcl::PointCloud<PointOutT>& output);
-
-  /** \brief Counts and times of the last compute(). Counts: samples, no_value,
-   * non_finite, duplicates, conflicting_duplicates, reduced_fits, singular_fits. */
-  const Report&
-  getReport() const
-  {
-    return report_;
-  }
 
 private:
   std::string field_ = "intensity";
   GradientParameters parameters_;
-  ProgressCallback progress_;
-  Report report_;
 };
 
 } // namespace pcl_uvol

@@ -6,7 +6,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/neighbors/angle_criterion.h>
 #include <pcl_uvol/neighbors/sample_set.h>
@@ -35,7 +35,7 @@ enum class Interpolation {
 };
 
 /** \brief Parameters and the kernel of IsosurfaceExtraction, for any point type. */
-class PCL_UVOL_EXPORTS IsosurfaceExtractionBase {
+class PCL_UVOL_EXPORTS IsosurfaceExtractionBase : public Stage {
 public:
   /** \brief Any field of the cloud: `density`, `vel[1]`, `|vel|`, `|vx,vy,vz|`; default
    * `intensity`. See ScalarField. */
@@ -88,20 +88,6 @@ public:
     scale_ = scale;
   }
 
-  /** \brief 0 (default) = all cores. The result does not depend on it. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    threads_ = threads;
-  }
-
-  /** \brief Told while extract() runs; see ProgressCallback. Default: nobody is. */
-  void
-  setProgressCallback(const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
-
   /** \brief The edge of each isopoint of the last extract(): indices into the input
    * cloud.
    */
@@ -109,18 +95,6 @@ public:
   getEdges() const
   {
     return edges_;
-  }
-
-  /** \brief Counts and times of the last extract(). Counts: samples, no_value,
-   * non_finite, duplicates, conflicting_duplicates, crossing_samples, edges,
-   * coincident, isopoints; with smooth interpolation
-   * cubic_roots, quadratic_roots, and linear_singular, linear_step, linear_far for
-   * isopoints whose linear root stayed because the fit is singular or fails, the values
-   * step, or the fit leaves the edge's surroundings; bridged and rim by support. */
-  const Report&
-  getReport() const
-  {
-    return report_;
   }
 
   /** \brief Samples and tree of the last extract(), for other stages on the same cloud.
@@ -160,8 +134,6 @@ private:
   Interpolation interpolation_ = Interpolation::Smooth;
   AngleCriterion criterion_ = AngleCriterion::Kept;
   Eigen::Array3f scale_{1.0f, 1.0f, 1.0f};
-  unsigned threads_ = 0;
-  ProgressCallback progress_;
 
   /** The scalar in leaf order and its range per node, and what they were read from. */
   struct Scalar;
@@ -172,7 +144,6 @@ private:
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted
   IsoEdges edges_;
-  Report report_;
 };
 
 /** \brief Isosurface of a scalar field given at scattered points.
@@ -217,7 +188,14 @@ public:
    * merged (to the lower median of their values); both are counted. An isovalue outside
    * the range of the values gives no points and a warning in the report. \throws
    * InvalidArgument for a missing or empty cloud, an unknown field, no or a non-finite
-   * isovalue, a bad scale, or no usable sample; isopoints are then untouched */
+   * isovalue, a bad scale, or no usable sample; isopoints are then untouched
+   *
+   * Counts of the report: samples, no_value, non_finite, duplicates,
+   * conflicting_duplicates, crossing_samples, edges, coincident, isopoints; with smooth
+   * interpolation cubic_roots, quadratic_roots, and linear_singular, linear_step,
+   * linear_far for isopoints whose linear root stayed because the fit is singular or
+   * fails, the values step, or the fit leaves the edge's surroundings; bridged and rim
+   * by support. */
   void
   extract(pcl::PointCloud<PointIso>& isopoints);
 };

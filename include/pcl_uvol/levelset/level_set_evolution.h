@@ -5,7 +5,7 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <pcl/pcl_base.h>
@@ -18,19 +18,13 @@
 namespace pcl_uvol {
 
 /** \brief The kernel of LevelSetEvolution for any cloud.
- * \param snapshot told every snapshot_steps steps, 0 for never
- * \return phi by input index, in units of length; NaN where a point has no coordinates
- * or no value
  * \throws InvalidArgument, Diverged as LevelSetEvolution::evolve */
-PCL_UVOL_EXPORTS std::vector<float>
+PCL_UVOL_EXPORTS LevelSet
 evolveLevelSet(const CloudView& cloud,
                const std::vector<int>& indices,
                const std::string& field,
                double isovalue,
                const LevelSetParameters& parameters,
-               const SnapshotCallback& snapshot,
-               std::size_t snapshot_steps,
-               LevelSetSummary& summary,
                Report& report);
 
 /** \brief A smooth level-set function of a scalar field at scattered points.
@@ -51,7 +45,7 @@ evolveLevelSet(const CloudView& cloud,
  * quadratic scheme (288 linear) and 60. \tparam PointT any registered point type with
  * x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class LevelSetEvolution : public pcl::PCLBase<PointT> {
+class LevelSetEvolution : public pcl::PCLBase<PointT>, public Stage {
 public:
   /** \brief Any field of the cloud, see ScalarField. Default `intensity`. */
   void
@@ -173,26 +167,12 @@ public:
     parameters_.band_width = spacings;
   }
 
-  /** \brief 0 (default) = all cores. The result does not depend on it. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    parameters_.threads = threads;
-  }
-
-  /** \brief Told while evolve() runs; see ProgressCallback. Default: nobody is. */
-  void
-  setProgressCallback(const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
-
   /** \brief Told after every so many steps of evolve(); 0 (default): nobody is. */
   void
   setSnapshotCallback(std::size_t steps, const SnapshotCallback& snapshot)
   {
-    snapshot_steps_ = steps;
-    snapshot_ = snapshot;
+    parameters_.snapshot_steps = steps;
+    parameters_.snapshot = snapshot;
   }
 
   /** \brief Evolve, and return phi for every point of the cloud.
@@ -200,7 +180,11 @@ public:
    * no finite coordinates or value \throws InvalidArgument for a missing or empty
    * cloud, an unknown field, an isovalue that is not finite or that the values do not
    * enclose, a parameter out of range, or fewer samples than a stencil has neighbours
-   * \throws Diverged if the function grows beyond bounds; phi is then untouched */
+   * \throws Diverged if the function grows beyond bounds; phi is then untouched
+   *
+   * Counts of the report: samples, no_value, non_finite, duplicates,
+   * conflicting_duplicates, band_samples, isotropic_fits, steps, updates (times that a
+   * sample was advanced), band_updates, reinitializations, mu_raised. */
   void
   evolve(std::vector<float>& phi);
 
@@ -211,26 +195,11 @@ public:
     return summary_;
   }
 
-  /** \brief Counts and times of the last evolve(). Counts: samples, no_value,
-   * non_finite, duplicates, conflicting_duplicates, band_samples, isotropic_fits,
-   * steps, updates (times that a sample was advanced), band_updates, reinitializations,
-   * mu_raised.
-   */
-  const Report&
-  getReport() const
-  {
-    return report_;
-  }
-
 private:
   std::string field_ = "intensity";
   double isovalue_ = std::numeric_limits<double>::quiet_NaN();
   LevelSetParameters parameters_;
-  ProgressCallback progress_;
-  SnapshotCallback snapshot_;
-  std::size_t snapshot_steps_ = 0;
   LevelSetSummary summary_;
-  Report report_;
 };
 
 } // namespace pcl_uvol

@@ -44,26 +44,6 @@ enum class Reinitialization {
             ///< moves the surface, and is unstable where the slope is below 1
 };
 
-/** \brief The setters of LevelSetEvolution tell more. */
-struct LevelSetParameters {
-  static constexpr double automatic = -1.0;
-
-  double mu = automatic;
-  FitScheme scheme = FitScheme::Quadratic;
-  CurvatureFlow flow = CurvatureFlow::Relative;
-  StepBound bound = StepBound::Stencil;
-  Integration integration = Integration::Asynchronous;
-  Reinitialization reinitialization = Reinitialization::Distance;
-  InitialFunction initial;
-  Outside outside = Outside::Lower;
-  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
-  std::size_t k = 26;
-  std::size_t max_steps = 400;
-  double tolerance = 0.002;
-  double band_width = 5.0; ///< 0: no band
-  unsigned threads = 0;
-};
-
 /** \brief One step of an evolution. Lengths are in units of the spacing, times in its
  * square; figures are those of the samples within one spacing of the zero level. */
 struct LevelSetStep {
@@ -89,9 +69,38 @@ struct LevelSetSummary {
   std::vector<LevelSetStep> steps;
 };
 
-/** \brief Told after every so many steps: their number and phi, in units of length, by
- * index of the input cloud. */
+/** \brief Told after every so many steps: what was found out so far, and phi, in units
+ * of length, by index of the input cloud. */
 using SnapshotCallback =
-    std::function<void(std::size_t steps, const std::vector<float>& phi)>;
+    std::function<void(const LevelSetSummary& summary, const std::vector<float>& phi)>;
+
+/** \brief The setters of LevelSetEvolution tell more. */
+struct LevelSetParameters {
+  static constexpr double automatic = -1.0;
+
+  double mu = automatic;
+  FitScheme scheme = FitScheme::Quadratic;
+  CurvatureFlow flow = CurvatureFlow::Relative;
+  StepBound bound = StepBound::Stencil;
+  Integration integration = Integration::Asynchronous;
+  Reinitialization reinitialization = Reinitialization::Distance;
+  InitialFunction initial;
+  Outside outside = Outside::Lower;
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  std::size_t k = 26;
+  std::size_t max_steps = 400;
+  double tolerance = 0.002;
+  double band_width = 5.0; ///< 0: no band
+  SnapshotCallback snapshot;
+  std::size_t snapshot_steps = 0; ///< 0: nobody is told
+  unsigned threads = 0;
+};
+
+/** \brief What an evolution leaves. */
+struct LevelSet {
+  std::vector<float> phi; ///< by input index, in units of length; NaN where a point has
+                          ///< no coordinates or no value
+  LevelSetSummary summary;
+};
 
 } // namespace pcl_uvol

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/angle_criterion.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/neighbors/sample_set.h>
@@ -72,7 +72,7 @@ computeNaturalNeighbors(const SampleSet& samples,
  * Points with a non-finite coordinate have no neighbours; of exact duplicates the first
  * has those of all, the others none. */
 template <typename PointT>
-class NaturalNeighbors : public pcl::PCLBase<PointT> {
+class NaturalNeighbors : public pcl::PCLBase<PointT>, public Stage {
 public:
   /** \brief Default: AngleCriterion::Kept. */
   void
@@ -81,37 +81,13 @@ public:
     criterion_ = criterion;
   }
 
-  /** \brief 0 (default) = all cores. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    threads_ = threads;
-  }
-
-  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
-  void
-  setProgressCallback(const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
-
   /** \brief One row per point of the input cloud, indices into the input cloud.
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
   compute(NeighborGraph& graph);
 
-  /** \brief Counts and times of the last compute(). */
-  const Report&
-  getReport() const
-  {
-    return report_;
-  }
-
 private:
   AngleCriterion criterion_ = AngleCriterion::Kept;
-  unsigned threads_ = 0;
-  ProgressCallback progress_;
-  Report report_;
 };
 
 } // namespace pcl_uvol

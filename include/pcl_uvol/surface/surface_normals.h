@@ -6,7 +6,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <Eigen/Core>
 #include <pcl/pcl_base.h>
@@ -71,7 +71,7 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
  * Exact duplicates count as one neighbour. \tparam PointInT with x, y, z \tparam
  * PointOutT with normal_x/y/z and curvature */
 template <typename PointInT, typename PointOutT = pcl::Normal>
-class SurfaceNormalEstimation : public pcl::PCLBase<PointInT> {
+class SurfaceNormalEstimation : public pcl::PCLBase<PointInT>, public Stage {
 public:
   /** \brief Nearest neighbours besides the point: at least 2, default 30. */
   void
@@ -105,20 +105,6 @@ public:
     parameters_.view_point = {x, y, z};
   }
 
-  /** \brief 0 (default) = all cores. The result does not depend on it. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    parameters_.threads = threads;
-  }
-
-  /** \brief Told while compute() runs; see ProgressCallback. Default: nobody is. */
-  void
-  setProgressCallback(const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
-
   /** \brief One output point per input point or index. A point with a non-finite
    * coordinate gets NaN, and the output is then not dense. \throws InvalidArgument
    * without an input cloud, without a finite point, for k < 2 or a bad scale; the
@@ -126,17 +112,8 @@ public:
   void
   compute(pcl::PointCloud<PointOutT>& output);
 
-  /** \brief Counts and times of the last compute(). */
-  const Report&
-  getReport() const
-  {
-    return report_;
-  }
-
 private:
   SurfaceNormalParameters parameters_;
-  ProgressCallback progress_;
-  Report report_;
 };
 
 } // namespace pcl_uvol

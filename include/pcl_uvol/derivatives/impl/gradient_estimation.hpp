@@ -12,8 +12,8 @@ GradientEstimation<PointInT, PointOutT>::compute(pcl::PointCloud<PointOutT>& out
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("GradientEstimation has no input cloud: call setInputCloud.");
-  report_ = Report();
-  report_.progress = progress_;
+  startReport();
+  parameters_.threads = threads_;
   const auto gradients = estimateGradients(
       viewOf(*this->input_), *this->indices_, field_, parameters_, report_);
   output.resize(gradients.size());

@@ -4,6 +4,8 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
+#include <utility>
+
 namespace pcl_uvol {
 
 template <typename PointT>
@@ -12,18 +14,13 @@ LevelSetEvolution<PointT>::evolve(std::vector<float>& phi)
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("LevelSetEvolution has no input cloud: call setInputCloud.");
-  report_ = Report();
-  report_.progress = progress_;
+  startReport();
+  parameters_.threads = threads_;
   summary_ = LevelSetSummary();
-  phi = evolveLevelSet(viewOf(*this->input_),
-                       *this->indices_,
-                       field_,
-                       isovalue_,
-                       parameters_,
-                       snapshot_,
-                       snapshot_steps_,
-                       summary_,
-                       report_);
+  LevelSet level_set = evolveLevelSet(
+      viewOf(*this->input_), *this->indices_, field_, isovalue_, parameters_, report_);
+  phi = std::move(level_set.phi);
+  summary_ = std::move(level_set.summary);
   this->deinitCompute();
 }
 

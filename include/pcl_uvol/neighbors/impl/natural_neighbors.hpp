@@ -21,8 +21,7 @@ NaturalNeighbors<PointT>::compute(NeighborGraph& graph)
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("NaturalNeighbors has no input cloud: call setInputCloud.");
-  report_ = Report();
-  report_.progress = progress_;
+  startReport();
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   graph = computeNaturalNeighbors(
       viewOf(*this->input_), use, criterion_, threads_, report_);

@@ -14,8 +14,8 @@ SurfaceNormalEstimation<PointInT, PointOutT>::compute(
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument(
         "SurfaceNormalEstimation has no input cloud: call setInputCloud.");
-  report_ = Report();
-  report_.progress = progress_;
+  startReport();
+  parameters_.threads = threads_;
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   const auto normals =
       estimateSurfaceNormals(viewOf(*this->input_), use, parameters_, report_);
