@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets on scattered samples (thesis chapter 3): the laws they obey, the noise
 // they take away, and what they refuse.
-#include "support/clouds.h"
-#include "support/environment.h"
+#include "levelset/level_set_setup.h"
 #include "support/noisy_shapes.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
 #include <pcl_uvol/levelset/initial_function.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
-#include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -30,37 +27,12 @@ using pcl_uvol::Integration;
 using pcl_uvol::Interpolation;
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::Reinitialization;
-using uvol_test::NoisyCloud;
-using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Evolution = pcl_uvol::LevelSetEvolution<pcl::PointXYZI>;
+using uvol_test::Evolution;
+using uvol_test::evolve;
+using uvol_test::makeBall;
+using uvol_test::withValues;
+using Cloud = uvol_test::LevelSetCloud;
 using Vector = Eigen::Vector3d;
-
-/** Random samples of spacing 1 in a cube about the origin; intensity: radius minus the
- * distance to it. */
-Cloud::Ptr
-makeBall(double radius, double extent, std::uint64_t seed = 1)
-{
-  uvol_test::Random random(seed);
-  const Cloud::Ptr cloud(new Cloud);
-  const auto n = static_cast<std::size_t>(std::pow(2.0 * extent, 3));
-  for (std::size_t i = 0; i < n; ++i) {
-    pcl::PointXYZI point;
-    for (int axis = 0; axis < 3; ++axis)
-      point.data[axis] = static_cast<float>(extent * (2.0 * random.uniform() - 1.0));
-    point.intensity = static_cast<float>(radius) - point.getVector3fMap().norm();
-    cloud->push_back(point);
-  }
-  return cloud;
-}
-
-Cloud::Ptr
-withValues(const Cloud& cloud, const std::vector<float>& values)
-{
-  const Cloud::Ptr other(new Cloud(cloud));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    (*other)[i].intensity = values[i];
-  return other;
-}
 
 /** Distances of the isopoints of phi to the origin. */
 std::vector<double>
@@ -89,16 +61,6 @@ largestDeviation(const std::vector<double>& radii, double expected)
   for (const double radius : radii)
     largest = std::max(largest, std::abs(radius - expected));
   return largest;
-}
-
-std::vector<float>
-evolve(Evolution& evolution, const Cloud::Ptr& cloud)
-{
-  evolution.setInputCloud(cloud);
-  evolution.setIsoValue(0.0);
-  std::vector<float> phi;
-  evolution.evolve(phi);
-  return phi;
 }
 
 /** Mean curvature flow: r(t) = sqrt(r0^2 - 2 t), in squared lengths. */
@@ -209,101 +171,6 @@ TEST(LevelSetEvolution, DiffusionTermPullsTheSlopeTowardsOne)
   const Reinitialized run(Reinitialization::Diffusion, 1.1f, 60);
   EXPECT_LT(run.summary.steps.back().slope_error,
             0.95 * without.summary.steps.back().slope_error);
-}
-
-struct NoisyCase {
-  const char* shape;
-  bool clustered;
-  double noise; ///< part of the radius
-};
-
-class LevelSetOfNoise : public testing::TestWithParam<NoisyCase> {};
-
-/** The default against the direct surface: at most a half of its deviation, where the
- * noise is strong a third. */
-TEST_P(LevelSetOfNoise, IsSmoothAndInItsPlace)
-{
-  const auto [shape, clustered, noise] = GetParam();
-  const auto noisy = uvol_test::makeNoisyCloud(shape, clustered, noise, 1);
-  auto direct = uvol_test::isopoints(noisy.cloud, Interpolation::Linear);
-  pcl_uvol::Report report;
-  pcl_uvol::replaceNormals(direct, {}, report);
-  const auto before = uvol_test::measure(noisy, direct);
-  Evolution evolution;
-  const auto phi = evolve(evolution, noisy.cloud);
-  EXPECT_TRUE(evolution.getSummary().converged);
-  // Between two surfaces there is hardly a slope to tell it by.
-  const double part = noisy.shape.components == 1 ? 0.1 : 0.4;
-  EXPECT_NEAR(noisy.noise, evolution.getSummary().noise, part * noisy.noise);
-  const auto after = uvol_test::measure(
-      noisy,
-      uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Smooth));
-  EXPECT_LT(after.rms, (noise < 0.03 ? 1.0 / 2.0 : 1.0 / 3.0) * before.rms);
-  EXPECT_LT(after.normal_rms, before.normal_rms / 3.0);
-  EXPECT_LT(std::abs(after.shift), 0.01 * 22.0);
-  EXPECT_EQ(noisy.shape.components, after.components);
-}
-
-INSTANTIATE_TEST_SUITE_P(LevelSetEvolution,
-                         LevelSetOfNoise,
-                         testing::Values(NoisyCase{"sphere", false, 0.02},
-                                         NoisyCase{"sphere", false, 0.05},
-                                         NoisyCase{"sphere", true, 0.02},
-                                         NoisyCase{"sphere", true, 0.05},
-                                         NoisyCase{"torus", false, 0.02},
-                                         NoisyCase{"torus", false, 0.05},
-                                         NoisyCase{"torus", true, 0.02},
-                                         NoisyCase{"torus", true, 0.05},
-                                         NoisyCase{"two_spheres", false, 0.02},
-                                         NoisyCase{"two_spheres", false, 0.05},
-                                         NoisyCase{"two_spheres", true, 0.02},
-                                         NoisyCase{"two_spheres", true, 0.05}),
-                         [](const auto& test) {
-                           return std::string(test.param.shape) +
-                                  (test.param.clustered ? "_clustered" : "_uniform") +
-                                  (test.param.noise < 0.03 ? "_2" : "_5");
-                         });
-
-/** A torus so thin that smoothing as much as its noise asks for would take it away. */
-NoisyCloud
-makeThinTorus()
-{
-  NoisyCloud noisy{{"thin_torus",
-                    16.0,
-                    1,
-                    [](const Vector& x) {
-                      return 4.0 - std::hypot(std::hypot(x[0], x[1]) - 10.0, x[2]);
-                    }},
-                   false,
-                   0.4,
-                   makeBall(0.0, 16.0)};
-  uvol_test::Random random(9);
-  for (auto& point : *noisy.cloud)
-    point.intensity =
-        static_cast<float>(noisy.shape.distance(point.getVector3fMap().cast<double>()) +
-                           noisy.noise * std::sqrt(12.0) * (random.uniform() - 0.5));
-  return noisy;
-}
-
-TEST(LevelSetEvolution, AutomaticWeightIsNearlyTheBest)
-{
-  for (const auto& noisy :
-       {uvol_test::makeNoisyCloud("torus", false, 0.02, 1), makeThinTorus()}) {
-    const auto deviation = [&, &noisy = noisy](double mu) {
-      Evolution evolution;
-      if (mu >= 0.0)
-        evolution.setMu(mu);
-      const auto phi = evolve(evolution, noisy.cloud);
-      return uvol_test::measure(noisy,
-                                uvol_test::isopoints(withValues(*noisy.cloud, phi),
-                                                     Interpolation::Smooth))
-          .rms;
-    };
-    double best = deviation(0.4);
-    for (const double mu : {0.2, 0.1, 0.03, 0.01})
-      best = std::min(best, deviation(mu));
-    EXPECT_LT(deviation(-1.0), 1.2 * best) << noisy.shape.name;
-  }
 }
 
 Cloud::Ptr

@@ -111,7 +111,21 @@ drawGrid(double hole, int size, bool with_footprints)
 TEST(Footprints, CloseHolesThatTheMasksLeave)
 {
   constexpr int size = 200;
-  for (const double hole : {1.0, 1.3, 1.55, 1.8, 2.0, 2.2, 2.4, 2.6, 4.0})
+  for (const double hole : {1.0,
+                            1.3,
+                            1.38,
+                            1.4,
+                            1.42,
+                            1.45,
+                            1.49,
+                            1.52,
+                            1.55,
+                            1.8,
+                            2.0,
+                            2.2,
+                            2.4,
+                            2.6,
+                            4.0})
     EXPECT_EQ(drawGrid(hole, size, true), std::size_t{size} * size) << hole;
   for (const double hole : {1.55, 2.0, 2.4}) // what is tested is due to them
     EXPECT_LT(drawGrid(hole, size, false), 0.8 * size * size) << hole;

@@ -87,8 +87,8 @@ struct PCL_UVOL_EXPORTS Frame {
 };
 
 /** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
- * masks close what is left open. */
-constexpr float smallest_footprint = 1.5f;
+ * masks close what is left open, holes of radius sqrt(2) at most. */
+constexpr float smallest_footprint = 1.4f;
 
 /** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
  * blended into each other. In the other blocks discs only fill holes: they have the
