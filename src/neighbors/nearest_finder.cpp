@@ -17,7 +17,7 @@ constexpr std::uint32_t whole_subtree = 16;
  * for one in a thousand of uniform samples. */
 constexpr float expected_margin = 1.2f;
 /** Points farther apart, in multiples of the reach, are not worth a box in common. */
-constexpr float shared_extent = 3.0f;
+constexpr float shared_extent = 4.0f;
 /** Candidates that a box may hold, at least, and per neighbour: where density changes
  * that much, each point is searched for on its own. */
 constexpr std::size_t least_crowd = 2000, crowd_per_neighbor = 100;
@@ -102,8 +102,21 @@ NearestFinder::expect(const Position* points, std::size_t count)
   for (int axis = 0; axis < 3; ++axis)
     if (high[axis] - low[axis] > shared_extent * reach_)
       return;
+  expected_low_ = low;
+  expected_high_ = high;
+  is_expecting_ = true;
   if (margin_ == no_box || std::min(marginAt(low), marginAt(high)) < reach_)
-    gather(low, high, expected_margin * reach_);
+    is_expecting_ = gather(low, high, expected_margin * reach_);
+}
+
+bool
+NearestFinder::gatherAround(const Position& point, float margin)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    is_expecting_ = is_expecting_ && point[axis] >= expected_low_[axis] &&
+                    point[axis] <= expected_high_[axis];
+  is_expecting_ = is_expecting_ && gather(expected_low_, expected_high_, margin);
+  return is_expecting_ || gather(point, point, margin);
 }
 
 float
@@ -227,7 +240,7 @@ bool
 NearestFinder::searchInBox(const Position& point, float length)
 {
   if ((margin_ == no_box || marginAt(point) < reach_) &&
-      !gather(point, point, expected_margin * (reach_ > 0.0f ? reach_ : length)))
+      !gatherAround(point, expected_margin * (reach_ > 0.0f ? reach_ : length)))
     return false;
   for (;;) {
     select(point);
@@ -239,7 +252,7 @@ NearestFinder::searchInBox(const Position& point, float length)
         (found_count_ == k_ && reach_ <= marginAt(point)))
       return true;
     // With k candidates found none of the nearest is farther than the farthest of them.
-    if (!gather(point, point, found_count_ == k_ ? reach_ : 2.0f * margin_))
+    if (!gatherAround(point, found_count_ == k_ ? reach_ : 2.0f * margin_))
       return false;
   }
 }
@@ -257,7 +270,7 @@ NearestFinder::findWithin(const Position& point, float radius)
 {
   reach_ = radius;
   if ((margin_ == no_box || marginAt(point) < radius) &&
-      !gather(point, point, expected_margin * radius))
+      !gatherAround(point, expected_margin * radius))
     searchAlone(point);
   else
     select(point);

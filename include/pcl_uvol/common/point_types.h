@@ -2,6 +2,9 @@
 // Point types, registered with PCL so that its file readers and converters know them.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
+#include <pcl/pcl_base.h>
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
 
@@ -73,6 +76,52 @@ struct PointGradient {
   }
 };
 
+/** \brief A disc that stands for a piece of a surface, with a linear field of normals
+ * (thesis 4.2.1).
+ *
+ * x, y, z: centre; normal_x/y/z: unit normal of its plane, to the outside; radius: a
+ * length; error: largest distance of the points that it covers to its plane, a length;
+ * tangent_x/y/z: unit vector u in the plane, the direction in which the normals turn
+ * most or least, v is the normal times u. Normals at (u, v), in radii from the centre,
+ * are normal + (tilt_u + slope_u u) u + (tilt_v + slope_v v) v, not of unit length
+ * (equation 4.1 with slope = lambda r, and with the centre's normal free). */
+struct EIGEN_ALIGN16 PointSplat {
+  PCL_ADD_POINT4D;
+  PCL_ADD_NORMAL4D;
+  union {
+    struct {
+      float tangent_x;
+      float tangent_y;
+      float tangent_z;
+      float radius;
+    };
+    float data_t[4];
+  };
+  float error = 0.0f;
+  float tilt_u = 0.0f, tilt_v = 0.0f;
+  float slope_u = 0.0f, slope_v = 0.0f;
+
+  PointSplat()
+  {
+    x = y = z = 0.0f;
+    data[3] = 1.0f;
+    normal_x = normal_y = normal_z = data_n[3] = 0.0f;
+    tangent_x = tangent_y = tangent_z = radius = 0.0f;
+  }
+
+  Eigen::Map<Eigen::Vector3f>
+  getTangentVector3fMap()
+  {
+    return Eigen::Map<Eigen::Vector3f>(data_t);
+  }
+  Eigen::Map<const Eigen::Vector3f>
+  getTangentVector3fMap() const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(data_t);
+  }
+  PCL_MAKE_ALIGNED_OPERATOR_NEW
+};
+
 // clang-format off
 POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
     (float, x, x)(float, y, y)(float, z, z)
@@ -80,7 +129,17 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
     (float, isovalue, isovalue)(float, mean_curvature, mean_curvature)
     (float, error, error)(float, edge_length, edge_length)
     (std::uint8_t, support, support))
+POINT_CLOUD_REGISTER_POINT_STRUCT(PointSplat,
+    (float, x, x)(float, y, y)(float, z, z)
+    (float, normal_x, normal_x)(float, normal_y, normal_y)(float, normal_z, normal_z)
+    (float, radius, radius)(float, error, error)
+    (float, tangent_x, tangent_x)(float, tangent_y, tangent_y)(float, tangent_z, tangent_z)
+    (float, tilt_u, tilt_u)(float, tilt_v, tilt_v)
+    (float, slope_u, slope_u)(float, slope_v, slope_v))
 POINT_CLOUD_REGISTER_POINT_STRUCT(PointGradient,
     (float, gradient_x, gradient_x)(float, gradient_y, gradient_y)
     (float, gradient_z, gradient_z)(float, mean_curvature, mean_curvature))
 // clang-format on
+
+// What stages on isosurfaces derive from; PCL has it compiled for its own types only.
+extern template class PCL_UVOL_EXPORTS pcl::PCLBase<PointIso>;

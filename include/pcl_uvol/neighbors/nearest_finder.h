@@ -54,6 +54,10 @@ private:
   bool
   gather(const Position& low, const Position& high, float margin);
 
+  /** Make a box for a point, and for those expected with it where it is one of them. */
+  bool
+  gatherAround(const Position& point, float margin);
+
   bool
   gatherBelow(const KdNode& node);
 
@@ -95,6 +99,10 @@ private:
   std::size_t k_;
   const NearestKernels* kernels_;
   float reach_ = 0.0f; ///< distance of the farthest neighbour found last
+
+  // A box around points to come, which a point outside of it ends.
+  Position expected_low_{}, expected_high_{};
+  bool is_expecting_ = false;
 
   // Candidates: all samples in a box. Arrays keep their greatest size.
   Position low_{}, high_{};

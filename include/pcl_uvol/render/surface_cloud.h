@@ -6,25 +6,14 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 #include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/surface/oriented_points.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
-
-/** \brief A unit vector in two signed 16-bit numbers: the octahedral map (Meyer et al.
- * 2010), at most 0.004 degrees off. */
-using PackedNormal = std::uint32_t;
-
-/** \brief \param normal of any length but zero */
-PCL_UVOL_EXPORTS PackedNormal
-packNormal(const float* normal);
-
-PCL_UVOL_EXPORTS void
-unpackNormal(PackedNormal packed, float* normal);
 
 /** \brief Consecutive points: a subtree of the kd-tree over them. */
 struct SurfaceBlock {
@@ -64,7 +53,7 @@ public:
   std::size_t
   size() const
   {
-    return normals_.size();
+    return points_.normals.size();
   }
 
   /** \brief One coordinate of every point, relative to the centre. */
@@ -77,7 +66,7 @@ public:
   const std::vector<PackedNormal>&
   getNormals() const
   {
-    return normals_;
+    return points_.normals;
   }
 
   const std::vector<Look>&
@@ -110,7 +99,7 @@ public:
   bool
   isTwoSided() const
   {
-    return two_sided_;
+    return points_.two_sided;
   }
 
   /** \brief Give every point a colour. \param colors by input index */
@@ -169,16 +158,14 @@ private:
   SurfaceBlock
   makeBlock(std::uint32_t begin, std::uint32_t end) const;
 
+  OrientedPoints points_;
   std::vector<float> coordinates_[3];
-  std::vector<PackedNormal> normals_;
   std::vector<Look> looks_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<SurfaceBlock> blocks_;
   std::vector<float> footprints_, fillers_;
   float typical_footprint_ = 0.0f;
-  SampleSet::ConstPtr samples_;
   BoundingSphere bounds_;
-  bool two_sided_ = false;
   std::uint64_t revision_ = 0;
 };
 

@@ -2,10 +2,11 @@
 // How large the disc of a point must be so that the discs of all points leave no hole.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/sample_set.h>
-#include <pcl_uvol/render/surface_cloud.h>
+#include <pcl_uvol/surface/oriented_points.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
@@ -18,17 +19,16 @@ struct Footprints {
   /** The same for those corners only for which the point is the first of the three
    * points around: each hole has one such disc, which leaves a part of it open. */
   std::vector<float> fillers;
+  /** 1 for points at the rim of the surface: no points bound their cell. */
+  std::vector<std::uint8_t> on_rim;
 };
 
 /** \brief Corners at infinity or beyond the rim of a surface do not count, and outliers
- * get at most three times what their nearest neighbour has.
- * \param two_sided normals have no meaningful sign; else points that look to the other
- * side are no neighbours */
-Footprints
-computeFootprints(const SampleSet& samples,
-                  const std::vector<PackedNormal>& normals,
-                  bool two_sided,
-                  unsigned threads,
-                  Report& report);
+ * get at most three times what their nearest neighbour has. Of a surface with two sides
+ * (normals with a meaningful sign) points that look to the other side are no
+ * neighbours.
+ */
+PCL_UVOL_EXPORTS Footprints
+computeFootprints(const OrientedPoints& points, unsigned threads, Report& report);
 
 } // namespace pcl_uvol

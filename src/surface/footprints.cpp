@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "footprints.h"
-
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
+#include <pcl_uvol/surface/footprints.h>
 
 #include <Eigen/Geometry>
 
@@ -16,6 +15,8 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_points = 1u << 12;
+/** Points that are looked up in a box in common. */
+constexpr std::size_t run_points = 16;
 
 /** Neighbours that bound nearly all cells, and those for the others: rims, and scans
  * whose lines lie far apart. */
@@ -125,15 +126,20 @@ private:
 /** Footprints of one point after another; one object per thread. */
 class FootprintFinder {
 public:
-  FootprintFinder(const SampleSet& samples,
-                  const std::vector<PackedNormal>& normals,
-                  bool two_sided)
-      : samples_(samples)
-      , normals_(normals)
-      , two_sided_(two_sided)
-      , few_(samples, few_neighbors + 1)
-      , many_(samples, many_neighbors + 1)
+  explicit FootprintFinder(const OrientedPoints& points)
+      : samples_(*points.samples)
+      , normals_(points.normals)
+      , two_sided_(points.two_sided)
+      , few_(samples_, few_neighbors + 1)
+      , many_(samples_, many_neighbors + 1)
   {
+  }
+
+  /** Prepare for consecutive points. */
+  void
+  expect(std::size_t first, std::size_t count)
+  {
+    few_.expect(&samples_.getPositions()[first], count);
   }
 
   using Nearest = std::array<std::uint32_t, compared_neighbors>;
@@ -141,6 +147,7 @@ public:
   /** Distances of a point's corners: of all, and of those it is the first for. */
   struct Reach {
     float all = 0.0f, first = 0.0f;
+    bool on_rim = true;
   };
 
   /** \param nearest set to the indices of the nearest other points */
@@ -152,12 +159,11 @@ public:
     nearest.fill(point);
     for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
       nearest[i] = neighbors_[i].second;
-    bool is_decided = true;
-    const Reach reach = reachAmong(point, is_decided);
-    if (is_decided || neighbors_.empty())
+    const Reach reach = reachAmong(point);
+    if (!reach.on_rim || neighbors_.empty())
       return reach;
     gather(many_.find(position, typical_distance), point);
-    return reachAmong(point, is_decided);
+    return reachAmong(point);
   }
 
 private:
@@ -196,8 +202,9 @@ private:
     return Eigen::Map<const Eigen::Vector3f>(samples_.getPositions()[point].x);
   }
 
+  /** On the rim: as far as these neighbours tell. */
   Reach
-  reachAmong(std::uint32_t point, bool& is_decided)
+  reachAmong(std::uint32_t point)
   {
     if (neighbors_.empty())
       return {};
@@ -213,7 +220,7 @@ private:
            neighbors_[looked_at_].first <= 4.0f * cell_.sqExtent())
       if (lookAtNext())
         cell_.cut(in_plane_.back(), neighbors_[looked_at_ - 1].second);
-    is_decided = cell_.isBounded();
+    bool on_rim = !cell_.isBounded();
     const float sq_spacing = spacing() * spacing();
     float sq_all = 0.0f, sq_first = 0.0f;
     cell_.forCorners([&](const Eigen::Vector2f& corner, std::uint32_t first) {
@@ -223,14 +230,14 @@ private:
         return;
       if (sq_dist > most_spacings * most_spacings * sq_spacing ||
           (sq_dist > sq_spacing && !isSurrounded(corner))) {
-        is_decided = false; // there may be points farther behind the corner
+        on_rim = true; // there may be points farther behind the corner
         return;
       }
       sq_all = std::max(sq_all, sq_dist);
       if (is_first)
         sq_first = std::max(sq_first, sq_dist);
     });
-    return {std::sqrt(sq_all), std::sqrt(sq_first)};
+    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim};
   }
 
   /** Bring the next neighbour into the plane; false for one on another side. */
@@ -279,13 +286,10 @@ private:
 } // namespace
 
 Footprints
-computeFootprints(const SampleSet& samples,
-                  const std::vector<PackedNormal>& normals,
-                  bool two_sided,
-                  unsigned threads,
-                  Report& report)
+computeFootprints(const OrientedPoints& points, unsigned threads, Report& report)
 {
   const StepTimer timer(report, "footprints");
+  const SampleSet& samples = *points.samples;
   std::vector<FootprintFinder::Reach> reach(samples.size());
   std::vector<FootprintFinder::Nearest> nearest(samples.size());
   Position low = samples.getPositions()[0], high = low;
@@ -299,20 +303,25 @@ computeFootprints(const SampleSet& samples,
       std::max(extent / std::sqrt(static_cast<float>(samples.size())),
                std::numeric_limits<float>::min());
   parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
-    FootprintFinder finder(samples, normals, two_sided);
-    for (std::size_t i = begin; i < end; ++i)
+    FootprintFinder finder(points);
+    for (std::size_t i = begin; i < end; ++i) {
+      if ((i - begin) % run_points == 0)
+        finder.expect(i, std::min(run_points, end - i));
       reach[i] =
           finder.find(static_cast<std::uint32_t>(i), typical_distance, nearest[i]);
+    }
   });
   Footprints footprints;
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
+  footprints.on_rim.resize(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     float most = 0.0f;
     for (const std::uint32_t neighbor : nearest[i])
       most = std::max(most, largest_growth * reach[neighbor].all);
     footprints.radii[i] = room * std::min(reach[i].all, most);
     footprints.fillers[i] = room * std::min(reach[i].first, most);
+    footprints.on_rim[i] = reach[i].on_rim ? 1 : 0;
   }
   return footprints;
 }

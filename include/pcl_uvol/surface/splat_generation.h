@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splats: discs with linear normal fields that cover a surface given as points (thesis
+// 4.2.1).
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/stage.h>
+
+#include <pcl/pcl_base.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief How splats are made; the setters of SplatGeneration tell more. */
+struct SplatParameters {
+  double delta = 1e-4;
+  bool delta_is_length = false; ///< else part of the longest side of the bounding box
+  double lambda = 0.2;
+  unsigned threads = 0;
+};
+
+/** \brief Splats, and the input point that each is grown from. */
+struct Splats {
+  pcl::PointCloud<PointSplat> cloud;
+  std::vector<std::uint32_t> sources;
+};
+
+/** \brief The kernel of SplatGeneration for any cloud.
+ * \param use indices of the points to cover
+ * \param report gets the counts of SplatGeneration and times
+ * \throws InvalidArgument as SplatGeneration::compute */
+PCL_UVOL_EXPORTS Splats
+generateSplats(const CloudView& cloud,
+               const std::vector<std::uint32_t>& use,
+               const SplatParameters& parameters,
+               Report& report);
+
+/** \brief True if a cloud has the fields of splats. */
+PCL_UVOL_EXPORTS bool
+hasSplats(const CloudView& cloud);
+
+/** \brief The splats that a cloud holds; those that are not finite, or without radius,
+ * normal or tangent, are left out and counted as "bad_splats". */
+PCL_UVOL_EXPORTS Splats
+readSplats(const CloudView& cloud, Report& report);
+
+/** \brief Covers a surface with splats.
+ *
+ * \code
+ * pcl_uvol::SplatGeneration<PointIso> generation;
+ * generation.setInputCloud(surface);
+ * pcl::PointCloud<PointSplat> splats;
+ * generation.compute(splats);
+ * \endcode
+ * From every point that is not passed over a disc is grown across its neighbours,
+ * nearest first, until they lie more than delta off a plane perpendicular to the
+ * point's normal, whose height minimises the largest distance; points within lambda of
+ * its radius are then passed over.
+ *
+ * No hole is left: a disc is at least as large as the Voronoi cell of its point, and
+ * only points whose cell lies within the disc are passed over. No disc grows across a
+ * rim of the surface: it reaches some spacings beyond one at most. The order of the
+ * points is random but fixed; the result does not depend on threads or on the order of
+ * the input. Every finite point that has a normal is covered by a splat within delta.
+ * \tparam PointT with x, y, z; normals if it has them, else they are estimated */
+template <typename PointT>
+class SplatGeneration : public pcl::PCLBase<PointT>, public Stage {
+public:
+  /** \brief Largest distance of covered points to their splat, as a part of the longest
+   * side of the bounding box: > 0, default 1e-4. */
+  void
+  setDelta(double delta)
+  {
+    parameters_.delta = delta;
+    parameters_.delta_is_length = false;
+  }
+
+  /** \brief The same as a length in units of the coordinates, > 0. */
+  void
+  setAbsoluteDelta(double delta)
+  {
+    parameters_.delta = delta;
+    parameters_.delta_is_length = true;
+  }
+
+  /** \brief Part of a splat's radius within which no other one starts: in [0, 1],
+   * default 0.2. Larger is fewer splats and less smooth normals. */
+  void
+  setLambda(double lambda)
+  {
+    parameters_.lambda = lambda;
+  }
+
+  /** \brief Cover the input. Counts of the report: points, non_finite, without_normal,
+   * duplicates, splats, and widened (splats that are larger than delta or a rim allows,
+   * to leave no hole). \throws InvalidArgument without an input cloud, without a finite
+   * point that has a normal, for a delta or lambda out of range, an extent beyond
+   * float's squares; the output is then untouched
+   */
+  void
+  compute(pcl::PointCloud<PointSplat>& splats);
+
+  /** \brief Index of the input point that every splat is grown from. */
+  const std::vector<std::uint32_t>&
+  getSources() const
+  {
+    return sources_;
+  }
+
+private:
+  SplatParameters parameters_;
+  std::vector<std::uint32_t> sources_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/surface/oriented_points.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 12;
+
+/** Fields that hold the normal, if the cloud has them as numbers. */
+std::optional<std::array<ScalarField, 3>>
+normalFields(const CloudView& cloud)
+{
+  for (const char* name : {"normal_x", "normal_y", "normal_z"})
+    if (findField(cloud.fields, name) == nullptr)
+      return std::nullopt;
+  return std::array<ScalarField, 3>{ScalarField(cloud.fields, "normal_x"),
+                                    ScalarField(cloud.fields, "normal_y"),
+                                    ScalarField(cloud.fields, "normal_z")};
+}
+
+/** Normals of all input points, packed. */
+struct Normals {
+  std::vector<PackedNormal> packed; ///< by input index
+  std::vector<std::uint32_t> use;   ///< input points that have one
+};
+
+bool
+isUsable(const float* normal)
+{
+  const float sq_length =
+      normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  return std::isfinite(sq_length) && sq_length > 0.0f;
+}
+
+Normals
+readNormals(const CloudView& cloud,
+            const std::array<ScalarField, 3>& fields,
+            const std::vector<std::uint32_t>& use,
+            unsigned threads)
+{
+  Normals normals;
+  normals.packed.resize(cloud.count);
+  normals.use = parallelGather<std::uint32_t>(
+      use.size(),
+      block_points,
+      threads,
+      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          float normal[3];
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            normal[axis] = static_cast<float>(fields[axis].read(cloud.point(use[i])));
+          if (!isUsable(normal))
+            continue;
+          normals.packed[use[i]] = packNormal(normal);
+          found.push_back(use[i]);
+        }
+      });
+  return normals;
+}
+
+Normals
+estimateNormals(const CloudView& cloud,
+                const std::vector<std::uint32_t>& use,
+                unsigned threads,
+                Report& report)
+{
+  const StepTimer timer(report, "normals");
+  SurfaceNormalParameters parameters;
+  parameters.threads = threads;
+  Report estimation;
+  const auto estimated = estimateSurfaceNormals(cloud, use, parameters, estimation);
+  Normals normals;
+  normals.packed.resize(cloud.count);
+  for (std::size_t i = 0; i < use.size(); ++i)
+    if (isUsable(estimated[i].normal)) {
+      normals.packed[use[i]] = packNormal(estimated[i].normal);
+      normals.use.push_back(use[i]);
+    }
+  return normals;
+}
+
+bool
+isFinite(const float* xyz)
+{
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
+}
+
+} // namespace
+
+OrientedPoints
+orientPoints(const CloudView& cloud,
+             const std::vector<std::uint32_t>& use,
+             unsigned threads,
+             Report& report)
+{
+  report.count("points", use.size());
+  std::vector<std::uint32_t> finite;
+  std::copy_if(use.begin(), use.end(), std::back_inserter(finite), [&](auto i) {
+    return isFinite(cloud.xyz(i));
+  });
+  report.count("non_finite", use.size() - finite.size());
+  if (finite.empty())
+    throw InvalidArgument("The cloud has no point with finite coordinates.");
+  Normals normals;
+  if (const auto fields = normalFields(cloud))
+    normals = readNormals(cloud, *fields, finite, threads);
+  OrientedPoints points;
+  points.two_sided = normals.use.empty();
+  if (points.two_sided) {
+    normals = estimateNormals(cloud, finite, threads, report);
+    report.warnings.push_back("The cloud has no normals: they were estimated, and the "
+                              "surface is drawn from both sides.");
+  }
+  report.count("without_normal", finite.size() - normals.use.size());
+  if (normals.use.empty())
+    throw InvalidArgument("No point of the cloud has a normal, and none can be "
+                          "estimated.");
+  points.samples = SampleSet::build(cloud.xyz(0),
+                                    cloud.stride(),
+                                    normals.use,
+                                    Position{{1.0f, 1.0f, 1.0f}},
+                                    threads,
+                                    report);
+  points.normals.resize(points.samples->size());
+  for (std::size_t i = 0; i < points.normals.size(); ++i)
+    points.normals[i] = normals.packed[points.samples->getInputIndex(i)];
+  return points;
+}
+
+} // namespace pcl_uvol

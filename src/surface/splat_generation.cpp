@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "splat_growth.h"
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/surface/footprints.h>
+#include <pcl_uvol/surface/impl/splat_generation.hpp>
+
+#include <pcl/impl/pcl_base.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 12;
+
+/** Splats that are grown at once: so few that hardly one of them is passed over for the
+ * sake of another one, in parts of those that stand already. */
+constexpr std::size_t fewest_at_once = 32, at_once_part = 4;
+/** Blocks that these are divided into, and splats of a block at most. */
+constexpr std::size_t blocks_at_once = 16, largest_block = 256;
+/** Splats of a block whose neighbours are looked up in common. */
+constexpr std::size_t run_splats = 16;
+
+/** Extents whose squares, and those of the spacings, are numbers in float. */
+constexpr double smallest_extent = 1e-12, largest_extent = 1e15;
+
+void
+checkParameters(const SplatParameters& parameters)
+{
+  if (!(parameters.delta > 0.0) || !std::isfinite(parameters.delta))
+    throw InvalidArgument("The error bound delta of splats is a number above 0, not " +
+                          std::to_string(parameters.delta) + ".");
+  if (!(parameters.lambda >= 0.0 && parameters.lambda <= 1.0))
+    throw InvalidArgument("The coverage factor lambda of splats lies in [0, 1], and is "
+                          "not " +
+                          std::to_string(parameters.lambda) + ".");
+}
+
+double
+longestSide(const std::vector<Position>& positions)
+{
+  double longest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto range = std::minmax_element(
+        positions.begin(), positions.end(), [axis](const auto& a, const auto& b) {
+          return a[axis] < b[axis];
+        });
+    longest = std::max(
+        longest, static_cast<double>((*range.second)[axis]) - (*range.first)[axis]);
+  }
+  return longest;
+}
+
+/** Footprints; where a point has none, which is at corners, on lines and far off, half
+ * the way to the next point, but no more than is usual. */
+std::vector<float>
+leastRadii(const SampleSet& samples,
+           std::vector<float> footprints,
+           double delta,
+           unsigned threads)
+{
+  std::vector<float> known;
+  std::copy_if(footprints.begin(),
+               footprints.end(),
+               std::back_inserter(known),
+               [](float radius) { return radius > 0.0f; });
+  if (known.size() == footprints.size())
+    return footprints;
+  float usual = std::numeric_limits<float>::infinity();
+  if (!known.empty()) {
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    usual = *middle;
+  }
+  parallelBlocks(footprints.size(), block_points, threads, [&](auto begin, auto end) {
+    NearestFinder finder(samples, 2);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (footprints[i] > 0.0f)
+        continue;
+      const auto row = finder.find(
+          samples.getPositions()[i],
+          std::max(static_cast<float>(delta), std::numeric_limits<float>::min()));
+      float nearest = std::numeric_limits<float>::infinity();
+      for (std::size_t j = 0; j < row.size; ++j)
+        if (row.samples[j] != i)
+          nearest = std::min(nearest, 0.5f * std::sqrt(row.sq_dists[j]));
+      nearest = std::min(nearest, usual);
+      footprints[i] = std::isfinite(nearest) ? nearest : static_cast<float>(delta);
+    }
+  });
+  return footprints;
+}
+
+/** All samples in an order that is random but always the same. */
+std::vector<std::uint32_t>
+randomOrder(std::size_t count, unsigned threads)
+{
+  // The finaliser of splitmix64 (Steele et al. 2014); it is a bijection, so that no two
+  // keys are equal.
+  const auto key = [](std::uint64_t i) {
+    i += 0x9e3779b97f4a7c15u;
+    i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;
+    i = (i ^ (i >> 27)) * 0x94d049bb133111ebu;
+    return i ^ (i >> 31);
+  };
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  parallelSort(order.begin(), order.end(), threads, [&](auto a, auto b) {
+    return key(a) < key(b);
+  });
+  return order;
+}
+
+/** A splat, and the sample it is grown from. */
+struct Accepted {
+  std::uint32_t sample;
+  PointSplat splat;
+};
+
+/** Goes through the samples in their order; those that are not passed over get a splat.
+ * Many are grown at once, and some of them for nothing. */
+std::vector<Accepted>
+coverSurface(const SplatGround& ground, unsigned threads, Report& report)
+{
+  const std::size_t count = ground.points.samples->size();
+  StepTimer step(report, "splats", count);
+  const std::vector<std::uint32_t> order = randomOrder(count, threads);
+  std::vector<std::uint8_t> passed_over(count, 0);
+  std::vector<Accepted> accepted;
+  std::uint64_t widened = 0;
+  std::vector<std::uint32_t> candidates, places;
+  std::vector<GrownSplat> grown;
+  for (std::size_t next = 0; next < count;) {
+    const std::size_t first = next;
+    const std::size_t most = std::max(fewest_at_once, accepted.size() / at_once_part);
+    candidates.clear();
+    for (; next < count && candidates.size() < most; ++next)
+      if (!passed_over[order[next]])
+        candidates.push_back(order[next]);
+    // Neighbours in memory, one after the other.
+    places.resize(candidates.size());
+    std::iota(places.begin(), places.end(), 0u);
+    parallelSort(places.begin(), places.end(), threads, [&](auto a, auto b) {
+      return candidates[a] < candidates[b];
+    });
+    grown.resize(candidates.size());
+    const std::size_t block =
+        std::clamp<std::size_t>(candidates.size() / blocks_at_once, 1, largest_block);
+    parallelBlocks(candidates.size(), block, threads, [&](auto begin, auto end) {
+      SplatGrower grower(ground);
+      std::vector<std::uint32_t> run;
+      for (std::size_t i = begin; i < end; ++i) {
+        if ((i - begin) % run_splats == 0) {
+          run.clear();
+          for (std::size_t j = i; j < std::min(i + run_splats, end); ++j)
+            run.push_back(candidates[places[j]]);
+          grower.expect(run);
+        }
+        grown[places[i]] = grower.grow(candidates[places[i]]);
+      }
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      if (passed_over[candidates[i]])
+        continue;
+      accepted.push_back({candidates[i], grown[i].splat});
+      widened += grown[i].widened ? 1 : 0;
+      for (const std::uint32_t sample : grown[i].passed_over)
+        passed_over[sample] = 1;
+    }
+    step.advance(next - first);
+  }
+  report.count("splats", accepted.size());
+  report.count("widened", widened);
+  return accepted;
+}
+
+constexpr std::array<const char*, 15> splat_fields = {"x",
+                                                      "y",
+                                                      "z",
+                                                      "normal_x",
+                                                      "normal_y",
+                                                      "normal_z",
+                                                      "tangent_x",
+                                                      "tangent_y",
+                                                      "tangent_z",
+                                                      "radius",
+                                                      "error",
+                                                      "tilt_u",
+                                                      "tilt_v",
+                                                      "slope_u",
+                                                      "slope_v"};
+
+} // namespace
+
+Splats
+generateSplats(const CloudView& cloud,
+               const std::vector<std::uint32_t>& use,
+               const SplatParameters& parameters,
+               Report& report)
+{
+  checkParameters(parameters);
+  if (use.empty())
+    throw InvalidArgument("The splat generation was given an empty cloud.");
+  const unsigned threads = parameters.threads;
+  const OrientedPoints points = orientPoints(cloud, use, threads, report);
+  const double side = longestSide(points.samples->getPositions());
+  const double delta =
+      parameters.delta_is_length ? parameters.delta : parameters.delta * side;
+  if (!(delta > 0.0))
+    throw InvalidArgument("All points of the cloud lie at one place: their extent "
+                          "gives no error bound, which must be given as a length.");
+  const double extent = std::max(side, delta);
+  if (!(extent >= smallest_extent && extent <= largest_extent))
+    throw InvalidArgument("Splats are made for clouds, and error bounds, between 1e-12 "
+                          "and 1e15 in extent: scale the coordinates.");
+  Footprints footprints = computeFootprints(points, threads, report);
+  const SplatGround ground{
+      points,
+      std::move(footprints.on_rim),
+      leastRadii(*points.samples, std::move(footprints.radii), delta, threads),
+      delta,
+      parameters.lambda};
+  const auto accepted = coverSurface(ground, threads, report);
+  // In leaf order, where neighbours are close.
+  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> splat_of(points.samples->size(), none);
+  for (std::uint32_t i = 0; i < accepted.size(); ++i)
+    splat_of[accepted[i].sample] = i;
+  Splats splats;
+  splats.cloud.reserve(accepted.size());
+  for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample)
+    if (splat_of[sample] != none) {
+      splats.cloud.push_back(accepted[splat_of[sample]].splat);
+      splats.sources.push_back(points.samples->getInputIndex(sample));
+    }
+  return splats;
+}
+
+bool
+hasSplats(const CloudView& cloud)
+{
+  return std::all_of(splat_fields.begin(), splat_fields.end(), [&](const char* name) {
+    return findField(cloud.fields, name) != nullptr;
+  });
+}
+
+Splats
+readSplats(const CloudView& cloud, Report& report)
+{
+  std::vector<ScalarField> fields;
+  for (const char* name : splat_fields)
+    fields.emplace_back(cloud.fields, name);
+  Splats splats;
+  for (std::uint32_t i = 0; i < cloud.count; ++i) {
+    std::array<float, splat_fields.size()> v;
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      v[f] = static_cast<float>(fields[f].read(cloud.point(i)));
+    PointSplat splat;
+    splat.getVector3fMap() = Eigen::Map<const Eigen::Vector3f>(&v[0]);
+    splat.getNormalVector3fMap() =
+        Eigen::Map<const Eigen::Vector3f>(&v[3]).stableNormalized();
+    splat.getTangentVector3fMap() =
+        Eigen::Map<const Eigen::Vector3f>(&v[6]).stableNormalized();
+    splat.radius = v[9];
+    splat.error = v[10];
+    splat.tilt_u = v[11];
+    splat.tilt_v = v[12];
+    splat.slope_u = v[13];
+    splat.slope_v = v[14];
+    // Perpendicular to the normal, as the fields of normals take it for.
+    splat.getTangentVector3fMap() =
+        (splat.getTangentVector3fMap() -
+         splat.getTangentVector3fMap().dot(splat.getNormalVector3fMap()) *
+             splat.getNormalVector3fMap())
+            .stableNormalized();
+    const bool is_finite = std::all_of(
+        v.begin(), v.end(), [](float value) { return std::isfinite(value); });
+    if (!is_finite || !(splat.radius > 0.0f) || splat.getNormalVector3fMap().isZero() ||
+        splat.getTangentVector3fMap().isZero())
+      continue;
+    splats.cloud.push_back(splat);
+    splats.sources.push_back(i);
+  }
+  report.count("splats", splats.cloud.size());
+  report.count("bad_splats", cloud.count - splats.cloud.size());
+  return splats;
+}
+
+template class PCL_UVOL_EXPORTS SplatGeneration<PointIso>;
+template class PCL_UVOL_EXPORTS SplatGeneration<pcl::PointNormal>;
+
+} // namespace pcl_uvol
