@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours, materials and lights: the Blinn-Phong model that both renderers shade with
-// (thesis 4.2.2, 4.3.1).
+// Colours, materials, lights and background: the Blinn-Phong model that both renderers
+// shade with (thesis 4.2.2, 4.3.1).
 #pragma once
 
 #include <Eigen/Core>
@@ -36,6 +36,18 @@ struct Light {
    * the cloud. */
   Eigen::Vector3d position{-0.4, 0.5, 0.8};
   Color color{1.0f, 1.0f, 1.0f};
+  /** Of a source that casts soft shadows: a length, or of a directional light the
+   * tangent of the angle that it is seen at. 0 (default): hard shadows. Image space
+   * casts none. */
+  double radius = 0.0;
+};
+
+/** \brief What is behind the surface. */
+struct Background {
+  enum class Kind { Plain, Gradient, Transparent };
+  Kind kind = Kind::Plain;
+  Color color{1.0f, 1.0f, 1.0f};  ///< plain, and below in a gradient
+  Color top{0.55f, 0.65f, 0.80f}; ///< above in a gradient
 };
 
 /** \brief A bright light over the viewer's left shoulder and a weak one from the right.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../lighting.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/render/image_space/cpu_backend.h>
 #include <pcl_uvol/render/image_space/impl/image_space_renderer.hpp>
+#include <pcl_uvol/render/point_colors.h>
 
 #include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace pcl_uvol {
@@ -31,48 +31,6 @@ checkThreshold(const char* name, double value)
 }
 
 void
-checkRange(const char* name, int value, int low, int high)
-{
-  if (value < low || value > high)
-    throw InvalidArgument(std::string("The ") + name + " lies between " +
-                          std::to_string(low) + " and " + std::to_string(high) +
-                          ", and is not " + std::to_string(value) + ".");
-}
-
-void
-checkColor(const char* name, const Color& color)
-{
-  for (const float channel : {color.r, color.g, color.b})
-    if (!(channel >= 0.0f) || !std::isfinite(channel))
-      throw InvalidArgument(std::string("The colour of ") + name +
-                            " has finite parts of 0 or more, not " +
-                            std::to_string(channel) + ".");
-}
-
-void
-checkLighting(const ImageSpaceSettings& settings)
-{
-  const Material& material = settings.material;
-  for (const double factor :
-       {material.ambient, material.diffuse, material.specular, material.shininess})
-    if (!(factor >= 0.0) || !std::isfinite(factor))
-      throw InvalidArgument("The factors of a material are finite and 0 or more, not " +
-                            std::to_string(factor) + ".");
-  checkColor("the material", material.color);
-  checkColor("lines", settings.line_color);
-  checkColor("the background", settings.background.color);
-  checkColor("the background", settings.background.top);
-  for (const Light& light : settings.lights) {
-    checkColor("a light", light.color);
-    if (!light.position.allFinite() ||
-        (light.kind == Light::Kind::Directional && light.position.isZero(0.0)))
-      throw InvalidArgument(
-          "A light comes from a finite place, or from a direction that "
-          "is not zero.");
-  }
-}
-
-void
 checkSettings(const ImageSpaceSettings& settings)
 {
   constexpr int unlimited = std::numeric_limits<int>::max();
@@ -84,7 +42,10 @@ checkSettings(const ImageSpaceSettings& settings)
   checkThreshold("threshold of silhouettes", settings.silhouette_threshold);
   checkThreshold("threshold of feature lines", settings.feature_threshold);
   checkThreshold("threshold of anti-aliasing", settings.anti_aliasing_threshold);
-  checkLighting(settings);
+  checkMaterial(settings.material);
+  checkColor("lines", settings.line_color);
+  checkBackground(settings.background);
+  checkLights(settings.lights);
 }
 
 /** True if points of some block in front of the eye lie too far apart on the screen. */
@@ -100,26 +61,6 @@ needsFootprints(const SurfaceCloud& cloud, const View& view)
     return z + block.radius > view.near &&
            block.mean_spacing * view.focal > dense_spacing * nearest;
   });
-}
-
-/** The four bytes of a colour field: blue, green, red, opacity, as PCL packs them. */
-std::vector<Rgba>
-readColors(const CloudView& cloud)
-{
-  const pcl::PCLPointField* field = findField(cloud.fields, "rgb");
-  if (field == nullptr)
-    field = findField(cloud.fields, "rgba");
-  if (field == nullptr || datatypeSize(field->datatype) != sizeof(Rgba))
-    throw InvalidArgument("The cloud has no colours (rgb or rgba); its fields are " +
-                          describeFields(cloud.fields) + ".");
-  std::vector<Rgba> colors(cloud.count);
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    std::uint32_t packed;
-    std::memcpy(&packed, cloud.point(i) + field->offset, sizeof packed);
-    colors[i] = 0xff000000u | (packed & 0xff) << 16 | (packed & 0xff00) |
-                ((packed >> 16) & 0xff);
-  }
-  return colors;
 }
 
 /** Mean of factor x factor pixels, weighted by their opacity. */
@@ -183,24 +124,9 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
     surface_->setColor(toRgba(settings_.material.color));
     return;
   }
-  if (color_field_ == "rgb" || color_field_ == "rgba") {
-    surface_->setColors(readColors(cloud));
-    return;
-  }
-  const ScalarField field(cloud.fields, color_field_);
-  std::vector<float> values(cloud.count);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    values[i] = static_cast<float>(field.read(cloud.point(i)));
-    if (std::isfinite(values[i])) {
-      low = std::min<double>(low, values[i]);
-      high = std::max<double>(high, values[i]);
-    }
-  }
-  if (low > high)
-    throw InvalidArgument("All values of " + color_field_ + " are without a number.");
-  used_range_ = color_range_.value_or(std::array<double, 2>{low, high});
-  surface_->setColors(color_map_.apply(values, used_range_[0], used_range_[1]));
+  const PointColors colors = colorPoints(cloud, color_field_, color_map_, color_range_);
+  used_range_ = colors.range;
+  surface_->setColors(colors.colors);
 }
 
 void

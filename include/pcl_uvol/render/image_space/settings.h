@@ -16,14 +16,6 @@ enum class SmoothingFilter {
   AlleviatedGaussian ///< the same with 16 in the middle (default)
 };
 
-/** \brief What is behind the surface. */
-struct Background {
-  enum class Kind { Plain, Gradient, Transparent };
-  Kind kind = Kind::Plain;
-  Color color{1.0f, 1.0f, 1.0f};  ///< plain, and below in a gradient
-  Color top{0.55f, 0.65f, 0.80f}; ///< above in a gradient
-};
-
 /** \brief Steps and thresholds, in the order of the passes. Depths are linear:
  * distance to the eye over that of the farthest place of the cloud, background 1. */
 struct ImageSpaceSettings {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splat-based ray tracing (thesis 4.2.2): shadows, mirrors and glass.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/ray_tracing/scene.h>
+
+#include <memory>
+#include <optional>
+
+namespace pcl_uvol {
+
+class World;
+
+/** \brief What rays do. */
+struct RayTracingSettings {
+  /** Reflections and refractions in a row, at most; 0: primary and shadow rays alone.
+   */
+  int depth = 4;
+  int supersampling = 1; ///< rays per pixel in each direction, in [1, 8]
+  bool shadows = true;
+  /** Shadow rays to a light that has a radius, in [1, 4096]. */
+  int light_samples = 16;
+  /** Rays per hit that find how much of the surroundings is near; 0 (default): ambient
+   * light reaches everywhere. At most 4096. */
+  int occlusion_samples = 0;
+  /** What is farther away does not take ambient light; a length, 0 (default): a fifth
+   * of the radius of the scene. */
+  double occlusion_distance = 0.0;
+};
+
+/** \brief Pictures of splats, spheres and planes.
+ *
+ * \code
+ * pcl_uvol::RayTracer tracer;
+ * tracer.setScene(scene);
+ * pcl_uvol::Image image;
+ * tracer.render(image);
+ * \endcode
+ * All splats of an object that a ray meets close behind the first one are one hit: it
+ * lies on the splat whose centre is the nearest, in radii (Figure 4.4), and its normal
+ * and colour are averaged over them, weighted by 1 - |(u, v)|. The search structure is
+ * built at the first picture. The picture does not depend on the number of threads. */
+class PCL_UVOL_EXPORTS RayTracer : public Stage {
+public:
+  RayTracer();
+  ~RayTracer();
+
+  /** \brief What to draw. \throws InvalidArgument for a scene without objects, a
+   * material, light or shape out of its range, a splat that is not finite */
+  void
+  setScene(const Scene& scene);
+
+  /** \brief Default: the view "iso" of everything. */
+  void
+  setCamera(const Camera& camera)
+  {
+    camera_ = camera;
+  }
+
+  /** \brief Pixels, in [1, 16384]; default 1024 x 1024. */
+  void
+  setSize(int width, int height)
+  {
+    width_ = width;
+    height_ = height;
+  }
+
+  /** \brief Fill in the normals of the surfaces, to the outside, as well; default:
+   * colour alone. */
+  void
+  setNormalPlane(bool has_normals)
+  {
+    has_normals_ = has_normals;
+  }
+
+  RayTracingSettings&
+  settings()
+  {
+    return settings_;
+  }
+
+  /** \brief A ball around all splats and spheres: for cameras. A scene of planes alone
+   * gives a ball of radius 1 about the first one's point.
+   * \throws InvalidArgument without a scene */
+  BoundingSphere
+  getBounds();
+
+  /** \brief Draw: colour, and normals where they are asked for. Counts of the report:
+   * primary_rays, secondary_rays, shadow_rays. \throws InvalidArgument without a scene,
+   * for a bad camera, size or setting; the image is then untouched */
+  void
+  render(Image& image);
+
+private:
+  const World&
+  build();
+
+  std::optional<Scene> scene_; ///< until the search structure is built
+  std::unique_ptr<World> world_;
+  Report build_report_;
+  std::optional<Camera> camera_;
+  int width_ = 1024, height_ = 1024;
+  bool has_normals_ = false;
+  RayTracingSettings settings_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "splat_tree.h"
+
+#include "tree_builder.h"
+#include <pcl_uvol/common/dispatch.h>
+#include <pcl_uvol/common/parallel.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+const KernelTable<const SplatTreeKernels*> kernel_table{&baseline::splat_tree_kernels,
+                                                        &avx2::splat_tree_kernels,
+                                                        &avx512::splat_tree_kernels};
+
+constexpr std::size_t block_splats = 1u << 12;
+
+/** Splats that a ray meets not farther behind another one than this part of its radius
+ * are one surface with it. */
+constexpr float same_surface = 0.5f;
+
+/** Room around splats, for rounding: in parts of their distances to the centre. */
+constexpr float box_room = 1e-6f;
+
+/** Hits that are looked for at first. */
+constexpr std::size_t first_room = 64;
+
+/** Of all splats, coordinates relative to a centre. */
+std::vector<ItemBox>
+boxesOf(const pcl::PointCloud<PointSplat>& splats,
+        const Eigen::Vector3d& center,
+        unsigned threads)
+{
+  std::vector<ItemBox> boxes(splats.size());
+  parallelBlocks(splats.size(), block_splats, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const PointSplat& splat = splats[i];
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto x = static_cast<float>(splat.data[axis] - center[axis]);
+        const float n = splat.data_n[axis];
+        const float half = splat.radius * std::sqrt(std::max(0.0f, 1.0f - n * n)) +
+                           box_room * (std::abs(x) + splat.radius);
+        boxes[i].low[axis] = x - half;
+        boxes[i].high[axis] = x + half;
+      }
+    }
+  });
+  return boxes;
+}
+
+Eigen::Map<const Eigen::Vector3f>
+toVector(const float* numbers)
+{
+  return Eigen::Map<const Eigen::Vector3f>(numbers);
+}
+
+Eigen::Vector3f
+toVector(Rgba color)
+{
+  constexpr float scale = 1.0f / 255.0f;
+  return {scale * static_cast<float>(color & 0xff),
+          scale * static_cast<float>(color >> 8 & 0xff),
+          scale * static_cast<float>(color >> 16 & 0xff)};
+}
+
+/** How much its field turns normals out of the plane's. */
+float
+bendOf(const SplatRecord& splat)
+{
+  return std::hypot(splat.tilt[0], splat.tilt[1]) +
+         std::max(std::abs(splat.slope[0]), std::abs(splat.slope[1]));
+}
+
+/** What its points say, or its normals, if they know of a larger distance at its
+ * border.
+ */
+float
+thicknessOf(const PointSplat& splat)
+{
+  const float tilt = std::hypot(splat.tilt_u, splat.tilt_v);
+  const float slope = std::max(std::abs(splat.slope_u), std::abs(splat.slope_v));
+  return std::max(splat.error, splat.radius * (tilt + 0.5f * slope));
+}
+
+/** Normal of a splat's field at a place (equation 4.1), not of unit length. */
+Eigen::Vector3f
+fieldAt(const SplatRecord& splat, const Eigen::Vector3f& place)
+{
+  const Eigen::Vector3f offset = (place - toVector(splat.center)) / splat.radius;
+  const Eigen::Vector3f normal = toVector(splat.normal), u = toVector(splat.tangent),
+                        v = normal.cross(u);
+  return normal + (splat.tilt[0] + splat.slope[0] * offset.dot(u)) * u +
+         (splat.tilt[1] + splat.slope[1] * offset.dot(v)) * v;
+}
+
+} // namespace
+
+SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
+                     const std::vector<Rgba>& colors,
+                     Rgba color,
+                     unsigned threads)
+    : kernels_(kernel_table.get())
+{
+  Eigen::Array3f low = splats.front().getArray3fMap(), high = low;
+  for (const PointSplat& splat : splats) {
+    low = low.min(splat.getArray3fMap());
+    high = high.max(splat.getArray3fMap());
+  }
+  center_ = 0.5 * (low + high).matrix().cast<double>();
+  for (const PointSplat& splat : splats)
+    radius_ = std::max(radius_,
+                       (splat.getVector3fMap().cast<double>() - center_).norm() +
+                           splat.radius);
+  WideTree tree = buildWideTree(boxesOf(splats, center_, threads), threads);
+  nodes_ = std::move(tree.nodes);
+  const std::size_t leaves = tree.leaf_begin.size() - 1;
+  leaves_.resize(leaves);
+  splats_.resize(leaves * tree_width);
+  parallelBlocks(leaves, block_splats / tree_width, threads, [&](auto begin, auto end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      TreeLeaf& filled = leaves_[leaf];
+      const std::uint32_t first = tree.leaf_begin[leaf];
+      const std::uint32_t count = tree.leaf_begin[leaf + 1] - first;
+      for (std::uint32_t i = 0; i < tree_width; ++i) {
+        filled.sq_radius[i] = -1.0f;
+        if (i >= count)
+          continue;
+        const std::uint32_t index = tree.items[first + i];
+        const PointSplat& splat = splats[index];
+        for (int axis = 0; axis < 3; ++axis) {
+          filled.center[axis][i] = static_cast<float>(splat.data[axis] - center_[axis]);
+          filled.normal[axis][i] = splat.data_n[axis];
+        }
+        filled.sq_radius[i] = splat.radius * splat.radius;
+        splats_[leaf * tree_width + i] = {
+            {filled.center[0][i], filled.center[1][i], filled.center[2][i]},
+            {splat.normal_x, splat.normal_y, splat.normal_z},
+            {splat.tangent_x, splat.tangent_y, splat.tangent_z},
+            splat.radius,
+            {splat.tilt_u, splat.tilt_v},
+            {splat.slope_u, splat.slope_v},
+            thicknessOf(splat),
+            colors.empty() ? color : colors[index]};
+      }
+    }
+  });
+}
+
+TreeRay
+SplatTree::localRay(const Ray& ray, double near, double far) const
+{
+  TreeRay local{};
+  for (int axis = 0; axis < 3; ++axis) {
+    local.origin[axis] = static_cast<float>(ray.origin[axis] - center_[axis]);
+    local.direction[axis] = static_cast<float>(ray.direction[axis]);
+  }
+  local.near = static_cast<float>(near);
+  local.far = static_cast<float>(far);
+  return local;
+}
+
+bool
+SplatTree::isBlocked(const Ray& ray, double near, double far) const
+{
+  return kernels_->isBlocked(arrays(), localRay(ray, near, far));
+}
+
+bool
+SplatTree::intersect(const Ray& ray,
+                     double near,
+                     double far,
+                     std::vector<SplatHit>& hits,
+                     SplatSurfaceHit& hit) const
+{
+  const TreeRay local = localRay(ray, near, far);
+  if (hits.empty())
+    hits.resize(first_room);
+  std::size_t count;
+  while ((count = kernels_->collect(
+              arrays(), local, same_surface, hits.data(), hits.size())) > hits.size())
+    hits.resize(4 * hits.size());
+  if (count == 0)
+    return false;
+  // Which of them belong to the surface is known now that all are known.
+  float limit = local.far;
+  const SplatHit* first = hits.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SplatHit& other = hits[i];
+    limit =
+        std::min(limit, other.distance + same_surface * splats_[other.splat].radius);
+    if (other.distance < first->distance ||
+        (other.distance == first->distance && other.splat < first->splat))
+      first = &other;
+  }
+  const Eigen::Vector3f side = toVector(splats_[first->splat].normal);
+  const Eigen::Vector3f origin = toVector(local.origin),
+                        direction = toVector(local.direction);
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero(), color = normal;
+  float weights = 0.0f, nearest = 2.0f, thickness = 0.0f;
+  const SplatHit* chosen = first;
+  for (std::size_t i = 0; i < count; ++i) {
+    const SplatHit& other = hits[i];
+    const SplatRecord& splat = splats_[other.splat];
+    if (other.distance > limit || !(toVector(splat.normal).dot(side) > 0.0f))
+      continue;
+    const float offset = std::sqrt(other.sq_offset) / splat.radius;
+    if (offset < nearest) {
+      nearest = offset;
+      chosen = &other;
+    }
+    const float weight = std::max(0.0f, 1.0f - offset);
+    normal += weight * fieldAt(splat, origin + other.distance * direction);
+    color += weight * toVector(splat.color);
+    weights += weight;
+    thickness = std::max(thickness, splat.thickness);
+  }
+  const SplatRecord& splat = splats_[chosen->splat];
+  const bool has_weight = weights > 0.0f; // else on the border of a single splat
+  hit.distance = chosen->distance;
+  hit.thickness = thickness;
+  hit.bend = std::min(bendOf(splat), 1.0f);
+  hit.plane_normal = toVector(splat.normal).cast<double>();
+  hit.normal = has_weight ? Eigen::Vector3d(normal.cast<double>().normalized())
+                          : hit.plane_normal;
+  hit.color = (has_weight ? Eigen::Vector3f(color / weights) : toVector(splat.color))
+                  .cast<double>();
+  return true;
+}
+
+} // namespace pcl_uvol

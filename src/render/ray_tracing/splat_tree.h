@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splats of one object, in a tree of boxes with sixteen children each: what the octree
+// of thesis 4.2.2 is for. Every splat is in one leaf only, boxes fit tightly, and a ray
+// meets sixteen of them, or of the splats in a leaf, at once;
+// tests/benchmarks/README.md has the octree's times beside those of this tree.
+#pragma once
+
+#include "splat_tree_kernel.h"
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/color_map.h>
+
+#include <Eigen/Core>
+#include <pcl/point_cloud.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A splat in the order of the tree: one line of the cache. */
+struct alignas(64) SplatRecord {
+  float center[3], normal[3], tangent[3];
+  float radius;
+  float tilt[2], slope[2];
+  float thickness; ///< how far the surface may be off the disc
+  Rgba color;
+};
+
+/** \brief A ray in the scene. */
+struct Ray {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction; ///< of length 1
+};
+
+/** \brief Where a ray meets a surface of splats. */
+struct SplatSurfaceHit {
+  double distance;
+  Eigen::Vector3d normal;       ///< averaged over all splats there, of length 1
+  Eigen::Vector3d plane_normal; ///< of the splat that the hit lies on
+  Eigen::Vector3d color;        ///< averaged as well
+  double thickness;             ///< of the layer of splats there
+  double
+      bend; ///< sine of the angle that the surface's normals turn by within the splat
+};
+
+/** \brief Built once. Memory: about 200 bytes per splat. */
+class SplatTree {
+public:
+  /** \param colors by splat; empty: all have this one color */
+  SplatTree(const pcl::PointCloud<PointSplat>& splats,
+            const std::vector<Rgba>& colors,
+            Rgba color,
+            unsigned threads);
+
+  /** \brief The first hit of a ray.
+   * \param hits work space, which grows to what rays need
+   * \return false if there is none before far */
+  bool
+  intersect(const Ray& ray,
+            double near,
+            double far,
+            std::vector<SplatHit>& hits,
+            SplatSurfaceHit& hit) const;
+
+  /** \brief True if something lies between two distances on a ray. */
+  bool
+  isBlocked(const Ray& ray, double near, double far) const;
+
+  /** \brief A ball around all splats. */
+  BoundingSphere
+  bounds() const
+  {
+    return {center_, radius_};
+  }
+
+private:
+  TreeRay
+  localRay(const Ray& ray, double near, double far) const;
+
+  TreeArrays
+  arrays() const
+  {
+    return {nodes_.data(), leaves_.data()};
+  }
+
+  const SplatTreeKernels* kernels_;
+  Eigen::Vector3d center_; ///< the coordinates of the arrays are relative to it
+  double radius_ = 0.0;
+  std::vector<TreeNode> nodes_;
+  std::vector<TreeLeaf> leaves_;
+  std::vector<SplatRecord> splats_; ///< tree_width per leaf
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "splat_tree_kernel.h"
+
+#include "../../common/lanes.h"
+
+namespace pcl_uvol::PCL_UVOL_SIMD {
+
+namespace {
+
+/** Directions along an axis are no smaller: their inverses stay finite. */
+constexpr float least_direction = 1e-20f;
+
+/** A child that is put aside. */
+struct Aside {
+  std::uint32_t child;
+  float near; ///< distance of its box
+};
+
+class Traversal {
+public:
+  Traversal(const TreeArrays& tree, const TreeRay& ray)
+      : tree_(tree)
+      , ray_(ray)
+      , far_(ray.far)
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float d = ray.direction[axis];
+      const bool is_tiny = d < least_direction && d > -least_direction;
+      inverse_[axis] = 1.0f / (is_tiny ? least_direction : d);
+    }
+  }
+
+  /** Nothing beyond this distance counts any more. */
+  void
+  shorten(float far)
+  {
+    far_ = far < far_ ? far : far_;
+  }
+
+  float
+  far() const
+  {
+    return far_;
+  }
+
+  /** Go through the leaves, near ones first; visit(leaf) returns false to stop. */
+  template <typename Visit>
+  void
+  run(const Visit& visit)
+  {
+    aside_[0] = {0, ray_.near};
+    std::size_t count = 1;
+    while (count > 0) {
+      const Aside next = aside_[--count];
+      if (next.near > far_)
+        continue;
+      if ((next.child & leaf_bit) != 0) {
+        if (!visit(next.child & ~leaf_bit))
+          return;
+      }
+      else
+        count = putAside(tree_.nodes[next.child], count);
+    }
+  }
+
+  /** One bit per splat of a leaf that the ray meets before far.
+   * \param distance, sq_offset of every splat that is met */
+  std::uint32_t
+  meet(const TreeLeaf& leaf, float* distance, float* sq_offset) const
+  {
+    std::uint32_t met = 0;
+    for (int first = 0; first < tree_width; first += lanes) {
+      Floats along{}, across{};
+      Floats offset[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats normal = load<Floats>(leaf.normal[axis] + first);
+        offset[axis] = load<Floats>(leaf.center[axis] + first) - ray_.origin[axis];
+        along += normal * offset[axis];
+        across += normal * ray_.direction[axis];
+      }
+      const Floats t = along / across;
+      Floats sq{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats d = t * ray_.direction[axis] - offset[axis];
+        sq += d * d;
+      }
+      const Ints is_met = (sq <= load<Floats>(leaf.sq_radius + first)) &
+                          (t >= fill(ray_.near)) & (t <= fill(far_));
+      store(distance + first, t);
+      store(sq_offset + first, sq);
+      met |= laneBits(is_met) << first;
+    }
+    return met;
+  }
+
+private:
+  /** The children that the ray meets, the nearest one last. */
+  std::size_t
+  putAside(const TreeNode& node, std::size_t count)
+  {
+    alignas(64) float nears[tree_width];
+    std::uint32_t met = 0;
+    for (int first = 0; first < tree_width; first += lanes) {
+      Floats near = fill(ray_.near), far = fill(far_);
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool is_upwards = inverse_[axis] >= 0.0f;
+        const float* const front = is_upwards ? node.low[axis] : node.high[axis];
+        const float* const back = is_upwards ? node.high[axis] : node.low[axis];
+        const Floats in =
+            (load<Floats>(front + first) - ray_.origin[axis]) * inverse_[axis];
+        const Floats out =
+            (load<Floats>(back + first) - ray_.origin[axis]) * inverse_[axis];
+        near = maximum(in, near);
+        far = minimum(out, far);
+      }
+      store(nears + first, near);
+      met |= laneBits(near <= far) << first;
+    }
+    const std::size_t begin = count;
+    for (; met != 0; met &= met - 1) {
+      const int child = __builtin_ctz(met);
+      const Aside found = {node.child[child], nears[child]};
+      std::size_t place = count++;
+      for (; place > begin && aside_[place - 1].near < found.near; --place)
+        aside_[place] = aside_[place - 1];
+      aside_[place] = found;
+    }
+    return count;
+  }
+
+  const TreeArrays& tree_;
+  const TreeRay& ray_;
+  float inverse_[3];
+  float far_;
+  Aside aside_[traversal_room];
+};
+
+std::size_t
+collect(const TreeArrays& tree,
+        const TreeRay& ray,
+        float part,
+        SplatHit* hits,
+        std::size_t room)
+{
+  Traversal traversal(tree, ray);
+  std::size_t count = 0;
+  alignas(64) float distance[tree_width], sq_offset[tree_width];
+  traversal.run([&](std::uint32_t number) {
+    const TreeLeaf& leaf = tree.leaves[number];
+    std::uint32_t met = traversal.meet(leaf, distance, sq_offset);
+    if (met == 0)
+      return true;
+    for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
+      const int i = __builtin_ctz(rest);
+      traversal.shorten(distance[i] + part * __builtin_sqrtf(leaf.sq_radius[i]));
+    }
+    for (; met != 0; met &= met - 1) {
+      const int i = __builtin_ctz(met);
+      if (distance[i] > traversal.far())
+        continue;
+      if (count < room)
+        hits[count] = {distance[i],
+                       sq_offset[i],
+                       number * tree_width + static_cast<std::uint32_t>(i)};
+      ++count;
+    }
+    return count <= room;
+  });
+  return count;
+}
+
+bool
+isBlocked(const TreeArrays& tree, const TreeRay& ray)
+{
+  Traversal traversal(tree, ray);
+  bool is_blocked = false;
+  alignas(64) float distance[tree_width], sq_offset[tree_width];
+  traversal.run([&](std::uint32_t number) {
+    is_blocked = traversal.meet(tree.leaves[number], distance, sq_offset) != 0;
+    return !is_blocked;
+  });
+  return is_blocked;
+}
+
+} // namespace
+
+extern const SplatTreeKernels splat_tree_kernels{collect, isBlocked};
+
+} // namespace pcl_uvol::PCL_UVOL_SIMD

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays through a tree of splats. Plain arrays, no library headers: the file is compiled
+// once per instruction set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pcl_uvol {
+
+/** Children of a node, and splats of a leaf, at most: what the widest registers take at
+ * once. */
+constexpr int tree_width = 16;
+
+/** In a child's number: it is a leaf. */
+constexpr std::uint32_t leaf_bit = 0x80000000;
+
+/** Entries that a traversal puts aside, at most; see SplatTree for the depth. */
+constexpr std::size_t traversal_room = 512;
+
+/** \brief Boxes of the children side by side. Those that are not there have boxes that
+ * no ray meets. */
+struct alignas(64) TreeNode {
+  float low[3][tree_width], high[3][tree_width];
+  std::uint32_t child[tree_width]; ///< a node, or a leaf with the leaf bit
+};
+
+/** \brief Discs side by side; those that are not there have a negative square. */
+struct alignas(64) TreeLeaf {
+  float center[3][tree_width], normal[3][tree_width], sq_radius[tree_width];
+};
+
+/** \brief Splat i is in leaf i / tree_width. */
+struct TreeArrays {
+  const TreeNode* nodes; ///< the root first
+  const TreeLeaf* leaves;
+};
+
+/** \brief A ray, in the coordinates of the tree. */
+struct TreeRay {
+  float origin[3], direction[3]; ///< of length 1
+  float near, far;               ///< distances between which it is looked at
+};
+
+/** \brief A place where a ray meets a splat. */
+struct SplatHit {
+  float distance;
+  float sq_offset; ///< squared distance to the splat's centre
+  std::uint32_t splat;
+};
+
+/** \brief One instruction set's versions. */
+struct SplatTreeKernels {
+  /** \brief All splats that a ray meets not farther behind any of them than that part
+   * of its radius, and some behind; in no particular but always the same order. \param
+   * part of the radius \param room of hits \return their number; more than there is
+   * room for: nothing is known */
+  std::size_t (*collect)(const TreeArrays& tree,
+                         const TreeRay& ray,
+                         float part,
+                         SplatHit* hits,
+                         std::size_t room);
+
+  /** \brief True if the ray meets any splat. */
+  bool (*isBlocked)(const TreeArrays& tree, const TreeRay& ray);
+};
+
+namespace baseline {
+extern const SplatTreeKernels splat_tree_kernels;
+}
+namespace avx2 {
+extern const SplatTreeKernels splat_tree_kernels;
+}
+namespace avx512 {
+extern const SplatTreeKernels splat_tree_kernels;
+}
+
+} // namespace pcl_uvol

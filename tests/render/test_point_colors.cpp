@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours of points: their own in either form, and those of a scalar field.
+#include "io/random_dataset.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/render/point_colors.h>
+
+#include <pcl/conversions.h>
+#include <pcl/point_types.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace {
+
+using pcl_uvol::ColorMap;
+using pcl_uvol::colorPoints;
+using pcl_uvol::hasColors;
+using pcl_uvol::InvalidArgument;
+using pcl_uvol::PointColors;
+using pcl_uvol::Rgba;
+using namespace uvol_test;
+
+constexpr Rgba first_color = 0xff1e140a, second_color = 0xff000080; // 0xaabbggrr
+constexpr std::array<std::array<std::uint8_t, 3>, 2> red_green_blue{
+    {{10, 20, 30}, {128, 0, 0}}};
+
+/** Two points of these colours. */
+template <typename PointT>
+pcl::PointCloud<PointT>
+makePacked()
+{
+  pcl::PointCloud<PointT> cloud(2, 1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    cloud[i].r = red_green_blue[i][0];
+    cloud[i].g = red_green_blue[i][1];
+    cloud[i].b = red_green_blue[i][2];
+    cloud[i].a = 7; // opacity is none of a surface
+  }
+  return cloud;
+}
+
+/** The same with a field for each channel, of one byte each. */
+pcl_uvol::Dataset
+makeChannels(const std::vector<FieldSpec>& specs)
+{
+  auto dataset = makeDataset(specs, 2, 1);
+  for (const auto& field : dataset.cloud.fields)
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      for (std::size_t i = 0; i < 2; ++i)
+        if (field.name == std::array<const char*, 3>{"red", "green", "blue"}[channel])
+          dataset.cloud.data[i * dataset.cloud.point_step + field.offset] =
+              red_green_blue[i][channel];
+  return dataset;
+}
+
+pcl_uvol::Dataset
+makeScalar(const std::vector<float>& values)
+{
+  auto dataset = makeDataset({{"q", Type::FLOAT32}}, values.size(), 1);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    put(&dataset.cloud.data[i * dataset.cloud.point_step + 12], values[i]);
+  return dataset;
+}
+
+PointColors
+ownColors(const pcl_uvol::CloudView& cloud)
+{
+  return colorPoints(cloud, "rgb", ColorMap(), std::nullopt);
+}
+
+void
+expectTheTwo(const pcl_uvol::CloudView& cloud)
+{
+  EXPECT_TRUE(hasColors(cloud));
+  for (const char* name : {"rgb", "rgba"}) {
+    const auto colors = colorPoints(cloud, name, ColorMap(), std::nullopt).colors;
+    EXPECT_EQ(colors, (std::vector<Rgba>{first_color, second_color}));
+  }
+}
+
+TEST(PointColors, ArePackedOrThreeBytes)
+{
+  expectTheTwo(pcl_uvol::viewOf(makePacked<pcl::PointXYZRGB>()));
+  expectTheTwo(pcl_uvol::viewOf(makePacked<pcl::PointXYZRGBA>()));
+  const auto channels = makeChannels(
+      {{"red", Type::UINT8}, {"green", Type::UINT8}, {"blue", Type::UINT8}});
+  expectTheTwo(pcl_uvol::viewOf(channels.cloud));
+  const auto mixed = makeChannels({{"blue", Type::UINT8},
+                                   {"q", Type::FLOAT64},
+                                   {"green", Type::UINT8},
+                                   {"alpha", Type::UINT8},
+                                   {"red", Type::UINT8}});
+  expectTheTwo(pcl_uvol::viewOf(mixed.cloud));
+}
+
+TEST(PointColors, SurviveAPlyFile)
+{
+  const auto cloud = makePacked<pcl::PointXYZRGB>();
+  pcl_uvol::Dataset dataset;
+  pcl::toPCLPointCloud2(cloud, dataset.cloud);
+  const TemporaryFolder folder;
+  for (const bool ascii : {false, true}) {
+    pcl_uvol::SaveOptions options;
+    options.ascii = ascii;
+    pcl_uvol::saveDataset(folder / "a.ply", dataset, options);
+    const auto loaded = pcl_uvol::loadDataset(folder / "a.ply");
+    expectTheTwo(pcl_uvol::viewOf(loaded.cloud));
+  }
+}
+
+TEST(PointColors, PackedOnesComeFirst)
+{
+  auto dataset = makeChannels({{"red", Type::UINT8},
+                               {"green", Type::UINT8},
+                               {"blue", Type::UINT8},
+                               {"rgb", Type::UINT32}});
+  const std::size_t offset = dataset.cloud.fields.back().offset;
+  for (std::size_t i = 0; i < 2; ++i)
+    put(&dataset.cloud.data[i * dataset.cloud.point_step + offset],
+        std::uint32_t{0x405060});
+  EXPECT_EQ(ownColors(pcl_uvol::viewOf(dataset.cloud)).colors,
+            (std::vector<Rgba>(2, 0xff605040)));
+}
+
+TEST(PointColors, OfOtherTypesOrChannelsAreNone)
+{
+  const std::vector<std::vector<FieldSpec>> none{
+      {},
+      {{"q", Type::FLOAT32}},
+      {{"rgb", Type::FLOAT64}}, // as a table has it: not four bytes
+      {{"red", Type::UINT8}, {"green", Type::UINT8}},
+      {{"red", Type::FLOAT32}, {"green", Type::FLOAT32}, {"blue", Type::FLOAT32}},
+      {{"red", Type::UINT8}, {"green", Type::UINT8}, {"blue", Type::UINT16}}};
+  for (const auto& specs : none) {
+    const auto dataset = makeDataset(specs, 2, 1);
+    const auto view = pcl_uvol::viewOf(dataset.cloud);
+    EXPECT_FALSE(hasColors(view)) << pcl_uvol::describeFields(view.fields);
+    const std::string message = messageOf<InvalidArgument>([&] { ownColors(view); });
+    EXPECT_NE(message.find(pcl_uvol::describeFields(view.fields)), std::string::npos)
+        << message;
+  }
+}
+
+TEST(PointColors, OfAFieldSpanItsRange)
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> values{3.0f, nan, -1.0f, 1.0f};
+  const auto dataset = makeScalar(values);
+  const ColorMap map("coolwarm");
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  const PointColors colored = colorPoints(view, "q", map, std::nullopt);
+  EXPECT_EQ(colored.range, (std::array<double, 2>{-1.0, 3.0}));
+  EXPECT_EQ(colored.colors, map.apply(values, -1.0, 3.0));
+  EXPECT_EQ(colored.colors[2], pcl_uvol::toRgba(map.at(0.0)));
+  const std::array<double, 2> range{0.0, 10.0};
+  const PointColors chosen = colorPoints(view, "q", map, range);
+  EXPECT_EQ(chosen.range, range);
+  EXPECT_EQ(chosen.colors, map.apply(values, 0.0, 10.0));
+}
+
+TEST(PointColors, InfiniteValuesDoNotWidenTheRange)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  const auto dataset = makeScalar({1.0f, infinity, 2.0f, -infinity});
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  const auto colored = colorPoints(view, "q", ColorMap(), std::nullopt);
+  EXPECT_EQ(colored.range, (std::array<double, 2>{1.0, 2.0}));
+}
+
+TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto dataset = makeScalar({nan, nan});
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  for (const char* name : {"q", "density"}) {
+    const std::string message = messageOf<InvalidArgument>(
+        [&] { colorPoints(view, name, ColorMap(), std::nullopt); });
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+  }
+}
+
+} // namespace

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ray tracing of splats (thesis 4.2.2): which of them is hit, and how they are
+// averaged.
+#include "render/tracer_setup.h"
+#include "support/environment.h"
+#include "support/surfaces.h"
+#include <pcl_uvol/surface/splat_generation.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace {
+
+using namespace uvol_test;
+using pcl_uvol::Camera;
+using pcl_uvol::Image;
+using pcl_uvol::Rgba;
+using pcl_uvol::Scene;
+
+constexpr double step = 1.0 / 255.0;
+constexpr Rgba red = 0xff0000ff, green = 0xff00ff00;
+
+Scene
+sceneOf(const std::vector<PointSplat>& splats, const std::vector<Rgba>& colors)
+{
+  Scene scene;
+  scene.lights.clear();
+  scene.background.color = {0.0f, 0.0f, 0.0f};
+  scene.splats.push_back(objectOf(splats, colors));
+  return scene;
+}
+
+TEST(SplatTracing, TheNearerOfTwoSurfacesIsSeen)
+{
+  // Far apart the first one is hit, although the ray passes near the other's centre.
+  const Camera camera = looking({0.9, 0.0, 10.0}, {0.9, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const Image image = trace(sceneOf({discAt({0, 0, 0}, {0, 0, 1}, 1.0),
+                                     discAt({0.9, 0.0, -0.6}, {0, 0, 1}, 1.0)},
+                                    {red, green}),
+                            camera,
+                            1);
+  EXPECT_NEAR(1.0, channelAt(image, 0, 0, 0), step);
+  EXPECT_NEAR(0.0, channelAt(image, 0, 0, 1), step);
+}
+
+TEST(SplatTracing, OverlappingSplatsAreAveraged)
+{
+  // Figure 4.4: 0.8 and 0.3 radii off their centres.
+  const Camera camera = looking({0.8, 0.0, 10.0}, {0.8, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const Vector tilted(0.1, 0.0, 1.0);
+  const Image image = trace(sceneOf({discAt({0, 0, 0}, {0, 0, 1}, 1.0),
+                                     discAt({0.5, 0.0, -0.2}, tilted, 1.0)},
+                                    {red, green}),
+                            camera,
+                            1);
+  // On the tilted disc the place is a bit farther from the centre.
+  const double offset = 0.3 * std::hypot(1.0, 0.1);
+  const double near = 1.0 - 0.8, far = 1.0 - offset;
+  EXPECT_NEAR(near / (near + far), channelAt(image, 0, 0, 0), step);
+  EXPECT_NEAR(far / (near + far), channelAt(image, 0, 0, 1), step);
+  const Vector normal =
+      (near * Vector::UnitZ() + far * tilted.normalized()).normalized();
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(normal[axis], image.normal[static_cast<std::size_t>(axis)], 1e-5);
+}
+
+TEST(SplatTracing, ThinSheetsAreNotAveraged)
+{
+  // The back of a thin plate looks the other way.
+  const Camera camera = looking({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const Image image = trace(sceneOf({discAt({0, 0, 0}, {0, 0, 1}, 1.0),
+                                     discAt({0, 0, -0.1}, {0, 0, -1}, 1.0)},
+                                    {red, green}),
+                            camera,
+                            1);
+  EXPECT_NEAR(1.0, channelAt(image, 0, 0, 0), step);
+  EXPECT_NEAR(0.0, channelAt(image, 0, 0, 1), step);
+}
+
+TEST(SplatTracing, NormalsFollowTheField)
+{
+  PointSplat splat = discAt({0, 0, 0}, {0, 0, 1}, 2.0);
+  splat.getTangentVector3fMap() = Eigen::Vector3f::UnitX();
+  splat.tilt_u = 0.05f;
+  splat.tilt_v = -0.1f;
+  splat.slope_u = 0.3f;
+  splat.slope_v = -0.2f;
+  const Vector place(0.5, -0.7, 0.0);
+  const Camera camera = looking(place + Vector(0.0, 0.0, 9.0), place, 0.001, {0, 1, 0});
+  const Image image = trace(sceneOf({splat}, {}), camera, 1);
+  const Vector normal = Vector(0.05 + 0.3 * 0.25, -0.1 - 0.2 * -0.35, 1.0).normalized();
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(normal[axis], image.normal[static_cast<std::size_t>(axis)], 1e-5);
+}
+
+/** What is seen of some splats along a ray, found by looking at all of them. */
+std::optional<Vector>
+colorByBruteForce(const std::vector<PointSplat>& splats,
+                  const std::vector<Rgba>& colors,
+                  const Vector& eye,
+                  const Vector& d)
+{
+  struct Hit {
+    double distance, offset;
+    std::size_t splat;
+  };
+  std::vector<Hit> hits;
+  double limit = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    const Vector n = splats[i].getNormalVector3fMap().cast<double>(),
+                 c = splats[i].getVector3fMap().cast<double>();
+    const double t = (c - eye).dot(n) / d.dot(n);
+    const double offset = (eye + t * d - c).norm() / splats[i].radius;
+    if (!(t > 0.0) || offset > 1.0)
+      continue;
+    hits.push_back({t, offset, i});
+    limit = std::min(limit, t + 0.5 * splats[i].radius);
+  }
+  if (hits.empty())
+    return std::nullopt;
+  const auto first = std::min_element(hits.begin(), hits.end(), [](auto& a, auto& b) {
+    return a.distance < b.distance;
+  });
+  Vector sum = Vector::Zero();
+  double weights = 0.0;
+  for (const Hit& hit : hits) {
+    if (hit.distance > limit ||
+        splats[hit.splat].getNormalVector3fMap().dot(
+            splats[first->splat].getNormalVector3fMap()) <= 0.0f)
+      continue;
+    const Rgba color = colors[hit.splat];
+    sum += (1.0 - hit.offset) *
+           Vector(color & 0xff, color >> 8 & 0xff, color >> 16 & 0xff) / 255.0;
+    weights += 1.0 - hit.offset;
+  }
+  return Vector(sum / weights);
+}
+
+TEST(SplatTracing, FindsWhatBruteForceFinds)
+{
+  // From few splats, which are one leaf, to a tree of three levels; of all sizes.
+  for (const std::size_t count : {1u, 15u, 17u, 300u, 3000u}) {
+    Random random(count);
+    std::vector<PointSplat> splats;
+    std::vector<Rgba> colors;
+    const auto any = [&] {
+      return Vector(random.uniform(), random.uniform(), random.uniform());
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const double radius = (i % 10 == 0 ? 1.0 : 0.2) / std::cbrt(count);
+      splats.push_back(discAt(any(), any() - Vector::Constant(0.5), radius));
+      colors.push_back(static_cast<Rgba>(random.uniform() * 0xffffff) | 0xff000000u);
+    }
+    const Camera camera = looking({2.0, -1.5, 1.2}, {0.5, 0.5, 0.5}, 40.0);
+    constexpr int size = 48;
+    const Image image = trace(sceneOf(splats, colors), camera, size);
+    int seen = 0, different = 0;
+    for (int row = 0; row < size; ++row)
+      for (int column = 0; column < size; ++column) {
+        const auto expected = colorByBruteForce(
+            splats, colors, camera.eye, rayThrough(camera, size, column, row));
+        seen += expected ? 1 : 0;
+        for (int channel = 0; channel < 3; ++channel)
+          if (std::abs(expected.value_or(Vector::Zero())[channel] -
+                       channelAt(image, column, row, channel)) > 1.01 * step) {
+            ++different;
+            break;
+          }
+      }
+    EXPECT_GT(seen, 3) << count;
+    // Rays that graze a border may fall to either side of it.
+    EXPECT_LE(different, 3) << count;
+  }
+}
+
+TEST(SplatTracing, SplatsAtOnePlaceAreATreeAsWell)
+{
+  const std::vector<PointSplat> splats(5000, discAt({0, 0, 0}, {0, 0, 1}, 1.0));
+  const Camera camera = looking({0.3, 0.0, 10.0}, {0.3, 0.0, 0.0}, 0.1, {0, 1, 0});
+  const Image image = trace(sceneOf(splats, {}), camera, 2);
+  EXPECT_EQ(1.0, channelAt(image, 0, 0));
+}
+
+/** The unit sphere of random points, covered. */
+pcl_uvol::SplatObject
+sphereOfSplats(std::size_t points, double delta, double lambda)
+{
+  const auto cloud = makeSphere(points, 1);
+  pcl_uvol::SplatParameters parameters;
+  parameters.delta = delta;
+  parameters.lambda = lambda;
+  std::vector<std::uint32_t> all(cloud->size());
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::Report report;
+  auto splats =
+      pcl_uvol::generateSplats(pcl_uvol::viewOf(*cloud), all, parameters, report);
+  pcl_uvol::SplatObject object;
+  object.splats =
+      pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));
+  return object;
+}
+
+TEST(SplatTracing, ASphereHasNoHoles)
+{
+  // Sparse points and dense ones, hardly overlapping splats as well.
+  for (const auto& [points, delta, lambda] : {std::tuple(113682, 1e-4, 0.2),
+                                              std::tuple(20000, 1e-3, 1.0),
+                                              std::tuple(2000, 1e-4, 0.2)}) {
+    Scene scene;
+    scene.lights.clear();
+    scene.background.color = {0.0f, 0.0f, 0.0f};
+    scene.splats.push_back(
+        sphereOfSplats(static_cast<std::size_t>(points), delta, lambda));
+    scene.splats[0].material = glowing(1.0f, 1.0f, 1.0f);
+    pcl_uvol::RayTracer tracer;
+    tracer.setScene(scene);
+    constexpr int size = 10;
+    tracer.setSize(size, size);
+    Random random(3);
+    int missed = 0;
+    for (int view = 0; view < 200; ++view) {
+      const Vector eye =
+          5.0 *
+          Vector(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5)
+              .normalized();
+      // All rays pass the centre within 0.98 radii.
+      tracer.setCamera(looking(eye, Vector::Zero(), 15.8, eye.unitOrthogonal()));
+      Image image;
+      tracer.render(image);
+      for (int pixel = 0; pixel < size * size; ++pixel)
+        missed += channelAt(image, pixel % size, pixel / size) == 0.0 ? 1 : 0;
+    }
+    EXPECT_EQ(0, missed) << points << " points, lambda " << lambda;
+  }
+}
+
+TEST(SplatTracing, NormalsOfASphereAreSmooth)
+{
+  Scene scene;
+  scene.splats.push_back(sphereOfSplats(113682, 1e-4, 0.2));
+  const Camera camera = looking({0.0, -6.0, 0.0}, Vector::Zero(), 13.0);
+  constexpr int size = 300;
+  const Image image = trace(scene, camera, size);
+  double sum = 0.0, largest_step = 0.0;
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
+      const auto pixel = static_cast<std::size_t>(row * size + column);
+      const Eigen::Map<const Eigen::Vector3f> normal(&image.normal[3 * pixel]);
+      const Vector d = rayThrough(camera, size, column, row);
+      const double b = camera.eye.dot(d);
+      const Vector truth =
+          (camera.eye - (b + std::sqrt(b * b - camera.eye.squaredNorm() + 1.0)) * d)
+              .normalized();
+      const Vector off = normal.cast<double>() - truth;
+      sum += off.norm();
+      // Deviations of neighbouring pixels differ by little: no border is seen.
+      if (column > 0) {
+        const Vector before =
+            Eigen::Map<const Eigen::Vector3f>(&image.normal[3 * pixel - 3])
+                .cast<double>();
+        const Vector d0 = rayThrough(camera, size, column - 1, row);
+        const double b0 = camera.eye.dot(d0);
+        const Vector truth0 =
+            (camera.eye -
+             (b0 + std::sqrt(b0 * b0 - camera.eye.squaredNorm() + 1.0)) * d0)
+                .normalized();
+        largest_step = std::max(largest_step, (off - (before - truth0)).norm());
+      }
+    }
+  constexpr double degree = M_PI / 180.0;
+  EXPECT_LT(sum / (size * size), 0.2 * degree);
+  EXPECT_LT(largest_step, 0.2 * degree);
+}
+
+TEST(SplatTracing, ASphereDoesNotShadeItself)
+{
+  Scene scene;
+  scene.background.color = {0.0f, 0.0f, 0.0f};
+  scene.splats.push_back(sphereOfSplats(50000, 3e-4, 0.2));
+  scene.lights = {lightFrom({1.0, -1.0, 1.0}, pcl_uvol::Light::Kind::Directional)};
+  const Camera camera = looking({0.0, -6.0, 0.0}, Vector::Zero(), 18.0);
+  constexpr int size = 200;
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setCamera(camera);
+  tracer.setSize(size, size);
+  Image with, without;
+  tracer.render(with);
+  tracer.settings().shadows = false;
+  tracer.render(without);
+  int different = 0;
+  for (std::size_t i = 0; i < with.color.size(); ++i)
+    different += std::abs(int{with.color[i]} - int{without.color[i]}) > 6 ? 1 : 0;
+  EXPECT_EQ(0, different);
+}
+
+TEST(SplatTracing, SameBytesForAnyNumberOfThreads)
+{
+  Scene scene;
+  scene.splats.push_back(sphereOfSplats(5000, 1e-3, 0.2));
+  scene.splats[0].material = {};
+  scene.splats[0].material.reflectivity = 0.3;
+  scene.lights[0].radius = 0.1;
+  scene.planes.push_back({{0, 0, -1}, {0, 0, 1}, {}, 0.3, {}});
+  const Camera camera = looking({2.0, -5.0, 1.0}, Vector::Zero(), 30.0);
+  const Image one = trace(scene, camera, 70, 3, 1);
+  for (const unsigned threads : {2u, 3u, 7u})
+    EXPECT_EQ(one.color, trace(scene, camera, 70, 3, threads).color) << threads;
+}
+
+TEST(SplatTracing, CameraWithinASplat)
+{
+  const Camera camera = looking({0, 0, 0}, {1.0, 0.0, 0.2}, 60.0);
+  const Image image = trace(
+      sceneOf({discAt({0, 0, 0}, {0, 0, 1}, 1.0), discAt({2, 0, 0}, {1, 0, 0}, 0.5)},
+              {red, green}),
+      camera,
+      9);
+  EXPECT_EQ(0.0, channelAt(image, 4, 0, 0));
+}
+
+} // namespace
