@@ -3,6 +3,7 @@
 #include "common/level_set.h"
 #include "common/options.h"
 #include "common/progress_bar.h"
+#include "common/ray_options.h"
 #include "common/render_options.h"
 #include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -31,6 +32,9 @@ using uvol_tools::UsageError;
 
 struct Arguments {
   std::string input, output, field, where, picture;
+  bool raytrace = false;
+  uvol_tools::RenderOptions look;
+  uvol_tools::RayOptions rays;
   std::vector<double> isovalues, xyz;
   std::string scale, outside = "lower", criterion = "kept";
   std::string interpolation = "smooth", normals = "auto";
@@ -104,6 +108,7 @@ declare(Options& options, Arguments& arguments)
                "out.png",
                arguments.picture,
                "draw the isosurface as well; the options below are for the picture");
+  options.flag("raytrace", arguments.raytrace, "by ray tracing of splats");
 }
 
 pcl_uvol::Dataset
@@ -153,6 +158,8 @@ checkCombinations(const Options& options, Arguments& arguments)
     throw UsageError("-normals fit needs -interpolation smooth.");
   if (arguments.normals == "edge" && smooth)
     throw UsageError("-normals edge needs -interpolation linear.");
+  if (arguments.raytrace && arguments.picture.empty())
+    throw UsageError("-raytrace needs -png.");
   uvol_tools::parseMu(arguments.mu);
   if (options.given("mu") && !arguments.smooth)
     throw UsageError("-mu needs -smooth.");
@@ -308,11 +315,31 @@ warnOfReplacedFields(const pcl_uvol::Dataset& input,
                                 "' is left out: isopoints have one of that name.");
 }
 
-/** The picture that -png asks for. Returns what it was drawn on; "" for none. */
+/** The surface in image space. \return what it was drawn on */
+std::string
+project(const Options& options,
+        const Arguments& arguments,
+        const pcl_uvol::Dataset& surface,
+        Report& report)
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
+  arguments.look.configure(options, cloud, renderer);
+  renderer.setCamera(arguments.look.makeCamera(renderer.getBounds(), surface.origin));
+  pcl_uvol::Image image;
+  renderer.render(image);
+  arguments.look.decorate(cloud, renderer.getColorRange(), image);
+  pcl_uvol::savePng(arguments.picture, image);
+  report = renderer.getReport();
+  return renderer.describeBackend();
+}
+
+/** The picture that -png asks for. \return what it was drawn on; "" for none */
 std::string
 draw(const Options& options,
      const Arguments& arguments,
-     const uvol_tools::RenderOptions& look,
      const pcl_uvol::Dataset& surface,
      Report& report)
 {
@@ -322,26 +349,29 @@ draw(const Options& options,
     return "";
   }
   const StepTimer timer(report, "picture");
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
-  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
-  renderer.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
-  look.configure(options, cloud, renderer);
-  renderer.setCamera(look.makeCamera(renderer.getBounds(), surface.origin));
-  pcl_uvol::Image image;
-  renderer.render(image);
-  look.decorate(cloud, renderer, image);
-  pcl_uvol::savePng(arguments.picture, image);
-  for (const auto& [pass, milliseconds] : renderer.getReport().milliseconds)
+  Report drawing;
+  drawing.progress = report.progress;
+  std::string backend = "ray tracing";
+  if (arguments.raytrace)
+    arguments.rays.traceCloud(options,
+                              arguments.look,
+                              pcl_uvol::viewOf(surface.cloud),
+                              surface.origin,
+                              arguments.picture,
+                              drawing);
+  else
+    backend = project(options, arguments, surface, drawing);
+  for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
-  return renderer.describeBackend();
+  if (arguments.raytrace)
+    report.count("splats", drawing.getCount("splats"));
+  return backend;
 }
 
 int
 run(int argc, char** argv)
 {
   Arguments arguments;
-  uvol_tools::RenderOptions look;
   Options options(
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
@@ -349,13 +379,16 @@ run(int argc, char** argv)
       "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
       "pcd ply vtp csv.");
   declare(options, arguments);
-  look.declareView(options);
+  arguments.look.declareView(options);
+  arguments.rays.declareRays(options);
+  arguments.rays.declareSurface(options);
   if (!options.parse(argc, argv))
     return 0;
   checkCombinations(options, arguments);
   const uvol_tools::ScaleOption scale_option(arguments.scale);
   pcl_uvol::checkSavePath(arguments.output);
-  look.check(options);
+  arguments.look.check(options);
+  arguments.rays.check(options);
   if (!arguments.picture.empty())
     pcl_uvol::checkPngPath(arguments.picture);
 
@@ -416,7 +449,7 @@ run(int argc, char** argv)
       {"estimated error", describeErrors(isopoints)}};
   facts.insert(facts.end(), level_set_facts.begin(), level_set_facts.end());
   if (!arguments.picture.empty())
-    facts.emplace_back("backend", draw(options, arguments, look, output, report));
+    facts.emplace_back("backend", draw(options, arguments, output, report));
   total.reset();
   uvol_tools::printReport(options, report, facts);
   return 0;

@@ -5,34 +5,15 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 
-#include <filesystem>
-#include <iomanip>
-#include <sstream>
-
 namespace {
 
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
 
-/** out.png, or out_007.png for a frame of several. */
-std::string
-frameName(const std::string& output, std::uint64_t frame, std::uint64_t frames)
-{
-  if (frames == 1)
-    return output;
-  const std::filesystem::path path(output);
-  std::ostringstream name;
-  name << path.stem().string() << '_'
-       << std::setw(static_cast<int>(std::to_string(frames - 1).size()))
-       << std::setfill('0') << frame << path.extension().string();
-  return (path.parent_path() / name.str()).string();
-}
-
 int
 run(int argc, char** argv)
 {
   std::string input, output;
-  std::uint64_t frames = 1;
   uvol_tools::RenderOptions look;
   uvol_tools::Options options(
       "uvol_render",
@@ -41,7 +22,7 @@ run(int argc, char** argv)
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
-  options.integer("orbit", frames, 1, 100000, "frames of a full turn about -up");
+  look.declareOrbit(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))
     return 0;
@@ -65,14 +46,13 @@ run(int argc, char** argv)
   const pcl_uvol::Camera camera = look.makeCamera(renderer.getBounds(), dataset.origin);
   pcl_uvol::Image image;
   Report drawing;
-  for (std::uint64_t frame = 0; frame < frames; ++frame) {
-    renderer.setCamera(camera.orbited(360.0 * static_cast<double>(frame) /
-                                      static_cast<double>(frames)));
+  for (std::uint64_t frame = 0; frame < look.countFrames(); ++frame) {
+    renderer.setCamera(look.turned(camera, frame));
     renderer.render(image);
     drawing = renderer.getReport();
-    look.decorate(cloud, renderer, image);
+    look.decorate(cloud, renderer.getColorRange(), image);
     const StepTimer timer(report, "write");
-    pcl_uvol::savePng(frameName(output, frame, frames), image);
+    pcl_uvol::savePng(look.frameName(output, frame), image);
   }
   report.merge(drawing);
   uvol_tools::printReport(

@@ -59,10 +59,8 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
   renderer.setColorField("");
   bar.VisibilityOff();
   if (isScalar(field)) {
-    const std::vector<double>& fixed = look_.getRange();
-    const auto range = chosen_ == 0 && !fixed.empty()
-                           ? std::array<double, 2>{fixed[0], fixed[1]}
-                           : rangeOf(cloud, field);
+    const auto fixed = look_.getRange();
+    const auto range = chosen_ == 0 && fixed ? *fixed : rangeOf(cloud, field);
     renderer.setColorRange(range[0], range[1]);
     vtkNew<vtkLookupTable> table;
     fill(*table, look_.colorMap());

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_words.h"
+
+#include "numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+/** Characters of a word that a message shows. */
+constexpr std::size_t longest_shown = 40;
+
+/** Characters of a line: names of files are the longest words there are. */
+constexpr std::size_t longest_line = 10000;
+
+/** Coordinates and colours are float in the end, and are added up. */
+constexpr double largest_number = 1e30;
+
+/** Squares of shorter vectors vanish. */
+constexpr double shortest_direction = 1e-100;
+
+} // namespace
+
+std::string
+ScenePlace::text() const
+{
+  return file + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+void
+throwAt(const ScenePlace& place, const std::string& reason)
+{
+  const bool has_dot = !reason.empty() && reason.back() == '.';
+  throw IOError(place.text() + ": " + reason + (has_dot ? "" : "."));
+}
+
+std::string
+shown(const std::string& word)
+{
+  if (word.size() <= longest_shown)
+    return "'" + word + "'";
+  std::size_t end = longest_shown;
+  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80)
+    --end; // not in the middle of a character of UTF-8
+  return "'" + word.substr(0, end) + "...'";
+}
+
+std::string
+nameOf(const char* form)
+{
+  const std::string text = form;
+  return text.substr(0, text.find(' '));
+}
+
+std::string
+listOf(const std::vector<std::string>& words)
+{
+  std::string list;
+  for (const std::string& word : words)
+    list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+SceneItem::SceneItem(const ScenePlace& start, std::string_view line)
+    : start_(start)
+{
+  if (line.size() > longest_line)
+    throwAt(start,
+            "this line has " + std::to_string(line.size()) +
+                " characters, and lines of scenes have " +
+                std::to_string(longest_line) + " at most");
+  split(line);
+}
+
+void
+SceneItem::split(std::string_view line)
+{
+  std::size_t at = 0;
+  while ((at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos &&
+         line[at] != '#') {
+    const std::size_t start = at;
+    if (line[at] == '"') {
+      const std::size_t quote = line.find('"', start + 1);
+      if (quote == std::string_view::npos)
+        throwAt(placeOf(start + 1), "this quote does not end");
+      words_.push_back(
+          {std::string(line.substr(start + 1, quote - start - 1)), start + 1});
+      at = quote + 1;
+      if (at < line.size() && line.find_first_of(" \t\r#", at) != at)
+        throwAt(placeOf(at + 1), "a blank is missing behind the quote");
+    }
+    else {
+      at = std::min(line.find_first_of(" \t\r#", at), line.size());
+      words_.push_back({std::string(line.substr(start, at - start)), start + 1});
+    }
+    end_ = at + 1;
+  }
+}
+
+ScenePlace
+SceneItem::place() const
+{
+  return placeOf(taken_ > 0 ? words_[taken_ - 1].column : start_.column);
+}
+
+const std::string&
+SceneItem::word(const std::string& what)
+{
+  if (atEnd())
+    throwAt(placeOf(end_), what + " is missing; write '" + form_ + "'");
+  const std::string& text = words_[taken_++].text;
+  if (text.empty())
+    fail("there is nothing between the quotes, and " + what + " is missing");
+  return text;
+}
+
+bool
+SceneItem::takeIf(const char* word)
+{
+  if (atEnd() || words_[taken_].text != word)
+    return false;
+  ++taken_;
+  return true;
+}
+
+double
+SceneItem::number(const NumberRange& range)
+{
+  const std::string& text = word(range.text);
+  double value = 0.0;
+  const bool is_number = parseNumber(text, value) && std::isfinite(value);
+  const bool is_inside = range.has_ends ? value >= range.low && value <= range.high
+                                        : value > range.low && value < range.high;
+  if (!is_number || !is_inside)
+    fail(shown(text) + " is not " + range.text + "; write '" + form_ + "'");
+  if (std::abs(value) > largest_number)
+    fail(shown(text) + " is farther from 0 than 1e30, the largest number of a scene");
+  return value;
+}
+
+int
+SceneItem::whole(int low, int high)
+{
+  const std::string what =
+      "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+  const std::string& text = word(what);
+  std::uint64_t value = 0;
+  if (!parseCount(text, value) || value < static_cast<std::uint64_t>(low) ||
+      value > static_cast<std::uint64_t>(high))
+    fail(shown(text) + " is not " + what + "; write '" + form_ + "'");
+  return static_cast<int>(value);
+}
+
+Eigen::Vector3d
+SceneItem::point()
+{
+  Eigen::Vector3d point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] = number(any_number);
+  return point;
+}
+
+Eigen::Vector3d
+SceneItem::direction()
+{
+  const std::size_t first = taken_;
+  const Eigen::Vector3d direction = point();
+  if (direction.norm() < shortest_direction)
+    throwAt(placeOf(words_[first].column),
+            "a direction has a length above 0; write '" + form_ + "'");
+  return direction;
+}
+
+Color
+SceneItem::color()
+{
+  Color color;
+  for (float* const channel : {&color.r, &color.g, &color.b})
+    *channel = static_cast<float>(number(not_negative));
+  return color;
+}
+
+void
+SceneItem::options(const std::vector<Option>& known,
+                   const std::vector<std::pair<const char*, const char*>>& exclusive)
+{
+  const std::string item = words_.front().text;
+  while (!atEnd()) {
+    const std::string name = words_[taken_++].text;
+    const auto option = std::find_if(known.begin(), known.end(), [&](const Option& o) {
+      return nameOf(o.form) == name;
+    });
+    if (option == known.end()) {
+      std::vector<std::string> forms;
+      for (const Option& other : known)
+        forms.push_back(other.form);
+      fail("unknown word " + shown(name) + "; options of " + item + " are " +
+           listOf(forms));
+    }
+    if (hasOption(name))
+      fail("'" + name + "' is given twice");
+    for (const auto& [one, other] : exclusive)
+      if ((name == one && hasOption(other)) || (name == other && hasOption(one)))
+        fail("'" + std::string(one) + "' and '" + other + "' do not go together");
+    option_names_.push_back(name);
+    form_ = option->form;
+    option->take();
+  }
+}
+
+bool
+SceneItem::hasOption(const std::string& name) const
+{
+  return std::find(option_names_.begin(), option_names_.end(), name) !=
+         option_names_.end();
+}
+
+void
+SceneItem::finish()
+{
+  if (atEnd())
+    return;
+  const std::string& text = words_[taken_++].text;
+  fail("unexpected word " + shown(text) + "; write '" + form_ + "'");
+}
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "embree_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace uvol_bench {
+
+struct EmbreeTracer::Query {
+  RTCIntersectContext context; // first: Embree hands it back
+  Hits* hits;
+};
+
+EmbreeTracer::EmbreeTracer(const pcl::PointCloud<PointSplat>& splats, EmbreeWay way)
+    : PeerTracer(splats)
+    , way_(way)
+    , device_(rtcNewDevice(nullptr))
+    , scene_(rtcNewScene(device_))
+{
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  const bool is_user = way == EmbreeWay::UserGeometry;
+  const RTCGeometry geometry = rtcNewGeometry(
+      device_,
+      is_user ? RTC_GEOMETRY_TYPE_USER : RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+  if (is_user) {
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(splats.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, boundsOf, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, meet);
+    rtcSetGeometryOccludedFunction(geometry, block);
+  }
+  else {
+    auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, splats.size()));
+    auto* const normals = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 12, splats.size()));
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      std::copy(splats[i].data, splats[i].data + 3, vertices + 4 * i);
+      vertices[4 * i + 3] = splats[i].radius;
+      std::copy(splats[i].data_n, splats[i].data_n + 3, normals + 3 * i);
+    }
+    rtcSetGeometryUserData(geometry, this);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_);
+}
+
+EmbreeTracer::~EmbreeTracer()
+{
+  rtcReleaseScene(scene_);
+  rtcReleaseDevice(device_);
+}
+
+void
+EmbreeTracer::boundsOf(const RTCBoundsFunctionArguments* arguments)
+{
+  const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
+  const PointSplat& splat = tracer.splats_[arguments->primID];
+  float low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const float n = splat.data_n[axis];
+    const float half = splat.radius * std::sqrt(std::max(0.0f, 1.0f - n * n)) + 1e-6f;
+    low[axis] = splat.data[axis] - half;
+    high[axis] = splat.data[axis] + half;
+  }
+  *arguments->bounds_o = {
+      low[0], low[1], low[2], 0.0f, high[0], high[1], high[2], 0.0f};
+}
+
+namespace {
+
+Eigen::Vector3f
+originOf(const RTCRay& ray)
+{
+  return {ray.org_x, ray.org_y, ray.org_z};
+}
+
+Eigen::Vector3f
+directionOf(const RTCRay& ray)
+{
+  return {ray.dir_x, ray.dir_y, ray.dir_z};
+}
+
+RTCRay
+makeRay(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction)
+{
+  return {origin[0],
+          origin[1],
+          origin[2],
+          0.0f,
+          direction[0],
+          direction[1],
+          direction[2],
+          0.0f,
+          infinity,
+          0xffffffffu,
+          0,
+          0};
+}
+
+} // namespace
+
+void
+EmbreeTracer::meet(const RTCIntersectFunctionNArguments* arguments)
+{
+  const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
+  Hits& hits = *reinterpret_cast<Query*>(arguments->context)->hits;
+  auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  RTCRay& ray = rayhit.ray;
+  const PointSplat& splat = tracer.splats_[arguments->primID];
+  float distance, sq_offset;
+  if (!meetDisc(splat, originOf(ray), directionOf(ray), ray.tfar, distance, sq_offset))
+    return;
+  hits.add({distance, sq_offset, arguments->primID}, splat.radius);
+  ray.tfar = std::min(ray.tfar, hits.limit);
+  rayhit.hit.geomID = arguments->geomID;
+}
+
+void
+EmbreeTracer::block(const RTCOccludedFunctionNArguments* arguments)
+{
+  const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
+  RTCRay& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+  float distance, sq_offset;
+  if (meetDisc(tracer.splats_[arguments->primID],
+               originOf(ray),
+               directionOf(ray),
+               ray.tfar,
+               distance,
+               sq_offset))
+    ray.tfar = -infinity;
+}
+
+void
+EmbreeTracer::keep(const RTCFilterFunctionNArguments* arguments)
+{
+  Hits& hits = *reinterpret_cast<Query*>(arguments->context)->hits;
+  const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
+  const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+  const PointSplat& splat = tracer.splats_[hit.primID];
+  float distance, sq_offset;
+  // Not up to ray.tfar: that is Embree's distance of this very hit, and ours may be
+  // rounded to just behind it.
+  if (meetDisc(splat, originOf(ray), directionOf(ray), infinity, distance, sq_offset))
+    hits.add({distance, sq_offset, hit.primID}, splat.radius);
+  arguments->valid[0] = 0;
+}
+
+void
+EmbreeTracer::collect(const Eigen::Vector3f& origin,
+                      const Eigen::Vector3f& direction,
+                      Hits& hits) const
+{
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.hits = &hits;
+  RTCRayHit rayhit{};
+  rayhit.ray = makeRay(origin, direction);
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_, &query.context, &rayhit);
+  if (way_ == EmbreeWay::UserGeometry || rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    return;
+  hits.limit = rayhit.ray.tfar + part_of_radius * splats_[rayhit.hit.primID].radius;
+  query.context.filter = keep;
+  rayhit.ray.tfar = hits.limit;
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_, &query.context, &rayhit);
+}
+
+bool
+EmbreeTracer::isBlocked(const Eigen::Vector3f& origin,
+                        const Eigen::Vector3f& direction) const
+{
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = makeRay(origin, direction);
+  rtcOccluded1(scene_, &context, &ray);
+  return ray.tfar < 0.0f;
+}
+
+} // namespace uvol_bench

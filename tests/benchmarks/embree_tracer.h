@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splats ray traced by Embree, the peer of our ray tracer.
+#pragma once
+
+#include "peer_tracer.h"
+
+#include <embree3/rtcore.h>
+
+namespace uvol_bench {
+
+/** How hits are collected. */
+enum class EmbreeWay {
+  UserGeometry, ///< one pass; every hit shortens the ray to a bit behind it
+  OrientedDiscs ///< first hit, then a second pass whose filter collects
+};
+
+class EmbreeTracer : public PeerTracer {
+public:
+  EmbreeTracer(const pcl::PointCloud<PointSplat>& splats, EmbreeWay way);
+  ~EmbreeTracer() override;
+
+private:
+  struct Query;
+
+  static void
+  boundsOf(const RTCBoundsFunctionArguments* arguments);
+
+  static void
+  meet(const RTCIntersectFunctionNArguments* arguments);
+
+  static void
+  block(const RTCOccludedFunctionNArguments* arguments);
+
+  static void
+  keep(const RTCFilterFunctionNArguments* arguments);
+
+  void
+  collect(const Eigen::Vector3f& origin,
+          const Eigen::Vector3f& direction,
+          Hits& hits) const override;
+
+  bool
+  isBlocked(const Eigen::Vector3f& origin,
+            const Eigen::Vector3f& direction) const override;
+
+  EmbreeWay way_;
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+} // namespace uvol_bench

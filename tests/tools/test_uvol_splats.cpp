@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_splats from the outside: splats with the fields of their points, exit codes,
+// sentences.
+#include "support/environment.h"
+#include "support/surfaces.h"
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/render/point_colors.h>
+#include <pcl_uvol/surface/splat_generation.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using uvol_test::runCommand;
+
+constexpr std::size_t points = 3000;
+
+/** A unit sphere far from the origin, each point with its index and a colour. */
+class SplatsTool : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    pcl::PointCloud<pcl::PointXYZRGBNormal> cloud;
+    for (std::size_t i = 0; i < points; ++i) {
+      pcl::PointXYZRGBNormal point;
+      point.getVector3fMap() = (*sphere_)[i].getVector3fMap();
+      point.getNormalVector3fMap() = (*sphere_)[i].getNormalVector3fMap();
+      point.curvature = static_cast<float>(i);
+      point.r = static_cast<std::uint8_t>(i % 256);
+      cloud.push_back(point);
+    }
+    pcl_uvol::Dataset dataset;
+    pcl::toPCLPointCloud2(cloud, dataset.cloud);
+    dataset.origin = {{far_, 0.0, 0.0}};
+    pcl_uvol::saveDataset(in_, dataset);
+  }
+
+  uvol_test::CommandResult
+  run(const std::string& options) const
+  {
+    return runCommand("uvol_splats " + in_ + " " + out_ + " " + options);
+  }
+
+  /** Splats of a file, which holds good ones only. */
+  static std::size_t
+  splatsIn(const std::string& path)
+  {
+    const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
+    const auto view = pcl_uvol::viewOf(dataset.cloud);
+    EXPECT_TRUE(pcl_uvol::hasSplats(view)) << path;
+    pcl_uvol::Report report;
+    const std::size_t count = pcl_uvol::readSplats(view, report).cloud.size();
+    EXPECT_EQ(report.getCount("bad_splats"), 0u) << path;
+    return count;
+  }
+
+  std::size_t
+  countWith(const std::string& options) const
+  {
+    const auto result = run(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return splatsIn(out_);
+  }
+
+  /** That exit code, a sentence with that text, and no file but the input. */
+  void
+  expectFailure(const uvol_test::CommandResult& result,
+                int exit_code,
+                const std::string& text) const
+  {
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
+    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+    EXPECT_EQ(folder_.list().size(), 1u) << text;
+  }
+
+  static constexpr double far_ = 5e6;
+  uvol_test::SurfaceCloudPtr sphere_ = uvol_test::makeSphere(points, 1);
+  uvol_test::TemporaryFolder folder_;
+  std::string in_ = folder_ / "in.ply", out_ = folder_ / "out.ply";
+};
+
+TEST_F(SplatsTool, CoversPointsAndCarriesTheirFieldsAlong)
+{
+  constexpr double delta = 0.01;
+  const std::size_t count = countWith("-delta-abs 0.01");
+  EXPECT_GT(count, points / 10);
+  EXPECT_LT(count, points);
+  const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(out_);
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  ASSERT_EQ(view.count, count);
+  EXPECT_TRUE(pcl_uvol::hasColors(view));
+  const pcl_uvol::ScalarField mark(view.fields, "curvature"), red(view.fields, "red");
+  EXPECT_TRUE(red.isInteger());
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const auto source = static_cast<std::size_t>(mark.read(view.point(i)));
+    ASSERT_LT(source, points);
+    EXPECT_EQ(red.read(view.point(i)), static_cast<double>(source % 256));
+    const float* const expected = (*sphere_)[source].data;
+    const double away =
+        std::hypot(view.xyz(i)[0] + dataset.origin[0] - far_ - expected[0],
+                   view.xyz(i)[1] + dataset.origin[1] - expected[1],
+                   view.xyz(i)[2] + dataset.origin[2] - expected[2]);
+    EXPECT_LT(away, delta + 1e-5); // the centre lies along the normal of its point
+  }
+}
+
+TEST_F(SplatsTool, TakesDeltaAsALengthOrAsAPart)
+{
+  const auto length = static_cast<double>(countWith("-delta-abs 0.01"));
+  const auto part = static_cast<double>(countWith("-delta 0.005"));
+  EXPECT_NEAR(part, length, 0.03 * length); // the longest side is a little below 2
+  EXPECT_LT(length, 0.98 * static_cast<double>(countWith("")));
+}
+
+TEST_F(SplatsTool, LargerLambdaIsFewerSplats)
+{
+  EXPECT_EQ(countWith("-lambda 0"), points);
+  EXPECT_LT(countWith("-delta-abs 0.01 -lambda 1"),
+            countWith("-delta-abs 0.01 -threads 1") / 2);
+}
+
+TEST_F(SplatsTool, WritesWhatCanBeReadAgain)
+{
+  const std::size_t expected = countWith("-delta-abs 0.01");
+  for (const char* name : {"a.ply", "a.pcd", "a.csv", "a.vtp"})
+    for (const char* option : {"", " -ascii"}) {
+      const auto result = runCommand("uvol_splats " + in_ + " " + (folder_ / name) +
+                                     " -delta-abs 0.01" + option);
+      ASSERT_EQ(result.exit_code, 0) << result.err;
+      EXPECT_EQ(splatsIn(folder_ / name), expected) << name << option;
+    }
+}
+
+TEST_F(SplatsTool, SaysThatNormalsAreEstimated)
+{
+  std::string csv = "x,y,z\n";
+  for (const auto& point : *sphere_)
+    csv += std::to_string(point.x) + ',' + std::to_string(point.y) + ',' +
+           std::to_string(point.z) + '\n';
+  uvol_test::writeFile(folder_ / "in.csv", csv);
+  const auto result =
+      runCommand("uvol_splats " + (folder_ / "in.csv") + " " + out_ + " -delta 0.005");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE((result.out + result.err).find("no normals"), std::string::npos);
+  const auto with_normals = run("-delta 0.005");
+  EXPECT_EQ((with_normals.out + with_normals.err).find("no normals"),
+            std::string::npos);
+}
+
+TEST_F(SplatsTool, ListsItsOptions)
+{
+  const auto result = run("-h");
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* option : {"-delta ", "-delta-abs ", "-lambda ", "-ascii "})
+    EXPECT_NE(result.out.find(option), std::string::npos) << option;
+  EXPECT_EQ(folder_.list().size(), 1u);
+}
+
+TEST_F(SplatsTool, RefusesAWrongCommandLine)
+{
+  expectFailure(run("-delta 0.1 -delta-abs 0.1"), 2, "give one of them");
+  for (const char* option : {"-delta", "-delta-abs"})
+    for (const char* value : {"0", "-1", "nan", "inf", "1e-3m", ""})
+      expectFailure(run(std::string(option) + " " + value), 2, option);
+  expectFailure(run("-delta 1.5"), 2, "-delta");
+  for (const char* value : {"-0.1", "1.1", "nan", "x"})
+    expectFailure(run(std::string("-lambda ") + value), 2, "-lambda");
+  expectFailure(run("-wat"), 2, "-wat");
+  expectFailure(run("extra"), 2, "extra");
+  expectFailure(runCommand("uvol_splats " + in_), 2, "out");
+}
+
+TEST_F(SplatsTool, RefusesFilesThatItCannotCover)
+{
+  const std::string missing = folder_ / "missing.ply";
+  expectFailure(runCommand("uvol_splats " + missing + " " + out_), 1, "missing.ply");
+  expectFailure(
+      runCommand("uvol_splats " + in_ + " " + (folder_ / "out.what")), 1, "what");
+  uvol_test::writeFile(in_,
+                       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+                       "property float y\nproperty float z\nend_header\n");
+  expectFailure(run(""), 1, "no points");
+  uvol_test::writeFile(in_,
+                       "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                       "property float y\nproperty float z\nproperty float nx\n"
+                       "property float ny\nproperty float nz\nend_header\n"
+                       "1 2 3 0 0 1\n1 2 3 0 0 1\n");
+  expectFailure(run(""), 1, "one place");
+  EXPECT_EQ(countWith("-delta-abs 0.1"), 1u);
+}
+
+} // namespace

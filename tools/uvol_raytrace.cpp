@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ray-traced pictures of scenes, or of one surface given as points (thesis 4.2).
+#include "common/progress_bar.h"
+#include "common/ray_options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/io/scene_file.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using uvol_tools::Options;
+using uvol_tools::RayOptions;
+using uvol_tools::UsageError;
+using uvol_tools::ViewOptions;
+
+struct Arguments {
+  std::string input, output, folder;
+  ViewOptions view;
+  RayOptions rays;
+};
+
+bool
+isScene(const std::string& path)
+{
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".txt" || ending == ".scene";
+}
+
+bool
+givesAny(const Options& options, const std::vector<std::string>& names)
+{
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return options.given(name);
+  });
+}
+
+/** What belongs to one kind of input only. */
+void
+checkInput(const Options& options, const Arguments& arguments)
+{
+  if (!isScene(arguments.input)) {
+    if (options.given("folder"))
+      throw UsageError("-folder is for the clouds of a scene.");
+    return;
+  }
+  std::vector<std::string> names = RayOptions::surfaceOptions();
+  for (const char* name : {"color",
+                           "colormap",
+                           "range",
+                           "no-bar",
+                           "surface-color",
+                           "ambient",
+                           "diffuse",
+                           "specular",
+                           "shininess"})
+    names.emplace_back(name);
+  for (const std::string& name : names)
+    if (options.given(name))
+      throw UsageError("-" + name + " is for a cloud: a scene says it in its file.");
+}
+
+/** What the command line has takes the place of what the scene says. */
+void
+traceScene(const Options& options, const Arguments& arguments, Report& report)
+{
+  pcl_uvol::SceneFile file =
+      pcl_uvol::loadScene(arguments.input, arguments.folder, options.threads(), report);
+  if (options.given("background"))
+    file.scene.background = arguments.view.getBackground();
+  if (options.given("lights"))
+    file.scene.lights = arguments.view.getLights();
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(file.scene);
+  tracer.settings() = file.settings;
+  arguments.rays.apply(options, tracer.settings());
+  if (options.given("supersample"))
+    tracer.settings().supersampling = arguments.view.getSupersampling();
+  if (file.size && !options.given("size"))
+    tracer.setSize((*file.size)[0], (*file.size)[1]);
+  else
+    tracer.setSize(arguments.view.getWidth(), arguments.view.getHeight());
+  if (givesAny(options, {"view", "eye", "at", "up", "fov"}))
+    file.camera.reset();
+  uvol_tools::traceFrames(
+      options,
+      arguments.view,
+      tracer,
+      file.camera,
+      file.origin,
+      [](pcl_uvol::Image&) {},
+      arguments.output,
+      report);
+}
+
+void
+traceCloud(const Options& options, const Arguments& arguments, Report& report)
+{
+  pcl_uvol::Dataset dataset;
+  {
+    const StepTimer timer(report, "read");
+    dataset = pcl_uvol::loadDataset(arguments.input);
+    report.warnings = dataset.notes;
+  }
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  arguments.rays.traceCloud(options,
+                            arguments.view,
+                            pcl_uvol::viewOf(dataset.cloud),
+                            dataset.origin,
+                            arguments.output,
+                            report);
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options("uvol_raytrace",
+                  "scene.txt|in.ply out.png [options]",
+                  "Draws a scene (.txt, .scene), or one surface given as points or "
+                  "splats, by ray tracing: shadows,\nmirrors and glass. Options take "
+                  "the place of what the scene says.");
+  options.file("in", arguments.input);
+  options.file("out", arguments.output);
+  options.text("folder", "path", arguments.folder, "where the clouds of a scene lie");
+  arguments.view.declareScene(options);
+  arguments.view.declareSupersampling(options);
+  arguments.view.declareOrbit(options);
+  arguments.rays.declareRays(options);
+  arguments.rays.declareSurface(options);
+  arguments.view.declareLighting(options);
+  if (!options.parse(argc, argv))
+    return 0;
+  arguments.view.check(options);
+  arguments.rays.check(options);
+  checkInput(options, arguments);
+  pcl_uvol::checkPngPath(arguments.output);
+
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  if (isScene(arguments.input))
+    traceScene(options, arguments, report);
+  else
+    traceCloud(options, arguments, report);
+  uvol_tools::printReport(
+      options, report, {{"input", arguments.input}, {"output", arguments.output}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_raytrace", [&] { return run(argc, argv); });
+}

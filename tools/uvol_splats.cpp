@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splats of a surface given as points (thesis 4.2.1).
+#include "common/options.h"
+#include "common/progress_bar.h"
+#include "common/splat_options.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/surface/splat_generation.h>
+
+#include <pcl/conversions.h>
+
+#include <numeric>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+
+/** The splats with all other fields of the points that they are grown from. */
+pcl::PCLPointCloud2
+withFields(const pcl_uvol::Splats& splats, const pcl::PCLPointCloud2& cloud)
+{
+  pcl_uvol::IsoEdges sources;
+  for (const std::uint32_t source : splats.sources)
+    sources.push_back({source, source, 0.0f});
+  pcl::PCLPointCloud2 result;
+  pcl::toPCLPointCloud2(splats.cloud, result);
+  pcl_uvol::interpolateFields(cloud, sources, result);
+  return result;
+}
+
+int
+run(int argc, char** argv)
+{
+  std::string input, output;
+  uvol_tools::SplatOptions splat_options;
+  bool ascii = false;
+  uvol_tools::Options options(
+      "uvol_splats",
+      "in.ply out.ply [options]",
+      "Covers a surface given as points with discs that have fields of normals, for "
+      "uvol_raytrace.\nThe input's normals are used; where it has none they are "
+      "estimated.");
+  options.file("in", input);
+  options.file("out", output);
+  splat_options.declare(options);
+  options.flag("ascii", ascii, "write PCD and PLY as text");
+  if (!options.parse(argc, argv))
+    return 0;
+  const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
+  pcl_uvol::checkSavePath(output);
+
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  pcl_uvol::Dataset dataset;
+  {
+    const StepTimer timer(report, "read");
+    dataset = pcl_uvol::loadDataset(input);
+    report.warnings = dataset.notes;
+  }
+  pcl_uvol::checkSavePath(output, dataset.cloud.fields);
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(input + " has no points.");
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  std::vector<std::uint32_t> all(view.count);
+  std::iota(all.begin(), all.end(), 0u);
+  const pcl_uvol::Splats splats =
+      pcl_uvol::generateSplats(view, all, parameters, report);
+  pcl_uvol::Dataset result = dataset;
+  result.cloud = withFields(splats, dataset.cloud);
+  {
+    const StepTimer timer(report, "write");
+    pcl_uvol::SaveOptions save;
+    save.ascii = ascii;
+    pcl_uvol::saveDataset(output, result, save);
+  }
+  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_splats", [&] { return run(argc, argv); });
+}
