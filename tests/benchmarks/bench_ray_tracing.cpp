@@ -47,14 +47,14 @@ lookAtKnot()
   return Camera::fit({{0.0, 0.0, 0.0}, 3.0}, "iso", 30.0, 1.0);
 }
 
-/** Arguments: splats, radius in thousandths, pixels of a side, depth. */
+/** Arguments: splats, radius in ten thousandths, pixels of a side, depth. */
 void
 rayTracer(benchmark::State& state)
 {
   pcl_uvol::Scene scene;
   scene.splats.resize(1);
   scene.splats[0].splats = knot(static_cast<std::size_t>(state.range(0)),
-                                1e-3 * static_cast<double>(state.range(1)));
+                                1e-4 * static_cast<double>(state.range(1)));
   scene.splats[0].material.reflectivity = state.range(3) > 0 ? 0.5 : 0.0;
   scene.lights = {pcl_uvol::Light()};
   pcl_uvol::RayTracer tracer;
@@ -90,7 +90,7 @@ void
 embree(benchmark::State& state, uvol_bench::EmbreeWay way)
 {
   const auto splats = knot(static_cast<std::size_t>(state.range(0)),
-                           1e-3 * static_cast<double>(state.range(1)));
+                           1e-4 * static_cast<double>(state.range(1)));
   measure(state, uvol_bench::EmbreeTracer(*splats, way));
 }
 
@@ -98,7 +98,7 @@ void
 octree(benchmark::State& state)
 {
   const auto splats = knot(static_cast<std::size_t>(state.range(0)),
-                           1e-3 * static_cast<double>(state.range(1)));
+                           1e-4 * static_cast<double>(state.range(1)));
   measure(state, uvol_bench::OctreeTracer(*splats));
 }
 
@@ -106,15 +106,23 @@ void
 cases(benchmark::internal::Benchmark* benchmark)
 {
   benchmark->ArgNames({"splats", "radius", "size", "depth"})
-      ->Args({300000, 30, 1200, 0})
-      ->Args({300000, 30, 1200, 4})
-      ->Args({300000, 60, 1200, 0})
-      ->Args({1000000, 17, 1200, 4})
+      ->Args({300000, 300, 1200, 0})
+      ->Args({300000, 300, 1200, 4})
+      ->Args({300000, 600, 1200, 0})
+      ->Args({1000000, 170, 1200, 4})
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime();
 }
 
 BENCHMARK(rayTracer)->Apply(cases);
+// Ever more splats of the same surface, as many of them on top of each other.
+BENCHMARK(rayTracer)
+    ->ArgNames({"splats", "radius", "size", "depth"})
+    ->Args({100000, 520, 1200, 0})
+    ->Args({1000000, 164, 1200, 0})
+    ->Args({10000000, 52, 1200, 0})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(embree, userGeometry, uvol_bench::EmbreeWay::UserGeometry)
     ->Apply(cases);
 BENCHMARK_CAPTURE(embree, orientedDiscs, uvol_bench::EmbreeWay::OrientedDiscs)

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_raytrace from the outside: scenes, clouds, what the command line changes, and
+// uvol_isosurface -raytrace.
+#include "support/environment.h"
+#include "support/png.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using uvol_test::CommandResult;
+using uvol_test::runCommand;
+
+pcl_uvol::Image
+read(const std::string& path)
+{
+  int channels = 0;
+  return uvol_test::readPng(path, channels);
+}
+
+class RaytraceTool : public testing::Test {
+protected:
+  CommandResult
+  run(const std::string& arguments) const
+  {
+    return runCommand("uvol_raytrace " + arguments);
+  }
+
+  /** The file of a scene with a ball of that colour in its middle. */
+  std::string
+  sceneOf(const std::string& color) const
+  {
+    const std::string path = folder_ / "ball.scene";
+    uvol_test::writeFile(path,
+                         "size 40 30\n"
+                         "background 0 0 0\n"
+                         "camera eye 0 -9 0 at 0 0 0\n"
+                         "material m ambient 1 diffuse 0 specular 0 color " +
+                             color + "\nsphere 0 0 0 1 material m\n");
+    return path;
+  }
+
+  /** A torus as isopoints. */
+  std::string
+  surface() const
+  {
+    const std::string samples = folder_ / "samples.pcd", path = folder_ / "torus.ply";
+    EXPECT_EQ(
+        0, runCommand("uvol_generate " + samples + " -field torus -n 20000").exit_code);
+    EXPECT_EQ(
+        0, runCommand("uvol_isosurface " + samples + " " + path + " -iso 0").exit_code);
+    return path;
+  }
+
+  void
+  expectRefused(const std::string& arguments,
+                int exit_code,
+                const std::string& says) const
+  {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(exit_code, result.exit_code) << arguments;
+    EXPECT_NE(std::string::npos, result.err.find(says)) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(picture_)) << arguments;
+  }
+
+  const uvol_test::TemporaryFolder folder_;
+  const std::string picture_ = folder_ / "out.png";
+};
+
+TEST_F(RaytraceTool, DrawsAScene)
+{
+  const CommandResult result = run(sceneOf("1 0 0") + " " + picture_);
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("primary_rays")) << result.out;
+  const auto image = read(picture_);
+  ASSERT_EQ(40u, image.width);
+  ASSERT_EQ(30u, image.height);
+  EXPECT_EQ(255, image.color[4 * (15 * 40 + 20)]);
+  EXPECT_EQ(0, image.color[4 * (15 * 40 + 20) + 1]);
+  EXPECT_EQ(0, image.color[0]);
+}
+
+TEST_F(RaytraceTool, TheCommandLineComesBeforeTheScene)
+{
+  const std::string scene = sceneOf("1 0 0");
+  ASSERT_EQ(0,
+            run(scene + " " + picture_ +
+                " -size 20 -background 0,1,0 -eye 30,0,0 -supersample 2 -depth 0")
+                .exit_code);
+  const auto image = read(picture_);
+  ASSERT_EQ(20u, image.width);
+  EXPECT_EQ(255, image.color[1]);
+  // From farther away the ball is smaller.
+  int red = 0;
+  for (std::size_t pixel = 0; pixel < image.pixels(); ++pixel)
+    red += image.color[4 * pixel] > 128 ? 1 : 0;
+  EXPECT_GT(red, 1);
+  EXPECT_LT(red, 12);
+}
+
+TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
+{
+  const std::string torus = surface(), splats = folder_ / "splats.ply",
+                    other = folder_ / "other.png";
+  const std::string look = " -size 64 -reflect 0.2 -depth 2 -color mean_curvature";
+  ASSERT_EQ(0, run(torus + " " + picture_ + look).exit_code);
+  ASSERT_EQ(0, runCommand("uvol_splats " + torus + " " + splats).exit_code);
+  const CommandResult result = run(splats + " " + other + look);
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  // Ranges of colours are those of all points or of all splats.
+  const auto a = read(picture_), b = read(other);
+  int different = 0, drawn = 0;
+  for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) {
+    const bool is_drawn = a.color[4 * pixel] != 255 || a.color[4 * pixel + 1] != 255;
+    drawn += is_drawn ? 1 : 0;
+    const bool is_other = b.color[4 * pixel] != 255 || b.color[4 * pixel + 1] != 255;
+    different += is_drawn != is_other ? 1 : 0;
+  }
+  EXPECT_GT(drawn, 500);
+  EXPECT_EQ(0, different);
+}
+
+TEST_F(RaytraceTool, OrbitsAndReportsInJson)
+{
+  const CommandResult result =
+      run(sceneOf("1 1 1") + " " + picture_ + " -orbit 3 -size 10 -json");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("\"primary_rays\"")) << result.out;
+  for (const char* frame : {"out_0.png", "out_1.png", "out_2.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / frame)) << frame;
+}
+
+TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
+{
+  const std::string samples = folder_ / "s.pcd", out = folder_ / "s.ply";
+  ASSERT_EQ(
+      0, runCommand("uvol_generate " + samples + " -field torus -n 20000").exit_code);
+  const std::string extract = "uvol_isosurface " + samples + " " + out + " -iso 0 ";
+  EXPECT_EQ(2, runCommand(extract + "-raytrace").exit_code);
+  const CommandResult result = runCommand(extract + "-raytrace -png " + picture_ +
+                                          " -size 50 -reflect 0.3 -delta 0.001");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("picture_trace")) << result.out;
+  EXPECT_EQ(50u, read(picture_).width);
+}
+
+TEST_F(RaytraceTool, RefusesWhatIsWrong)
+{
+  const std::string scene = sceneOf("1 1 1"), torus = surface();
+  expectRefused("", 2, "<in> is missing");
+  expectRefused(scene + " " + picture_ + " -reflect 0.1", 2, "is for a cloud");
+  expectRefused(scene + " " + picture_ + " -color f", 2, "is for a cloud");
+  expectRefused(torus + " " + picture_ + " -folder x", 2, "clouds of a scene");
+  expectRefused(
+      torus + " " + picture_ + " -reflect 0.6 -transparent 0.6", 2, "at most 1");
+  expectRefused(torus + " " + picture_ + " -index 0", 2, "-index");
+  expectRefused(torus + " " + picture_ + " -depth -1", 2, "-depth");
+  expectRefused(torus + " " + picture_ + " -delta 0", 2, "-delta");
+  expectRefused(torus + " " + picture_ + " -lambda 2", 2, "-lambda");
+  expectRefused(torus + " " + picture_ + " -color unknown", 1, "unknown");
+  expectRefused("missing.scene " + picture_, 1, "missing.scene");
+  expectRefused("missing.ply " + picture_, 1, "missing.ply");
+  uvol_test::writeFile(folder_ / "bad.scene", "sphere 0 0 0 1\nspehre 0 0 0 1\n");
+  expectRefused((folder_ / "bad.scene") + " " + picture_, 1, "bad.scene:2:1: ");
+  uvol_test::writeFile(folder_ / "none.csv", "x,y,z\n");
+  expectRefused((folder_ / "none.csv") + " " + picture_, 1, "none.csv");
+}
+
+TEST_F(RaytraceTool, EstimatesNormalsAndSaysSo)
+{
+  const std::string points = folder_ / "points.csv";
+  std::string text = "x,y,z\n";
+  uvol_test::Random random(1);
+  for (int i = 0; i < 500; ++i)
+    text += std::to_string(random.uniform()) + "," + std::to_string(random.uniform()) +
+            ",0\n";
+  uvol_test::writeFile(points, text);
+  const CommandResult result = run(points + " " + picture_ + " -size 20");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, (result.out + result.err).find("estimated"));
+}
+
+} // namespace
