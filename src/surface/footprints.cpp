@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace pcl_uvol {
 
@@ -20,7 +21,8 @@ constexpr std::size_t run_points = 16;
 
 /** Neighbours that bound nearly all cells, and those for the others: rims, and scans
  * whose lines lie far apart. */
-constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
+constexpr std::size_t few_neighbors = std::tuple_size_v<NearestPoints>,
+                      many_neighbors = 64;
 
 /** Of the largest radius among the nearest points: an outlier gets no more. Isopoints
  * come in clumps, so that the nearest alone may have much less room than all around. */
@@ -142,8 +144,6 @@ public:
     few_.expect(&samples_.getPositions()[first], count);
   }
 
-  using Nearest = std::array<std::uint32_t, compared_neighbors>;
-
   /** Distances of a point's corners: of all, and of those it is the first for. */
   struct Reach {
     float all = 0.0f, first = 0.0f;
@@ -152,7 +152,7 @@ public:
 
   /** \param nearest set to the indices of the nearest other points */
   Reach
-  find(std::uint32_t point, float typical_distance, Nearest& nearest)
+  find(std::uint32_t point, float typical_distance, NearestPoints& nearest)
   {
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
@@ -290,8 +290,10 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
 {
   const StepTimer timer(report, "footprints");
   const SampleSet& samples = *points.samples;
+  Footprints footprints;
+  footprints.nearest.resize(samples.size());
   std::vector<FootprintFinder::Reach> reach(samples.size());
-  std::vector<FootprintFinder::Nearest> nearest(samples.size());
+
   Position low = samples.getPositions()[0], high = low;
   for (const Position& position : samples.getPositions())
     for (int axis = 0; axis < 3; ++axis) {
@@ -307,18 +309,17 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
     for (std::size_t i = begin; i < end; ++i) {
       if ((i - begin) % run_points == 0)
         finder.expect(i, std::min(run_points, end - i));
-      reach[i] =
-          finder.find(static_cast<std::uint32_t>(i), typical_distance, nearest[i]);
+      reach[i] = finder.find(
+          static_cast<std::uint32_t>(i), typical_distance, footprints.nearest[i]);
     }
   });
-  Footprints footprints;
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     float most = 0.0f;
-    for (const std::uint32_t neighbor : nearest[i])
-      most = std::max(most, largest_growth * reach[neighbor].all);
+    for (std::size_t k = 0; k < compared_neighbors; ++k)
+      most = std::max(most, largest_growth * reach[footprints.nearest[i][k]].all);
     footprints.radii[i] = room * std::min(reach[i].all, most);
     footprints.fillers[i] = room * std::min(reach[i].first, most);
     footprints.on_rim[i] = reach[i].on_rim ? 1 : 0;

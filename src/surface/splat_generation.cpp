@@ -223,6 +223,7 @@ generateSplats(const CloudView& cloud,
   const SplatGround ground{
       points,
       std::move(footprints.on_rim),
+      std::move(footprints.nearest),
       leastRadii(*points.samples, std::move(footprints.radii), delta, threads),
       delta,
       parameters.lambda};

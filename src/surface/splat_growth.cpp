@@ -12,9 +12,9 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Neighbours that are looked up at first, and how their number grows where the splat
- * covers them all. */
-constexpr std::size_t first_neighbors = 24, neighbor_growth = 4;
+/** Neighbours that are looked up where a splat covers all that are known, and how their
+ * number grows where it covers them as well. */
+constexpr std::size_t first_neighbors = 64, neighbor_growth = 4;
 
 /** Neighbours that are sorted; of more of them, first halves are made. */
 constexpr std::size_t sorted_at_once = 128;
@@ -39,18 +39,20 @@ SplatGrower::SplatGrower(const SplatGround& ground)
 NearestFinder&
 SplatGrower::finder()
 {
-  while (finders_.size() <= level_) {
+  while (finders_.size() < level_) {
     std::size_t k = first_neighbors;
     for (std::size_t level = 0; level < finders_.size(); ++level)
       k *= neighbor_growth;
     finders_.push_back(std::make_unique<NearestFinder>(*ground_.points.samples, k));
   }
-  return *finders_[level_];
+  return *finders_[level_ - 1];
 }
 
 void
 SplatGrower::expect(const std::vector<std::uint32_t>& samples)
 {
+  if (level_ == 0)
+    return;
   expected_.clear();
   for (const std::uint32_t sample : samples)
     expected_.push_back(ground_.points.samples->getPositions()[sample]);
@@ -60,14 +62,29 @@ SplatGrower::expect(const std::vector<std::uint32_t>& samples)
 void
 SplatGrower::findNeighbors(std::uint32_t sample)
 {
+  const std::vector<Position>& positions = ground_.points.samples->getPositions();
+  neighbors_.clear();
+  if (level_ == 0) {
+    for (const std::uint32_t neighbor : ground_.nearest[sample])
+      if (neighbor != sample)
+        neighbors_.emplace_back(
+            (Eigen::Map<const Eigen::Vector3f>(positions[neighbor].x) - here_)
+                .squaredNorm(),
+            neighbor);
+    return;
+  }
   const float length =
       std::max(ground_.least_radii[sample], std::numeric_limits<float>::min());
-  const auto row =
-      finder().find(ground_.points.samples->getPositions()[sample], length);
-  neighbors_.clear();
+  const auto row = finder().find(positions[sample], length);
   for (std::size_t i = 0; i < row.size; ++i)
     if (row.samples[i] != sample)
       neighbors_.emplace_back(row.sq_dists[i], row.samples[i]);
+}
+
+bool
+SplatGrower::hasAllNeighbors() const
+{
+  return neighbors_.size() + 1 >= ground_.points.samples->size();
 }
 
 bool
@@ -171,14 +188,18 @@ SplatGrower::growAcross(std::uint32_t sample)
   low_ = high_ = 0.0f;
   if (ground_.on_rim[sample])
     return true;
-  return !coverNearest(0, neighbors_.size()) ||
-         neighbors_.size() + 1 >= ground_.points.samples->size();
+  return !coverNearest(0, neighbors_.size()) || hasAllNeighbors();
 }
 
 void
-SplatGrower::coverWithin(float radius)
+SplatGrower::coverWithin(std::uint32_t sample, float radius)
 {
   std::sort(neighbors_.begin(), neighbors_.end());
+  while (!hasAllNeighbors() && neighbors_.back().first <= radius * radius) {
+    ++level_;
+    findNeighbors(sample);
+    std::sort(neighbors_.begin(), neighbors_.end());
+  }
   covered_.clear();
   Covered next;
   for (const auto& [sq_dist, neighbor] : neighbors_) {
@@ -257,7 +278,7 @@ SplatGrower::grow(std::uint32_t sample)
   if (level_ > 0 && covered_.size() * neighbor_growth < neighbors_.size())
     --level_; // splats nearby are about as large
   if (grown.widened || covered_.size() < fewest_for_normals)
-    coverWithin(splat.radius);
+    coverWithin(sample, splat.radius);
   for (const Covered& point : covered_)
     if (point.distance <= splat.radius && std::abs(point.offset[2]) <= splat.radius)
       splat.error = std::max(splat.error, std::abs(point.offset[2] - middle));

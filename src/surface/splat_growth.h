@@ -5,6 +5,7 @@
 
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
+#include <pcl_uvol/surface/footprints.h>
 #include <pcl_uvol/surface/oriented_points.h>
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@ namespace pcl_uvol {
 struct SplatGround {
   const OrientedPoints& points;
   std::vector<std::uint8_t> on_rim;
+  std::vector<NearestPoints> nearest;
   /** The least radius of a splat about every point: that of its Voronoi cell. */
   std::vector<float> least_radii;
   double delta; ///< a length
@@ -63,6 +65,10 @@ private:
   void
   findNeighbors(std::uint32_t sample);
 
+  /** True if no others are left to be found. */
+  bool
+  hasAllNeighbors() const;
+
   /** Cover neighbours, nearest first, until one lies too far off, or on a rim. False if
    * there may be more of them than were found. */
   bool
@@ -90,14 +96,14 @@ private:
 
   /** Cover all points within a radius, and some of the nearest at least. */
   void
-  coverWithin(float radius);
+  coverWithin(std::uint32_t sample, float radius);
 
   void
   fitNormals(PointSplat& splat) const;
 
   const SplatGround& ground_;
   std::vector<std::unique_ptr<NearestFinder>> finders_; ///< for ever more neighbours
-  std::size_t level_ = 0;                               ///< of the last splat's finder
+  std::size_t level_ = 0; ///< 0: the nearest points, which are known; else a finder
 
   // The splat that is grown.
   Eigen::Vector3f here_, axes_[3]; ///< u, v, normal

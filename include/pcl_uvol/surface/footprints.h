@@ -6,10 +6,15 @@
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/surface/oriented_points.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief Indices of the nearest other points, nearest first; the point itself for
+ * those that are not there. */
+using NearestPoints = std::array<std::uint32_t, 16>;
 
 /** \brief Radii of the discs of every point, in leaf order. */
 struct Footprints {
@@ -21,6 +26,7 @@ struct Footprints {
   std::vector<float> fillers;
   /** 1 for points at the rim of the surface: no points bound their cell. */
   std::vector<std::uint8_t> on_rim;
+  std::vector<NearestPoints> nearest;
 };
 
 /** \brief Corners at infinity or beyond the rim of a surface do not count, and outliers
