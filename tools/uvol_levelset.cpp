@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
 #include "common/level_set.h"
+#include "common/load_points.h"
 #include "common/options.h"
 #include "common/progress_bar.h"
 #include "common/scale_option.h"
@@ -276,14 +277,7 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  pcl_uvol::Dataset dataset;
-  {
-    const StepTimer timer(report, "read");
-    dataset = pcl_uvol::loadDataset(arguments.input);
-    report.warnings = dataset.notes;
-  }
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.scale = scale.scaleOf(view);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
+#include "common/load_points.h"
 #include "common/options.h"
 #include "common/progress_bar.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
@@ -70,15 +70,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  pcl_uvol::Dataset dataset;
-  {
-    const StepTimer timer(report, "read");
-    dataset = pcl_uvol::loadDataset(input);
-    report.warnings = dataset.notes;
-  }
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(input + " has no points.");
   pcl_uvol::SurfaceNormalParameters parameters;
   parameters.k = k;
   parameters.threads = options.threads();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray-traced pictures of scenes, or of one surface given as points (thesis 4.2).
+#include "common/load_points.h"
 #include "common/progress_bar.h"
 #include "common/ray_options.h"
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/scene_file.h>
@@ -13,7 +13,6 @@
 namespace {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 using uvol_tools::Options;
 using uvol_tools::RayOptions;
 using uvol_tools::UsageError;
@@ -101,14 +100,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
 void
 traceCloud(const Options& options, const Arguments& arguments, Report& report)
 {
-  pcl_uvol::Dataset dataset;
-  {
-    const StepTimer timer(report, "read");
-    dataset = pcl_uvol::loadDataset(arguments.input);
-    report.warnings = dataset.notes;
-  }
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   arguments.rays.traceCloud(options,
                             arguments.view,
                             pcl_uvol::viewOf(dataset.cloud),

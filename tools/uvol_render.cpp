@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
+#include "common/load_points.h"
 #include "common/render_options.h"
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 
@@ -30,14 +30,7 @@ run(int argc, char** argv)
   pcl_uvol::checkPngPath(output);
 
   Report report;
-  pcl_uvol::Dataset dataset;
-  {
-    const StepTimer timer(report, "read");
-    dataset = pcl_uvol::loadDataset(input);
-    report.warnings = dataset.notes;
-  }
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(input + " has no points.");
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
   pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
   renderer.setInputCloud(

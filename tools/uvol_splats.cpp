@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats of a surface given as points (thesis 4.2.1).
+#include "common/load_points.h"
 #include "common/options.h"
 #include "common/progress_bar.h"
 #include "common/splat_options.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/surface/splat_generation.h>
@@ -55,15 +55,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  pcl_uvol::Dataset dataset;
-  {
-    const StepTimer timer(report, "read");
-    dataset = pcl_uvol::loadDataset(input);
-    report.warnings = dataset.notes;
-  }
+  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(input + " has no points.");
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   std::vector<std::uint32_t> all(view.count);
   std::iota(all.begin(), all.end(), 0u);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A surface given as points, or the isosurfaces of samples, in a window.
+#include "common/load_points.h"
 #include "viewer/display.h"
 #include "viewer/keys.h"
 #include "viewer/viewer_window.h"
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 
 #include <vtkLogger.h>
@@ -15,7 +15,6 @@
 namespace {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 
 struct Arguments {
   std::string input, field, screenshot;
@@ -60,11 +59,7 @@ checkCombinations(const uvol_tools::Options& options,
 uvol_tools::ShownSurface
 load(const uvol_tools::Options& options, const Arguments& arguments, Report& report)
 {
-  const StepTimer timer(report, "read");
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input);
-  report.warnings = dataset.notes;
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(arguments.input + " has no points.");
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   return {std::move(dataset), arguments.field, options.threads()};
 }
 

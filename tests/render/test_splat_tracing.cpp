@@ -295,6 +295,24 @@ TEST(SplatTracing, ASphereDoesNotShadeItself)
   EXPECT_EQ(0, different);
 }
 
+TEST(SplatTracing, CamerasFarAwaySeeAsSharp)
+{
+  Scene scene;
+  scene.splats.push_back(sphereOfSplats(20000, 3e-4, 0.2));
+  scene.lights = {lightFrom({1.0, -1.0, 1.0}, pcl_uvol::Light::Kind::Directional)};
+  constexpr int size = 60;
+  // The same picture from far away and from very far away.
+  const auto from = [&](double distance) {
+    const double fov = 2.0 * std::atan(1.2 / distance) * 180.0 / M_PI;
+    return trace(scene, looking({0.0, -distance, 0.0}, Vector::Zero(), fov), size);
+  };
+  const Image far = from(1e4), farther = from(1e7);
+  int different = 0;
+  for (std::size_t i = 0; i < far.color.size(); ++i)
+    different += std::abs(int{far.color[i]} - int{farther.color[i]}) > 3 ? 1 : 0;
+  EXPECT_LE(different, 12);
+}
+
 TEST(SplatTracing, SameBytesForAnyNumberOfThreads)
 {
   Scene scene;

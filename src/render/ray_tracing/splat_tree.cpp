@@ -116,6 +116,7 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
     radius_ = std::max(radius_,
                        (splat.getVector3fMap().cast<double>() - center_).norm() +
                            splat.radius);
+  radius_ *= 1.0 + box_room;
   WideTree tree = buildWideTree(boxesOf(splats, center_, threads), threads);
   nodes_ = std::move(tree.nodes);
   const std::size_t leaves = tree.leaf_begin.size() - 1;
@@ -151,23 +152,39 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
   });
 }
 
+std::optional<double>
+SplatTree::entryOf(const Ray& ray, double near, double far) const
+{
+  const Eigen::Vector3d offset = ray.origin - center_;
+  const double b = offset.dot(ray.direction);
+  const double rest = radius_ * radius_ - (offset - b * ray.direction).squaredNorm();
+  if (rest < 0.0)
+    return std::nullopt;
+  const double half = std::sqrt(rest);
+  if (half - b < near || -half - b > far)
+    return std::nullopt;
+  return std::max(0.0, -half - b);
+}
+
 TreeRay
-SplatTree::localRay(const Ray& ray, double near, double far) const
+SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
 {
   TreeRay local{};
+  const Eigen::Vector3d origin = ray.origin + entry * ray.direction - center_;
   for (int axis = 0; axis < 3; ++axis) {
-    local.origin[axis] = static_cast<float>(ray.origin[axis] - center_[axis]);
+    local.origin[axis] = static_cast<float>(origin[axis]);
     local.direction[axis] = static_cast<float>(ray.direction[axis]);
   }
-  local.near = static_cast<float>(near);
-  local.far = static_cast<float>(far);
+  local.near = static_cast<float>(std::max(near - entry, 0.0));
+  local.far = static_cast<float>(far - entry);
   return local;
 }
 
 bool
 SplatTree::isBlocked(const Ray& ray, double near, double far) const
 {
-  return kernels_->isBlocked(arrays(), localRay(ray, near, far));
+  const auto entry = entryOf(ray, near, far);
+  return entry && kernels_->isBlocked(arrays(), localRay(ray, *entry, near, far));
 }
 
 bool
@@ -177,7 +194,10 @@ SplatTree::intersect(const Ray& ray,
                      std::vector<SplatHit>& hits,
                      SplatSurfaceHit& hit) const
 {
-  const TreeRay local = localRay(ray, near, far);
+  const auto entry = entryOf(ray, near, far);
+  if (!entry)
+    return false;
+  const TreeRay local = localRay(ray, *entry, near, far);
   if (hits.empty())
     hits.resize(first_room);
   std::size_t count;
@@ -221,7 +241,7 @@ SplatTree::intersect(const Ray& ray,
   }
   const SplatRecord& splat = splats_[chosen->splat];
   const bool has_weight = weights > 0.0f; // else on the border of a single splat
-  hit.distance = chosen->distance;
+  hit.distance = *entry + chosen->distance;
   hit.thickness = thickness;
   hit.bend = std::min(bendOf(splat), 1.0f);
   hit.plane_normal = toVector(splat.normal).cast<double>();

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl_uvol {
@@ -77,8 +78,14 @@ public:
   }
 
 private:
+  /** Distance at which a ray comes into the ball around all splats, 0 within it;
+   * nothing if it does not. */
+  std::optional<double>
+  entryOf(const Ray& ray, double near, double far) const;
+
+  /** The ray from its entry on: float would not hold distances from far away. */
   TreeRay
-  localRay(const Ray& ray, double near, double far) const;
+  localRay(const Ray& ray, double entry, double near, double far) const;
 
   TreeArrays
   arrays() const

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/load_points.h"
+
+#include <pcl_uvol/common/exceptions.h>
+
+namespace uvol_tools {
+
+pcl_uvol::Dataset
+loadPoints(const std::string& path, pcl_uvol::Report& report)
+{
+  const pcl_uvol::StepTimer timer(report, "read");
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
+  report.warnings.insert(
+      report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(path + " has no points.");
+  return dataset;
+}
+
+} // namespace uvol_tools

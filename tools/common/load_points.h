@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How tools read points.
+#pragma once
+
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief Read a file, as a step of the report; its notes become warnings.
+ * \throws IOError, and InvalidArgument for a file without points */
+pcl_uvol::Dataset
+loadPoints(const std::string& path, pcl_uvol::Report& report);
+
+} // namespace uvol_tools
