@@ -21,8 +21,7 @@ constexpr std::size_t run_points = 16;
 
 /** Neighbours that bound nearly all cells, and those for the others: rims, and scans
  * whose lines lie far apart. */
-constexpr std::size_t few_neighbors = std::tuple_size_v<NearestPoints>,
-                      many_neighbors = 64;
+constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
 
 /** Of the largest radius among the nearest points: an outlier gets no more. Isopoints
  * come in clumps, so that the nearest alone may have much less room than all around. */
@@ -132,7 +131,7 @@ public:
       : samples_(*points.samples)
       , normals_(points.normals)
       , two_sided_(points.two_sided)
-      , few_(samples_, few_neighbors + 1)
+      , few_(samples_, std::tuple_size_v<NearestPoints> + 1)
       , many_(samples_, many_neighbors + 1)
   {
   }
@@ -159,6 +158,7 @@ public:
     nearest.fill(point);
     for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
       nearest[i] = neighbors_[i].second;
+    neighbors_.resize(std::min(neighbors_.size(), few_neighbors));
     const Reach reach = reachAmong(point);
     if (!reach.on_rim || neighbors_.empty())
       return reach;

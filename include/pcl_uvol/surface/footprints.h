@@ -14,7 +14,7 @@ namespace pcl_uvol {
 
 /** \brief Indices of the nearest other points, nearest first; the point itself for
  * those that are not there. */
-using NearestPoints = std::array<std::uint32_t, 16>;
+using NearestPoints = std::array<std::uint32_t, 32>;
 
 /** \brief Radii of the discs of every point, in leaf order. */
 struct Footprints {
