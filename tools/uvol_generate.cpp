@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Test data: analytic fields, resampled volumes, points on meshes.
 #include "common/options.h"
+#include "common/point_files.h"
 #include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
@@ -208,12 +210,9 @@ run(int argc, char** argv)
                   ? resampleVolume(arguments, options.threads())
                   : scatterMesh(arguments, options.threads());
   }
-  {
-    const StepTimer timer(report, "write");
-    pcl_uvol::SaveOptions save;
-    save.ascii = arguments.ascii;
-    pcl_uvol::saveDataset(arguments.output, dataset, save);
-  }
+  pcl_uvol::SaveOptions save;
+  save.ascii = arguments.ascii;
+  uvol_tools::savePoints(arguments.output, dataset, save, report);
   report.count("points", dataset.cloud.width);
   uvol_tools::printReport(options, report, {{"output", arguments.output}});
   return 0;

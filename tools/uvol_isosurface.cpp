@@ -2,6 +2,7 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/level_set.h"
 #include "common/options.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
 #include "common/ray_options.h"
 #include "common/render_options.h"
@@ -432,13 +433,10 @@ run(int argc, char** argv)
     warnOfReplacedFields(input, output.cloud, report);
     pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
-  {
-    const StepTimer timer(report, "write");
-    pcl_uvol::SaveOptions save;
-    save.ascii = arguments.ascii;
-    save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
-    pcl_uvol::saveDataset(arguments.output, output, save);
-  }
+  pcl_uvol::SaveOptions save;
+  save.ascii = arguments.ascii;
+  save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
+  uvol_tools::savePoints(arguments.output, output, save, report);
   std::vector<std::pair<std::string, std::string>> facts = {
       {"input", arguments.input},
       {"output", arguments.output},

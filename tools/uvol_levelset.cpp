@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
 #include "common/level_set.h"
-#include "common/load_points.h"
 #include "common/options.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
 #include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -298,20 +298,18 @@ run(int argc, char** argv)
 
   pcl_uvol::Dataset result = dataset;
   {
-    const StepTimer timer(report, "write");
+    const StepTimer timer(report, "fields");
     result.cloud = uvol_tools::cloudOfPhi(view, phi);
-    pcl_uvol::IsoEdges same;
-    for (std::uint32_t i = 0; i < view.count; ++i)
-      same.push_back({i, i, 0.0f});
-    pcl_uvol::interpolateFields(dataset.cloud, same, result.cloud, options.threads());
-    pcl_uvol::SaveOptions save;
-    save.ascii = arguments.ascii;
-    pcl_uvol::saveDataset(arguments.output, result, save);
-    if (!arguments.table.empty())
-      writeTable(arguments.table, summary);
-    if (!arguments.plot.empty())
-      writePlot(arguments.plot, summary);
+    pcl_uvol::copyFields(
+        dataset.cloud, {all.begin(), all.end()}, result.cloud, options.threads());
   }
+  pcl_uvol::SaveOptions save;
+  save.ascii = arguments.ascii;
+  uvol_tools::savePoints(arguments.output, result, save, report);
+  if (!arguments.table.empty())
+    writeTable(arguments.table, summary);
+  if (!arguments.plot.empty())
+    writePlot(arguments.plot, summary);
   report.count("points", view.count);
   total.reset();
   std::vector<std::pair<std::string, std::string>> facts = {

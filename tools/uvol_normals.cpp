@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
-#include "common/load_points.h"
 #include "common/options.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/scalar_field.h>
@@ -16,26 +16,24 @@
 namespace {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 
 /** The cloud with new normals and curvature; all other fields as they were. */
 pcl::PCLPointCloud2
 withNormals(const pcl_uvol::CloudView& view,
             const pcl::PCLPointCloud2& cloud,
+            const std::vector<std::uint32_t>& all,
             const std::vector<pcl_uvol::SurfaceNormal>& normals)
 {
   pcl::PointCloud<pcl::PointNormal> points;
   points.resize(normals.size());
-  pcl_uvol::IsoEdges same;
   for (std::uint32_t i = 0; i < normals.size(); ++i) {
     points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
     points[i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
     points[i].curvature = normals[i].curvature;
-    same.push_back({i, i, 0.0f});
   }
   pcl::PCLPointCloud2 result;
   pcl::toPCLPointCloud2(points, result);
-  pcl_uvol::interpolateFields(cloud, same, result);
+  pcl_uvol::copyFields(cloud, all, result);
   return result;
 }
 
@@ -93,13 +91,10 @@ run(int argc, char** argv)
   std::iota(all.begin(), all.end(), 0u);
   const auto normals = pcl_uvol::estimateSurfaceNormals(view, all, parameters, report);
   pcl_uvol::Dataset result = dataset;
-  result.cloud = withNormals(view, dataset.cloud, normals);
-  {
-    const StepTimer timer(report, "write");
-    pcl_uvol::SaveOptions save;
-    save.ascii = ascii;
-    pcl_uvol::saveDataset(output, result, save);
-  }
+  result.cloud = withNormals(view, dataset.cloud, all, normals);
+  pcl_uvol::SaveOptions save;
+  save.ascii = ascii;
+  uvol_tools::savePoints(output, result, save, report);
   report.count("points", normals.size());
   uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
   return 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray-traced pictures of scenes, or of one surface given as points (thesis 4.2).
-#include "common/load_points.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
 #include "common/ray_options.h"
 #include <pcl_uvol/io/dataset.h>
@@ -78,8 +78,9 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
   tracer.setScene(file.scene);
   tracer.settings() = file.settings;
   arguments.rays.apply(options, tracer.settings());
-  if (options.given("supersample"))
-    tracer.settings().supersampling = arguments.view.getSupersampling();
+  tracer.setSupersampling(options.given("supersample")
+                              ? arguments.view.getSupersampling()
+                              : file.supersampling);
   if (file.size && !options.given("size"))
     tracer.setSize((*file.size)[0], (*file.size)[1]);
   else

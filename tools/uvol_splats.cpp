@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats of a surface given as points (thesis 4.2.1).
-#include "common/load_points.h"
 #include "common/options.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
 #include "common/splat_options.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -16,18 +16,14 @@
 namespace {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 
 /** The splats with all other fields of the points that they are grown from. */
 pcl::PCLPointCloud2
 withFields(const pcl_uvol::Splats& splats, const pcl::PCLPointCloud2& cloud)
 {
-  pcl_uvol::IsoEdges sources;
-  for (const std::uint32_t source : splats.sources)
-    sources.push_back({source, source, 0.0f});
   pcl::PCLPointCloud2 result;
   pcl::toPCLPointCloud2(splats.cloud, result);
-  pcl_uvol::interpolateFields(cloud, sources, result);
+  pcl_uvol::copyFields(cloud, splats.sources, result);
   return result;
 }
 
@@ -64,12 +60,9 @@ run(int argc, char** argv)
       pcl_uvol::generateSplats(view, all, parameters, report);
   pcl_uvol::Dataset result = dataset;
   result.cloud = withFields(splats, dataset.cloud);
-  {
-    const StepTimer timer(report, "write");
-    pcl_uvol::SaveOptions save;
-    save.ascii = ascii;
-    pcl_uvol::saveDataset(output, result, save);
-  }
+  pcl_uvol::SaveOptions save;
+  save.ascii = ascii;
+  uvol_tools::savePoints(output, result, save, report);
   uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
   return 0;
 }

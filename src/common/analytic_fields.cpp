@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formulas of the analytic fields, and random numbers by counting.
+// The formulas of the analytic fields.
 #include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/random.h>
 
 #include <cmath>
 
@@ -66,16 +67,6 @@ star(const Position& p)
   const double core = std::exp(-6 * radius(p));
   const double flat = std::exp(-20 * p[2] * p[2] / (0.05 + 0.2 * r));
   return core + 0.05 * std::exp(-2 * r) * std::pow(std::cos(winding), 8) * flat;
-}
-
-/** splitmix64's step: neighbouring arguments give unrelated results. */
-std::uint64_t
-mix(std::uint64_t z)
-{
-  z += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
 }
 
 /** Cells per axis of the largest lattice of no more than n. */
@@ -162,20 +153,6 @@ scatterAt(Scatter scatter,
         lower + (first + within) * (upper - lower) / static_cast<double>(side);
   }
   return position;
-}
-
-double
-uniformAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw)
-{
-  return static_cast<double>(mix(mix(mix(seed) ^ index) ^ draw) >> 11) * 0x1.0p-53;
-}
-
-double
-normalAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw)
-{
-  // Box and Muller; 1 - u is never zero.
-  return std::sqrt(-2 * std::log(1.0 - uniformAt(seed, index, 2 * draw))) *
-         std::cos(2 * pi * uniformAt(seed, index, 2 * draw + 1));
 }
 
 } // namespace pcl_uvol

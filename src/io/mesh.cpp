@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles of PLY files, and points spread over them.
 #include "files.h"
-#include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 

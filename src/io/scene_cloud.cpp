@@ -9,7 +9,6 @@
 #include <pcl/memory.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace pcl_uvol {
 namespace io {
@@ -36,22 +35,14 @@ coverPoints(const CloudItem& item,
             unsigned threads,
             Report& report)
 {
-  if (hasSplats(view)) {
-    if (item.has_parameters)
-      report.warnings.push_back(
-          "It holds splats, which are drawn as they are: delta and lambda are not "
-          "used.");
-    Splats splats = readSplats(view, report);
-    if (splats.cloud.empty())
-      throwAt(item.place, "none of the splats in " + shown(item.name) + " is usable");
-    return splats;
-  }
-  std::vector<std::uint32_t> all(view.count);
-  std::iota(all.begin(), all.end(), 0u);
   SplatParameters parameters = item.parameters;
   parameters.threads = threads;
-  return callAt(item.place,
-                [&] { return generateSplats(view, all, parameters, report); });
+  Splats splats = callAt(item.place, [&] {
+    return splatsOf(view, parameters, item.has_parameters, report);
+  });
+  if (splats.cloud.empty())
+    throwAt(item.place, "none of the splats in " + shown(item.name) + " is usable");
+  return splats;
 }
 
 std::vector<Rgba>

@@ -92,14 +92,19 @@ private:
   readCamera(SceneItem& item);
   void
   readBackground(SceneItem& item);
+  /** A whole number in [low, high] for one of the settings. */
+  template <int RayTracingSettings::*setting, int low, int high>
   void
-  readDepth(SceneItem& item);
+  readWhole(SceneItem& item)
+  {
+    scene_.settings.*setting = item.whole(low, high);
+    item.finish();
+  }
+
   void
   readSupersampling(SceneItem& item);
   void
   readShadows(SceneItem& item);
-  void
-  readLightSamples(SceneItem& item);
   void
   readOcclusion(SceneItem& item);
   void
@@ -131,10 +136,11 @@ const SceneReader::Kind SceneReader::kinds[] = {
     {"camera", &SceneReader::readCamera},
     {"background r g b | gradient r g b r g b | transparent",
      &SceneReader::readBackground},
-    {"depth n", &SceneReader::readDepth},
+    {"depth n", &SceneReader::readWhole<&RayTracingSettings::depth, 0, 10000>},
     {"supersampling n", &SceneReader::readSupersampling},
     {"shadows on|off", &SceneReader::readShadows},
-    {"light-samples n", &SceneReader::readLightSamples},
+    {"light-samples n",
+     &SceneReader::readWhole<&RayTracingSettings::light_samples, 1, 4096>},
     {"occlusion n", &SceneReader::readOcclusion},
     {"light point|directional|camera x y z", &SceneReader::readLight},
     {"material NAME", &SceneReader::readMaterial},
@@ -217,16 +223,9 @@ SceneReader::readBackground(SceneItem& item)
 }
 
 void
-SceneReader::readDepth(SceneItem& item)
-{
-  scene_.settings.depth = item.whole(0, 10000);
-  item.finish();
-}
-
-void
 SceneReader::readSupersampling(SceneItem& item)
 {
-  scene_.settings.supersampling = item.whole(1, 8);
+  scene_.supersampling = item.whole(1, 8);
   item.finish();
 }
 
@@ -238,13 +237,6 @@ SceneReader::readShadows(SceneItem& item)
     item.fail(shown(state) + " is neither on nor off");
   item.finish();
   scene_.settings.shadows = state == "on";
-}
-
-void
-SceneReader::readLightSamples(SceneItem& item)
-{
-  scene_.settings.light_samples = item.whole(1, 4096);
-  item.finish();
 }
 
 void

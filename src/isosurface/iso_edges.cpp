@@ -171,4 +171,17 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
   isopoints = std::move(result);
 }
 
+void
+copyFields(const pcl::PCLPointCloud2& cloud,
+           const std::vector<std::uint32_t>& sources,
+           pcl::PCLPointCloud2& points,
+           unsigned threads)
+{
+  IsoEdges same;
+  same.reserve(sources.size());
+  for (const std::uint32_t source : sources)
+    same.push_back({source, source, 0.0f});
+  interpolateFields(cloud, same, points, threads);
+}
+
 } // namespace pcl_uvol

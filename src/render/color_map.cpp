@@ -53,18 +53,19 @@ fromHex(std::uint32_t rgb)
   return {channel(16), channel(8), channel(0)};
 }
 
-Rgba
+} // namespace
+
+std::uint8_t
 toByte(float value)
 {
-  return static_cast<Rgba>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
 }
-
-} // namespace
 
 Rgba
 toRgba(const Color& color)
 {
-  return toByte(color.r) | toByte(color.g) << 8 | toByte(color.b) << 16 | 0xff000000u;
+  return toByte(color.r) | Rgba{toByte(color.g)} << 8 | Rgba{toByte(color.b)} << 16 |
+         0xff000000u;
 }
 
 const std::vector<std::string>&

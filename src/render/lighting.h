@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What both renderers check of colours, materials and lights.
+// What both renderers check of colours, materials and lights, and reckon with.
 #pragma once
 
 #include <pcl_uvol/render/lighting.h>
+
+#include <Eigen/Core>
 
 #include <vector>
 
@@ -27,5 +29,11 @@ checkLights(const std::vector<Light>& lights);
 /** \throws InvalidArgument for a colour out of range */
 void
 checkBackground(const Background& background);
+
+inline Eigen::Vector3d
+toVector(const Color& color)
+{
+  return {color.r, color.g, color.b};
+}
 
 } // namespace pcl_uvol

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "splat_growth.h"
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/surface/footprints.h>
 #include <pcl_uvol/surface/impl/splat_generation.hpp>
@@ -101,18 +102,10 @@ leastRadii(const SampleSet& samples,
 std::vector<std::uint32_t>
 randomOrder(std::size_t count, unsigned threads)
 {
-  // The finaliser of splitmix64 (Steele et al. 2014); it is a bijection, so that no two
-  // keys are equal.
-  const auto key = [](std::uint64_t i) {
-    i += 0x9e3779b97f4a7c15u;
-    i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;
-    i = (i ^ (i >> 27)) * 0x94d049bb133111ebu;
-    return i ^ (i >> 31);
-  };
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   parallelSort(order.begin(), order.end(), threads, [&](auto a, auto b) {
-    return key(a) < key(b);
+    return mixBits(a) < mixBits(b); // never equal
   });
   return order;
 }
@@ -291,6 +284,23 @@ readSplats(const CloudView& cloud, Report& report)
   report.count("splats", splats.cloud.size());
   report.count("bad_splats", cloud.count - splats.cloud.size());
   return splats;
+}
+
+Splats
+splatsOf(const CloudView& cloud,
+         const SplatParameters& parameters,
+         bool is_asked_for,
+         Report& report)
+{
+  if (!hasSplats(cloud)) {
+    std::vector<std::uint32_t> all(cloud.count);
+    std::iota(all.begin(), all.end(), 0u);
+    return generateSplats(cloud, all, parameters, report);
+  }
+  if (is_asked_for)
+    report.warnings.push_back("It holds splats, which are drawn as they are: "
+                              "delta and lambda are not used.");
+  return readSplats(cloud, report);
 }
 
 template class PCL_UVOL_EXPORTS SplatGeneration<PointIso>;

@@ -95,11 +95,11 @@ embree(benchmark::State& state, uvol_bench::EmbreeWay way)
 }
 
 void
-octree(benchmark::State& state)
+octree(benchmark::State& state, std::size_t centers)
 {
   const auto splats = knot(static_cast<std::size_t>(state.range(0)),
                            1e-4 * static_cast<double>(state.range(1)));
-  measure(state, uvol_bench::OctreeTracer(*splats));
+  measure(state, uvol_bench::OctreeTracer(*splats, centers));
 }
 
 void
@@ -127,7 +127,9 @@ BENCHMARK_CAPTURE(embree, userGeometry, uvol_bench::EmbreeWay::UserGeometry)
     ->Apply(cases);
 BENCHMARK_CAPTURE(embree, orientedDiscs, uvol_bench::EmbreeWay::OrientedDiscs)
     ->Apply(cases);
-BENCHMARK(octree)->Apply(cases);
+BENCHMARK_CAPTURE(octree, 16 centres, 16)->Apply(cases);
+BENCHMARK_CAPTURE(octree, 8 centres, 8)->Apply(cases);
+BENCHMARK_CAPTURE(octree, 4 centres, 4)->Apply(cases);
 
 } // namespace
 

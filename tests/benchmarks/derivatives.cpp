@@ -3,6 +3,7 @@
 // central differences of step 1 on the function itself.
 #include "support/clouds.h"
 #include "support/environment.h"
+#include "support/statistics.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/derivatives/local_fit.h>
@@ -18,6 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 using pcl_uvol::FitScheme;
+using uvol_test::meanOf;
 
 constexpr double side = 100.0;
 constexpr std::size_t neighbors = 26;
@@ -89,15 +91,6 @@ centralDifferences(const Function& function, const Vector3d& x)
     gradient[axis] = 0.5 * (function.value(x + Vector3d::Unit(axis)) -
                             function.value(x - Vector3d::Unit(axis)));
   return gradient;
-}
-
-double
-meanOf(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-    sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 /** Samples, their neighbours and the errors of gradients at them. */

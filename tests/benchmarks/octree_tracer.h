@@ -14,7 +14,7 @@ class OctreeTracer : public PeerTracer {
 public:
   /** \param threshold centres that a leaf holds at most */
   explicit OctreeTracer(const pcl::PointCloud<PointSplat>& splats,
-                        std::size_t threshold = 16);
+                        std::size_t threshold);
 
 private:
   /** An inner node (count is the mark) has eight children from first on, a leaf the

@@ -28,23 +28,6 @@ TEST(AnalyticFields, IsovaluesLieInTheRangeOfTheirField)
   EXPECT_THROW(pcl_uvol::findAnalyticField("cube"), pcl_uvol::InvalidArgument);
 }
 
-TEST(AnalyticFields, NumbersAreUniformAndNormal)
-{
-  double sum = 0.0, normal_sum = 0.0, normal_sq = 0.0;
-  constexpr int n = 100000;
-  for (std::uint64_t i = 0; i < n; ++i) {
-    const double u = pcl_uvol::uniformAt(3, i, 1), g = pcl_uvol::normalAt(3, i, 1);
-    ASSERT_TRUE(u >= 0.0 && u < 1.0);
-    sum += u;
-    normal_sum += g;
-    normal_sq += g * g;
-  }
-  EXPECT_NEAR(0.5, sum / n, 0.005); // five standard errors
-  EXPECT_NEAR(0.0, normal_sum / n, 0.016);
-  EXPECT_NEAR(1.0, normal_sq / n, 0.023);
-  EXPECT_NE(pcl_uvol::uniformAt(3, 5, 1), pcl_uvol::uniformAt(4, 5, 1));
-}
-
 TEST(AnalyticFields, GridsHaveOneSamplePerCell)
 {
   using pcl_uvol::Scatter;

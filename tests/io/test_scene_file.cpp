@@ -103,7 +103,7 @@ TEST_F(SceneItems, WhatItDoesNotSayIsAsEver)
   EXPECT_EQ(file.origin, (std::array<double, 3>{{0.0, 0.0, 0.0}}));
   const RayTracingSettings defaults;
   EXPECT_EQ(file.settings.depth, defaults.depth);
-  EXPECT_EQ(file.settings.supersampling, defaults.supersampling);
+  EXPECT_EQ(file.supersampling, 1);
   EXPECT_EQ(file.settings.shadows, defaults.shadows);
   EXPECT_EQ(file.settings.light_samples, defaults.light_samples);
   EXPECT_EQ(file.settings.occlusion_samples, defaults.occlusion_samples);
@@ -125,7 +125,7 @@ TEST_F(SceneItems, Settings)
            "shadows off\nlight-samples 9\nocclusion 64 distance 0.5\nsphere 0 0 0 1");
   EXPECT_EQ(*file.size, (std::array<int, 2>{{640, 480}}));
   EXPECT_EQ(file.settings.depth, 7);
-  EXPECT_EQ(file.settings.supersampling, 3);
+  EXPECT_EQ(file.supersampling, 3);
   EXPECT_FALSE(file.settings.shadows);
   EXPECT_EQ(file.settings.light_samples, 9);
   EXPECT_EQ(file.settings.occlusion_samples, 64);

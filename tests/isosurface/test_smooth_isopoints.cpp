@@ -4,6 +4,7 @@
 #include "support/clouds.h"
 #include "support/smooth_fields.h"
 #include <pcl_uvol/common/analytic_fields.h>
+#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>

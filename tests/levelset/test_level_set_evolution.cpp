@@ -3,6 +3,7 @@
 // they take away, and what they refuse.
 #include "levelset/level_set_setup.h"
 #include "support/noisy_shapes.h"
+#include "support/statistics.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/initial_function.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
@@ -30,6 +31,7 @@ using pcl_uvol::Reinitialization;
 using uvol_test::Evolution;
 using uvol_test::evolve;
 using uvol_test::makeBall;
+using uvol_test::meanOf;
 using uvol_test::withValues;
 using Cloud = uvol_test::LevelSetCloud;
 using Vector = Eigen::Vector3d;
@@ -43,15 +45,6 @@ radiiOf(const Cloud& cloud, const std::vector<float>& phi)
        uvol_test::isopoints(withValues(cloud, phi), Interpolation::Smooth))
     radii.push_back(point.getVector3fMap().cast<double>().norm());
   return radii;
-}
-
-double
-meanOf(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-    sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 double

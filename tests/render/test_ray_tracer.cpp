@@ -333,7 +333,7 @@ TEST(RayTracer, ChessboardsAndSupersampling)
   for (int pixel = 0; pixel < 256; ++pixel)
     white += channelAt(image, pixel % 16, pixel / 16) == 1.0 ? 1 : 0;
   EXPECT_NEAR(128, white, 40);
-  tracer.settings().supersampling = 4;
+  tracer.setSupersampling(4);
   tracer.render(image);
   int between = 0;
   for (int pixel = 0; pixel < 256; ++pixel) {
@@ -392,10 +392,12 @@ TEST(RayTracer, RejectsBadInput)
     tracer.settings() = settings;
   };
   refusesSetting([](auto& s) { s.depth = -1; });
-  refusesSetting([](auto& s) { s.supersampling = 0; });
   refusesSetting([](auto& s) { s.light_samples = 0; });
   refusesSetting([](auto& s) { s.occlusion_samples = -1; });
   refusesSetting([nan](auto& s) { s.occlusion_distance = nan; });
+  tracer.setSupersampling(0);
+  EXPECT_THROW(tracer.render(image), InvalidArgument);
+  tracer.setSupersampling(1);
   tracer.setSize(0, 5);
   EXPECT_THROW(tracer.render(image), InvalidArgument);
   tracer.setSize(5, 16385);

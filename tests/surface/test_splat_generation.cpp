@@ -2,6 +2,7 @@
 // Splats of surfaces that are known: how large they are and how many, that they leave
 // nothing uncovered, and what normals they give (thesis 4.2.1).
 #include "support/environment.h"
+#include "support/statistics.h"
 #include "surface/splat_setup.h"
 
 #include <gtest/gtest.h>
@@ -226,15 +227,6 @@ fieldErrors(const SplatCloud& splats)
         errors.push_back(degreesBetween(disc.normalAt(x), n));
   }
   return errors;
-}
-
-double
-meanOf(const std::vector<double>& values)
-{
-  double sum = 0.0;
-  for (const double value : values)
-    sum += value;
-  return sum / static_cast<double>(values.size());
 }
 
 TEST(SplatGeneration, FieldsOnASphereAreItsNormals)

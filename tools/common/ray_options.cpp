@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/ray_options.h"
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/render/point_colors.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace uvol_tools {
 
@@ -80,12 +80,10 @@ RayOptions::makeScene(const Options& options,
                       std::array<double, 2>& range,
                       pcl_uvol::Report& report) const
 {
-  std::vector<std::uint32_t> all(cloud.count);
-  std::iota(all.begin(), all.end(), 0u);
-  pcl_uvol::Splats splats =
-      pcl_uvol::hasSplats(cloud)
-          ? pcl_uvol::readSplats(cloud, report)
-          : pcl_uvol::generateSplats(cloud, all, splats_.parameters(options), report);
+  pcl_uvol::Splats splats = pcl_uvol::splatsOf(
+      cloud, splats_.parameters(options), splats_.isGiven(options), report);
+  if (splats.cloud.empty())
+    throw pcl_uvol::InvalidArgument("None of the input's splats is usable.");
   pcl_uvol::SplatObject object;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
@@ -147,7 +145,7 @@ RayOptions::traceCloud(const Options& options,
   pcl_uvol::RayTracer tracer;
   tracer.setScene(makeScene(options, view, cloud, range, report));
   apply(options, tracer.settings());
-  tracer.settings().supersampling = view.getSupersampling();
+  tracer.setSupersampling(view.getSupersampling());
   tracer.setSize(view.getWidth(), view.getHeight());
   traceFrames(
       options,

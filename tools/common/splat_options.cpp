@@ -35,4 +35,11 @@ SplatOptions::parameters(const Options& options) const
   return parameters;
 }
 
+bool
+SplatOptions::isGiven(const Options& options) const
+{
+  return options.given("delta") || options.given("delta-abs") ||
+         options.given("lambda");
+}
+
 } // namespace uvol_tools

@@ -19,6 +19,10 @@ public:
   pcl_uvol::SplatParameters
   parameters(const Options& options) const;
 
+  /** \brief True if the command line has one of them. */
+  bool
+  isGiven(const Options& options) const;
+
 private:
   pcl_uvol::SplatParameters parameters_;
   double length_ = std::numeric_limits<double>::infinity();

@@ -51,14 +51,4 @@ scatterAt(Scatter scatter,
           double lower,
           double upper);
 
-/** \brief A number in [0, 1) that depends on its three arguments only: the same for any
- * number of threads. \param draw tells the numbers of one index apart */
-PCL_UVOL_EXPORTS double
-uniformAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw);
-
-/** \brief A number of the normal distribution of mean 0 and standard deviation 1, made
- * of the uniform draws 2 draw and 2 draw + 1. */
-PCL_UVOL_EXPORTS double
-normalAt(std::uint64_t seed, std::uint64_t index, std::uint64_t draw);
-
 } // namespace pcl_uvol

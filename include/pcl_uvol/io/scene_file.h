@@ -19,6 +19,7 @@ struct SceneFile {
   Scene scene;
   std::optional<Camera> camera;
   std::optional<std::array<int, 2>> size;
+  int supersampling = 1;
   RayTracingSettings settings;
   /** Subtracted from all coordinates: that of the first cloud, see Dataset. */
   std::array<double, 3> origin{{0.0, 0.0, 0.0}};

@@ -50,4 +50,13 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
                   pcl::PCLPointCloud2& isopoints,
                   unsigned threads = 0);
 
+/** \brief The same for points that stand for one point of another cloud each: the
+ * fields that they lack are copied. \param sources index of the other point, one per
+ * point \throws InvalidArgument as interpolateFields */
+PCL_UVOL_EXPORTS void
+copyFields(const pcl::PCLPointCloud2& cloud,
+           const std::vector<std::uint32_t>& sources,
+           pcl::PCLPointCloud2& points,
+           unsigned threads = 0);
+
 } // namespace pcl_uvol

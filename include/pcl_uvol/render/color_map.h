@@ -14,6 +14,10 @@ namespace pcl_uvol {
 /** \brief Four bytes as they lie in memory: red, green, blue, opacity. */
 using Rgba = std::uint32_t;
 
+/** \brief A channel, clamped to [0, 1] and rounded to 8 bits. */
+PCL_UVOL_EXPORTS std::uint8_t
+toByte(float value);
+
 /** \brief Rounded to 8 bits per channel, opaque. */
 PCL_UVOL_EXPORTS Rgba
 toRgba(const Color& color);

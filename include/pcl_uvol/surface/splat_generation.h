@@ -48,6 +48,16 @@ hasSplats(const CloudView& cloud);
 PCL_UVOL_EXPORTS Splats
 readSplats(const CloudView& cloud, Report& report);
 
+/** \brief The usable splats that a cloud holds, which may be none, else those generated
+ * for all its points.
+ * \param is_asked_for the user chose parameters: a warning tells where they go unused
+ * \throws InvalidArgument as SplatGeneration::compute */
+PCL_UVOL_EXPORTS Splats
+splatsOf(const CloudView& cloud,
+         const SplatParameters& parameters,
+         bool is_asked_for,
+         Report& report);
+
 /** \brief Covers a surface with splats.
  *
  * \code

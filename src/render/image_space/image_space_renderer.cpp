@@ -16,8 +16,6 @@ namespace pcl_uvol {
 
 namespace {
 
-constexpr double default_fov = 30.0;
-
 /** Blocks whose points lie closer, in pixels, need no footprints: the masks close what
  * is left open. Random points then have 1.6 in a pixel. */
 constexpr float dense_spacing = 0.8f;
@@ -135,16 +133,13 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
                                    Image& image)
 {
   checkSettings(settings_);
-  checkRange("supersampling", supersampling_, 1, 8);
-  checkRange("width", width_, 1, View::largest_size / supersampling_);
-  checkRange("height", height_, 1, View::largest_size / supersampling_);
+  checkPictureSize(View::largest_size / std::max(supersampling_, 1));
   if (supersampling_ > 1 && (planes_.depth || planes_.normal || planes_.id))
     throw InvalidArgument("Planes of an image cannot be averaged: render depth, normal "
                           "or id without supersampling.");
   const auto& bounds = prepare(cloud, indices).getBounds();
-  const Camera camera = camera_.value_or(
-      Camera::fit(bounds, "iso", default_fov, static_cast<double>(width_) / height_));
-  const View view(camera, bounds, width_ * supersampling_, height_ * supersampling_);
+  const View view(
+      cameraFor(bounds), bounds, width_ * supersampling_, height_ * supersampling_);
   if (!backend_)
     backend_ = std::make_shared<CpuBackend>();
   drawFrom(cloud, indices, view, [&](const Frame& frame, Report& report) {
@@ -174,7 +169,8 @@ ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
     uniform_color_ = toRgba(color);
     colored_ = true;
   }
-  report_ = surface_report_;
+  startReport();
+  report_.merge(surface_report_);
   if (settings_.footprints && needsFootprints(*surface_, view))
     surface_->computeFootprints(threads_, report_);
   const Frame frame{*surface_, view, settings_, planes_, threads_};

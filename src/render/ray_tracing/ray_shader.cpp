@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ray_shader.h"
 
+#include "../lighting.h"
+#include <pcl_uvol/common/random.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -51,12 +54,6 @@ struct Fresnel {
   }
 };
 
-Eigen::Vector3d
-toVector(const Color& color)
-{
-  return {color.r, color.g, color.b};
-}
-
 /** \param rotation from the scene's directions to the camera's: right, down, forward */
 Light
 inScene(Light light, const Camera& camera, const Eigen::Matrix3d& rotation)
@@ -101,12 +98,7 @@ RayShader::RayShader(const World& world,
 double
 RayShader::random()
 {
-  // splitmix64 (Steele et al. 2014)
-  random_state_ += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = random_state_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  return uniformAt(ray_number_, draws_++, 0);
 }
 
 Eigen::Vector3d
@@ -254,9 +246,10 @@ RayShader::sendOn(const Seen& seen, const Pending& from)
 }
 
 ShadedRay
-RayShader::shade(const Ray& ray, double height, std::uint64_t seed)
+RayShader::shade(const Ray& ray, double height, std::uint64_t number)
 {
-  random_state_ = seed;
+  ray_number_ = number;
+  draws_ = 0;
   ++counts_.primary;
   Eigen::Vector3d color = Eigen::Vector3d::Zero(), normal = color;
   double opacity = 1.0;

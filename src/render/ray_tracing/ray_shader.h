@@ -33,9 +33,9 @@ public:
             const Camera& camera);
 
   /** \brief \param height of the pixel in the image, 0 below to 1 above, for the
-   * background \param seed of what is random about it */
+   * background \param number of the ray, for what is random about it */
   ShadedRay
-  shade(const Ray& ray, double height, std::uint64_t seed);
+  shade(const Ray& ray, double height, std::uint64_t number);
 
   const RayCounts&
   counts() const
@@ -95,7 +95,7 @@ private:
   double occlusion_distance_;
   std::vector<SplatHit> hits_;
   std::vector<Pending> pending_;
-  std::uint64_t random_state_ = 0;
+  std::uint64_t ray_number_ = 0, draws_ = 0;
   RayCounts counts_;
 };
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double default_fov = 30.0;
-constexpr int largest_size = 16384;
 
 /** Pixels of a tile's side: rays of a tile meet the same boxes. */
 constexpr int tile_size = 16;
@@ -88,7 +87,6 @@ checkSettings(const RayTracingSettings& settings)
 {
   constexpr int most_samples = 4096, most_depth = 10000;
   checkRange("depth of ray tracing", settings.depth, 0, most_depth);
-  checkRange("supersampling", settings.supersampling, 1, 8);
   checkRange("number of shadow rays", settings.light_samples, 1, most_samples);
   checkRange("number of occlusion rays", settings.occlusion_samples, 0, most_samples);
   if (!(settings.occlusion_distance >= 0.0))
@@ -163,12 +161,10 @@ shadePixel(RayShader& shader,
       sum[3] += opacity;
       normals += shaded.normal;
     }
-  const auto toByte = [](double value) {
-    return static_cast<std::uint8_t>(std::lround(255.0 * value));
-  };
   for (int channel = 0; channel < 3; ++channel)
-    bytes[channel] = toByte(sum[3] > 0.0 ? sum[channel] / sum[3] : 0.0);
-  bytes[3] = toByte(sum[3] / (supersampling * supersampling));
+    bytes[channel] =
+        toByte(static_cast<float>(sum[3] > 0.0 ? sum[channel] / sum[3] : 0.0));
+  bytes[3] = toByte(static_cast<float>(sum[3] / (supersampling * supersampling)));
   if (normal != nullptr)
     for (int axis = 0; axis < 3; ++axis)
       normal[axis] = static_cast<float>(normals.normalized()[axis]);
@@ -211,14 +207,12 @@ void
 RayTracer::render(Image& image)
 {
   checkSettings(settings_);
-  checkRange("width", width_, 1, largest_size);
-  checkRange("height", height_, 1, largest_size);
+  checkPictureSize(largest_size);
   startReport();
   const World& world = build();
   report_.merge(build_report_);
-  const Camera camera = camera_.value_or(Camera::fit(
-      world.bounds(), "iso", default_fov, static_cast<double>(width_) / height_));
-  const Raster raster(camera, width_, height_, settings_.supersampling);
+  const Camera camera = cameraFor(world.bounds());
+  const Raster raster(camera, width_, height_, supersampling_);
   Image traced;
   traced.width = static_cast<std::uint32_t>(width_);
   traced.height = static_cast<std::uint32_t>(height_);
@@ -244,7 +238,7 @@ RayTracer::render(Image& image)
                      raster,
                      column,
                      row,
-                     settings_.supersampling,
+                     supersampling_,
                      &traced.color[4 * pixel],
                      has_normals_ ? &traced.normal[3 * pixel] : nullptr);
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world.h"
 
+#include "../lighting.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -46,12 +48,6 @@ meetPlane(const PlaneObject& plane, const Ray& ray)
   if (distance > 0.0 && std::isfinite(distance))
     return distance;
   return std::nullopt;
-}
-
-Eigen::Vector3d
-toVector(const Color& color)
-{
-  return {color.r, color.g, color.b};
 }
 
 /** One of two colours on a chessboard. */

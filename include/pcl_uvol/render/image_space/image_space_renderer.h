@@ -5,12 +5,11 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/image_space/backend.h>
 #include <pcl_uvol/render/image_space/settings.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <pcl/pcl_base.h>
 
@@ -24,34 +23,14 @@
 
 namespace pcl_uvol {
 
-/** \brief Parameters and the kernel of ImageSpaceRenderer, for any point type. */
-class PCL_UVOL_EXPORTS ImageSpaceRendererBase {
+/** \brief Parameters and the kernel of ImageSpaceRenderer, for any point type.
+ *
+ * Counts of the report: points, non_finite, without_normal, duplicates; times of every
+ * pass. */
+class PCL_UVOL_EXPORTS ImageSpaceRendererBase : public Renderer {
 public:
   /** \brief Draws a prepared frame, and adds what it does to the report. */
   using Painter = std::function<void(const Frame& frame, Report& report)>;
-
-  /** \brief Default: from the front and above, the whole cloud in view. */
-  void
-  setCamera(const Camera& camera)
-  {
-    camera_ = camera;
-  }
-
-  /** \brief Pixels, each in [1, View::largest_size]; default 1024 x 1024. */
-  void
-  setSize(int width, int height)
-  {
-    width_ = width;
-    height_ = height;
-  }
-
-  /** \brief Render that many times wider and higher, and average: in [1, 8], default 1.
-   */
-  void
-  setSupersampling(int factor)
-  {
-    supersampling_ = factor;
-  }
 
   /** \brief Colour by a scalar field, as in ScalarField; "rgb" for the cloud's own
    * colours, "" (default) for the material's. */
@@ -99,21 +78,6 @@ public:
     backend_ = backend;
   }
 
-  /** \brief 0 (default) = all cores. */
-  void
-  setNumberOfThreads(unsigned threads)
-  {
-    threads_ = threads;
-  }
-
-  /** \brief Counts and times of the last render() or draw(): points, non_finite,
-   * without_normal, duplicates, and the milliseconds of every pass. */
-  const Report&
-  getReport() const
-  {
-    return report_;
-  }
-
   /** \brief What the last render() ran on; see ImageSpaceBackend::describe. */
   std::string
   describeBackend() const
@@ -152,8 +116,6 @@ private:
   void
   colorSurface(const CloudView& cloud);
 
-  std::optional<Camera> camera_;
-  int width_ = 1024, height_ = 1024, supersampling_ = 1;
   std::string color_field_;
   ColorMap color_map_;
   std::optional<std::array<double, 2>> color_range_;
@@ -161,14 +123,12 @@ private:
   ImageSpaceSettings settings_;
   ImagePlanes planes_;
   std::shared_ptr<ImageSpaceBackend> backend_;
-  unsigned threads_ = 0;
   std::shared_ptr<SurfaceCloud> surface_;
   pcl::IndicesConstPtr drawn_; // input points behind surface_
   Report surface_report_;      // what preparing it counted
   bool colored_ = false;
   Rgba uniform_color_ = 0; // of surface_ without a colour field
   Image fine_;             // for supersampling
-  Report report_;
 };
 
 /** \brief Pictures of a surface given as points.

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/ray_tracing/scene.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <memory>
 #include <optional>
@@ -20,7 +19,6 @@ struct RayTracingSettings {
   /** Reflections and refractions in a row, at most; 0: primary and shadow rays alone.
    */
   int depth = 4;
-  int supersampling = 1; ///< rays per pixel in each direction, in [1, 8]
   bool shadows = true;
   /** Shadow rays to a light that has a radius, in [1, 4096]. */
   int light_samples = 16;
@@ -44,7 +42,7 @@ struct RayTracingSettings {
  * lies on the splat whose centre is the nearest, in radii (Figure 4.4), and its normal
  * and colour are averaged over them, weighted by 1 - |(u, v)|. The search structure is
  * built at the first picture. The picture does not depend on the number of threads. */
-class PCL_UVOL_EXPORTS RayTracer : public Stage {
+class PCL_UVOL_EXPORTS RayTracer : public Renderer {
 public:
   RayTracer();
   ~RayTracer();
@@ -53,21 +51,6 @@ public:
    * material, light or shape out of its range, a splat that is not finite */
   void
   setScene(const Scene& scene);
-
-  /** \brief Default: the view "iso" of everything. */
-  void
-  setCamera(const Camera& camera)
-  {
-    camera_ = camera;
-  }
-
-  /** \brief Pixels, in [1, 16384]; default 1024 x 1024. */
-  void
-  setSize(int width, int height)
-  {
-    width_ = width;
-    height_ = height;
-  }
 
   /** \brief Fill in the normals of the surfaces, to the outside, as well; default:
    * colour alone. */
@@ -102,8 +85,6 @@ private:
   std::optional<Scene> scene_; ///< until the search structure is built
   std::unique_ptr<World> world_;
   Report build_report_;
-  std::optional<Camera> camera_;
-  int width_ = 1024, height_ = 1024;
   bool has_normals_ = false;
   RayTracingSettings settings_;
 };

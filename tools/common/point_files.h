@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How tools read points.
+// How tools read and write points.
 #pragma once
 
 #include <pcl_uvol/common/report.h>
@@ -13,5 +13,12 @@ namespace uvol_tools {
  * \throws IOError, and InvalidArgument for a file without points */
 pcl_uvol::Dataset
 loadPoints(const std::string& path, pcl_uvol::Report& report);
+
+/** \brief Write a file, as a step of the report. \throws IOError */
+void
+savePoints(const std::string& path,
+           const pcl_uvol::Dataset& dataset,
+           const pcl_uvol::SaveOptions& options,
+           pcl_uvol::Report& report);
 
 } // namespace uvol_tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/load_points.h"
+#include "common/point_files.h"
 
 #include <pcl_uvol/common/exceptions.h>
 
@@ -15,6 +15,16 @@ loadPoints(const std::string& path, pcl_uvol::Report& report)
   if (dataset.cloud.width == 0)
     throw pcl_uvol::InvalidArgument(path + " has no points.");
   return dataset;
+}
+
+void
+savePoints(const std::string& path,
+           const pcl_uvol::Dataset& dataset,
+           const pcl_uvol::SaveOptions& options,
+           pcl_uvol::Report& report)
+{
+  const pcl_uvol::StepTimer timer(report, "write");
+  pcl_uvol::saveDataset(path, dataset, options);
 }
 
 } // namespace uvol_tools

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs that leave no hole, rims, and the nearest points.
+#include "support/surfaces.h"
+#include <pcl_uvol/surface/footprints.h>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace {
+
+using pcl_uvol::Footprints;
+using uvol_test::SurfaceCloudPtr;
+
+/** A surface and its footprints. */
+struct Surface {
+  pcl_uvol::OrientedPoints points;
+  Footprints footprints;
+
+  explicit Surface(const pcl::PointCloud<pcl::PointNormal>& cloud, unsigned threads = 0)
+  {
+    std::vector<std::uint32_t> all(cloud.size());
+    std::iota(all.begin(), all.end(), 0u);
+    pcl_uvol::Report report;
+    points = pcl_uvol::orientPoints(pcl_uvol::viewOf(cloud), all, threads, report);
+    footprints = pcl_uvol::computeFootprints(points, threads, report);
+  }
+
+  std::size_t
+  size() const
+  {
+    return points.samples->size();
+  }
+
+  Eigen::Vector3f
+  position(std::size_t i) const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(points.samples->getPositions()[i].x);
+  }
+
+  double
+  medianRadius() const
+  {
+    std::vector<float> radii = footprints.radii;
+    std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+    return radii[radii.size() / 2];
+  }
+};
+
+/** Part of the places that no disc covers, of random places in the middle of a square
+ * whose points lie in the plane z = 0. */
+double
+uncovered(const Surface& surface, float half_side)
+{
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<float> place(-half_side, half_side);
+  constexpr int tries = 2000;
+  int open = 0;
+  for (int i = 0; i < tries; ++i) {
+    const Eigen::Vector3f x(place(engine), place(engine), 0.0f);
+    bool is_covered = false;
+    for (std::size_t j = 0; j < surface.size() && !is_covered; ++j)
+      is_covered = (surface.position(j) - x).norm() <= surface.footprints.radii[j];
+    open += is_covered ? 0 : 1;
+  }
+  return static_cast<double>(open) / tries;
+}
+
+/** Random points of the square of side 2 in the plane z = 0. */
+pcl::PointCloud<pcl::PointNormal>
+makePlane(std::size_t n)
+{
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<float> place(-1.0f, 1.0f);
+  for (std::size_t i = 0; i < n; ++i) {
+    pcl::PointNormal point;
+    point.x = place(engine);
+    point.y = place(engine);
+    point.normal_z = 1.0f;
+    cloud.push_back(point);
+  }
+  return cloud;
+}
+
+TEST(Footprints, CoverThePlaneAndHardlyMore)
+{
+  const Surface surface(makePlane(4000));
+  EXPECT_EQ(uncovered(surface, 0.9f), 0.0);
+  // Random points have holes of more than a spacing, few of more than two.
+  const double spacing = std::sqrt(4.0 / 4000);
+  EXPECT_LT(surface.medianRadius(), 1.3 * spacing);
+  EXPECT_GT(surface.medianRadius(), 0.8 * spacing);
+}
+
+TEST(Footprints, ReachAcrossTheLinesOfAScan)
+{
+  // Ten times denser along the lines than across: the 16 nearest lie on one line.
+  pcl::PointCloud<pcl::PointNormal> lines;
+  for (int line = -20; line <= 20; ++line)
+    for (int i = -200; i <= 200; ++i) {
+      pcl::PointNormal point;
+      point.x = 0.005f * static_cast<float>(i);
+      point.y = 0.05f * static_cast<float>(line) + 0.001f * static_cast<float>(i % 2);
+      point.normal_z = 1.0f;
+      lines.push_back(point);
+    }
+  const Surface surface(lines);
+  EXPECT_EQ(uncovered(surface, 0.8f), 0.0);
+  EXPECT_LT(surface.medianRadius(), 0.04);
+}
+
+TEST(Footprints, StayAtTheRimAndAtOutliers)
+{
+  auto plane = makePlane(4000);
+  pcl::PointNormal outlier;
+  outlier.z = 0.4f;
+  outlier.normal_z = 1.0f;
+  plane.push_back(outlier);
+  const Surface surface(plane);
+  const double spacing = std::sqrt(4.0 / 4000);
+  std::vector<double> beyond_rim;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector3f x = surface.position(i);
+    const double radius = surface.footprints.radii[i];
+    const double beyond = std::max(std::abs(x.x()), std::abs(x.y())) + radius - 1.0;
+    if (surface.points.samples->getInputIndex(i) == 4000)
+      EXPECT_LT(radius, 4.0 * spacing);
+    else if (beyond > 0.0)
+      beyond_rim.push_back(beyond);
+  }
+  ASSERT_GT(beyond_rim.size(), 100u);
+  std::sort(beyond_rim.begin(), beyond_rim.end());
+  EXPECT_LT(beyond_rim[beyond_rim.size() / 2], 0.7 * spacing);
+  EXPECT_LT(beyond_rim.back(), 3.0 * spacing);
+}
+
+TEST(Footprints, TellTheRimFromTheMiddle)
+{
+  const Surface surface(makePlane(4000));
+  const float spacing = std::sqrt(4.0f / 4000);
+  std::size_t rim = 0, marked = 0;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const float to_rim = 1.0f - surface.position(i).cwiseAbs().maxCoeff();
+    if (to_rim > 4.0f * spacing)
+      EXPECT_EQ(0, surface.footprints.on_rim[i]) << to_rim / spacing;
+    else if (to_rim < 0.2f * spacing) {
+      ++rim;
+      marked += surface.footprints.on_rim[i];
+    }
+  }
+  ASSERT_GT(rim, 30u);
+  EXPECT_GE(marked, 0.95 * static_cast<double>(rim));
+}
+
+TEST(Footprints, NearestPointsAreThoseOfBruteForce)
+{
+  const Surface surface(*uvol_test::makeTorusKnot(700, 6));
+  for (std::uint32_t i = 0; i < surface.size(); ++i) {
+    std::vector<std::pair<float, std::uint32_t>> others;
+    for (std::uint32_t j = 0; j < surface.size(); ++j)
+      if (j != i)
+        others.emplace_back((surface.position(j) - surface.position(i)).squaredNorm(),
+                            j);
+    std::sort(others.begin(), others.end());
+    const auto& nearest = surface.footprints.nearest[i];
+    for (std::size_t k = 0; k < nearest.size(); ++k)
+      EXPECT_NEAR(others[k].first,
+                  (surface.position(nearest[k]) - surface.position(i)).squaredNorm(),
+                  1e-6f * others[k].first);
+    auto distinct = nearest;
+    std::sort(distinct.begin(), distinct.end());
+    EXPECT_EQ(std::adjacent_find(distinct.begin(), distinct.end()), distinct.end());
+  }
+}
+
+TEST(Footprints, OfFewPointsEndWithThePointItself)
+{
+  const Surface surface(*uvol_test::makeSphere(3, 1));
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(1, surface.footprints.on_rim[i]);
+    EXPECT_NE(i, surface.footprints.nearest[i][1]);
+    EXPECT_EQ(i, surface.footprints.nearest[i][2]);
+  }
+}
+
+TEST(Footprints, DoNotDependOnThreads)
+{
+  const SurfaceCloudPtr cloud = uvol_test::makeTorusKnot(20000, 5);
+  const Footprints first = Surface(*cloud, 1).footprints;
+  for (const unsigned threads : {2u, 3u, 7u}) {
+    const Footprints other = Surface(*cloud, threads).footprints;
+    EXPECT_EQ(first.radii, other.radii) << threads;
+    EXPECT_EQ(first.fillers, other.fillers) << threads;
+    EXPECT_EQ(first.on_rim, other.on_rim) << threads;
+    EXPECT_EQ(first.nearest, other.nearest) << threads;
+  }
+}
+
+} // namespace
