@@ -37,7 +37,8 @@ struct Arguments {
   uvol_tools::RenderOptions look;
   uvol_tools::RayOptions rays;
   std::vector<double> isovalues, xyz;
-  std::string scale, outside = "lower", criterion = "kept";
+  std::string scale, outside = "lower", criterion = "kept", neighbors = "kdtree";
+  std::uint64_t grid = 0;
   std::string interpolation = "smooth", normals = "auto";
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
@@ -73,6 +74,17 @@ declare(Options& options, Arguments& arguments)
                  {"lower", "higher"},
                  arguments.outside,
                  "the side normals point to: where values are lower or higher");
+  options.choice("neighbors",
+                 {"kdtree", "voronoi"},
+                 arguments.neighbors,
+                 "candidates from touching cells of the tree, or from adjacent regions "
+                 "of a discrete Voronoi diagram: slower");
+  options.integer("grid",
+                  arguments.grid,
+                  1,
+                  pcl_uvol::GridShape::largest_side,
+                  "cells of -neighbors voronoi along the longest side (default: 4 "
+                  "samples to a cell)");
   options.choice("criterion",
                  {"kept", "all"},
                  arguments.criterion,
@@ -162,6 +174,8 @@ checkCombinations(const Options& options, Arguments& arguments)
   if (arguments.raytrace && arguments.picture.empty())
     throw UsageError("-raytrace needs -png.");
   uvol_tools::parseMu(arguments.mu);
+  if (options.given("grid") && arguments.neighbors != "voronoi")
+    throw UsageError("-grid needs -neighbors voronoi.");
   if (options.given("mu") && !arguments.smooth)
     throw UsageError("-mu needs -smooth.");
   if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
@@ -230,6 +244,11 @@ extract(const Options& options,
   extraction.setAngleCriterion(arguments.criterion == "kept"
                                    ? pcl_uvol::AngleCriterion::Kept
                                    : pcl_uvol::AngleCriterion::All);
+  if (arguments.neighbors == "voronoi") {
+    pcl_uvol::VoronoiCandidateSettings voronoi;
+    voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
+    extraction.setVoronoiGrid(voronoi);
+  }
   extraction.setNumberOfThreads(options.threads());
   extraction.setProgressCallback(report.progress);
   pcl::PointCloud<PointIso> isopoints;

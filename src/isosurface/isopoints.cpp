@@ -40,7 +40,7 @@ findEdges(const IsopointInput& input,
       block_edges,
       input.threads,
       [&](std::size_t begin, std::size_t end, std::vector<EdgeKey>& found) {
-        NeighborhoodFinder finder(input.samples, input.criterion);
+        NeighborhoodFinder finder(input.samples, input.candidates, input.criterion);
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t x = crossing[i];
           for (const std::uint32_t y : finder.find(x))
@@ -160,8 +160,7 @@ appendIsopoints(const IsopointInput& input,
   std::vector<std::uint32_t> crossing;
   {
     const StepTimer timer(report, "crossing_pairs");
-    crossing = input.samples.getTree().findCrossing(
-        input.samples.getPositions(), input.ranges, isovalue, input.threads);
+    crossing = input.candidates.findCrossing(input.ranges, isovalue, input.threads);
   }
   const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
   std::vector<PointIso> points(keys.size());

@@ -6,6 +6,7 @@
 #include "../neighbors/sample_values.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,7 @@ struct IsopointInput {
   const SampleSet& samples;
   const SampleValues& scalar;
   const NodeRanges& ranges;
+  const NeighborCandidates& candidates;
   AngleCriterion criterion;
   Outside outside;
   Interpolation interpolation;

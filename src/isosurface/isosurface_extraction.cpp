@@ -61,6 +61,7 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
                                 Position{{scale_[0], scale_[1], scale_[2]}},
                                 threads_,
                                 built);
+    candidates_.reset();
     report_.merge(built);
     sampled_report_ = built;
     sampled_ = std::move(use);
@@ -81,6 +82,7 @@ void
 IsosurfaceExtractionBase::forgetSamples()
 {
   samples_.reset();
+  candidates_.reset();
   scalar_.reset();
 }
 
@@ -128,11 +130,14 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
   startReport();
   updateScalar(cloud, indices);
+  if (!candidates_)
+    candidates_ = makeCandidates(*samples_, voronoi_, threads_, report_);
 
   const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];
   const IsopointInput input{*samples_,
                             scalar_->samples,
                             scalar_->ranges,
+                            *candidates_,
                             criterion_,
                             outside_,
                             interpolation_,

@@ -46,9 +46,11 @@ distanceToZeroLevel(const Band& band,
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;
   Report ignored;
+  const TouchingCells candidates(samples);
   appendIsopoints({samples,
                    values,
                    ranges,
+                   candidates,
                    AngleCriterion::Kept,
                    Outside::Higher,
                    Interpolation::Smooth,

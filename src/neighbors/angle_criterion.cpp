@@ -12,39 +12,60 @@ AngleFilter::apply(std::uint32_t sample, std::vector<std::uint32_t>& candidates)
   const Position& x = positions_[sample];
   if (sights_.size() < candidates.size())
     sights_.resize(candidates.size());
-  Sight* const open = sights_.data();
-  Sight* end = open;
+  Sight* const first = sights_.data();
+  Sight* last = first;
   for (const std::uint32_t candidate : candidates) {
     const Position& y = positions_[candidate];
     const double dx = static_cast<double>(y[0]) - x[0];
     const double dy = static_cast<double>(y[1]) - x[1];
     const double dz = static_cast<double>(y[2]) - x[2];
-    *end++ = {dx, dy, dz, dx * dx + dy * dy + dz * dz, candidate, 0};
+    *last++ = {dx, dy, dz, dx * dx + dy * dy + dz * dz, candidate};
   }
-
-  // The nearest of the open candidates judges the others, which are all farther.
-  const std::uint32_t out = criterion_ == AngleCriterion::Kept ? 1 : 2;
   candidates.clear();
-  while (end != open) {
-    const Sight* nearest = open;
-    for (const Sight* sight = open + 1; sight != end; ++sight)
+  if (criterion_ == AngleCriterion::Kept) {
+    keepByKept(first, last, candidates);
+    return;
+  }
+  // Whom no closer one hides, none of the kept ones hides either: few are to be asked.
+  all_sights_.assign(first, last);
+  keepByKept(first, last, candidates);
+  candidates.erase(
+      std::remove_if(candidates.begin(),
+                     candidates.end(),
+                     [&](std::uint32_t candidate) { return isHidden(candidate); }),
+      candidates.end());
+}
+
+void
+AngleFilter::keepByKept(Sight* first, Sight* last, std::vector<std::uint32_t>& kept)
+{
+  // The nearest of the open candidates is kept, and removes the others behind it.
+  while (last != first) {
+    const Sight* nearest = first;
+    for (const Sight* sight = first + 1; sight != last; ++sight)
       nearest = sight->isBefore(*nearest) ? sight : nearest;
     const Sight judge = *nearest;
-    if (judge.hidden == 0)
-      candidates.push_back(judge.index);
-    Sight* kept = open;
-    for (const Sight* sight = open; sight != end; ++sight) {
-      Sight next = *sight;
-      // cos > sqrt(1/3), squared to save the roots
-      const double product = next.x * judge.x + next.y * judge.y + next.z * judge.z;
-      next.hidden |= static_cast<std::uint32_t>(
-          (product > 0.0) & (3.0 * product * product > next.sq_dist * judge.sq_dist));
-      *kept = next;
-      // The judge hides itself, and goes whatever the criterion.
-      kept += static_cast<std::ptrdiff_t>((next.hidden < out) & (sight != nearest));
+    kept.push_back(judge.index);
+    Sight* open = first;
+    for (const Sight* sight = first; sight != last; ++sight) {
+      const Sight next = *sight;
+      *open = next;
+      open += static_cast<std::ptrdiff_t>(!next.isBehind(judge) & (sight != nearest));
     }
-    end = kept;
+    last = open;
   }
+}
+
+bool
+AngleFilter::isHidden(std::uint32_t candidate) const
+{
+  const Sight sight =
+      *std::find_if(all_sights_.begin(), all_sights_.end(), [&](const Sight& other) {
+        return other.index == candidate;
+      });
+  return std::any_of(all_sights_.begin(), all_sights_.end(), [&](const Sight& other) {
+    return other.isBefore(sight) & sight.isBehind(other);
+  });
 }
 
 } // namespace pcl_uvol

@@ -44,6 +44,7 @@ toInputOrder(const NeighborGraph& by_sample,
 
 NeighborGraph
 computeNaturalNeighbors(const SampleSet& samples,
+                        const NeighborCandidates& candidates,
                         AngleCriterion criterion,
                         unsigned threads,
                         Report& report)
@@ -52,7 +53,7 @@ computeNaturalNeighbors(const SampleSet& samples,
   std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
   parallelBlocks(
       samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        NeighborhoodFinder finder(samples, criterion);
+        NeighborhoodFinder finder(samples, candidates, criterion);
         Rows& rows = blocks[begin / block_samples];
         for (std::size_t i = begin; i < end; ++i) {
           const auto& neighbors = finder.find(static_cast<std::uint32_t>(i));
@@ -66,11 +67,11 @@ computeNaturalNeighbors(const SampleSet& samples,
   NeighborGraph graph;
   graph.offsets.reserve(samples.size() + 1);
   graph.offsets.push_back(0);
-  std::uint64_t candidates = 0;
+  std::uint64_t candidate_count = 0;
   for (const Rows& rows : blocks) {
     for (const std::uint32_t size : rows.sizes)
       graph.offsets.push_back(graph.offsets.back() + size);
-    candidates += rows.candidates;
+    candidate_count += rows.candidates;
   }
   graph.indices.resize(graph.offsets.back());
   parallelBlocks(blocks.size(), 1, threads, [&](std::size_t begin, std::size_t) {
@@ -79,7 +80,7 @@ computeNaturalNeighbors(const SampleSet& samples,
               graph.indices.begin() +
                   static_cast<std::ptrdiff_t>(graph.offsets[begin * block_samples]));
   });
-  report.count("candidates", candidates);
+  report.count("candidates", candidate_count);
   report.count("neighbors", graph.indices.size());
   return graph;
 }
@@ -87,15 +88,18 @@ computeNaturalNeighbors(const SampleSet& samples,
 NeighborGraph
 computeNaturalNeighbors(const CloudView& cloud,
                         const std::vector<std::uint32_t>& use,
+                        const std::optional<VoronoiCandidateSettings>& voronoi,
                         AngleCriterion criterion,
                         unsigned threads,
                         Report& report)
 {
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
-  return toInputOrder(computeNaturalNeighbors(*samples, criterion, threads, report),
-                      *samples,
-                      cloud.count);
+  const auto candidates = makeCandidates(*samples, voronoi, threads, report);
+  return toInputOrder(
+      computeNaturalNeighbors(*samples, *candidates, criterion, threads, report),
+      *samples,
+      cloud.count);
 }
 
 template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZ>;

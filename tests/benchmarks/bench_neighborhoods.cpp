@@ -37,8 +37,12 @@ wholeJobUvol(benchmark::State& state)
                                    pcl_uvol::Position{{1.0f, 1.0f, 1.0f}},
                                    0,
                                    report);
-    const auto graph = pcl_uvol::computeNaturalNeighbors(
-        *samples, pcl_uvol::AngleCriterion::Kept, 0, report);
+    const auto graph =
+        pcl_uvol::computeNaturalNeighbors(*samples,
+                                          pcl_uvol::TouchingCells(*samples),
+                                          pcl_uvol::AngleCriterion::Kept,
+                                          0,
+                                          report);
     const auto isAbove = [&](std::size_t i) {
       return (*radial.cloud)[samples->getInputIndex(i)].intensity >= radial.radius;
     };

@@ -55,7 +55,8 @@ main(int argc, char** argv)
       {"tree", [&] { build(); }},
       {"natural_neighbors",
        [&] {
-         computeNaturalNeighbors(*samples, AngleCriterion::Kept, threads, report);
+         computeNaturalNeighbors(
+             *samples, TouchingCells(*samples), AngleCriterion::Kept, threads, report);
        }},
       {"nearest_neighbors",
        [&] { computeNearestNeighbors(*samples, 26, threads, report); }},

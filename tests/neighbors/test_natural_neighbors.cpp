@@ -59,8 +59,8 @@ TEST_P(OnEveryShape, NeighborhoodsEqualBruteForceInBothReadings)
   const uvol_test::NeighborOracle oracle(samples->getPositions());
   for (const auto criterion : {AngleCriterion::Kept, AngleCriterion::All}) {
     pcl_uvol::Report report;
-    const auto graph =
-        pcl_uvol::computeNaturalNeighbors(*samples, criterion, 0, report);
+    const auto graph = pcl_uvol::computeNaturalNeighbors(
+        *samples, pcl_uvol::TouchingCells(*samples), criterion, 0, report);
     ASSERT_EQ(samples->size(), graph.size());
     for (std::uint32_t i = 0; i < samples->size(); i += 7) {
       const std::vector<std::uint32_t> row(graph[i].begin(), graph[i].end());
@@ -115,7 +115,8 @@ TEST(NaturalNeighbors, UniformSamplesHaveFourteenCandidatesAndFiveNeighbors)
 {
   const auto samples = buildSamples(*makeCloud("uniform", 200000, 1));
   pcl_uvol::Report report;
-  pcl_uvol::computeNaturalNeighbors(*samples, AngleCriterion::Kept, 0, report);
+  pcl_uvol::computeNaturalNeighbors(
+      *samples, pcl_uvol::TouchingCells(*samples), AngleCriterion::Kept, 0, report);
   const auto mean = [&](const char* count) {
     return static_cast<double>(report.getCount(count)) /
            static_cast<double>(samples->size());
@@ -123,7 +124,8 @@ TEST(NaturalNeighbors, UniformSamplesHaveFourteenCandidatesAndFiveNeighbors)
   EXPECT_NEAR(13.8, mean("candidates"), 0.2); // thesis Table 2.8: 11, with wider cells
   EXPECT_NEAR(5.1, mean("neighbors"), 0.1);   // thesis Table 2.8: 5
   report = pcl_uvol::Report();
-  pcl_uvol::computeNaturalNeighbors(*samples, AngleCriterion::All, 0, report);
+  pcl_uvol::computeNaturalNeighbors(
+      *samples, pcl_uvol::TouchingCells(*samples), AngleCriterion::All, 0, report);
   EXPECT_NEAR(4.5, mean("neighbors"), 0.3); // varies with the shape of the cells
 }
 
@@ -135,7 +137,8 @@ TEST(NaturalNeighbors, EqualCoordinatesKeepCandidatesBounded)
        {"lattice", "three planes", "drill holes", "one plane and noise"}) {
     const auto samples = buildSamples(*makeCloud(shape, 1000000, 5));
     pcl_uvol::Report report;
-    pcl_uvol::computeNaturalNeighbors(*samples, AngleCriterion::Kept, 0, report);
+    pcl_uvol::computeNaturalNeighbors(
+        *samples, pcl_uvol::TouchingCells(*samples), AngleCriterion::Kept, 0, report);
     EXPECT_LT(report.getCount("candidates"), 30 * samples->size()) << shape;
   }
 }

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/neighbors/angle_criterion.h>
+#include <pcl_uvol/neighbors/neighbor_candidates.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <Eigen/Core>
@@ -16,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -80,6 +82,15 @@ public:
     criterion_ = criterion;
   }
 
+  /** \brief Look for neighbours in a discrete Voronoi diagram (thesis 2.1); default: in
+   * the kd-tree (2.2), which is faster and never sees more than some tens. */
+  void
+  setVoronoiGrid(const VoronoiCandidateSettings& settings)
+  {
+    voronoi_ = settings;
+    candidates_.reset();
+  }
+
   /** \brief Factors per axis, finite and positive: neighbours are found in the
    * stretched space, isopoints lie in the original one. Default 1, 1, 1. */
   void
@@ -133,6 +144,7 @@ private:
   Outside outside_ = Outside::Lower;
   Interpolation interpolation_ = Interpolation::Smooth;
   AngleCriterion criterion_ = AngleCriterion::Kept;
+  std::optional<VoronoiCandidateSettings> voronoi_;
   Eigen::Array3f scale_{1.0f, 1.0f, 1.0f};
 
   /** The scalar in leaf order and its range per node, and what they were read from. */
@@ -140,6 +152,7 @@ private:
 
   std::shared_ptr<const Scalar> scalar_;
   SampleSet::ConstPtr samples_;
+  NeighborCandidates::ConstPtr candidates_;        // of samples_
   std::vector<std::uint32_t> sampled_;             // input points behind samples_
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted

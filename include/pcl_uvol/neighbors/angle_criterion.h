@@ -38,7 +38,6 @@ private:
   struct Sight {
     double x, y, z, sq_dist;
     std::uint32_t index;
-    std::uint32_t hidden; ///< 1 if a closer candidate hides it
 
     bool
     isBefore(const Sight& other) const
@@ -46,11 +45,27 @@ private:
       return (sq_dist < other.sq_dist) |
              ((sq_dist == other.sq_dist) & (index < other.index));
     }
+
+    /** cos > sqrt(1/3), squared to save the roots. */
+    bool
+    isBehind(const Sight& other) const
+    {
+      const double product = x * other.x + y * other.y + z * other.z;
+      return (product > 0.0) & (3.0 * product * product > sq_dist * other.sq_dist);
+    }
   };
+
+  /** Those of [first, last) that no kept closer one hides; the range is used up. */
+  static void
+  keepByKept(Sight* first, Sight* last, std::vector<std::uint32_t>& kept);
+
+  /** Whether any closer one hides a candidate. */
+  bool
+  isHidden(std::uint32_t candidate) const;
 
   const std::vector<Position>& positions_;
   AngleCriterion criterion_;
-  std::vector<Sight> sights_; // workspace
+  std::vector<Sight> sights_, all_sights_; // workspace
 };
 
 } // namespace pcl_uvol

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Approximate natural neighbours of every sample: touching cells of the kd-tree
-// (thesis 2.2), thinned by the angle criterion (2.3).
+// Approximate natural neighbours of every sample: candidates of the kd-tree (thesis
+// 2.2) or a discrete Voronoi diagram (2.1), thinned by the angle criterion (2.3).
 #pragma once
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/angle_criterion.h>
+#include <pcl_uvol/neighbors/neighbor_candidates.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <pcl/pcl_base.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl_uvol {
@@ -19,9 +21,11 @@ namespace pcl_uvol {
 /** \brief Neighbours of one sample after another; one object per thread. */
 class PCL_UVOL_EXPORTS NeighborhoodFinder {
 public:
-  /** \param samples must outlive the finder */
-  NeighborhoodFinder(const SampleSet& samples, AngleCriterion criterion)
-      : samples_(samples)
+  /** \param samples, candidates must outlive the finder */
+  NeighborhoodFinder(const SampleSet& samples,
+                     const NeighborCandidates& candidates,
+                     AngleCriterion criterion)
+      : candidates_(candidates)
       , filter_(samples.getPositions(), criterion)
   {
   }
@@ -31,13 +35,13 @@ public:
   const std::vector<std::uint32_t>&
   find(std::uint32_t sample)
   {
-    samples_.getTree().findTouching(samples_.getPositions(), sample, neighbors_);
+    candidates_.find(sample, neighbors_);
     candidate_count_ += neighbors_.size();
     filter_.apply(sample, neighbors_);
     return neighbors_;
   }
 
-  /** \brief Touching cells seen by all calls so far, before the angle criterion. */
+  /** \brief Candidates seen by all calls so far, before the angle criterion. */
   std::uint64_t
   getCandidateCount() const
   {
@@ -45,7 +49,7 @@ public:
   }
 
 private:
-  const SampleSet& samples_;
+  const NeighborCandidates& candidates_;
   AngleFilter filter_;
   std::vector<std::uint32_t> neighbors_;
   std::uint64_t candidate_count_ = 0;
@@ -57,6 +61,7 @@ private:
  * twice while they are joined. */
 PCL_UVOL_EXPORTS NeighborGraph
 computeNaturalNeighbors(const SampleSet& samples,
+                        const NeighborCandidates& candidates,
                         AngleCriterion criterion,
                         unsigned threads,
                         Report& report);
@@ -81,6 +86,14 @@ public:
     criterion_ = criterion;
   }
 
+  /** \brief Take the candidates from a discrete Voronoi diagram (thesis 2.1); default:
+   * from the kd-tree (2.2). */
+  void
+  setVoronoiGrid(const VoronoiCandidateSettings& settings)
+  {
+    voronoi_ = settings;
+  }
+
   /** \brief One row per point of the input cloud, indices into the input cloud.
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
@@ -88,6 +101,7 @@ public:
 
 private:
   AngleCriterion criterion_ = AngleCriterion::Kept;
+  std::optional<VoronoiCandidateSettings> voronoi_;
 };
 
 } // namespace pcl_uvol

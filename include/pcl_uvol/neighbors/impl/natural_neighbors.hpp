@@ -11,6 +11,7 @@ namespace pcl_uvol {
 PCL_UVOL_EXPORTS NeighborGraph
 computeNaturalNeighbors(const CloudView& cloud,
                         const std::vector<std::uint32_t>& use,
+                        const std::optional<VoronoiCandidateSettings>& voronoi,
                         AngleCriterion criterion,
                         unsigned threads,
                         Report& report);
@@ -24,7 +25,7 @@ NaturalNeighbors<PointT>::compute(NeighborGraph& graph)
   startReport();
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   graph = computeNaturalNeighbors(
-      viewOf(*this->input_), use, criterion_, threads_, report_);
+      viewOf(*this->input_), use, voronoi_, criterion_, threads_, report_);
   this->deinitCompute();
 }
 

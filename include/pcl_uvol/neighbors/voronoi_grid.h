@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discrete Voronoi diagrams: the nearest filled cell of every cell of a regular grid
+// (thesis 2.1).
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A cell by its place along x, y and z. */
+using GridCell = std::array<std::uint16_t, 3>;
+
+/** \brief A regular grid of box-shaped cells (Definition 2.1). Cells are numbered with
+ * x running fastest, then y, then z. */
+struct PCL_UVOL_EXPORTS GridShape {
+  static constexpr std::uint32_t largest_side = 16384;
+
+  std::array<std::uint32_t, 3> cells{{1, 1, 1}};  ///< per axis, in [1, largest_side]
+  std::array<double, 3> origin{{0.0, 0.0, 0.0}};  ///< lower corner of the first cell
+  std::array<double, 3> spacing{{1.0, 1.0, 1.0}}; ///< sides of a cell, > 0
+
+  /** \brief Cubes, so many along the longest side of a box, and so many more on each
+   * side as a margin; along the other axes as many as cover the box.
+   * \throws InvalidArgument for a box that is not finite, or more cells than
+   * largest_side along an axis */
+  static GridShape
+  cubes(const std::array<double, 3>& low,
+        const std::array<double, 3>& high,
+        std::uint32_t cells_of_longest,
+        std::uint32_t margin = 0);
+
+  /** \brief Exactly so many cells, whatever their sides become.
+   * \throws InvalidArgument as cubes() */
+  static GridShape
+  boxes(const std::array<double, 3>& low,
+        const std::array<double, 3>& high,
+        const std::array<std::uint32_t, 3>& cells);
+
+  /** \brief Number of cells. */
+  std::uint64_t
+  size() const
+  {
+    return std::uint64_t{cells[0]} * cells[1] * cells[2];
+  }
+
+  std::uint64_t
+  indexOf(const GridCell& cell) const
+  {
+    return (std::uint64_t{cell[2]} * cells[1] + cell[1]) * cells[0] + cell[0];
+  }
+
+  /** \brief The cell of a place; places outside are taken to the border. */
+  GridCell
+  cellAt(const std::array<double, 3>& place) const;
+
+  /** \brief Between the centres of two cells, in units of the coordinates. */
+  double
+  distance(const GridCell& a, const GridCell& b) const;
+};
+
+/** \brief Marks cells of a grid without any site. */
+constexpr std::uint32_t no_site = std::numeric_limits<std::uint32_t>::max();
+
+/** \brief A way to find the nearest site of every cell. */
+class PCL_UVOL_EXPORTS NearestSites {
+public:
+  NearestSites() = default;
+  NearestSites(const NearestSites&) = delete;
+  NearestSites&
+  operator=(const NearestSites&) = delete;
+  virtual ~NearestSites() = default;
+
+  /** \brief Index of the site of every cell, by the distance between the centres of
+   * cells; no_site everywhere if there is none.
+   * \param sites distinct cells in the order of their numbers
+   * \param report gets times */
+  virtual std::vector<std::uint32_t>
+  find(const GridShape& shape,
+       const std::vector<GridCell>& sites,
+       unsigned threads,
+       Report& report) = 0;
+};
+
+/** \brief The exact transform, axis by axis (Felzenszwalb and Huttenlocher 2012,
+ * Meijster et al. 2000): of equally far sites the lower one. The cost is that of the
+ * cells, whatever the number of sites. Squares of the spacings are rounded to the
+ * 65,536th part of the smallest one; then all is exact. Memory: 4 bytes per cell. */
+class PCL_UVOL_EXPORTS FeatureTransform : public NearestSites {
+public:
+  std::vector<std::uint32_t>
+  find(const GridShape& shape,
+       const std::vector<GridCell>& sites,
+       unsigned threads,
+       Report& report) override;
+};
+
+/** \brief The discrete Voronoi diagram of samples (Definition 2.2): sites are the cells
+ * that hold samples. Memory: 4 bytes per cell and 8 per sample. */
+class PCL_UVOL_EXPORTS VoronoiGrid {
+public:
+  /** \brief Sort samples into the cells and find the nearest filled one of every cell.
+   * \param xyz first coordinate of point 0; point i starts stride floats further on
+   * \param use indices of the points to take; those with a non-finite coordinate are
+   * left out and counted as "non_finite"
+   * \param way how the nearest sites are found, say FeatureTransform
+   * \throws InvalidArgument for a grid with more than 2^32 - 2 cells or a bad shape,
+   * and if no point is left
+   * \param report gets the counts "cells" and "sites", and times */
+  VoronoiGrid(const GridShape& shape,
+              const float* xyz,
+              std::size_t stride,
+              const std::vector<std::uint32_t>& use,
+              NearestSites& way,
+              unsigned threads,
+              Report& report);
+
+  const GridShape&
+  getShape() const
+  {
+    return shape_;
+  }
+
+  /** \brief Filled cells, in the order of their numbers. */
+  const std::vector<GridCell>&
+  getSites() const
+  {
+    return sites_;
+  }
+
+  /** \brief The points in the cell of each site, ascending. */
+  const NeighborGraph&
+  getMembers() const
+  {
+    return members_;
+  }
+
+  /** \brief Site of every cell: the Voronoi regions. */
+  const std::vector<std::uint32_t>&
+  getNearest() const
+  {
+    return nearest_;
+  }
+
+  /** \brief Per cell the distance to its site, between the centres of cells, in units
+   * of the coordinates. */
+  std::vector<float>
+  computeDistances(unsigned threads) const;
+
+  /** \brief Sites whose Voronoi regions share a point, cell against cell: a row per
+   * site, ascending, without the site itself. */
+  NeighborGraph
+  findAdjacentRegions(unsigned threads) const;
+
+private:
+  GridShape shape_;
+  std::vector<GridCell> sites_;
+  NeighborGraph members_;
+  std::vector<std::uint32_t> nearest_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/neighbor_candidates.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_sites = 1u << 10;
+
+/** Samples per cell unless the user chooses: fewer cost the time of the grid, more that
+ * of the angle criterion. */
+constexpr double usual_samples = 4.0;
+
+GridShape
+shapeFor(const SampleSet& samples, std::uint32_t cells)
+{
+  const auto& positions = samples.getPositions();
+  std::array<double, 3> low{{positions[0][0], positions[0][1], positions[0][2]}};
+  std::array<double, 3> high = low;
+  for (const Position& position : positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = position[static_cast<int>(axis)];
+      low[axis] = std::min(low[axis], place);
+      high[axis] = std::max(high[axis], place);
+    }
+  if (cells > 0)
+    return GridShape::cubes(low, high, cells);
+  const double usual = std::cbrt(static_cast<double>(samples.size()) / usual_samples);
+  return GridShape::cubes(
+      low, high, static_cast<std::uint32_t>(std::max(1.0, std::round(usual))));
+}
+
+} // namespace
+
+void
+TouchingCells::find(std::uint32_t sample, std::vector<std::uint32_t>& candidates) const
+{
+  samples_.getTree().findTouching(samples_.getPositions(), sample, candidates);
+}
+
+std::vector<std::uint32_t>
+TouchingCells::findCrossing(const NodeRanges& ranges,
+                            float isovalue,
+                            unsigned threads) const
+{
+  return samples_.getTree().findCrossing(
+      samples_.getPositions(), ranges, isovalue, threads);
+}
+
+VoronoiCandidates::VoronoiCandidates(const SampleSet& samples,
+                                     const VoronoiCandidateSettings& settings,
+                                     unsigned threads,
+                                     Report& report)
+{
+  std::vector<std::uint32_t> all(samples.size());
+  std::iota(all.begin(), all.end(), 0u);
+  FeatureTransform transform;
+  const VoronoiGrid grid(shapeFor(samples, settings.cells),
+                         samples.getPositions()[0].x,
+                         sizeof(Position) / sizeof(float),
+                         all,
+                         settings.way ? *settings.way : transform,
+                         threads,
+                         report);
+  members_ = grid.getMembers();
+  site_of_.resize(samples.size());
+  for (std::uint32_t site = 0; site < members_.size(); ++site)
+    for (const std::uint32_t sample : members_[site])
+      site_of_[sample] = site;
+  const StepTimer timer(report, "adjacent_regions");
+  adjacent_ = grid.findAdjacentRegions(threads);
+}
+
+void
+VoronoiCandidates::find(std::uint32_t sample,
+                        std::vector<std::uint32_t>& candidates) const
+{
+  candidates.clear();
+  const std::uint32_t own = site_of_[sample];
+  for (const std::uint32_t other : members_[own])
+    if (other != sample)
+      candidates.push_back(other);
+  for (const std::uint32_t site : adjacent_[own])
+    candidates.insert(candidates.end(), members_[site].begin(), members_[site].end());
+}
+
+std::vector<std::uint32_t>
+VoronoiCandidates::findCrossing(const NodeRanges& ranges,
+                                float isovalue,
+                                unsigned threads) const
+{
+  // Whether samples of a site lie below and above.
+  std::vector<std::uint8_t> sides(members_.size());
+  constexpr std::uint8_t below = 1, above = 2;
+  const auto sideOf = [&](std::uint32_t sample) {
+    return ranges.values[sample] >= isovalue ? above : below;
+  };
+  parallelBlocks(sides.size(), block_sites, threads, [&](auto begin, auto end) {
+    for (std::size_t site = begin; site < end; ++site)
+      for (const std::uint32_t sample : members_[site])
+        sides[site] |= sideOf(sample);
+  });
+  auto crossing = parallelGather<std::uint32_t>(
+      sides.size(), block_sites, threads, [&](auto begin, auto end, auto& found) {
+        for (std::size_t site = begin; site < end; ++site) {
+          std::uint8_t around = sides[site];
+          for (const std::uint32_t other : adjacent_[site])
+            around |= sides[other];
+          if (around != (below | above))
+            continue;
+          const auto members = members_[site];
+          found.insert(found.end(), members.begin(), members.end());
+        }
+      });
+  parallelSort(crossing.begin(), crossing.end(), threads, std::less<std::uint32_t>());
+  return crossing;
+}
+
+NeighborCandidates::ConstPtr
+makeCandidates(const SampleSet& samples,
+               const std::optional<VoronoiCandidateSettings>& voronoi,
+               unsigned threads,
+               Report& report)
+{
+  if (voronoi)
+    return std::make_shared<VoronoiCandidates>(samples, *voronoi, threads, report);
+  return std::make_shared<TouchingCells>(samples);
+}
+
+} // namespace pcl_uvol
