@@ -39,6 +39,7 @@
   X(DrawArrays)                                                                        \
   X(DrawArraysInstanced)                                                               \
   X(DrawBuffers)                                                                       \
+  X(DrawElementsInstancedBaseVertex)                                                   \
   X(Enable)                                                                            \
   X(EnableVertexAttribArray)                                                           \
   X(Finish)                                                                            \
