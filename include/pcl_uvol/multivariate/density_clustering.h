@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hierarchical density-based clustering of the attributes of samples (thesis 2.6):
+// HDBSCAN* of Campello, Moulavi and Sander 2013.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/multivariate/attributes.h>
+
+#include <pcl/pcl_base.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief How clusters are found; the setters of DensityClustering tell more. */
+struct ClusteringParameters {
+  std::size_t neighbors = 10;
+  std::size_t min_cluster_size = 0; ///< 0: the larger one of 10 and root n
+  bool allow_single_cluster = false;
+  double cut_distance = 0.0; ///< 0: clusters are chosen by persistence
+  unsigned threads = 0;
+};
+
+/** \brief A cluster at some level of density, 1 / distance. It is born where a larger
+ * one splits and dies where it splits itself or its last point leaves it. */
+struct ClusterNode {
+  std::int32_t parent;  ///< index in the tree, less than the own one; -1: the root
+  double birth_density; ///< 0 of the root
+  double death_density;
+  std::uint32_t size; ///< points at its birth
+  double stability;   ///< excess of mass: sum over its points of the density where they
+                      ///< leave it or it dies, less that of its birth
+  std::int32_t label; ///< of the chosen cluster that it is; -1: it is not chosen
+};
+
+/** \brief Clusters of points. */
+struct Clustering {
+  std::vector<std::int32_t> labels; ///< per point: by decreasing size of the clusters,
+                                    ///< from 0, equal sizes by their first members; -1:
+                                    ///< noise
+  std::vector<float> probabilities; ///< of membership, in [0, 1]; 0 for noise
+  std::vector<ClusterNode> tree;    ///< the root first, parents before children
+};
+
+/** \brief The kernel of DensityClustering for any points.
+ * \param report gets the counts "points", "clusters" and "noise", and times
+ * \return per row of the table
+ * \throws InvalidArgument as DensityClustering::compute */
+PCL_UVOL_EXPORTS Clustering
+clusterAttributes(const AttributeTable& table,
+                  const ClusteringParameters& parameters,
+                  Report& report);
+
+/** \brief Clustering with labels and probabilities per point of a cloud: those without
+ * a row of the table have label -1 and probability 0. */
+PCL_UVOL_EXPORTS Clustering
+clusterCloud(const CloudView& cloud,
+             const std::vector<std::uint32_t>& use,
+             const std::vector<std::string>& names,
+             bool is_standardized,
+             const ClusteringParameters& parameters,
+             Report& report);
+
+/** \brief Finds clusters of samples by the density of their attributes.
+ *
+ * \code
+ * pcl_uvol::DensityClustering<pcl::PCLPointCloud2> clustering;
+ * clustering.setInputCloud(cloud);
+ * clustering.setAttributes({"temperature", "density", "|velocity|"});
+ * std::vector<int> labels;
+ * clustering.compute(labels);
+ * \endcode
+ * At a distance d those points hang together that a chain of steps of mutual
+ * reachability distance up to d connects. From large to small d the points split into
+ * ever denser clusters, a tree, while points in thin surroundings leave them as noise.
+ * Clusters are chosen in this tree where they persist: those that do not overlap and
+ * whose stabilities have the largest sum. No number of clusters is asked for; their
+ * shapes and densities may differ. The result does not depend on threads; equal
+ * distances part all at once, so that it does not depend on the order of the input
+ * either. Points at distance 0 count as if half the smallest distance there is were
+ * between them. Memory: about 230 bytes per point besides the cloud, with 6 attributes
+ * and 10 neighbours.
+ * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
+template <typename PointT>
+class DensityClustering : public pcl::PCLBase<PointT>, public Stage {
+public:
+  /** \brief Fields that span the space, see readAttributes; no default. */
+  void
+  setAttributes(const std::vector<std::string>& names)
+  {
+    names_ = names;
+  }
+
+  /** \brief Divide attributes by their standard deviations, so that units do not count;
+   * default true. */
+  void
+  setStandardized(bool is_standardized)
+  {
+    is_standardized_ = is_standardized;
+  }
+
+  /** \brief Nearest other points that the core distance of a point reaches to, up to
+   * 1000, default 10: more of them smooth the density. 0: plain distances, single
+   * linkage. */
+  void
+  setKSearch(std::size_t neighbors)
+  {
+    parameters_.neighbors = neighbors;
+  }
+
+  /** \brief Fewer points are no cluster: 2 or more; 0, the default, stands for the
+   * larger one of 10 and the square root of the number of points. */
+  void
+  setMinClusterSize(std::size_t size)
+  {
+    parameters_.min_cluster_size = size;
+  }
+
+  /** \brief Whether all points together may be the one cluster chosen; default false.
+   */
+  void
+  setAllowSingleCluster(bool allow_single_cluster)
+  {
+    parameters_.allow_single_cluster = allow_single_cluster;
+  }
+
+  /** \brief Choose the clusters at one distance instead, > 0, in units of the
+   * attributes or, if standardized, of standard deviations. 0, the default: by
+   * persistence. */
+  void
+  setCutDistance(double distance)
+  {
+    parameters_.cut_distance = distance;
+  }
+
+  /** \brief Find clusters.
+   * \param labels per point of the input cloud: clusters from 0 by decreasing size; -1
+   * for noise, points with missing values and those not in the indices
+   *
+   * Counts of the report: points (those clustered), missing_values, clusters, noise. No
+   * cluster is no error but a warning that tells what to change.
+   * \throws InvalidArgument without an input cloud, for parameters out of range, and as
+   * readAttributes; labels are then untouched */
+  void
+  compute(std::vector<int>& labels);
+
+  /** \brief How surely every point of the input cloud belongs to its cluster, in [0,
+   * 1]: the density at which it leaves, in parts of the one at which the cluster dies;
+   * 0 where the label is -1. */
+  const std::vector<float>&
+  getProbabilities() const
+  {
+    return probabilities_;
+  }
+
+  /** \brief All clusters at all densities. */
+  const std::vector<ClusterNode>&
+  getTree() const
+  {
+    return tree_;
+  }
+
+private:
+  std::vector<std::string> names_;
+  bool is_standardized_ = true;
+  ClusteringParameters parameters_;
+  std::vector<float> probabilities_;
+  std::vector<ClusterNode> tree_;
+};
+
+} // namespace pcl_uvol
