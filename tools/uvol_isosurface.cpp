@@ -127,23 +127,15 @@ declare(Options& options, Arguments& arguments)
 pcl_uvol::Dataset
 load(const Arguments& arguments, Report& report)
 {
-  const StepTimer timer(report, "read");
   pcl_uvol::LoadOptions options;
   for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
     options.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
     if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
       throw UsageError("-xyz takes three column numbers from 0.");
   }
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, options);
-  report.count("points", dataset.cloud.width);
-  report.warnings.insert(
-      report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
-  if (!arguments.where.empty())
-    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
-  if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(
-        arguments.input + " has no points" +
-        (arguments.where.empty() ? "." : " for which " + arguments.where + "."));
+  pcl_uvol::Dataset dataset =
+      uvol_tools::loadPoints(arguments.input, report, options, arguments.where);
+  report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
 }
 

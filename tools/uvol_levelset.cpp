@@ -10,6 +10,7 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/line_plot.h>
+#include <pcl_uvol/io/table_file.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <map>
@@ -192,13 +192,7 @@ writeTable(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
           << ',' << step.max_slope << ',' << step.slope_error << ',' << step.energy
           << ',' << step.reinitialized << '\n';
   }
-  pcl_uvol::writeAtomically(path, [&](const std::string& temporary_path) {
-    std::ofstream file(temporary_path);
-    file << table.str();
-    file.close();
-    if (!file)
-      throw pcl_uvol::IOError("Cannot write " + path + ".");
-  });
+  pcl_uvol::saveTable(path, table.str());
 }
 
 void
@@ -269,7 +263,7 @@ run(int argc, char** argv)
   const uvol_tools::ScaleOption scale(arguments.scale);
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
-    pcl_uvol::checkSavePath(arguments.table);
+    pcl_uvol::checkTablePath(arguments.table);
   if (!arguments.plot.empty())
     pcl_uvol::checkPngPath(arguments.plot);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace pcl_uvol {
@@ -101,6 +102,41 @@ originOf(const std::vector<double>& xyz)
   return origin;
 }
 
+/** \param values four bytes each */
+void
+replaceField(Dataset& dataset,
+             const std::string& name,
+             std::uint8_t datatype,
+             const void* values,
+             std::size_t count)
+{
+  pcl::PCLPointCloud2& cloud = dataset.cloud;
+  if (count != std::size_t{cloud.width} * cloud.height)
+    throw InvalidArgument("The field '" + name + "' has " + std::to_string(count) +
+                          " values for " + std::to_string(cloud.width) + " points.");
+  if (io::axisOf(name) >= 0)
+    throw InvalidArgument("The field '" + name + "' is a coordinate.");
+  // The old one becomes padding, which goes when the new one is packed.
+  for (auto& field : cloud.fields)
+    if (field.name == name)
+      field.name = "_";
+  pcl::PCLPointCloud2 packed = io::repack(cloud, true);
+  const std::size_t old_step = packed.point_step, new_step = old_step + 4;
+  io::appendField(packed.fields, name, datatype);
+  packed.fields.back().offset = static_cast<pcl::uindex_t>(old_step);
+  std::vector<std::uint8_t> data(new_step * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::memcpy(&data[i * new_step], &packed.data[i * old_step], old_step);
+    std::memcpy(&data[i * new_step + old_step],
+                static_cast<const std::uint8_t*>(values) + 4 * i,
+                4);
+  }
+  packed.data = std::move(data);
+  packed.point_step = static_cast<pcl::uindex_t>(new_step);
+  packed.row_step = static_cast<pcl::uindex_t>(new_step * count);
+  cloud = std::move(packed);
+}
+
 } // namespace
 
 Dataset
@@ -144,7 +180,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
     if (ending == ".pcd")
       io::writePcd(file, path, dataset, options);
     else if (ending == ".ply")
-      io::writePly(file, path, dataset, options);
+      io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
       io::writeVtp(file, path, dataset);
     else
@@ -192,6 +228,21 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
                   &relative,
                   sizeof(relative));
     }
+}
+
+void
+setField(Dataset& dataset, const std::string& name, const std::vector<float>& values)
+{
+  replaceField(
+      dataset, name, pcl::PCLPointField::FLOAT32, values.data(), values.size());
+}
+
+void
+setField(Dataset& dataset,
+         const std::string& name,
+         const std::vector<std::int32_t>& values)
+{
+  replaceField(dataset, name, pcl::PCLPointField::INT32, values.data(), values.size());
 }
 
 } // namespace pcl_uvol

@@ -2,6 +2,7 @@
 // The file formats behind loadDataset and saveDataset.
 #pragma once
 
+#include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <string>
@@ -35,10 +36,12 @@ writePcd(const std::string& file,
 void
 checkPlyFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields);
 
+/** \brief \param triangles faces over the points; may be empty */
 void
 writePly(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
+         const std::vector<Triangle>& triangles,
          const SaveOptions& options);
 
 void

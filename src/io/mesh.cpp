@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles of PLY files, and points spread over them.
 #include "files.h"
+#include "formats.h"
+#include "records.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/random.h>
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace pcl_uvol {
 
@@ -93,6 +96,46 @@ loadMesh(const std::string& path)
   if (mesh.triangles.empty())
     io::throwUnreadable(path, "it has no faces to spread points over");
   return mesh;
+}
+
+void
+saveMesh(const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles,
+         const SaveOptions& options)
+{
+  checkMeshPath(path);
+  checkSavePath(path, vertices.cloud.fields);
+  writeAtomically(path, [&](const std::string& file) {
+    io::writePly(file, path, vertices, triangles, options);
+  });
+}
+
+void
+checkMeshPath(const std::string& path)
+{
+  if (io::endingOf(path) != ".ply")
+    io::throwUnwritable(path, "meshes are written as .ply");
+  io::checkWritable(path);
+}
+
+Dataset
+toDataset(const Mesh& mesh)
+{
+  io::Fields fields;
+  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"})
+    io::appendField(fields, name, pcl::PCLPointField::FLOAT32);
+  Dataset dataset;
+  dataset.origin = mesh.origin;
+  dataset.cloud = io::makeRecords("", fields, mesh.vertices.size());
+  const auto normals = computeVertexNormals(mesh);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    std::uint8_t* const point = &dataset.cloud.data[i * dataset.cloud.point_step];
+    std::memcpy(point, mesh.vertices[i].data(), sizeof(mesh.vertices[i]));
+    std::memcpy(
+        point + sizeof(mesh.vertices[i]), normals[i].data(), sizeof(normals[i]));
+  }
+  return dataset;
 }
 
 std::vector<MeshPoint>

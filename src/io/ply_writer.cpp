@@ -35,6 +35,22 @@ unpackColors(const std::vector<Column>& columns)
   return unpacked;
 }
 
+void
+writeFaces(OutputFile& out, const std::vector<Triangle>& triangles, bool ascii)
+{
+  for (const Triangle& triangle : triangles) {
+    std::string& buffer = out.buffer();
+    if (ascii)
+      buffer += "3 " + std::to_string(triangle[0]) + ' ' + std::to_string(triangle[1]) +
+                ' ' + std::to_string(triangle[2]) + '\n';
+    else {
+      buffer += '\3';
+      buffer.append(reinterpret_cast<const char*>(triangle.data()), sizeof(triangle));
+    }
+    out.flushFull();
+  }
+}
+
 } // namespace
 
 std::uint8_t
@@ -97,6 +113,7 @@ void
 writePly(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
+         const std::vector<Triangle>& triangles,
          const SaveOptions& options)
 {
   Fields fields = savedFields(dataset);
@@ -120,8 +137,12 @@ writePly(const std::string& file,
   for (std::size_t i = 0; i < columns.size(); ++i)
     header += std::string("property ") + plyTypeName(columns[i].datatype) + ' ' +
               names[i] + '\n';
+  if (!triangles.empty())
+    header += "element face " + std::to_string(triangles.size()) +
+              "\nproperty list uchar int vertex_indices\n";
   header += "end_header\n";
   writeRecords(out, dataset, columns, options.ascii);
+  writeFaces(out, triangles, options.ascii);
   out.close();
 }
 

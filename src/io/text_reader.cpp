@@ -80,6 +80,10 @@ private:
   split(std::string_view line, Cells& cells) const;
   std::string_view
   takeQuoted(std::string_view line, std::size_t& at) const;
+  bool
+  namesCoordinates() const;
+  void
+  addOrigins();
   std::array<std::size_t, 3>
   findCoordinates();
   pcl::PCLPointCloud2
@@ -324,6 +328,38 @@ TextReader::findCoordinates()
   return found;
 }
 
+/** By x, y, z, or by first columns such as x_km, y_km, z_minus_dbar. */
+bool
+TextReader::namesCoordinates() const
+{
+  if (options_.xyz_columns != LoadOptions().xyz_columns ||
+      std::any_of(columns_.begin(), columns_.end(), [](const TextColumn& column) {
+        return axisOf(lowerCase(column.name)) >= 0;
+      }))
+    return true;
+  if (columns_.size() < 3)
+    return false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string name = lowerCase(columns_[axis].name);
+    const bool goes_on = name.size() > 1 && name[1] >= 'a' && name[1] <= 'z';
+    if (name.empty() || name[0] != static_cast<char>('x' + axis) || goes_on)
+      return false;
+  }
+  return true;
+}
+
+/** Coordinates for points that have none. */
+void
+TextReader::addOrigins()
+{
+  for (const char* const name : {"x", "y", "z"}) {
+    TextColumn column;
+    column.name = name;
+    column.values.assign(columns_[0].values.size(), 0.0);
+    columns_.push_back(std::move(column));
+  }
+}
+
 /** The columns that hold numbers, as records. */
 pcl::PCLPointCloud2
 TextReader::collect()
@@ -380,6 +416,9 @@ TextReader::read()
   while (lines_.next(line))
     if (!trimmed(line).empty() && line[0] != '#')
       parseRow(line);
+  const bool has_coordinates = options_.needs_coordinates || namesCoordinates();
+  if (!has_coordinates)
+    addOrigins();
   const auto coordinates = findCoordinates();
   std::vector<TextColumn> ordered;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -394,6 +433,7 @@ TextReader::read()
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   Dataset dataset = makeDataset(path_, collect());
   dataset.double_coordinates = doubles;
+  dataset.has_coordinates = has_coordinates;
   dataset.notes.insert(dataset.notes.begin(), notes_.begin(), notes_.end());
   return dataset;
 }

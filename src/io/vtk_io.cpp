@@ -368,19 +368,9 @@ void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset)
 {
   const auto data = polyDataOf(dataset);
-  const VtkMessages messages;
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
-  writer->SetFileName(file.c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1); // the mantissas of floats hardly shrink further
-  const bool written = writer->Write() != 0;
-  if (!messages.getError().empty())
-    throwUnwritable(path, "VTK says: " + messages.getError());
-  if (!written || writer->GetErrorCode() != 0)
-    throwUnwritable(path, "VTK could not write it, is the disk full?");
+  writeXml(*writer, file, path);
 }
 
 } // namespace io

@@ -2,11 +2,13 @@
 // An output window for VTK that prints nothing.
 #include "vtk_messages.h"
 
+#include "files.h"
 #include "numbers.h"
 
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkXMLWriter.h>
 
 #include <algorithm>
 
@@ -80,6 +82,22 @@ VtkMessages::~VtkMessages()
   static_cast<KeepingWindow*>(vtkOutputWindow::GetInstance())->error = nullptr;
   vtkOutputWindow::SetInstance(previous_);
   vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(verbosity_));
+}
+
+void
+writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path)
+{
+  const VtkMessages messages;
+  writer.SetFileName(file.c_str());
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  writer.SetCompressorTypeToZLib();
+  writer.SetCompressionLevel(1); // the mantissas of floats hardly shrink further
+  const bool written = writer.Write() != 0;
+  if (!messages.getError().empty())
+    throwUnwritable(path, "VTK says: " + messages.getError());
+  if (!written || writer.GetErrorCode() != 0)
+    throwUnwritable(path, "VTK could not write it, is the disk full?");
 }
 
 } // namespace io

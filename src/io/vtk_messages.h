@@ -9,6 +9,7 @@
 #include <string>
 
 class vtkOutputWindow;
+class vtkXMLWriter;
 
 namespace pcl_uvol {
 namespace io {
@@ -38,6 +39,12 @@ private:
   std::string error_;
   int verbosity_;
 };
+
+/** \brief Write what a writer was given, compressed in its binary part.
+ * \param file where it is written to \param path the name that errors give
+ * \throws IOError */
+void
+writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path);
 
 } // namespace io
 } // namespace pcl_uvol

@@ -170,10 +170,7 @@ VoronoiGrid::VoronoiGrid(const GridShape& shape,
       const std::uint32_t cell = placed[i].cell;
       if (i == 0 || cell != placed[i - 1].cell) {
         members_.offsets.push_back(i);
-        const std::uint32_t row = cell / shape_.cells[0];
-        sites_.push_back({{static_cast<std::uint16_t>(cell % shape_.cells[0]),
-                           static_cast<std::uint16_t>(row % shape_.cells[1]),
-                           static_cast<std::uint16_t>(row / shape_.cells[1])}});
+        sites_.push_back(shape_.cellOf(cell));
       }
       members_.indices.push_back(placed[i].point);
     }
@@ -185,18 +182,17 @@ VoronoiGrid::VoronoiGrid(const GridShape& shape,
 }
 
 std::vector<float>
-VoronoiGrid::computeDistances(unsigned threads) const
+siteDistances(const GridShape& shape,
+              const std::vector<GridCell>& sites,
+              const std::vector<std::uint32_t>& nearest,
+              unsigned threads)
 {
-  std::vector<float> distances(nearest_.size());
-  parallelBlocks(shape_.cells[2], 1, threads, [&](std::size_t z, std::size_t) {
-    std::size_t index = z * shape_.cells[1] * shape_.cells[0];
-    for (std::size_t y = 0; y < shape_.cells[1]; ++y)
-      for (std::size_t x = 0; x < shape_.cells[0]; ++x, ++index)
-        distances[index] =
-            static_cast<float>(shape_.distance({{static_cast<std::uint16_t>(x),
-                                                 static_cast<std::uint16_t>(y),
-                                                 static_cast<std::uint16_t>(z)}},
-                                               sites_[nearest_[index]]));
+  std::vector<float> distances(nearest.size());
+  parallelBlocks(nearest.size(), shape.cells[0], threads, [&](auto begin, auto end) {
+    GridCell cell = shape.cellOf(begin); // the first one of a row
+    for (std::size_t index = begin; index < end; ++index, ++cell[0])
+      distances[index] =
+          static_cast<float>(shape.distance(cell, sites[nearest[index]]));
   });
   return distances;
 }

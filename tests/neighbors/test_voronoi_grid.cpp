@@ -24,15 +24,6 @@ using pcl_uvol::Report;
 using pcl_uvol::uniformAt;
 using pcl_uvol::VoronoiGrid;
 
-GridCell
-cellOf(const GridShape& shape, std::uint64_t index)
-{
-  const std::uint64_t row = index / shape.cells[0];
-  return {{static_cast<std::uint16_t>(index % shape.cells[0]),
-           static_cast<std::uint16_t>(row % shape.cells[1]),
-           static_cast<std::uint16_t>(row / shape.cells[1])}};
-}
-
 /** About that many random cells, in order. */
 std::vector<GridCell>
 randomSites(const GridShape& shape, double number, std::uint64_t seed)
@@ -40,7 +31,7 @@ randomSites(const GridShape& shape, double number, std::uint64_t seed)
   std::vector<GridCell> sites;
   for (std::uint64_t i = 0; i < shape.size(); ++i)
     if (uniformAt(seed, i, 0) * static_cast<double>(shape.size()) < number)
-      sites.push_back(cellOf(shape, i));
+      sites.push_back(shape.cellOf(i));
   return sites;
 }
 
@@ -50,7 +41,7 @@ nearestByBruteForce(const GridShape& shape, const std::vector<GridCell>& sites)
 {
   std::vector<std::uint32_t> nearest(shape.size(), no_site);
   for (std::uint64_t i = 0; i < shape.size(); ++i) {
-    const GridCell cell = cellOf(shape, i);
+    const GridCell cell = shape.cellOf(i);
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t site = 0; site < sites.size(); ++site) {
       double sq_dist = 0.0;
@@ -136,7 +127,7 @@ TEST(FeatureTransform, IsNearestForAnySpacing)
     const auto expected = nearestByBruteForce(shape, sites);
     const auto nearest = transform(shape, sites);
     for (std::uint64_t i = 0; i < shape.size(); ++i) {
-      const GridCell cell = cellOf(shape, i);
+      const GridCell cell = shape.cellOf(i);
       const double least = shape.distance(cell, sites[expected[i]]);
       EXPECT_LE(shape.distance(cell, sites[nearest[i]]), least * (1.0 + 1e-5));
     }
@@ -251,7 +242,7 @@ TEST(VoronoiGrid, DistancesAreThoseBetweenCenters)
     double least = 1e30;
     for (const GridCell& site : grid.getSites())
       least =
-          std::min(least, grid.getShape().distance(cellOf(grid.getShape(), i), site));
+          std::min(least, grid.getShape().distance(grid.getShape().cellOf(i), site));
     EXPECT_FLOAT_EQ(static_cast<float>(least), distances[i]);
   }
 }
@@ -265,7 +256,7 @@ TEST(VoronoiGrid, AdjacentRegionsShareAPoint)
   std::vector<std::set<std::uint32_t>> expected(grid.getSites().size());
   for (std::uint64_t i = 0; i < nearest.size(); ++i)
     for (std::uint64_t j = 0; j < nearest.size(); ++j) {
-      const GridCell a = cellOf(grid.getShape(), i), b = cellOf(grid.getShape(), j);
+      const GridCell a = grid.getShape().cellOf(i), b = grid.getShape().cellOf(j);
       const bool touch = std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 &&
                          std::abs(a[2] - b[2]) <= 1;
       if (touch && nearest[i] != nearest[j])

@@ -6,14 +6,20 @@
 namespace uvol_tools {
 
 pcl_uvol::Dataset
-loadPoints(const std::string& path, pcl_uvol::Report& report)
+loadPoints(const std::string& path,
+           pcl_uvol::Report& report,
+           const pcl_uvol::LoadOptions& options,
+           const std::string& where)
 {
   const pcl_uvol::StepTimer timer(report, "read");
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, options);
   report.warnings.insert(
       report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  if (!where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(dataset, where));
   if (dataset.cloud.width == 0)
-    throw pcl_uvol::InvalidArgument(path + " has no points.");
+    throw pcl_uvol::InvalidArgument(
+        path + " has no points" + (where.empty() ? "." : " for which " + where + "."));
   return dataset;
 }
 

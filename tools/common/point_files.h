@@ -10,9 +10,13 @@
 namespace uvol_tools {
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
+ * \param where keep only the points for which that holds, see selectRows; "": all
  * \throws IOError, and InvalidArgument for a file without points */
 pcl_uvol::Dataset
-loadPoints(const std::string& path, pcl_uvol::Report& report);
+loadPoints(const std::string& path,
+           pcl_uvol::Report& report,
+           const pcl_uvol::LoadOptions& options = {},
+           const std::string& where = "");
 
 /** \brief Write a file, as a step of the report. \throws IOError */
 void

@@ -8,6 +8,7 @@
 #include <pcl/PCLPointCloud2.h>
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct PCL_UVOL_EXPORTS Dataset {
   std::array<double, 3> origin{{0.0, 0.0, 0.0}};
   /** The coordinates came in double: they are written in double. */
   bool double_coordinates = false;
+  /** False: the file has none, and x, y, z are 0; see LoadOptions. */
+  bool has_coordinates = true;
   /** One sentence each: what reading had to decide (columns taken as coordinates, list
    * properties left out, ...). */
   std::vector<std::string> notes;
@@ -39,6 +42,9 @@ struct PCL_UVOL_EXPORTS LoadOptions {
   /** Columns (from 0) that hold the coordinates of a text file; {-1, -1, -1} finds them
    * by name. */
   std::array<int, 3> xyz_columns{{-1, -1, -1}};
+  /** False: a text file whose header names no coordinates, by x, y and z or by first
+   * columns such as x_km, y_km, z_km, is taken for data without positions. */
+  bool needs_coordinates = true;
 };
 
 /** \brief How a file is written. */
@@ -79,6 +85,17 @@ checkSavePath(const std::string& path,
  * \throws InvalidArgument unless there are three per point, none beyond float */
 PCL_UVOL_EXPORTS void
 setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
+
+/** \brief Add a field of single numbers behind the others, or replace the one of that
+ * name. \param values one per point \throws InvalidArgument for another number of
+ * values, and for x, y and z @{ */
+PCL_UVOL_EXPORTS void
+setField(Dataset& dataset, const std::string& name, const std::vector<float>& values);
+PCL_UVOL_EXPORTS void
+setField(Dataset& dataset,
+         const std::string& name,
+         const std::vector<std::int32_t>& values);
+/** @} */
 
 /** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
  * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right

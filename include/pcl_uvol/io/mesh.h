@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangle meshes, to scatter points over: test data for everything that takes
+// Meshes as files, and points spread over them: test data for everything that takes
 // surfaces.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <array>
 #include <cstdint>
@@ -12,17 +14,28 @@
 
 namespace pcl_uvol {
 
-/** \brief Vertices and triangles, wound counter-clockwise as seen from outside. */
-struct Mesh {
-  std::vector<std::array<float, 3>> vertices;
-  std::array<double, 3> origin{{0.0, 0.0, 0.0}}; ///< to be added to the vertices
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
 /** \brief Read a PLY mesh; polygons become fans of triangles.
  * \throws IOError in one sentence, also for a file without faces */
 PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
+
+/** \brief Write a mesh as PLY. The file appears whole or not at all.
+ * \param vertices with any fields \throws IOError, also for a name that does not end in
+ * .ply */
+PCL_UVOL_EXPORTS void
+saveMesh(const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles,
+         const SaveOptions& options = {});
+
+/** \brief Throw IOError unless the name ends in .ply and its folder can be written to.
+ */
+PCL_UVOL_EXPORTS void
+checkMeshPath(const std::string& path);
+
+/** \brief The vertices of a mesh with their normals, as points. */
+PCL_UVOL_EXPORTS Dataset
+toDataset(const Mesh& mesh);
 
 /** \brief A point on a mesh, relative to its origin, and the normal of its triangle. */
 struct MeshPoint {

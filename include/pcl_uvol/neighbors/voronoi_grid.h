@@ -57,6 +57,25 @@ struct PCL_UVOL_EXPORTS GridShape {
     return (std::uint64_t{cell[2]} * cells[1] + cell[1]) * cells[0] + cell[0];
   }
 
+  /** \brief The cell of a number. */
+  GridCell
+  cellOf(std::uint64_t index) const
+  {
+    const std::uint64_t row = index / cells[0];
+    return {{static_cast<std::uint16_t>(index % cells[0]),
+             static_cast<std::uint16_t>(row % cells[1]),
+             static_cast<std::uint16_t>(row / cells[1])}};
+  }
+
+  /** \brief The centre of a cell. */
+  std::array<double, 3>
+  centerOf(const GridCell& cell) const
+  {
+    return {{origin[0] + (cell[0] + 0.5) * spacing[0],
+             origin[1] + (cell[1] + 0.5) * spacing[1],
+             origin[2] + (cell[2] + 0.5) * spacing[2]}};
+  }
+
   /** \brief The cell of a place; places outside are taken to the border. */
   GridCell
   cellAt(const std::array<double, 3>& place) const;
@@ -101,6 +120,14 @@ public:
        unsigned threads,
        Report& report) override;
 };
+
+/** \brief Per cell the distance to its site, between the centres of cells, in units of
+ * the coordinates. \param nearest site of every cell, none of them no_site */
+PCL_UVOL_EXPORTS std::vector<float>
+siteDistances(const GridShape& shape,
+              const std::vector<GridCell>& sites,
+              const std::vector<std::uint32_t>& nearest,
+              unsigned threads);
 
 /** \brief The discrete Voronoi diagram of samples (Definition 2.2): sites are the cells
  * that hold samples. Memory: 4 bytes per cell and 8 per sample. */
@@ -149,10 +176,12 @@ public:
     return nearest_;
   }
 
-  /** \brief Per cell the distance to its site, between the centres of cells, in units
-   * of the coordinates. */
+  /** \brief The distance field: siteDistances of the diagram. */
   std::vector<float>
-  computeDistances(unsigned threads) const;
+  computeDistances(unsigned threads) const
+  {
+    return siteDistances(shape_, sites_, nearest_, threads);
+  }
 
   /** \brief Sites whose Voronoi regions share a point, cell against cell: a row per
    * site, ascending, without the site itself. */

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.h"
+#include "vtk_messages.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/grid_file.h>
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedIntArray.h>
+#include <vtkXMLImageDataWriter.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+void
+fillImage(const VoronoiGrid& grid,
+          const std::array<double, 3>& origin,
+          unsigned threads,
+          vtkImageData* image)
+{
+  const GridShape& shape = grid.getShape();
+  std::array<double, 3> first{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    first[axis] = origin[axis] + shape.origin[axis] + 0.5 * shape.spacing[axis];
+  image->SetDimensions(static_cast<int>(shape.cells[0]),
+                       static_cast<int>(shape.cells[1]),
+                       static_cast<int>(shape.cells[2]));
+  image->SetOrigin(first.data());
+  image->SetSpacing(shape.spacing.data());
+  const auto count = static_cast<vtkIdType>(shape.size());
+  vtkNew<vtkUnsignedIntArray> sites;
+  sites->SetName("site");
+  sites->SetNumberOfValues(count);
+  std::transform(grid.getNearest().begin(),
+                 grid.getNearest().end(),
+                 sites->GetPointer(0),
+                 [&](std::uint32_t site) { return *grid.getMembers()[site].begin(); });
+  vtkNew<vtkFloatArray> distances;
+  distances->SetName("distance");
+  distances->SetNumberOfValues(count);
+  const std::vector<float> values = grid.computeDistances(threads);
+  std::copy(values.begin(), values.end(), distances->GetPointer(0));
+  image->GetPointData()->AddArray(sites);
+  image->GetPointData()->SetScalars(distances);
+}
+
+} // namespace
+
+void
+saveVoronoiGrid(const std::string& path,
+                const VoronoiGrid& grid,
+                const std::array<double, 3>& origin,
+                unsigned threads)
+{
+  checkGridPath(path);
+  vtkNew<vtkImageData> image;
+  fillImage(grid, origin, threads, image);
+  writeAtomically(path, [&](const std::string& file) {
+    vtkNew<vtkXMLImageDataWriter> writer;
+    writer->SetInputData(image);
+    io::writeXml(*writer, file, path);
+  });
+}
+
+void
+checkGridPath(const std::string& path)
+{
+  if (io::endingOf(path) != ".vti")
+    io::throwUnwritable(path, "grids are written as .vti");
+  io::checkWritable(path);
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "files.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/table_file.h>
+
+namespace pcl_uvol {
+
+void
+saveTable(const std::string& path, const std::string& text)
+{
+  checkTablePath(path);
+  writeAtomically(path, [&](const std::string& temporary_path) {
+    io::OutputFile file(temporary_path, path);
+    file.buffer() = text;
+    file.close();
+  });
+}
+
+void
+checkTablePath(const std::string& path)
+{
+  if (io::endingOf(path) != ".csv")
+    io::throwUnwritable(path, "tables are written as .csv");
+  io::checkWritable(path);
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/multivariate/cluster_hull.h>
+#include <pcl_uvol/multivariate/mesh_distance.h>
+#include <pcl_uvol/multivariate/spanning_tree.h>
+#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/vtk/cluster_surface.h>
+#include <pcl_uvol/vtk/contour.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Cells beyond the surface: it must not leave the grid. */
+constexpr std::uint32_t margin = 2;
+
+/** Distances below that, in cells, leave bubbles around each point. */
+constexpr double smallest_distance = 1.5;
+
+std::vector<Position>
+finitePositions(const CloudView& cloud, const std::vector<std::uint32_t>& members)
+{
+  std::vector<Position> positions;
+  for (const std::uint32_t member : members) {
+    const float* const p = cloud.xyz(member);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+      positions.push_back({{p[0], p[1], p[2]}});
+  }
+  return positions;
+}
+
+/** A grid over everything within a distance of points. */
+GridShape
+shapeAround(const std::vector<Position>& positions,
+            double distance,
+            std::uint32_t cells)
+{
+  std::array<double, 3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
+  for (const Position& position : positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], position.x[axis] - distance);
+      high[axis] = std::max(high[axis], position.x[axis] + distance);
+    }
+  return GridShape::cubes(low, high, cells, margin);
+}
+
+/** The distance to use: beyond the longest edge of the spanning tree unless given. */
+double
+chooseDistance(const std::vector<Position>& positions,
+               const ClusterSurfaceSettings& settings,
+               Report& report)
+{
+  if (!(settings.distance >= 0.0) || !std::isfinite(settings.distance))
+    throw InvalidArgument("The distance of a surface from a cluster is a number above "
+                          "0, or 0 for that of the spanning tree.");
+  const double longest = longestSpanningEdge(positions, settings.threads, report);
+  if (settings.distance > 0.0) {
+    if (settings.distance < 0.5 * longest)
+      report.warnings.push_back(
+          "The longest edge of the cluster's spanning tree is " +
+          std::to_string(longest) +
+          ": at less than half of it the surface falls into pieces.");
+    return settings.distance;
+  }
+  if (longest == 0.0)
+    throw InvalidArgument("All points of the cluster lie at one place, which gives no "
+                          "distance: it must be given.");
+  // One cell more: the field is known between the centres of cells only.
+  return longest + shapeAround(positions, longest, settings.cells).spacing[0];
+}
+
+/** The site whose cell is nearest to every vertex: one of those of the cells around. */
+std::vector<std::uint32_t>
+regionsOf(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid& grid)
+{
+  const GridShape& shape = grid.getShape();
+  std::vector<std::uint32_t> regions;
+  regions.reserve(vertices.size());
+  for (const auto& vertex : vertices) {
+    std::uint32_t region = no_site;
+    double least = std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 8; ++corner) {
+      std::array<double, 3> place{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        place[axis] = vertex[axis] + ((corner >> axis & 1) - 0.5) * shape.spacing[axis];
+      const std::uint32_t site = grid.getNearest()[shape.indexOf(shape.cellAt(place))];
+      const auto center = shape.centerOf(grid.getSites()[site]);
+      const double distance = std::hypot(
+          center[0] - vertex[0], center[1] - vertex[1], center[2] - vertex[2]);
+      if (distance < least || (distance == least && site < region)) {
+        least = distance;
+        region = site;
+      }
+    }
+    regions.push_back(region);
+  }
+  return regions;
+}
+
+/** Turns a surface at a distance into the hull. */
+void
+shrinkToHull(const CloudView& cloud,
+             const VoronoiGrid& grid,
+             ClusterSurface& surface,
+             Report& report)
+{
+  const StepTimer timer(report, "hull");
+  const ClusterHull hull =
+      makeClusterHull(surface.mesh.triangles, regionsOf(surface.mesh.vertices, grid));
+  if (hull.triangles.empty())
+    throw InvalidArgument(
+        "The cluster has no hull: fewer than three of its points meet "
+        "on a surface around them.");
+  surface.mesh.vertices.clear();
+  for (const std::uint32_t site : hull.regions) {
+    const std::uint32_t point = *grid.getMembers()[site].begin();
+    const float* const p = cloud.xyz(point);
+    surface.points.push_back(point);
+    surface.mesh.vertices.push_back({{p[0], p[1], p[2]}});
+  }
+  surface.mesh.triangles = hull.triangles;
+  report.count("split_pieces", hull.split_pieces);
+}
+
+} // namespace
+
+ClusterSurface
+makeClusterSurface(const CloudView& cloud,
+                   const std::vector<std::uint32_t>& members,
+                   ClusterSurfaceKind kind,
+                   const ClusterSurfaceSettings& settings,
+                   Report& report)
+{
+  const std::vector<Position> positions = finitePositions(cloud, members);
+  if (positions.empty())
+    throw InvalidArgument("The cluster has no point with finite coordinates.");
+  report.count("members", positions.size());
+  ClusterSurface surface;
+  surface.distance = chooseDistance(positions, settings, report);
+  const GridShape shape = shapeAround(positions, surface.distance, settings.cells);
+  if (surface.distance < smallest_distance * shape.spacing[0])
+    throw InvalidArgument("The distance " + std::to_string(surface.distance) +
+                          " is too small for cells of " +
+                          std::to_string(shape.spacing[0]) +
+                          ": choose a finer grid or a larger distance.");
+  FeatureTransform way;
+  const VoronoiGrid grid(
+      shape, cloud.xyz(0), cloud.stride(), members, way, settings.threads, report);
+  const auto contour = [&](const std::vector<float>& distances) {
+    const StepTimer timer(report, "contour");
+    surface.mesh = contourGrid(shape, distances, surface.distance);
+  };
+  contour(grid.computeDistances(settings.threads));
+  if (kind != ClusterSurfaceKind::Distance)
+    shrinkToHull(cloud, grid, surface, report);
+  if (kind == ClusterSurfaceKind::HullDistance) {
+    contour(distanceToMesh(shape, surface.mesh, settings.threads, report));
+    surface.points.clear();
+  }
+  report.count("vertices", surface.mesh.vertices.size());
+  report.count("triangles", surface.mesh.triangles.size());
+  return surface;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Clusters of samples by their attributes, and surfaces around them (thesis 2.6).
+#include "common/attribute_options.h"
+#include "common/options.h"
+#include "common/point_files.h"
+#include "common/progress_bar.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/table_file.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/multivariate/density_clustering.h>
+#include <pcl_uvol/multivariate/membership.h>
+#include <pcl_uvol/vtk/cluster_surface.h>
+
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::Report;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+struct Arguments {
+  std::string input, output, where, label, tree, surface, probability, smoothing;
+  uvol_tools::AttributeOptions attributes;
+  std::uint64_t k = 10, min_size = 0, grid = 128;
+  double cut = 0.0, distance = 0.0;
+  std::vector<double> cluster;
+  bool single = false, ascii = false;
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  constexpr double huge = std::numeric_limits<double>::max();
+  options.file("in", arguments.input);
+  options.file("out", arguments.output);
+  arguments.attributes.declare(options);
+  options.text("where",
+               "expr",
+               arguments.where,
+               "use only the points for which it holds: \"cu>=0.6 && ni>0.1\"");
+  options.integer(
+      "k", arguments.k, 0, 1000, "nearest neighbours that tell the density");
+  options.integer("min-size",
+                  arguments.min_size,
+                  2,
+                  std::numeric_limits<std::uint32_t>::max(),
+                  "fewer points are no cluster (default: the larger one of 10 and the "
+                  "square root of their number)");
+  options.number("cut",
+                 arguments.cut,
+                 std::numeric_limits<double>::min(),
+                 huge,
+                 "choose the clusters at that distance of attributes, not by "
+                 "persistence");
+  options.flag("single", arguments.single, "all points may be one cluster");
+  options.text("tree", "out.csv", arguments.tree, "write the tree of clusters");
+  options.text("label",
+               "name",
+               arguments.label,
+               "field of the input that tells the clusters, instead of -attributes "
+               "(default: label)");
+  options.numbers(
+      "cluster", "n", 1, arguments.cluster, "choose the points of a cluster");
+  options.choice(
+      "surface",
+      {"membership", "distance", "hull", "hull-distance"},
+      arguments.surface,
+      "write a surface of -cluster: between its samples and the others, at a "
+      "distance from its points, through its outer points, at a distance "
+      "from those");
+  options.text("probability",
+               "name",
+               arguments.probability,
+               "membership: a field in [0, 1] instead of 0 and 1");
+  options.text("smoothing-length",
+               "name",
+               arguments.smoothing,
+               "membership: smooth it by the kernel of SPH with that field as the "
+               "particles' smoothing lengths");
+  options.integer("grid",
+                  arguments.grid,
+                  4,
+                  pcl_uvol::GridShape::largest_side,
+                  "cells of the distance field along the longest side");
+  options.number("distance",
+                 arguments.distance,
+                 std::numeric_limits<double>::min(),
+                 huge,
+                 "of the surface (default: just beyond the longest edge of the points' "
+                 "minimum spanning tree)");
+  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+}
+
+bool
+isMesh(const Arguments& arguments)
+{
+  return !arguments.surface.empty() && arguments.surface != "membership";
+}
+
+void
+check(const Options& options, const Arguments& arguments)
+{
+  if (!arguments.surface.empty() && arguments.cluster.empty())
+    throw UsageError("-surface needs -cluster: choose one.");
+  if (!arguments.cluster.empty() &&
+      (arguments.cluster[0] != static_cast<std::int32_t>(arguments.cluster[0])))
+    throw UsageError("-cluster is a whole number: the label of a cluster.");
+  if (arguments.attributes.areGiven() && options.given("label"))
+    throw UsageError("-attributes finds clusters and -label reads them: give one.");
+  for (const char* const name : {"k", "min-size", "cut", "single", "tree", "raw"})
+    if (options.given(name) && !arguments.attributes.areGiven())
+      throw UsageError(std::string("-") + name + " needs -attributes.");
+  for (const char* const name : {"grid", "distance"})
+    if (options.given(name) && !isMesh(arguments))
+      throw UsageError(std::string("-") + name +
+                       " needs -surface distance, hull or hull-distance.");
+  for (const char* const name : {"probability", "smoothing-length"})
+    if (options.given(name) && arguments.surface != "membership")
+      throw UsageError(std::string("-") + name + " needs -surface membership.");
+  pcl_uvol::checkSavePath(arguments.output);
+  if (isMesh(arguments))
+    pcl_uvol::checkMeshPath(arguments.output);
+  if (!arguments.tree.empty())
+    pcl_uvol::checkTablePath(arguments.tree);
+}
+
+void
+writeTree(const std::string& path, const std::vector<pcl_uvol::ClusterNode>& tree)
+{
+  std::ostringstream table;
+  table << "node,parent,birth_density,death_density,size,stability,label\n";
+  for (std::size_t i = 0; i < tree.size(); ++i)
+    table << i << ',' << tree[i].parent << ',' << tree[i].birth_density << ','
+          << tree[i].death_density << ',' << tree[i].size << ',' << tree[i].stability
+          << ',' << tree[i].label << '\n';
+  pcl_uvol::saveTable(path, table.str());
+}
+
+/** Finds clusters and adds the fields label and probability. */
+std::vector<std::int32_t>
+findClusters(const Options& options,
+             const Arguments& arguments,
+             Dataset& dataset,
+             Report& report)
+{
+  pcl_uvol::ClusteringParameters parameters;
+  parameters.neighbors = arguments.k;
+  parameters.min_cluster_size = arguments.min_size;
+  parameters.allow_single_cluster = arguments.single;
+  parameters.cut_distance = arguments.cut;
+  parameters.threads = options.threads();
+  const auto table = arguments.attributes.read(
+      options, dataset, arguments.attributes.required(), report);
+  const auto rows = pcl_uvol::clusterAttributes(table, parameters, report);
+  const std::size_t count = dataset.cloud.width;
+  std::vector<std::int32_t> labels(count, -1);
+  std::vector<float> probabilities(count, 0.0f);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    labels[table.points[row]] = rows.labels[row];
+    probabilities[table.points[row]] = rows.probabilities[row];
+  }
+  pcl_uvol::setField(dataset, "label", labels);
+  pcl_uvol::setField(dataset, "probability", probabilities);
+  if (!arguments.tree.empty())
+    writeTree(arguments.tree, rows.tree);
+  return labels;
+}
+
+std::vector<std::int32_t>
+labelsOf(const Options& options,
+         const Arguments& arguments,
+         Dataset& dataset,
+         Report& report)
+{
+  if (arguments.attributes.areGiven())
+    return findClusters(options, arguments, dataset, report);
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  const std::string field = uvol_tools::labelField(cloud, arguments.label);
+  if (field.empty())
+    throw UsageError("The input has no field label: find clusters by -attributes, or "
+                     "name their field by -label.");
+  return uvol_tools::readLabels(cloud, field);
+}
+
+std::vector<float>
+readField(const pcl_uvol::CloudView& cloud, const std::string& name)
+{
+  const pcl_uvol::ScalarField field(cloud.fields, name);
+  std::vector<float> values(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    values[i] = static_cast<float>(field.read(cloud.point(i)));
+  return values;
+}
+
+/** The surface between the samples of a cluster and the others. */
+Dataset
+membershipSurface(const Options& options,
+                  const Arguments& arguments,
+                  const Dataset& dataset,
+                  std::vector<float> members,
+                  Report& report)
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  if (!arguments.probability.empty()) {
+    // Of other clusters it tells nothing about this one.
+    const auto probabilities = readField(cloud, arguments.probability);
+    std::transform(members.begin(),
+                   members.end(),
+                   probabilities.begin(),
+                   members.begin(),
+                   std::multiplies<float>());
+  }
+  const bool is_smooth = !arguments.smoothing.empty();
+  if (is_smooth)
+    members = pcl_uvol::smoothMembership(cloud,
+                                         members,
+                                         readField(cloud, arguments.smoothing),
+                                         options.threads(),
+                                         report);
+  Dataset field = dataset;
+  pcl_uvol::setField(field, "membership", members);
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&field.cloud, [](const void*) {}));
+  extraction.setScalarField("membership");
+  extraction.setIsoValue(0.5);
+  extraction.setInterpolation(is_smooth ? pcl_uvol::Interpolation::Smooth
+                                        : pcl_uvol::Interpolation::Linear);
+  extraction.setNumberOfThreads(options.threads());
+  extraction.setProgressCallback(report.progress);
+  pcl::PointCloud<PointIso> isopoints;
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+  Dataset surface;
+  surface.origin = dataset.origin;
+  surface.double_coordinates = dataset.double_coordinates;
+  pcl::toPCLPointCloud2(isopoints, surface.cloud);
+  pcl_uvol::interpolateFields(
+      dataset.cloud, extraction.getEdges(), surface.cloud, options.threads());
+  return surface;
+}
+
+pcl_uvol::ClusterSurface
+enclose(const Options& options,
+        const Arguments& arguments,
+        const Dataset& dataset,
+        const std::vector<std::uint32_t>& members,
+        Report& report)
+{
+  using Kind = pcl_uvol::ClusterSurfaceKind;
+  pcl_uvol::ClusterSurfaceSettings settings;
+  settings.cells = static_cast<std::uint32_t>(arguments.grid);
+  settings.distance = arguments.distance;
+  settings.threads = options.threads();
+  return pcl_uvol::makeClusterSurface(
+      pcl_uvol::viewOf(dataset.cloud),
+      members,
+      std::map<std::string, Kind>{
+          {"distance", Kind::Distance},
+          {"hull", Kind::Hull},
+          {"hull-distance", Kind::HullDistance}}[arguments.surface],
+      settings,
+      report);
+}
+
+/** Vertices of hulls carry the fields of their points. */
+Dataset
+verticesOf(const Dataset& dataset, const pcl_uvol::ClusterSurface& surface)
+{
+  Dataset vertices = pcl_uvol::toDataset(surface.mesh);
+  vertices.origin = dataset.origin;
+  vertices.double_coordinates = dataset.double_coordinates;
+  if (!surface.points.empty())
+    pcl_uvol::copyFields(dataset.cloud, surface.points, vertices.cloud);
+  return vertices;
+}
+
+/** Writes what is asked for of the chosen cluster. */
+void
+writeCluster(const Options& options,
+             const Arguments& arguments,
+             const Dataset& dataset,
+             const std::vector<std::int32_t>& labels,
+             Facts& facts,
+             Report& report)
+{
+  pcl_uvol::SaveOptions save;
+  save.ascii = arguments.ascii;
+  const std::vector<float> is_member =
+      pcl_uvol::membership(labels, static_cast<std::int32_t>(arguments.cluster[0]));
+  std::vector<std::uint32_t> members;
+  for (std::uint32_t i = 0; i < is_member.size(); ++i)
+    if (is_member[i] > 0.0f)
+      members.push_back(i);
+  report.count("cluster_points", members.size());
+  if (arguments.surface.empty()) {
+    uvol_tools::savePoints(
+        arguments.output, uvol_tools::takePoints(dataset, members), save, report);
+    return;
+  }
+  if (!dataset.has_coordinates)
+    throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
+                                    "in: uvol_project gives it some.");
+  if (!isMesh(arguments)) {
+    const Dataset surface =
+        membershipSurface(options, arguments, dataset, is_member, report);
+    uvol_tools::savePoints(arguments.output, surface, save, report);
+    return;
+  }
+  const auto surface = enclose(options, arguments, dataset, members, report);
+  std::ostringstream distance;
+  distance << surface.distance;
+  facts.emplace_back("distance", distance.str());
+  const pcl_uvol::StepTimer timer(report, "write");
+  pcl_uvol::saveMesh(
+      arguments.output, verticesOf(dataset, surface), surface.mesh.triangles, save);
+}
+
+/** "0: 812, 1: 77, noise: 5". */
+std::string
+describeSizes(const std::vector<std::int32_t>& labels)
+{
+  constexpr std::size_t most = 12;
+  std::map<std::int32_t, std::size_t> sizes;
+  for (const std::int32_t label : labels)
+    ++sizes[label < 0 ? std::numeric_limits<std::int32_t>::max() : label];
+  std::ostringstream text;
+  std::size_t told = 0;
+  for (const auto& [label, size] : sizes) {
+    if (++told > most) {
+      text << ", ... (" << sizes.size() << " in all)";
+      break;
+    }
+    text << (told == 1 ? "" : ", ");
+    if (label == std::numeric_limits<std::int32_t>::max())
+      text << "noise";
+    else
+      text << label;
+    text << ": " << size;
+  }
+  return text.str();
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options("uvol_cluster",
+                  "in.csv out.ply [options]",
+                  "Finds clusters of points by the density of their attributes, and "
+                  "surfaces around them.\nAdds the fields label (-1: noise) and "
+                  "probability; -cluster chooses one of the clusters.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  check(options, arguments);
+
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, uvol_tools::withoutPositions(), arguments.where);
+  pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
+  const auto labels = labelsOf(options, arguments, dataset, report);
+  Facts facts = {{"input", arguments.input},
+                 {"output", arguments.output},
+                 {"clusters", describeSizes(labels)}};
+  if (!arguments.cluster.empty())
+    writeCluster(options, arguments, dataset, labels, facts, report);
+  else {
+    pcl_uvol::SaveOptions save;
+    save.ascii = arguments.ascii;
+    uvol_tools::savePoints(arguments.output, dataset, save, report);
+  }
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_cluster", [&] { return run(argc, argv); });
+}
