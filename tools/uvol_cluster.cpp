@@ -4,6 +4,7 @@
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
+#include "common/scale_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
@@ -31,7 +32,7 @@ using uvol_tools::UsageError;
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 struct Arguments {
-  std::string input, output, where, label, tree, surface, probability, smoothing;
+  std::string input, output, where, scale, label, tree, surface, probability, smoothing;
   uvol_tools::AttributeOptions attributes;
   std::uint64_t k = 10, min_size = 0, grid = 128;
   double cut = 0.0, distance = 0.0;
@@ -100,6 +101,11 @@ declare(Options& options, Arguments& arguments)
                  huge,
                  "of the surface (default: just beyond the longest edge of the points' "
                  "minimum spanning tree)");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               arguments.scale,
+               "measure distances of -surface in a stretched space; auto: equal spread "
+               "per axis");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -114,6 +120,8 @@ check(const Options& options, const Arguments& arguments)
 {
   if (!arguments.surface.empty() && arguments.cluster.empty())
     throw UsageError("-surface needs -cluster: choose one.");
+  if (options.given("scale") && arguments.surface.empty())
+    throw UsageError("-scale needs -surface.");
   if (!arguments.cluster.empty() &&
       (arguments.cluster[0] != static_cast<std::int32_t>(arguments.cluster[0])))
     throw UsageError("-cluster is a whole number: the label of a cluster.");
@@ -129,6 +137,7 @@ check(const Options& options, const Arguments& arguments)
   for (const char* const name : {"probability", "smoothing-length"})
     if (options.given(name) && arguments.surface != "membership")
       throw UsageError(std::string("-") + name + " needs -surface membership.");
+  uvol_tools::ScaleOption{arguments.scale}; // throws for what is no scale
   pcl_uvol::checkSavePath(arguments.output);
   if (isMesh(arguments))
     pcl_uvol::checkMeshPath(arguments.output);
@@ -236,6 +245,7 @@ membershipSurface(const Options& options,
       pcl::PCLPointCloud2::ConstPtr(&field.cloud, [](const void*) {}));
   extraction.setScalarField("membership");
   extraction.setIsoValue(0.5);
+  extraction.setScale(uvol_tools::ScaleOption(arguments.scale).scaleOf(cloud));
   extraction.setInterpolation(is_smooth ? pcl_uvol::Interpolation::Smooth
                                         : pcl_uvol::Interpolation::Linear);
   extraction.setNumberOfThreads(options.threads());
@@ -264,8 +274,11 @@ enclose(const Options& options,
   settings.cells = static_cast<std::uint32_t>(arguments.grid);
   settings.distance = arguments.distance;
   settings.threads = options.threads();
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  const Eigen::Array3f scale = uvol_tools::ScaleOption(arguments.scale).scaleOf(cloud);
+  settings.scale = {{scale[0], scale[1], scale[2]}};
   return pcl_uvol::makeClusterSurface(
-      pcl_uvol::viewOf(dataset.cloud),
+      cloud,
       members,
       std::map<std::string, Kind>{
           {"distance", Kind::Distance},

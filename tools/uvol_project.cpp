@@ -104,7 +104,7 @@ drawPicture(const Arguments& arguments,
     axes.push_back(
         {projection.names[i],
          {{projection.rows[0][i], projection.rows[1][i], projection.rows[2][i]}}});
-  constexpr int width = 800, height = 640;
+  constexpr int width = 640, height = 512;
   pcl_uvol::savePng(
       arguments.picture,
       pcl_uvol::drawScatterPlot(points, labels, axes, arguments.view, width, height));

@@ -43,15 +43,43 @@ isFinite(const std::array<float, 3>& point)
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-/** Largest distance to the origin, 1 for points that are all there. */
 double
-radiusOf(const std::vector<std::array<float, 3>>& points)
+quantileOf(std::vector<double>& values, double part)
 {
-  double radius = 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(
+                                       part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/** A ball about most points: a few far ones shall not make the others a dot. */
+BoundingSphere
+middleOf(const std::vector<std::array<float, 3>>& points)
+{
+  constexpr double most = 0.99;
+  std::vector<Eigen::Vector3d> finite;
   for (const auto& point : points)
     if (isFinite(point))
-      radius = std::max(radius, double{std::hypot(point[0], point[1], point[2])});
-  return radius > 0.0 ? radius : 1.0;
+      finite.emplace_back(point[0], point[1], point[2]);
+  if (finite.empty())
+    return {Eigen::Vector3d::Zero(), 1.0};
+  BoundingSphere ball{Eigen::Vector3d::Zero(), 1.0};
+  std::vector<double> values(finite.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(finite.begin(),
+                   finite.end(),
+                   values.begin(),
+                   [&](const auto& point) { return point[axis]; });
+    ball.center[axis] =
+        0.5 * (quantileOf(values, 1.0 - most) + quantileOf(values, most));
+  }
+  std::transform(finite.begin(), finite.end(), values.begin(), [&](const auto& point) {
+    return (point - ball.center).norm();
+  });
+  const double radius = quantileOf(values, most);
+  if (radius > 0.0)
+    ball.radius = radius;
+  return ball;
 }
 
 /** From places to pixels. */
@@ -179,11 +207,11 @@ drawScatterPlot(const std::vector<std::array<float, 3>>& points,
   if (!labels.empty() && labels.size() != points.size())
     throw InvalidArgument("There are " + std::to_string(labels.size()) +
                           " labels for " + std::to_string(points.size()) + " points.");
-  const double radius = radiusOf(points);
-  const Camera camera = Camera::fit({{0.0, 0.0, 0.0}, 1.1 * radius},
-                                    view,
-                                    field_of_view,
-                                    static_cast<double>(width) / height);
+  BoundingSphere ball = middleOf(points);
+  const double radius = ball.radius;
+  ball.radius *= 1.1; // room for names
+  const Camera camera =
+      Camera::fit(ball, view, field_of_view, static_cast<double>(width) / height);
   Image image;
   image.width = static_cast<std::uint32_t>(width);
   image.height = static_cast<std::uint32_t>(height);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace pcl_uvol {
@@ -22,16 +23,28 @@ constexpr std::uint32_t margin = 2;
 /** Distances below that, in cells, leave bubbles around each point. */
 constexpr double smallest_distance = 1.5;
 
-std::vector<Position>
-finitePositions(const CloudView& cloud, const std::vector<std::uint32_t>& members)
-{
+/** The finite points of a cluster, in the stretched space. */
+struct Members {
   std::vector<Position> positions;
+  std::vector<std::uint32_t> points; ///< index in the cloud
+};
+
+Members
+finiteMembers(const CloudView& cloud,
+              const std::vector<std::uint32_t>& members,
+              const std::array<float, 3>& scale)
+{
+  Members finite;
   for (const std::uint32_t member : members) {
     const float* const p = cloud.xyz(member);
-    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
-      positions.push_back({{p[0], p[1], p[2]}});
+    const Position position{{scale[0] * p[0], scale[1] * p[1], scale[2] * p[2]}};
+    if (!std::isfinite(position[0]) || !std::isfinite(position[1]) ||
+        !std::isfinite(position[2]))
+      continue;
+    finite.positions.push_back(position);
+    finite.points.push_back(member);
   }
-  return positions;
+  return finite;
 }
 
 /** A grid over everything within a distance of points. */
@@ -104,7 +117,7 @@ regionsOf(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid& 
 
 /** Turns a surface at a distance into the hull. */
 void
-shrinkToHull(const CloudView& cloud,
+shrinkToHull(const Members& members,
              const VoronoiGrid& grid,
              ClusterSurface& surface,
              Report& report)
@@ -118,13 +131,22 @@ shrinkToHull(const CloudView& cloud,
         "on a surface around them.");
   surface.mesh.vertices.clear();
   for (const std::uint32_t site : hull.regions) {
-    const std::uint32_t point = *grid.getMembers()[site].begin();
-    const float* const p = cloud.xyz(point);
-    surface.points.push_back(point);
-    surface.mesh.vertices.push_back({{p[0], p[1], p[2]}});
+    const std::uint32_t member = *grid.getMembers()[site].begin();
+    const Position& position = members.positions[member];
+    surface.points.push_back(members.points[member]);
+    surface.mesh.vertices.push_back({{position[0], position[1], position[2]}});
   }
   surface.mesh.triangles = hull.triangles;
   report.count("split_pieces", hull.split_pieces);
+}
+
+void
+checkScale(const std::array<float, 3>& scale)
+{
+  for (const float factor : scale)
+    if (!(factor > 0.0f) || !std::isfinite(factor))
+      throw InvalidArgument("The scale " + std::to_string(factor) +
+                            " is not allowed: it must be finite and positive.");
 }
 
 } // namespace
@@ -136,7 +158,10 @@ makeClusterSurface(const CloudView& cloud,
                    const ClusterSurfaceSettings& settings,
                    Report& report)
 {
-  const std::vector<Position> positions = finitePositions(cloud, members);
+  checkScale(settings.scale);
+  const Members finite = finiteMembers(cloud, members, settings.scale);
+  const std::vector<Position>& positions = finite.positions;
+  report.count("non_finite", members.size() - positions.size());
   if (positions.empty())
     throw InvalidArgument("The cluster has no point with finite coordinates.");
   report.count("members", positions.size());
@@ -148,20 +173,30 @@ makeClusterSurface(const CloudView& cloud,
                           " is too small for cells of " +
                           std::to_string(shape.spacing[0]) +
                           ": choose a finer grid or a larger distance.");
+  std::vector<std::uint32_t> all(positions.size());
+  std::iota(all.begin(), all.end(), 0u);
   FeatureTransform way;
-  const VoronoiGrid grid(
-      shape, cloud.xyz(0), cloud.stride(), members, way, settings.threads, report);
+  const VoronoiGrid grid(shape,
+                         positions[0].x,
+                         sizeof(Position) / sizeof(float),
+                         all,
+                         way,
+                         settings.threads,
+                         report);
   const auto contour = [&](const std::vector<float>& distances) {
     const StepTimer timer(report, "contour");
     surface.mesh = contourGrid(shape, distances, surface.distance);
   };
   contour(grid.computeDistances(settings.threads));
   if (kind != ClusterSurfaceKind::Distance)
-    shrinkToHull(cloud, grid, surface, report);
+    shrinkToHull(finite, grid, surface, report);
   if (kind == ClusterSurfaceKind::HullDistance) {
     contour(distanceToMesh(shape, surface.mesh, settings.threads, report));
     surface.points.clear();
   }
+  for (auto& vertex : surface.mesh.vertices)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      vertex[axis] /= settings.scale[axis];
   report.count("vertices", surface.mesh.vertices.size());
   report.count("triangles", surface.mesh.triangles.size());
   return surface;

@@ -20,7 +20,8 @@ struct ScatterAxis {
 };
 
 /** \brief Draw points as dots, nearer ones over farther ones, and axes from the origin,
- * the longest one as long as the points reach; seen as by the camera's view.
+ * the longest one as long as most points reach. The picture holds 99 % of the points;
+ * others may lie beyond its border.
  * \param points those that are not finite are not drawn
  * \param labels a colour per cluster, -1 grey; empty: one colour for all
  * \param view as in Camera::fit: "iso", "front", ...

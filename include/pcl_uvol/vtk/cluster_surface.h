@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/common/report.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct ClusterSurfaceSettings {
   /** In units of the coordinates; 0 (default): the longest edge of the points' minimum
    * spanning tree and one cell, so that the surface is of one piece. */
   double distance = 0.0;
+  /** Factors per axis, > 0: distances are measured in the stretched space. */
+  std::array<float, 3> scale{{1.0f, 1.0f, 1.0f}};
   unsigned threads = 0;
 };
 
@@ -42,9 +45,9 @@ struct ClusterSurface {
  * \param members indices of its points in the cloud; points that are not finite are
  * left out and counted as "non_finite"
  * \param report gets the counts "members", "vertices" and "triangles", warnings, times
- * \throws InvalidArgument for no finite member, a distance that is not finite or
- * negative, or too small for the grid, one point without a distance, too many cells, a
- * hull of points that leave no triangle (fewer than three, or so) */
+ * \throws InvalidArgument for no finite member, a distance or scale that is not
+ * finite or negative, a distance too small for the grid, one point without a distance,
+ * too many cells, a hull of points that leave no triangle (fewer than three, or so) */
 PCL_UVOL_EXPORTS ClusterSurface
 makeClusterSurface(const CloudView& cloud,
                    const std::vector<std::uint32_t>& members,
