@@ -27,6 +27,10 @@ public:
   {
     for (std::size_t axis = 0; axis < 3; ++axis)
       markAlong(axis, toCells(a), toCells(b), toCells(c));
+    // Thin triangles may lie between all these lines.
+    markEdge(a, b);
+    markEdge(b, c);
+    markEdge(c, a);
   }
 
   void
@@ -36,6 +40,22 @@ public:
   }
 
 private:
+  /** The cells of places on an edge, half a cell apart at most. */
+  void
+  markEdge(const Place& a, const Place& b)
+  {
+    double length = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      length = std::max(length, std::abs(b[axis] - a[axis]) / shape_.spacing[axis]);
+    const double steps = std::ceil(2.0 * length);
+    for (double step = 1.0; step < steps; ++step) {
+      Place place{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        place[axis] = a[axis] + step / steps * (b[axis] - a[axis]);
+      mark(place);
+    }
+  }
+
   /** In units of cells, whole numbers at their centres. */
   Place
   toCells(const Place& place) const
@@ -96,7 +116,9 @@ rasterize(const GridShape& shape, const Mesh& mesh, Report& report)
   Rasterizer rasterizer(shape, marks);
   const auto placeOf = [&](std::uint32_t vertex) {
     const auto& place = mesh.vertices[vertex];
-    return Place{{place[0], place[1], place[2]}};
+    return Place{{place[0] + mesh.origin[0],
+                  place[1] + mesh.origin[1],
+                  place[2] + mesh.origin[2]}};
   };
   for (std::uint32_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
     rasterizer.mark(placeOf(vertex));

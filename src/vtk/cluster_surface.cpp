@@ -84,7 +84,12 @@ chooseDistance(const std::vector<Position>& positions,
     throw InvalidArgument("All points of the cluster lie at one place, which gives no "
                           "distance: it must be given.");
   // One cell more: the field is known between the centres of cells only.
-  return longest + shapeAround(positions, longest, settings.cells).spacing[0];
+  const double cell = shapeAround(positions, longest, settings.cells).spacing[0];
+  // The grid grows with the distance. None is large enough for 3 cells.
+  const double extent = cell * settings.cells - 2.0 * longest;
+  const double cells_left = settings.cells - 2.0 * smallest_distance;
+  const double least = cells_left > 0.0 ? smallest_distance * extent / cells_left : 0.0;
+  return std::max(longest + cell, 1.0001 * least);
 }
 
 /** The site whose cell is nearest to every vertex: one of those of the cells around. */
@@ -197,6 +202,9 @@ makeClusterSurface(const CloudView& cloud,
   for (auto& vertex : surface.mesh.vertices)
     for (std::size_t axis = 0; axis < 3; ++axis)
       vertex[axis] /= settings.scale[axis];
+  // Exactly the points, whatever the scale.
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    std::copy_n(cloud.xyz(surface.points[i]), 3, surface.mesh.vertices[i].begin());
   report.count("vertices", surface.mesh.vertices.size());
   report.count("triangles", surface.mesh.triangles.size());
   return surface;

@@ -51,9 +51,10 @@ contourGrid(const GridShape& shape, const std::vector<float>& values, double iso
   vtkNew<vtkIdList> corners;
   for (vtkIdType i = 0; i < surface->GetNumberOfCells(); ++i) {
     surface->GetCellPoints(i, corners);
+    // VTK's look to where values are higher from the other side.
     mesh.triangles.push_back({{static_cast<std::uint32_t>(corners->GetId(0)),
-                               static_cast<std::uint32_t>(corners->GetId(1)),
-                               static_cast<std::uint32_t>(corners->GetId(2))}});
+                               static_cast<std::uint32_t>(corners->GetId(2)),
+                               static_cast<std::uint32_t>(corners->GetId(1))}});
   }
   return mesh;
 }
