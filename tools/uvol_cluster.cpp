@@ -19,6 +19,7 @@
 #include <pcl/conversions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -63,8 +64,8 @@ declare(Options& options, Arguments& arguments)
                  arguments.cut,
                  std::numeric_limits<double>::min(),
                  huge,
-                 "choose the clusters at that distance of attributes, not by "
-                 "persistence");
+                 "choose the clusters at that distance of attributes (default: by "
+                 "persistence)");
   options.flag("single", arguments.single, "all points may be one cluster");
   options.text("tree", "out.csv", arguments.tree, "write the tree of clusters");
   options.text("label",
@@ -123,7 +124,8 @@ check(const Options& options, const Arguments& arguments)
   if (options.given("scale") && arguments.surface.empty())
     throw UsageError("-scale needs -surface.");
   if (!arguments.cluster.empty() &&
-      (arguments.cluster[0] != static_cast<std::int32_t>(arguments.cluster[0])))
+      (std::abs(arguments.cluster[0]) > std::numeric_limits<std::int32_t>::max() ||
+       arguments.cluster[0] != std::round(arguments.cluster[0])))
     throw UsageError("-cluster is a whole number: the label of a cluster.");
   if (arguments.attributes.areGiven() && options.given("label"))
     throw UsageError("-attributes finds clusters and -label reads them: give one.");
@@ -143,6 +145,8 @@ check(const Options& options, const Arguments& arguments)
     pcl_uvol::checkMeshPath(arguments.output);
   if (!arguments.tree.empty())
     pcl_uvol::checkTablePath(arguments.tree);
+  if (arguments.tree == arguments.output)
+    throw UsageError("-tree and the output are the same file.");
 }
 
 void
@@ -157,11 +161,12 @@ writeTree(const std::string& path, const std::vector<pcl_uvol::ClusterNode>& tre
   pcl_uvol::saveTable(path, table.str());
 }
 
-/** Finds clusters and adds the fields label and probability. */
+/** Finds clusters and adds the fields label and probability. \param tree set */
 std::vector<std::int32_t>
 findClusters(const Options& options,
              const Arguments& arguments,
              Dataset& dataset,
+             std::vector<pcl_uvol::ClusterNode>& tree,
              Report& report)
 {
   pcl_uvol::ClusteringParameters parameters;
@@ -172,7 +177,7 @@ findClusters(const Options& options,
   parameters.threads = options.threads();
   const auto table = arguments.attributes.read(
       options, dataset, arguments.attributes.required(), report);
-  const auto rows = pcl_uvol::clusterAttributes(table, parameters, report);
+  auto rows = pcl_uvol::clusterAttributes(table, parameters, report);
   const std::size_t count = dataset.cloud.width;
   std::vector<std::int32_t> labels(count, -1);
   std::vector<float> probabilities(count, 0.0f);
@@ -182,8 +187,7 @@ findClusters(const Options& options,
   }
   pcl_uvol::setField(dataset, "label", labels);
   pcl_uvol::setField(dataset, "probability", probabilities);
-  if (!arguments.tree.empty())
-    writeTree(arguments.tree, rows.tree);
+  tree = std::move(rows.tree);
   return labels;
 }
 
@@ -191,10 +195,11 @@ std::vector<std::int32_t>
 labelsOf(const Options& options,
          const Arguments& arguments,
          Dataset& dataset,
+         std::vector<pcl_uvol::ClusterNode>& tree,
          Report& report)
 {
   if (arguments.attributes.areGiven())
-    return findClusters(options, arguments, dataset, report);
+    return findClusters(options, arguments, dataset, tree, report);
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
   const std::string field = uvol_tools::labelField(cloud, arguments.label);
   if (field.empty())
@@ -225,6 +230,12 @@ membershipSurface(const Options& options,
   if (!arguments.probability.empty()) {
     // Of other clusters it tells nothing about this one.
     const auto probabilities = readField(cloud, arguments.probability);
+    if (std::any_of(probabilities.begin(), probabilities.end(), [](float value) {
+          return value < 0.0f || value > 1.0f;
+        }))
+      throw pcl_uvol::InvalidArgument("The field " + arguments.probability +
+                                      " has values outside [0, 1]: it holds no "
+                                      "probabilities.");
     std::transform(members.begin(),
                    members.end(),
                    probabilities.begin(),
@@ -386,7 +397,8 @@ run(int argc, char** argv)
   Dataset dataset = uvol_tools::loadPoints(
       arguments.input, report, uvol_tools::withoutPositions(), arguments.where);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
-  const auto labels = labelsOf(options, arguments, dataset, report);
+  std::vector<pcl_uvol::ClusterNode> tree;
+  const auto labels = labelsOf(options, arguments, dataset, tree, report);
   Facts facts = {{"input", arguments.input},
                  {"output", arguments.output},
                  {"clusters", describeSizes(labels)}};
@@ -397,6 +409,8 @@ run(int argc, char** argv)
     save.ascii = arguments.ascii;
     uvol_tools::savePoints(arguments.output, dataset, save, report);
   }
+  if (!arguments.tree.empty())
+    writeTree(arguments.tree, tree);
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

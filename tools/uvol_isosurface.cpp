@@ -79,12 +79,13 @@ declare(Options& options, Arguments& arguments)
                  arguments.neighbors,
                  "candidates from touching cells of the tree, or from adjacent regions "
                  "of a discrete Voronoi diagram: slower");
-  options.integer("grid",
-                  arguments.grid,
-                  1,
-                  pcl_uvol::GridShape::largest_side,
-                  "cells of -neighbors voronoi along the longest side (default: 4 "
-                  "samples to a cell)");
+  options.integer(
+      "grid",
+      arguments.grid,
+      1,
+      pcl_uvol::GridShape::largest_side,
+      "cells of -neighbors voronoi along the longest side (default: 4 samples "
+      "to a cell)");
   options.choice("criterion",
                  {"kept", "all"},
                  arguments.criterion,

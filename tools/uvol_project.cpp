@@ -56,6 +56,13 @@ declare(Options& options, Arguments& arguments)
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
+/** A cell of a table: |a,b| has a comma. */
+std::string
+quoted(const std::string& name)
+{
+  return name.find(',') == std::string::npos ? name : '"' + name + '"';
+}
+
 void
 writeAxes(const std::string& path,
           const pcl_uvol::AttributeTable& attributes,
@@ -65,7 +72,7 @@ writeAxes(const std::string& path,
   table << std::setprecision(std::numeric_limits<double>::max_digits10)
         << "attribute,mean,unit,x,y,z\n";
   for (std::size_t i = 0; i < projection.names.size(); ++i)
-    table << projection.names[i] << ','
+    table << quoted(projection.names[i]) << ','
           << attributes.means[i] + attributes.units[i] * projection.mean[i] << ','
           << attributes.units[i] << ',' << projection.rows[0][i] << ','
           << projection.rows[1][i] << ',' << projection.rows[2][i] << '\n';
@@ -124,6 +131,8 @@ run(int argc, char** argv)
     return 0;
   const std::vector<std::string> names = arguments.attributes.required();
   pcl_uvol::checkSavePath(arguments.output);
+  if (arguments.axes == arguments.output)
+    throw UsageError("-axes and the output are the same file.");
   if (!arguments.picture.empty())
     pcl_uvol::checkPngPath(arguments.picture);
   if (!arguments.axes.empty())

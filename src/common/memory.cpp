@@ -27,10 +27,11 @@ formatBytes(double bytes)
   static const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
   constexpr std::size_t largest = sizeof(units) / sizeof(units[0]) - 1;
   std::size_t unit = 0;
-  for (; bytes >= 1000.0 && unit < largest; ++unit)
+  // What would be rounded to the next power of ten counts as that.
+  for (; bytes >= 999.5 && unit < largest; ++unit)
     bytes /= 1000.0;
   std::ostringstream text;
-  text.precision(bytes < 100.0 ? 2 : 3);
+  text.precision(bytes < 99.5 ? 2 : 3);
   text << bytes << ' ' << units[unit];
   return text.str();
 }

@@ -17,10 +17,11 @@ namespace pcl_uvol {
 
 namespace {
 
+/** \param values distances, which the image refers to */
 void
 fillImage(const VoronoiGrid& grid,
           const std::array<double, 3>& origin,
-          unsigned threads,
+          std::vector<float>& values,
           vtkImageData* image)
 {
   const GridShape& shape = grid.getShape();
@@ -42,9 +43,7 @@ fillImage(const VoronoiGrid& grid,
                  [&](std::uint32_t site) { return *grid.getMembers()[site].begin(); });
   vtkNew<vtkFloatArray> distances;
   distances->SetName("distance");
-  distances->SetNumberOfValues(count);
-  const std::vector<float> values = grid.computeDistances(threads);
-  std::copy(values.begin(), values.end(), distances->GetPointer(0));
+  distances->SetArray(values.data(), count, 1);
   image->GetPointData()->AddArray(sites);
   image->GetPointData()->SetScalars(distances);
 }
@@ -58,8 +57,9 @@ saveVoronoiGrid(const std::string& path,
                 unsigned threads)
 {
   checkGridPath(path);
+  std::vector<float> distances = grid.computeDistances(threads); // outlives the image
   vtkNew<vtkImageData> image;
-  fillImage(grid, origin, threads, image);
+  fillImage(grid, origin, distances, image);
   writeAtomically(path, [&](const std::string& file) {
     vtkNew<vtkXMLImageDataWriter> writer;
     writer->SetInputData(image);

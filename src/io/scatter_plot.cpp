@@ -46,8 +46,11 @@ isFinite(const std::array<float, 3>& point)
 double
 quantileOf(std::vector<double>& values, double part)
 {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(
-                                       part * static_cast<double>(values.size() - 1));
+  // Of few values the outermost ones.
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto at =
+      values.begin() +
+      static_cast<std::ptrdiff_t>(part < 0.5 ? std::floor(place) : std::ceil(place));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -126,6 +129,10 @@ drawDots(const std::vector<std::array<float, 3>>& points,
     if (isFinite(points[i])) {
       const Eigen::Vector3d seen =
           screen(Eigen::Map<const Eigen::Vector3f>(points[i].data()).cast<double>());
+      constexpr double far_off = 1e6; // pixels
+      if (!(seen.z() > 0.0 && std::abs(seen.x()) < far_off &&
+            std::abs(seen.y()) < far_off))
+        continue;
       dots.push_back({seen.z(),
                       static_cast<int>(std::lround(seen.x())),
                       static_cast<int>(std::lround(seen.y())),

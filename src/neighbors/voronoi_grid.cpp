@@ -39,8 +39,9 @@ checkShape(const GridShape& shape)
   const std::string grid = "A grid of " + std::to_string(shape.cells[0]) + " x " +
                            std::to_string(shape.cells[1]) + " x " +
                            std::to_string(shape.cells[2]) + " cells";
-  // Sites and distances.
-  checkMemory(grid, 8.0 * static_cast<double>(shape.size()));
+  // Nearest sites, and what is made of them: distances, arrays of a file.
+  constexpr double bytes_per_cell = 12.0;
+  checkMemory(grid, bytes_per_cell * static_cast<double>(shape.size()));
   if (shape.size() >= no_site)
     throw InvalidArgument(grid + " has more than the 4 billion that can be numbered.");
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace pcl_uvol {
 
@@ -50,7 +51,7 @@ drawVoronoiSlices(const VoronoiGrid& grid, int axis, int slices)
   checkRange("axis of the slices", axis, 0, 2);
   const GridShape& shape = grid.getShape();
   const std::uint32_t along = shape.cells[static_cast<std::size_t>(axis)];
-  checkRange("number of slices", slices, 1, static_cast<int>(GridShape::largest_side));
+  checkRange("number of slices", slices, 1, std::numeric_limits<int>::max());
   const std::uint32_t count = std::min(static_cast<std::uint32_t>(slices), along);
   const Layout layout(shape, axis, count);
   const std::uint32_t step_x = layout.width * layout.magnification + gap,

@@ -170,6 +170,9 @@ makeClusterSurface(const CloudView& cloud,
   if (positions.empty())
     throw InvalidArgument("The cluster has no point with finite coordinates.");
   report.count("members", positions.size());
+  if (kind != ClusterSurfaceKind::Distance && positions.size() < 3)
+    throw InvalidArgument("A hull needs three points or more, and the cluster has " +
+                          std::to_string(positions.size()) + ".");
   ClusterSurface surface;
   surface.distance = chooseDistance(positions, settings, report);
   const GridShape shape = shapeAround(positions, surface.distance, settings.cells);

@@ -288,7 +288,7 @@ TEST(VoronoiGrid, RefusesWhatDoesNotFit)
     }
   };
   shape.cells = {{16384, 16384, 16384}};
-  refuses("16384 x 16384 x 16384 cells needs 35 TB of memory");
+  refuses("16384 x 16384 x 16384 cells needs 53 TB of memory");
   shape.cells = {{0, 4, 4}};
   refuses("1 to 16384 cells");
   shape.cells = {{4, 4, 4}};

@@ -154,8 +154,10 @@ Options::choice(const std::string& name,
                        "'.");
     target = value;
   };
-  options_.push_back(
-      {name, joined(words, "|"), help + " (default " + target + ")", assign});
+  options_.push_back({name,
+                      joined(words, "|"),
+                      target.empty() ? help : help + " (default " + target + ")",
+                      assign});
 }
 
 void
@@ -172,11 +174,12 @@ Options::number(const std::string& name,
                        shortest(maximum) + ", not " + value + ".");
     target = number;
   };
-  options_.push_back(
-      {name,
-       "number",
-       std::isfinite(target) ? help + " (default " + shortest(target) + ")" : help,
-       assign});
+  options_.push_back({name,
+                      "number",
+                      target >= minimum && std::isfinite(target)
+                          ? help + " (default " + shortest(target) + ")"
+                          : help,
+                      assign});
 }
 
 void
@@ -190,7 +193,10 @@ Options::integer(const std::string& name,
     target = parseWholeIn(name, value, minimum, maximum);
   };
   options_.push_back(
-      {name, "n", help + " (default " + std::to_string(target) + ")", assign});
+      {name,
+       "n",
+       target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
+       assign});
 }
 
 void
@@ -207,7 +213,10 @@ Options::integer(const std::string& name,
                                            static_cast<std::uint64_t>(maximum)));
   };
   options_.push_back(
-      {name, "n", help + " (default " + std::to_string(target) + ")", assign});
+      {name,
+       "n",
+       target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
+       assign});
 }
 
 void

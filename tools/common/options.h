@@ -49,7 +49,8 @@ public:
          const std::vector<std::string>& words,
          std::string& target,
          const std::string& help);
-  /** \brief A finite number in [minimum, maximum]; an infinite default is not shown. */
+  /** \brief A finite number in [minimum, maximum]; a default that cannot be
+   * given is not shown. */
   void
   number(const std::string& name,
          double& target,
