@@ -64,7 +64,7 @@ AngleFilter::isHidden(std::uint32_t candidate) const
         return other.index == candidate;
       });
   return std::any_of(all_sights_.begin(), all_sights_.end(), [&](const Sight& other) {
-    return other.isBefore(sight) & sight.isBehind(other);
+    return other.isBefore(sight) && sight.isBehind(other);
   });
 }
 

@@ -23,15 +23,19 @@ struct PlantedClusters {
 };
 
 /** \brief Normal clusters about corners of a cube of side 12, of standard deviation
- * 0.2, 0.4, 0.6, 0.8 and 700, 600, 500, 400 points, and uniform noise over [-10, 10].
- */
+ * 0.2, 0.4, 0.6, 0.8 and 700, 600, 500, 400 points, or so many times these, and uniform
+ * noise over [-10, 10]. */
 inline PlantedClusters
-plantClusters(std::size_t columns, std::size_t noise, std::uint64_t seed)
+plantClusters(std::size_t columns,
+              std::size_t noise,
+              std::uint64_t seed,
+              std::size_t times = 1)
 {
   PlantedClusters planted{columns, {}, {}};
   std::uint64_t index = 0;
   for (int cluster = 0; cluster < 4; ++cluster)
-    for (int i = 0; i < 700 - 100 * cluster; ++i, ++index) {
+    for (std::size_t i = 0; i < times * (700 - 100 * static_cast<std::size_t>(cluster));
+         ++i, ++index) {
       for (std::size_t axis = 0; axis < columns; ++axis) {
         const bool is_up = axis % 3 == 2 ? cluster == 3 : (cluster >> axis % 3) & 1;
         const double number = pcl_uvol::normalAt(seed, index, axis);
