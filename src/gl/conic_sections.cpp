@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cone_painter.h"
+#include "errors.h"
 #include <pcl_uvol/gl/conic_sections.h>
 
 #include <algorithm>
@@ -56,26 +57,6 @@ largestRadius(const GridShape& shape, const ConeRings& rings)
   return 4.0 * (shape.distance({0, 0, 0}, last) + rings.inner_radius);
 }
 
-/** Those of others who use the context. */
-void
-forgetErrors(const GlFunctions& gl)
-{
-  constexpr int most_errors = 16; // a lost context has no end of them
-  for (int i = 0; i < most_errors && gl.GetError() != GL_NO_ERROR; ++i) {
-  }
-}
-
-void
-checkErrors(const GlFunctions& gl)
-{
-  const GLenum error = gl.GetError();
-  if (error == GL_OUT_OF_MEMORY)
-    throw GlError("OpenGL is out of memory: use fewer cells, or the FeatureTransform.");
-  if (error != GL_NO_ERROR)
-    throw GlError("OpenGL fails with error " + std::to_string(error) +
-                  ": use another driver, or the FeatureTransform.");
-}
-
 void
 drawLayers(const GlFunctions& gl,
            const GridShape& shape,
@@ -93,7 +74,7 @@ drawLayers(const GlFunctions& gl,
     const auto draw = [&] {
       painter.setMesh(ConeMesh(rings, shape.spacing, radius, shape.cells[2]));
       painter.draw(layer, cells);
-      checkErrors(gl);
+      checkErrors(gl, "fewer cells", "the FeatureTransform");
       return findFarthest(shape, sites, layer, cells);
     };
     double farthest = draw();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "errors.h"
 #include "image_passes.h"
 #include <pcl_uvol/gl/gl_backend.h>
 
@@ -36,25 +37,10 @@ struct GlBackend::Implementation {
   run(const Task& task)
   {
     context->run([&] {
-      forgetErrors();
+      forgetErrors(objects->gl);
       task(objects->passes);
-      const GLenum error = objects->gl.GetError();
-      if (error == GL_OUT_OF_MEMORY)
-        throw GlError("OpenGL is out of memory: use a smaller image or fewer points, "
-                      "or the cpu backend.");
-      if (error != GL_NO_ERROR)
-        throw GlError("OpenGL fails with error " + std::to_string(error) +
-                      ": use another driver, or the cpu backend.");
+      checkErrors(objects->gl, "a smaller image or fewer points", "the cpu backend");
     });
-  }
-
-  /** Those of others who use the context. */
-  void
-  forgetErrors() const
-  {
-    constexpr int most_errors = 16; // a lost context has no end of them
-    for (int i = 0; i < most_errors && objects->gl.GetError() != GL_NO_ERROR; ++i) {
-    }
   }
 
   std::shared_ptr<GlContext> context;

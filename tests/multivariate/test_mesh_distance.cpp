@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distance fields of meshes against the distances to their triangles.
+#include "support/meshes.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/multivariate/mesh_distance.h>
 
@@ -39,14 +40,6 @@ addVertex(Mesh& mesh, const Vector3d& place)
 {
   const Eigen::Vector3f vertex = place.cast<float>();
   mesh.vertices.push_back({{vertex[0], vertex[1], vertex[2]}});
-}
-
-Vector3d
-vertexOf(const Mesh& mesh, std::uint32_t vertex)
-{
-  const auto& place = mesh.vertices[vertex];
-  return {
-      place[0] + mesh.origin[0], place[1] + mesh.origin[1], place[2] + mesh.origin[2]};
 }
 
 /** A box of two triangles per side. */
@@ -105,44 +98,6 @@ makeSphere(const Vector3d& center, double radius, std::uint32_t steps)
   return mesh;
 }
 
-double
-distanceToSegment(const Vector3d& place, const Vector3d& a, const Vector3d& b)
-{
-  const double sq_length = (b - a).squaredNorm();
-  const double along =
-      sq_length > 0.0 ? std::clamp((place - a).dot(b - a) / sq_length, 0.0, 1.0) : 0.0;
-  return (place - a - along * (b - a)).norm();
-}
-
-double
-distanceToTriangle(const Vector3d& place,
-                   const Vector3d& a,
-                   const Vector3d& b,
-                   const Vector3d& c)
-{
-  const Vector3d normal = (b - a).cross(c - a);
-  const auto isLeft = [&](const Vector3d& from, const Vector3d& to) {
-    return normal.dot((to - from).cross(place - from)) >= 0.0;
-  };
-  if (normal.norm() > 0.0 && isLeft(a, b) && isLeft(b, c) && isLeft(c, a))
-    return std::abs(normal.normalized().dot(place - a));
-  return std::min({distanceToSegment(place, a, b),
-                   distanceToSegment(place, b, c),
-                   distanceToSegment(place, c, a)});
-}
-
-double
-trueDistance(const Mesh& mesh, const Vector3d& place)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : mesh.triangles)
-    least = std::min(
-        least,
-        distanceToTriangle(
-            place, vertexOf(mesh, t[0]), vertexOf(mesh, t[1]), vertexOf(mesh, t[2])));
-  return least;
-}
-
 std::vector<float>
 distancesTo(const GridShape& shape, const Mesh& mesh, unsigned threads = 0)
 {
@@ -177,7 +132,8 @@ expectDistances(const GridShape& shape,
       ++inside;
       continue;
     }
-    const double error = std::abs(distances[cell] - trueDistance(mesh, place));
+    const double error =
+        std::abs(distances[cell] - uvol_test::distanceToTriangles(mesh, place));
     largest_error = std::max(largest_error, error / unit);
   }
   EXPECT_GT(inside, 0u);
@@ -237,7 +193,8 @@ TEST(MeshDistance, OfASphereIsThatToItsTriangles)
         ASSERT_EQ(0.0f, distances[cell]) << place.transpose();
       }
       else if ((place - center).norm() > 11.0) {
-        ASSERT_NEAR(trueDistance(mesh, place), distances[cell], cell_diagonal)
+        ASSERT_NEAR(
+            uvol_test::distanceToTriangles(mesh, place), distances[cell], cell_diagonal)
             << place.transpose();
       }
     }
@@ -285,8 +242,9 @@ TEST(MeshDistance, OfAFlatSheetHasNoInside)
     sheet.triangles = {{{0, 1, 2}}, {{0, 2, 1}}, {{1, 2, 3}}, {{1, 3, 2}}};
     const auto distances = distancesTo(shape, sheet);
     for (std::uint64_t cell = 0; cell < distances.size(); ++cell)
-      ASSERT_NEAR(
-          trueDistance(sheet, centerOf(shape, cell)), distances[cell], cell_diagonal)
+      ASSERT_NEAR(uvol_test::distanceToTriangles(sheet, centerOf(shape, cell)),
+                  distances[cell],
+                  cell_diagonal)
           << tilt;
   }
 }
@@ -307,7 +265,8 @@ TEST(MeshDistance, OfAThinTriangleReachesAlongIt)
     for (std::uint64_t cell = 0; cell < distances.size(); ++cell)
       largest_error = std::max(
           largest_error,
-          std::abs(trueDistance(needle, centerOf(shape, cell)) - distances[cell]));
+          std::abs(uvol_test::distanceToTriangles(needle, centerOf(shape, cell)) -
+                   distances[cell]));
     EXPECT_LT(largest_error, cell_diagonal) << width;
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_cluster from the outside: planted clusters are found, chosen and enclosed.
 #include "support/environment.h"
+#include "support/meshes.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
@@ -109,33 +111,6 @@ fieldOf(const Dataset& dataset, const std::string& name)
   return values;
 }
 
-/** Every directed edge occurs once, and so does its reverse. */
-bool
-isClosed(const pcl_uvol::Mesh& mesh)
-{
-  std::multiset<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const auto& triangle : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.emplace(triangle[k], triangle[(k + 1) % 3]);
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return edges.count({edge.second, edge.first}) == edges.count(edge);
-  });
-}
-
-double
-volumeOf(const pcl_uvol::Mesh& mesh)
-{
-  double volume = 0.0;
-  for (const auto& triangle : mesh.triangles) {
-    const auto &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
-               &c = mesh.vertices[triangle[2]];
-    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-               a[2] * (b[0] * c[1] - b[1] * c[0])) /
-              6.0;
-  }
-  return volume;
-}
-
 /** Distance of a vertex to the nearest sample of a cluster. */
 double
 distanceTo(int cluster, const std::array<float, 3>& vertex)
@@ -151,26 +126,24 @@ distanceTo(int cluster, const std::array<float, 3>& vertex)
   return least;
 }
 
-class ClusterTool : public testing::Test {
+class ClusterTool : public uvol_test::ToolTest {
 protected:
+  ClusterTool()
+      : ToolTest("uvol_cluster", "out.ply")
+  {
+  }
+
   void
   SetUp() override
   {
     uvol_test::writeFile(in_, spaceTable());
   }
 
-  CommandResult
-  run(const std::string& options) const
-  {
-    return runCommand("uvol_cluster " + in_ + " " + out_ + " " + options);
-  }
-
   /** The output of a run that succeeds. */
   Dataset
   resultOf(const std::string& options) const
   {
-    const auto result = run(options);
-    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    expectSuccess(options);
     return pcl_uvol::loadDataset(out_);
   }
 
@@ -178,26 +151,11 @@ protected:
   pcl_uvol::Mesh
   meshOf(const std::string& options) const
   {
-    const auto result = run(options);
-    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    expectSuccess(options);
     const auto mesh = pcl_uvol::loadMesh(out_);
-    EXPECT_TRUE(isClosed(mesh)) << options;
-    EXPECT_GT(volumeOf(mesh), 0.0) << options;
+    EXPECT_TRUE(uvol_test::isClosed(mesh.triangles)) << options;
+    EXPECT_GT(uvol_test::signedVolume(mesh), 0.0) << options;
     return mesh;
-  }
-
-  /** That exit code, one sentence with that text, and no file but the input. */
-  void
-  expectFailure(const std::string& options,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto result = run(options);
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(text))
-        << options << ": " << result.err;
-    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-    EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
   }
 
   static void
@@ -210,9 +168,7 @@ protected:
   }
 
   const std::string attributes_ = "-attributes a,b,c,d ";
-  uvol_test::TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.ply",
-              tree_ = folder_ / "tree.csv";
+  std::string tree_ = folder_ / "tree.csv";
 };
 
 TEST_F(ClusterTool, FindsPlantedClusters)
@@ -345,8 +301,8 @@ TEST_F(ClusterTool, HullsArePointsOfTheClusterWithTheirFields)
 {
   const auto mesh = meshOf(attributes_ + "-cluster 1 -surface hull");
   EXPECT_GT(mesh.triangles.size(), 50u);
-  EXPECT_LT(volumeOf(mesh), 4.2); // the ball's
-  EXPECT_GT(volumeOf(mesh), 1.0);
+  EXPECT_LT(uvol_test::signedVolume(mesh), 4.2); // the ball's
+  EXPECT_GT(uvol_test::signedVolume(mesh), 1.0);
   const Dataset vertices = pcl_uvol::loadDataset(out_);
   const auto ids = fieldOf(vertices, "id"), label = fieldOf(vertices, "label");
   const auto a = fieldOf(vertices, "a"), normal = fieldOf(vertices, "normal_x");
@@ -377,9 +333,10 @@ TEST_F(ClusterTool, SurfacesAroundHullsAreBeyondTheirPoints)
 {
   constexpr double distance = 0.6, cell = (2.0 + 2.0 * distance) / 48.0;
   const std::string options = attributes_ + "-cluster 1 -distance 0.6 -grid 48 ";
-  const double of_points = volumeOf(meshOf(options + "-surface distance"));
+  const double of_points =
+      uvol_test::signedVolume(meshOf(options + "-surface distance"));
   const auto mesh = meshOf(options + "-surface hull-distance");
-  EXPECT_GT(volumeOf(mesh), of_points);
+  EXPECT_GT(uvol_test::signedVolume(mesh), of_points);
   for (const auto& vertex : mesh.vertices)
     ASSERT_GT(distanceTo(1, vertex), distance - 2.0 * cell);
 }
@@ -400,7 +357,7 @@ TEST_F(ClusterTool, DistancesMayBeStretched)
   const auto mesh =
       meshOf("-cluster 0 -surface distance -distance 0.5 -scale 1,1,4 -grid 64");
   const double ball = 4.0 / 3.0 * M_PI * 0.125;
-  EXPECT_NEAR(ball / 4.0, volumeOf(mesh), 0.05 * ball / 4.0);
+  EXPECT_NEAR(ball / 4.0, uvol_test::signedVolume(mesh), 0.05 * ball / 4.0);
   for (const auto& vertex : mesh.vertices)
     ASSERT_LT(std::abs(vertex[2] - 3.0f), 0.14f);
 }
@@ -550,10 +507,11 @@ TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
     expectFailure("-cluster 1 -distance 2" + option, 1, "hull needs three points");
   }
   const double ball = 4.0 / 3.0 * M_PI * 0.125;
-  EXPECT_NEAR(ball,
-              volumeOf(meshOf("-cluster 0 -surface distance -distance 0.5")),
-              0.05 * ball);
-  EXPECT_GT(volumeOf(meshOf("-cluster 1 -surface distance")), ball);
+  EXPECT_NEAR(
+      ball,
+      uvol_test::signedVolume(meshOf("-cluster 0 -surface distance -distance 0.5")),
+      0.05 * ball);
+  EXPECT_GT(uvol_test::signedVolume(meshOf("-cluster 1 -surface distance")), ball);
   for (const char* cluster : {"0", "1"})
     EXPECT_GT(
         resultOf(std::string("-surface membership -cluster ") + cluster).cloud.width,

@@ -3,6 +3,7 @@
 // pictures.
 #include "support/environment.h"
 #include "support/png.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/random.h>
 #include <pcl_uvol/common/scalar_field.h>
@@ -154,46 +155,28 @@ expectProjected(const Dataset& dataset, const std::map<std::string, Axis>& axes)
   }
 }
 
-class ProjectTool : public testing::Test {
+class ProjectTool : public uvol_test::ToolTest {
 protected:
+  ProjectTool()
+      : ToolTest("uvol_project", "out.ply")
+  {
+  }
+
   void
   SetUp() override
   {
     uvol_test::writeFile(in_, makeTable());
   }
 
-  CommandResult
-  run(const std::string& options) const
-  {
-    return runCommand("uvol_project " + in_ + " " + out_ + " " + options);
-  }
-
   Dataset
   resultOf(const std::string& options) const
   {
-    const auto result = run(options);
-    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    expectSuccess(options);
     return pcl_uvol::loadDataset(out_);
   }
 
-  /** That exit code, one sentence with that text, and no file but the input. */
-  void
-  expectFailure(const std::string& options,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto result = run(options);
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(text))
-        << options << ": " << result.err;
-    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-    EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
-  }
-
   const std::string attributes_ = "-attributes a,b,c,d,e ";
-  uvol_test::TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.ply",
-              axes_ = folder_ / "axes.csv", picture_ = folder_ / "out.png";
+  std::string axes_ = folder_ / "axes.csv", picture_ = folder_ / "out.png";
 };
 
 TEST_F(ProjectTool, DataWithoutPositionsBecomeACloud)

@@ -2,6 +2,7 @@
 // uvol_voronoi from the outside: distances and sites, pictures, refusals.
 #include "support/environment.h"
 #include "support/png.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/io/volume.h>
 
 #include <gtest/gtest.h>
@@ -32,25 +33,23 @@ randomCsv(std::size_t n)
   return csv.str();
 }
 
-class VoronoiTool : public testing::Test {
+class VoronoiTool : public uvol_test::ToolTest {
 protected:
+  VoronoiTool()
+      : ToolTest("uvol_voronoi", "out.vti")
+  {
+  }
+
   void
   SetUp() override
   {
     uvol_test::writeFile(in_, corners);
   }
 
-  CommandResult
-  run(const std::string& options) const
-  {
-    return runCommand("uvol_voronoi " + in_ + " " + out_ + " " + options);
-  }
-
   Volume
   distances(const std::string& options) const
   {
-    const auto result = run(options);
-    EXPECT_EQ(0, result.exit_code) << result.err;
+    expectSuccess(options);
     return pcl_uvol::loadVolume(out_);
   }
 
@@ -67,23 +66,7 @@ protected:
     return pcl_uvol::loadVolume(out_);
   }
 
-  /** That exit code, one sentence with that text, and no file but the input. */
-  void
-  expectFailure(const std::string& options,
-                int exit_code,
-                const std::string& text) const
-  {
-    const auto result = run(options);
-    EXPECT_EQ(exit_code, result.exit_code) << options << ": " << result.err;
-    EXPECT_NE(std::string::npos, result.err.find(text))
-        << options << ": " << result.err;
-    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
-    EXPECT_EQ(std::vector<std::string>{"in.csv"}, folder_.list()) << options;
-  }
-
-  uvol_test::TemporaryFolder folder_;
-  std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.vti",
-              picture_ = folder_ / "out.png";
+  std::string picture_ = folder_ / "out.png";
 };
 
 TEST_F(VoronoiTool, FindsTheNearestPointOfEveryCell)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces around clusters: what they enclose, how far away they are, and that they are
 // closed surfaces of the genus of the cluster.
+#include "support/meshes.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/random.h>
 #include <pcl_uvol/multivariate/cluster_hull.h>
@@ -30,6 +31,9 @@ using pcl_uvol::Mesh;
 using pcl_uvol::Report;
 using pcl_uvol::Triangle;
 using pcl_uvol::uniformAt;
+using uvol_test::distanceToTriangles;
+using uvol_test::signedVolume;
+using uvol_test::vertexOf;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr std::uint32_t cells = 96;
@@ -193,14 +197,6 @@ bentSheetOf(std::size_t number, std::uint64_t seed)
   return points;
 }
 
-Vector3d
-vertexOf(const Mesh& mesh, std::uint32_t vertex)
-{
-  const auto& place = mesh.vertices[vertex];
-  return Vector3d(place[0], place[1], place[2]) +
-         Eigen::Map<const Vector3d>(mesh.origin.data());
-}
-
 /** Each edge is walked as often in one direction as in the other one; where nothing
  * coincides, the triangles around a vertex are one ring.
  * \return the part of the vertices that nothing coincides at */
@@ -268,19 +264,6 @@ generaOf(const Mesh& mesh)
   return genera;
 }
 
-double
-signedVolume(const Mesh& mesh)
-{
-  const Vector3d start = vertexOf(mesh, 0);
-  double volume = 0.0;
-  for (const Triangle& t : mesh.triangles)
-    volume += (vertexOf(mesh, t[0]) - start)
-                  .cross(vertexOf(mesh, t[1]) - start)
-                  .dot(vertexOf(mesh, t[2]) - start) /
-              6.0;
-  return volume;
-}
-
 /** How often the mesh winds around a place: the solid angles of its triangles (van
  * Oosterom and Strackee 1983). */
 double
@@ -295,44 +278,6 @@ windingNumber(const Mesh& mesh, const Vector3d& place)
                       la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (2.0 * pi);
-}
-
-double
-distanceToSegment(const Vector3d& place, const Vector3d& a, const Vector3d& b)
-{
-  const double sq_length = (b - a).squaredNorm();
-  const double along =
-      sq_length > 0.0 ? std::clamp((place - a).dot(b - a) / sq_length, 0.0, 1.0) : 0.0;
-  return (place - a - along * (b - a)).norm();
-}
-
-double
-distanceToTriangle(const Vector3d& place,
-                   const Vector3d& a,
-                   const Vector3d& b,
-                   const Vector3d& c)
-{
-  const Vector3d normal = (b - a).cross(c - a);
-  const auto isLeft = [&](const Vector3d& from, const Vector3d& to) {
-    return normal.dot((to - from).cross(place - from)) >= 0.0;
-  };
-  if (normal.norm() > 0.0 && isLeft(a, b) && isLeft(b, c) && isLeft(c, a))
-    return std::abs(normal.normalized().dot(place - a));
-  return std::min({distanceToSegment(place, a, b),
-                   distanceToSegment(place, b, c),
-                   distanceToSegment(place, c, a)});
-}
-
-double
-distanceToMesh(const Mesh& mesh, const Vector3d& place)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : mesh.triangles)
-    least = std::min(
-        least,
-        distanceToTriangle(
-            place, vertexOf(mesh, t[0]), vertexOf(mesh, t[1]), vertexOf(mesh, t[2])));
-  return least;
 }
 
 /** A cluster of a shape whose surface is known. */
@@ -438,7 +383,7 @@ TEST_P(HullsOfShapes, LeaveNoPointOutside)
   for (std::size_t i = 0; i < number; ++i) {
     const Vector3d place = cluster_[i];
     // Vertices are on the hull: there is no winding number.
-    const double distance = distanceToMesh(hull_.mesh, place);
+    const double distance = distanceToTriangles(hull_.mesh, place);
     if (distance <= farthest ||
         (GetParam().is_solid && windingNumber(hull_.mesh, place) > 0.5))
       continue;
@@ -457,9 +402,10 @@ TEST_P(HullsOfShapes, AreWhatHullDistancesAreMeasuredFrom)
   EXPECT_GT(signedVolume(around), 0.0);
   double largest_error = 0.0;
   for (std::uint32_t i = 0; i < around.vertices.size(); i += 29)
-    largest_error = std::max(largest_error,
-                             std::abs(distanceToMesh(hull_.mesh, vertexOf(around, i)) -
-                                      GetParam().distance));
+    largest_error =
+        std::max(largest_error,
+                 std::abs(distanceToTriangles(hull_.mesh, vertexOf(around, i)) -
+                          GetParam().distance));
   EXPECT_LT(largest_error, voxel_);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces of grids: where they lie, and that they are closed.
+#include "support/meshes.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/random.h>
 #include <pcl_uvol/vtk/contour.h>
@@ -21,6 +22,8 @@ using pcl_uvol::GridShape;
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::Mesh;
 using pcl_uvol::Triangle;
+using uvol_test::signedVolume;
+using uvol_test::vertexOf;
 
 GridShape
 makeShape(std::uint32_t cells, double spacing, const Vector3d& origin)
@@ -43,27 +46,6 @@ fill(const GridShape& shape, const ValueAt& valueAt)
     values[i] = static_cast<float>(valueAt(Vector3d(center[0], center[1], center[2])));
   }
   return values;
-}
-
-Vector3d
-vertexOf(const Mesh& mesh, std::uint32_t vertex)
-{
-  const auto& place = mesh.vertices[vertex];
-  return Vector3d(place[0], place[1], place[2]) +
-         Eigen::Map<const Vector3d>(mesh.origin.data());
-}
-
-double
-signedVolume(const Mesh& mesh)
-{
-  const Vector3d start = vertexOf(mesh, 0);
-  double volume = 0.0;
-  for (const Triangle& t : mesh.triangles)
-    volume += (vertexOf(mesh, t[0]) - start)
-                  .cross(vertexOf(mesh, t[1]) - start)
-                  .dot(vertexOf(mesh, t[2]) - start) /
-              6.0;
-  return volume;
 }
 
 /** Each edge belongs to two triangles, which walk it in opposite directions. */
