@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace {
@@ -35,6 +36,7 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 struct Arguments {
   std::string input, output, where, scale, label, tree, surface, probability, smoothing;
   uvol_tools::AttributeOptions attributes;
+  std::optional<uvol_tools::ScaleOption> stretch; // set when the options are read
   std::uint64_t k = 10, min_size = 0, grid = 128;
   double cut = 0.0, distance = 0.0;
   std::vector<double> cluster;
@@ -139,7 +141,6 @@ check(const Options& options, const Arguments& arguments)
   for (const char* const name : {"probability", "smoothing-length"})
     if (options.given(name) && arguments.surface != "membership")
       throw UsageError(std::string("-") + name + " needs -surface membership.");
-  uvol_tools::ScaleOption{arguments.scale}; // throws for what is no scale
   pcl_uvol::checkSavePath(arguments.output);
   if (isMesh(arguments))
     pcl_uvol::checkMeshPath(arguments.output);
@@ -256,7 +257,7 @@ membershipSurface(const Options& options,
       pcl::PCLPointCloud2::ConstPtr(&field.cloud, [](const void*) {}));
   extraction.setScalarField("membership");
   extraction.setIsoValue(0.5);
-  extraction.setScale(uvol_tools::ScaleOption(arguments.scale).scaleOf(cloud));
+  extraction.setScale(arguments.stretch->scaleOf(cloud));
   extraction.setInterpolation(is_smooth ? pcl_uvol::Interpolation::Smooth
                                         : pcl_uvol::Interpolation::Linear);
   extraction.setNumberOfThreads(options.threads());
@@ -286,7 +287,7 @@ enclose(const Options& options,
   settings.distance = arguments.distance;
   settings.threads = options.threads();
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  const Eigen::Array3f scale = uvol_tools::ScaleOption(arguments.scale).scaleOf(cloud);
+  const Eigen::Array3f scale = arguments.stretch->scaleOf(cloud);
   settings.scale = {{scale[0], scale[1], scale[2]}};
   return pcl_uvol::makeClusterSurface(
       cloud,
@@ -389,6 +390,7 @@ run(int argc, char** argv)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
+  arguments.stretch.emplace(arguments.scale);
   check(options, arguments);
 
   Report report;

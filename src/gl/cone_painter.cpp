@@ -102,6 +102,7 @@ ConePainter::ConePainter(const GlFunctions& gl,
   depth_ = makeTexture(gl, GL_DEPTH_COMPONENT32F, width_, height_);
   framebuffer_ = makeFramebuffer(gl, {&nearest_}, &depth_);
   std::vector<PlaneCell> cells;
+  cells.reserve(sites.size());
   for (const GridCell& site : sites)
     cells.push_back({site[0], site[1]});
   gl.BindVertexArray(array_.get());

@@ -78,6 +78,7 @@ readColumns(const CloudView& cloud,
 {
   const std::vector<ScalarField> fields = resolveFields(cloud, names);
   std::vector<Attribute> attributes;
+  attributes.reserve(names.size());
   for (const std::string& name : names)
     attributes.push_back({name, std::vector<double>(use.size())});
   parallelBlocks(use.size(), block_points, threads, [&](auto begin, auto end) {

@@ -129,7 +129,7 @@ countClusters(const Clustering& clustering,
   const auto& labels = clustering.labels;
   const auto most = std::max_element(labels.begin(), labels.end());
   report.count("points", labels.size());
-  report.count("clusters", static_cast<std::uint64_t>(*most + 1));
+  report.count("clusters", static_cast<std::uint64_t>(*most) + 1);
   report.count(
       "noise",
       static_cast<std::uint64_t>(std::count(labels.begin(), labels.end(), -1)));

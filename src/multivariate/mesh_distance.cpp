@@ -47,11 +47,12 @@ private:
     double length = 0.0;
     for (std::size_t axis = 0; axis < 3; ++axis)
       length = std::max(length, std::abs(b[axis] - a[axis]) / shape_.spacing[axis]);
-    const double steps = std::ceil(2.0 * length);
-    for (double step = 1.0; step < steps; ++step) {
+    const auto steps = static_cast<std::int64_t>(std::ceil(2.0 * length));
+    for (std::int64_t step = 1; step < steps; ++step) {
+      const double part = static_cast<double>(step) / static_cast<double>(steps);
       Place place{};
       for (std::size_t axis = 0; axis < 3; ++axis)
-        place[axis] = a[axis] + step / steps * (b[axis] - a[axis]);
+        place[axis] = a[axis] + part * (b[axis] - a[axis]);
       mark(place);
     }
   }
@@ -74,15 +75,17 @@ private:
     if (area == 0.0)
       return;
     const auto first = [](double x, double y, double z) {
-      return std::max(0.0, std::ceil(std::min({x, y, z})));
+      return static_cast<int>(
+          std::clamp(std::ceil(std::min({x, y, z})), 0.0, double{most_cells}));
     };
     const auto last = [](double x, double y, double z, std::uint32_t cells) {
-      return std::min(cells - 1.0, std::floor(std::max({x, y, z})));
+      return static_cast<int>(
+          std::clamp(std::floor(std::max({x, y, z})), -1.0, cells - 1.0));
     };
-    const double last_u = last(a[u], b[u], c[u], shape_.cells[u]);
-    const double last_v = last(a[v], b[v], c[v], shape_.cells[v]);
-    for (double row = first(a[v], b[v], c[v]); row <= last_v; ++row)
-      for (double column = first(a[u], b[u], c[u]); column <= last_u; ++column) {
+    const int last_u = last(a[u], b[u], c[u], shape_.cells[u]);
+    const int last_v = last(a[v], b[v], c[v], shape_.cells[v]);
+    for (int row = first(a[v], b[v], c[v]); row <= last_v; ++row)
+      for (int column = first(a[u], b[u], c[u]); column <= last_u; ++column) {
         const double of_b =
             ((column - a[u]) * (c[v] - a[v]) - (row - a[v]) * (c[u] - a[u])) / area;
         const double of_c =
@@ -103,6 +106,7 @@ private:
 
   /** Of barycentric coordinates: no line slips through between two triangles. */
   static constexpr double tolerance = 1e-9;
+  static constexpr int most_cells = GridShape::largest_side;
 
   const GridShape& shape_;
   std::vector<std::uint8_t>& marks_;

@@ -127,7 +127,7 @@ optimizedAxes(const ClusterSeparation& separation,
               const MatrixXd& covariance_with_noise,
               const StarCoordinateParameters& parameters)
 {
-  const MatrixXd discriminants =
+  MatrixXd discriminants =
       completeAxes(separation.toFunctionals(separation.discriminants()), covariance);
   if (separation.countClusters() == 2)
     return discriminants; // the first one is the best there is

@@ -15,7 +15,6 @@ namespace pcl_uvol {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double default_fov = 30.0;
 
 /** Pixels of a tile's side: rays of a tile meet the same boxes. */
 constexpr int tile_size = 16;
