@@ -145,7 +145,7 @@ LocalFit::fitPlane(double least_eigenvalue)
     scatter += u * u.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
-  const Eigen::Vector3d values = eigen.eigenvalues();
+  const Eigen::Vector3d& values = eigen.eigenvalues();
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
   bool is_regular = true;
   for (int i = 0; i < 3; ++i) {

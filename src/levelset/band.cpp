@@ -75,6 +75,7 @@ samplesNear(const SampleSet& samples,
 {
   const std::vector<Position>& positions = samples.getPositions();
   std::vector<Position> near;
+  near.reserve(crossing.size());
   for (const std::uint32_t sample : crossing)
     near.push_back(positions[sample]);
   BoxMarker marker(samples);

@@ -255,6 +255,7 @@ makeDataTerm(const Band& band,
   std::vector<float> slopes = findSlopes(band, values, threads);
   const auto surface = findSurface(band, values);
   std::vector<float> known;
+  known.reserve(surface.size());
   for (const std::uint32_t center : surface)
     known.push_back(slopes[center]);
   const float median = medianOf(std::move(known));
