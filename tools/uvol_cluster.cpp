@@ -175,21 +175,11 @@ findClusters(const Options& options,
   parameters.min_cluster_size = arguments.min_size;
   parameters.allow_single_cluster = arguments.single;
   parameters.cut_distance = arguments.cut;
-  parameters.threads = options.threads();
-  const auto table = arguments.attributes.read(
-      options, dataset, arguments.attributes.required(), report);
-  auto rows = pcl_uvol::clusterAttributes(table, parameters, report);
-  const std::size_t count = dataset.cloud.width;
-  std::vector<std::int32_t> labels(count, -1);
-  std::vector<float> probabilities(count, 0.0f);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    labels[table.points[row]] = rows.labels[row];
-    probabilities[table.points[row]] = rows.probabilities[row];
-  }
-  pcl_uvol::setField(dataset, "label", labels);
-  pcl_uvol::setField(dataset, "probability", probabilities);
-  tree = std::move(rows.tree);
-  return labels;
+  auto found = arguments.attributes.cluster(options, dataset, parameters, report);
+  pcl_uvol::setField(dataset, "label", found.labels);
+  pcl_uvol::setField(dataset, "probability", found.probabilities);
+  tree = std::move(found.tree);
+  return found.labels;
 }
 
 std::vector<std::int32_t>

@@ -16,6 +16,18 @@
 
 namespace uvol_tools {
 
+namespace {
+
+std::vector<std::uint32_t>
+allOf(const pcl_uvol::CloudView& cloud)
+{
+  std::vector<std::uint32_t> all(cloud.count);
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
+} // namespace
+
 void
 AttributeOptions::declare(Options& options)
 {
@@ -63,13 +75,31 @@ AttributeOptions::read(const Options& options,
                        const std::vector<std::string>& names,
                        pcl_uvol::Report& report) const
 {
+  checkPosition(dataset);
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  return pcl_uvol::readAttributes(
+      cloud, allOf(cloud), names, is_standardized_, options.threads(), report);
+}
+
+pcl_uvol::Clustering
+AttributeOptions::cluster(const Options& options,
+                          const pcl_uvol::Dataset& dataset,
+                          const pcl_uvol::ClusteringParameters& parameters,
+                          pcl_uvol::Report& report) const
+{
+  checkPosition(dataset);
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
+  pcl_uvol::ClusteringParameters with_threads = parameters;
+  with_threads.threads = options.threads();
+  return pcl_uvol::clusterCloud(
+      cloud, allOf(cloud), required(), is_standardized_, with_threads, report);
+}
+
+void
+AttributeOptions::checkPosition(const pcl_uvol::Dataset& dataset) const
+{
   if (has_position_ && !dataset.has_coordinates)
     throw pcl_uvol::InvalidArgument("The input has no coordinates for -position.");
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  std::vector<std::uint32_t> all(cloud.count);
-  std::iota(all.begin(), all.end(), 0u);
-  return pcl_uvol::readAttributes(
-      cloud, all, names, is_standardized_, options.threads(), report);
 }
 
 pcl_uvol::LoadOptions

@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/multivariate/attributes.h>
+#include <pcl_uvol/multivariate/density_clustering.h>
 
 #include <array>
 #include <cstdint>
@@ -39,7 +40,17 @@ public:
        const std::vector<std::string>& names,
        pcl_uvol::Report& report) const;
 
+  /** \brief Clusters of these attributes, per point. \throws as read() */
+  pcl_uvol::Clustering
+  cluster(const Options& options,
+          const pcl_uvol::Dataset& dataset,
+          const pcl_uvol::ClusteringParameters& parameters,
+          pcl_uvol::Report& report) const;
+
 private:
+  void
+  checkPosition(const pcl_uvol::Dataset& dataset) const;
+
   std::string text_;
   bool has_position_ = false, is_standardized_ = true;
 };
