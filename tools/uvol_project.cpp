@@ -56,13 +56,6 @@ declare(Options& options, Arguments& arguments)
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
-/** A cell of a table: |a,b| has a comma. */
-std::string
-quoted(const std::string& name)
-{
-  return name.find(',') == std::string::npos ? name : '"' + name + '"';
-}
-
 void
 writeAxes(const std::string& path,
           const pcl_uvol::AttributeTable& attributes,
@@ -72,7 +65,7 @@ writeAxes(const std::string& path,
   table << std::setprecision(std::numeric_limits<double>::max_digits10)
         << "attribute,mean,unit,x,y,z\n";
   for (std::size_t i = 0; i < projection.names.size(); ++i)
-    table << quoted(projection.names[i]) << ','
+    table << pcl_uvol::quotedCell(projection.names[i]) << ','
           << attributes.means[i] + attributes.units[i] * projection.mean[i] << ','
           << attributes.units[i] << ',' << projection.rows[0][i] << ','
           << projection.rows[1][i] << ',' << projection.rows[2][i] << '\n';

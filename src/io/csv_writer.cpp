@@ -3,26 +3,10 @@
 #include "columns.h"
 #include "files.h"
 #include "formats.h"
+#include <pcl_uvol/io/table_file.h>
 
 namespace pcl_uvol {
 namespace io {
-namespace {
-
-std::string
-quoted(const std::string& name)
-{
-  if (name.find_first_of(",;\"\t\r\n#") == std::string::npos)
-    return name;
-  std::string text = "\"";
-  for (const char c : name) {
-    if (c == '"')
-      text += '"';
-    text += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return text + '"';
-}
-
-} // namespace
 
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
@@ -31,7 +15,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
   OutputFile out(file, path);
   std::string& text = out.buffer();
   for (const auto& column : columns)
-    text += quoted(column.name) + ',';
+    text += quotedCell(column.name) + ',';
   text.back() = '\n';
   const auto& cloud = dataset.cloud;
   const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;

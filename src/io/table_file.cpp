@@ -5,6 +5,20 @@
 
 namespace pcl_uvol {
 
+std::string
+quotedCell(const std::string& name)
+{
+  if (name.find_first_of(",;\"\t\r\n#") == std::string::npos)
+    return name;
+  std::string text = "\"";
+  for (const char c : name) {
+    if (c == '"')
+      text += '"';
+    text += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return text + '"';
+}
+
 void
 saveTable(const std::string& path, const std::string& text)
 {

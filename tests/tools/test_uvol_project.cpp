@@ -4,9 +4,7 @@
 #include "support/environment.h"
 #include "support/png.h"
 #include "tools/tool_test.h"
-#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/random.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -20,6 +18,7 @@ namespace {
 
 using pcl_uvol::Dataset;
 using uvol_test::CommandResult;
+using uvol_test::fieldOf;
 using uvol_test::readFile;
 using uvol_test::runCommand;
 
@@ -53,20 +52,6 @@ makeTable(const std::string& header = "a,b,c,d,e,truth")
     csv << truthOf(i) << '\n';
   }
   return csv.str();
-}
-
-std::vector<double>
-fieldOf(const Dataset& dataset, const std::string& name)
-{
-  const auto view = pcl_uvol::viewOf(dataset.cloud);
-  const pcl_uvol::ScalarField field(view.fields, name);
-  std::vector<double> values;
-  for (std::size_t i = 0; i < view.count; ++i)
-    values.push_back(field.read(view.point(i)));
-  if (name.size() == 1 && name[0] >= 'x')
-    for (double& value : values)
-      value += dataset.origin[static_cast<std::size_t>(name[0] - 'x')];
-  return values;
 }
 
 double
@@ -166,13 +151,6 @@ protected:
   SetUp() override
   {
     uvol_test::writeFile(in_, makeTable());
-  }
-
-  Dataset
-  resultOf(const std::string& options) const
-  {
-    expectSuccess(options);
-    return pcl_uvol::loadDataset(out_);
   }
 
   const std::string attributes_ = "-attributes a,b,c,d,e ";

@@ -3,6 +3,9 @@
 #pragma once
 
 #include "support/environment.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +14,21 @@
 #include <vector>
 
 namespace uvol_test {
+
+/** One number per point; coordinates with the origin added. */
+inline std::vector<double>
+fieldOf(const pcl_uvol::Dataset& dataset, const std::string& name)
+{
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  const pcl_uvol::ScalarField field(view.fields, name);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < view.count; ++i)
+    values.push_back(field.read(view.point(i)));
+  if (name.size() == 1 && name[0] >= 'x')
+    for (double& value : values)
+      value += dataset.origin[static_cast<std::size_t>(name[0] - 'x')];
+  return values;
+}
 
 class ToolTest : public testing::Test {
 protected:
@@ -31,6 +49,14 @@ protected:
   {
     const auto result = run(options);
     EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+  }
+
+  /** The output of a run that succeeds. */
+  pcl_uvol::Dataset
+  resultOf(const std::string& options) const
+  {
+    expectSuccess(options);
+    return pcl_uvol::loadDataset(out_);
   }
 
   /** That exit code, one sentence with that text, and no file but the input. */

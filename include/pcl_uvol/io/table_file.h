@@ -8,6 +8,10 @@
 
 namespace pcl_uvol {
 
+/** \brief A name as a cell of CSV: in quotes where it holds what separates cells. */
+PCL_UVOL_EXPORTS std::string
+quotedCell(const std::string& name);
+
 /** \brief Write a text as a file that appears whole or not at all. \throws IOError */
 PCL_UVOL_EXPORTS void
 saveTable(const std::string& path, const std::string& text);

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_cluster from the outside: clusters are enclosed.
+#include "tools/cluster_tool.h"
+
+namespace {
+
+using namespace uvol_test;
+
+TEST_F(ClusterTool, HullsArePointsOfTheClusterWithTheirFields)
+{
+  const auto mesh = meshOf(attributes_ + "-cluster 1 -surface hull");
+  EXPECT_GT(mesh.triangles.size(), 50u);
+  EXPECT_LT(uvol_test::signedVolume(mesh), 4.2); // the ball's
+  EXPECT_GT(uvol_test::signedVolume(mesh), 1.0);
+  const Dataset vertices = pcl_uvol::loadDataset(out_);
+  const auto ids = fieldOf(vertices, "id"), label = fieldOf(vertices, "label");
+  const auto a = fieldOf(vertices, "a"), normal = fieldOf(vertices, "normal_x");
+  const auto samples = makeSamples();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Sample& sample = samples[static_cast<std::size_t>(ids[i])];
+    EXPECT_EQ(1, sample.cluster);
+    EXPECT_EQ(1.0, label[i]);
+    EXPECT_NEAR(sample.attributes[0], a[i], 1e-4);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(sample.place[axis], mesh.vertices[i][axis] + mesh.origin[axis], 1e-5);
+    EXPECT_LE(std::abs(normal[i]), 1.0);
+  }
+}
+
+TEST_F(ClusterTool, SurfacesAtADistanceAreAtThatDistance)
+{
+  constexpr double distance = 0.6, cell = (2.0 + 2.0 * distance) / 48.0;
+  const auto mesh =
+      meshOf(attributes_ + "-cluster 1 -surface distance -distance 0.6 -grid 48");
+  for (const auto& vertex : mesh.vertices) // between centres of cells
+    ASSERT_NEAR(distance, distanceTo(1, vertex), 2.0 * cell);
+  const auto result = run(attributes_ + "-cluster 1 -surface distance -json");
+  EXPECT_NE(std::string::npos, result.out.find("\"distance\": \"")) << result.out;
+}
+
+TEST_F(ClusterTool, SurfacesAroundHullsAreBeyondTheirPoints)
+{
+  constexpr double distance = 0.6, cell = (2.0 + 2.0 * distance) / 48.0;
+  const std::string options = attributes_ + "-cluster 1 -distance 0.6 -grid 48 ";
+  const double of_points =
+      uvol_test::signedVolume(meshOf(options + "-surface distance"));
+  const auto mesh = meshOf(options + "-surface hull-distance");
+  EXPECT_GT(uvol_test::signedVolume(mesh), of_points);
+  for (const auto& vertex : mesh.vertices)
+    ASSERT_GT(distanceTo(1, vertex), distance - 2.0 * cell);
+}
+
+TEST_F(ClusterTool, TooSmallDistancesAreToldOf)
+{
+  const auto result = run(attributes_ + "-cluster 1 -surface distance -distance 0.05 "
+                                        "-grid 300");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("Warning")) << result.err;
+  std::remove(out_.c_str());
+  expectFailure(attributes_ + "-cluster 1 -surface distance -distance 1e-9", 1, "grid");
+}
+
+TEST_F(ClusterTool, DistancesMayBeStretched)
+{
+  uvol_test::writeFile(in_, "x,y,z,label\n1,2,3,0\n9,9,9,1\n");
+  const auto mesh =
+      meshOf("-cluster 0 -surface distance -distance 0.5 -scale 1,1,4 -grid 64");
+  const double ball = 4.0 / 3.0 * M_PI * 0.125;
+  EXPECT_NEAR(ball / 4.0, uvol_test::signedVolume(mesh), 0.05 * ball / 4.0);
+  for (const auto& vertex : mesh.vertices)
+    ASSERT_LT(std::abs(vertex[2] - 3.0f), 0.14f);
+}
+
+TEST_F(ClusterTool, MembershipPartsSamplesOfTheClusterFromOthers)
+{
+  const Dataset border = resultOf(attributes_ + "-cluster 1 -surface membership");
+  EXPECT_GT(border.cloud.width, 10u);
+  // Midpoints of edges between balls of radius 1.
+  for (const double x : fieldOf(border, "x"))
+    EXPECT_NEAR(0.5 * apart, std::abs(x + border.origin[0] - apart), 1.0);
+  for (const char* field : {"a", "truth", "normal_x"})
+    EXPECT_NE(nullptr, pcl_uvol::findField(border.cloud.fields, field)) << field;
+}
+
+TEST_F(ClusterTool, MembershipMayBeSmoothOrUncertain)
+{
+  const std::string options = attributes_ + "-cluster 1 -surface membership ";
+  const auto plain = fieldOf(resultOf(options), "x");
+  for (const char* option : {"-probability probability",
+                             "-smoothing-length h",
+                             "-probability probability -smoothing-length h"}) {
+    const Dataset border = resultOf(options + option);
+    EXPECT_GT(border.cloud.width, 10u) << option;
+    EXPECT_NE(plain, fieldOf(border, "x")) << option;
+    for (const double x : fieldOf(border, "x"))
+      EXPECT_LT(std::abs(x + border.origin[0] - apart), apart) << option;
+  }
+}
+
+TEST_F(ClusterTool, SurfacesKeepThePlaceOfFarPoints)
+{
+  std::ostringstream csv;
+  csv.precision(12);
+  csv << "x,y,z,label\n";
+  for (const Sample& s : makeSamples())
+    csv << s.place[0] + 5e6 << ',' << s.place[1] - 3e6 << ',' << s.place[2] << ','
+        << s.cluster << '\n';
+  uvol_test::writeFile(in_, csv.str());
+  for (const char* surface : {"distance", "hull", "hull-distance"}) {
+    const auto mesh = meshOf(std::string("-cluster 0 -surface ") + surface);
+    double low = 1e9, high = -1e9;
+    for (const auto& vertex : mesh.vertices) {
+      low = std::min(low, vertex[0] + mesh.origin[0]);
+      high = std::max(high, vertex[0] + mesh.origin[0]);
+    }
+    EXPECT_NEAR(5e6, 0.5 * (low + high), 0.5) << surface;
+  }
+}
+
+TEST_F(ClusterTool, SurfacesNeedCoordinates)
+{
+  uvol_test::writeFile(in_, attributeTable());
+  for (const char* surface : {"membership", "distance", "hull", "hull-distance"})
+    expectFailure(attributes_ + "-cluster 1 -surface " + surface,
+                  1,
+                  "The input has no coordinates");
+}
+
+TEST_F(ClusterTool, TinyClustersGetASurfaceOrAClearAnswer)
+{
+  uvol_test::writeFile(in_,
+                       "x,y,z,label\n0,0,0,0\n1,0,0,1\n1,1,0,1\n0,0,1,2\n3,3,3,2\n"
+                       "5,0,0,2\n0,5,0,2\n2,6,5,2\n1,1,1,2\n2,0,0,2\n");
+  // One point.
+  expectFailure("-cluster 0 -surface distance", 1, "distance");
+  expectFailure("-cluster 0 -surface hull", 1, "cluster");
+  expectFailure("-cluster 0 -surface hull-distance", 1, "cluster");
+  for (const char* surface : {"hull", "hull-distance"}) {
+    const std::string option = std::string(" -surface ") + surface;
+    expectFailure("-cluster 0 -distance 0.5" + option, 1, "hull needs three points");
+    expectFailure("-cluster 1" + option, 1, "hull needs three points"); // two points
+    expectFailure("-cluster 1 -distance 2" + option, 1, "hull needs three points");
+  }
+  const double ball = 4.0 / 3.0 * M_PI * 0.125;
+  EXPECT_NEAR(
+      ball,
+      uvol_test::signedVolume(meshOf("-cluster 0 -surface distance -distance 0.5")),
+      0.05 * ball);
+  EXPECT_GT(uvol_test::signedVolume(meshOf("-cluster 1 -surface distance")), ball);
+  for (const char* cluster : {"0", "1"})
+    EXPECT_GT(
+        resultOf(std::string("-surface membership -cluster ") + cluster).cloud.width,
+        0u);
+}
+
+} // namespace
