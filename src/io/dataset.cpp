@@ -14,14 +14,6 @@
 namespace pcl_uvol {
 namespace {
 
-/** Relative to the extent: what float may lose of a coordinate. */
-constexpr double coordinate_tolerance = 1e-7;
-/** An axis thinner than this part of the cloud is flat, and noise across it no extent.
- */
-constexpr double flat_extent = 0x1p-13;
-/** The extent of a single place, as part of its largest coordinate. */
-constexpr double place_extent = 0x1p-20;
-
 constexpr const char* text_endings[] = {".csv", ".txt", ".xyz", ".dat", ".tsv"};
 constexpr const char* vtk_endings[] = {".vtk", ".vtp", ".vtu", ".vts"};
 
@@ -37,69 +29,6 @@ describeEnding(const std::string& ending)
 {
   return ending.empty() ? "its name has no ending"
                         : "the ending '" + ending + "' is not known";
-}
-
-/** What the coordinates of one axis are like. */
-struct AxisRange {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  double float_error = 0.0; ///< largest distance from a coordinate to its float
-
-  double
-  extent() const
-  {
-    return high > low ? high - low : 0.0;
-  }
-
-  double
-  largest() const
-  {
-    return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.0;
-  }
-};
-
-AxisRange
-rangeOf(const std::vector<double>& xyz, std::size_t axis)
-{
-  AxisRange range;
-  for (std::size_t i = axis; i < xyz.size(); i += 3) {
-    if (!std::isfinite(xyz[i]))
-      continue;
-    range.low = std::min(range.low, xyz[i]);
-    range.high = std::max(range.high, xyz[i]);
-    const double error =
-        std::abs(static_cast<double>(static_cast<float>(xyz[i])) - xyz[i]);
-    range.float_error = std::max(range.float_error, error);
-  }
-  if (range.largest() > std::numeric_limits<float>::max())
-    throw InvalidArgument("A coordinate is larger than float can hold (3.4e38): scale "
-                          "the coordinates down.");
-  return range;
-}
-
-std::array<double, 3>
-originOf(const std::vector<double>& xyz)
-{
-  std::array<AxisRange, 3> ranges;
-  double extent = 0.0, largest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    ranges[axis] = rangeOf(xyz, axis);
-    extent = std::max(extent, ranges[axis].extent());
-    largest = std::max(largest, ranges[axis].largest());
-  }
-  if (extent == 0.0)
-    extent = place_extent * largest;
-  std::array<double, 3> origin{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const AxisRange& range = ranges[axis];
-    const double scale =
-        range.extent() > flat_extent * extent ? range.extent() : extent;
-    if (range.float_error <= coordinate_tolerance * scale)
-      continue;
-    const double step = std::exp2(std::floor(std::log2(scale)));
-    origin[axis] = std::round(0.5 * (range.low + range.high) / step) * step;
-  }
-  return origin;
 }
 
 /** \param values four bytes each */
@@ -139,36 +68,49 @@ replaceField(Dataset& dataset,
 
 } // namespace
 
-Dataset
-loadDataset(const std::string& path, const LoadOptions& options)
+namespace io {
+
+FileFormat
+formatOf(const std::string& path, const LoadOptions& options)
 {
-  const std::string ending = io::endingOf(path);
-  const bool text = isOneOf(ending, text_endings);
-  if (options.xyz_columns != LoadOptions().xyz_columns && !text)
+  const std::string ending = endingOf(path);
+  if (isOneOf(ending, text_endings))
+    return FileFormat::Text;
+  if (options.xyz_columns != LoadOptions().xyz_columns)
     throw InvalidArgument(
         "Columns of coordinates can be chosen in text files only, and '" + path +
         "' is none.");
-  try {
-    if (text)
-      return io::readText(path, options);
-    if (ending == ".pcd")
+  if (ending == ".pcd")
+    return FileFormat::Pcd;
+  if (ending == ".ply")
+    return FileFormat::Ply;
+  if (isOneOf(ending, vtk_endings))
+    return FileFormat::Vtk;
+  const InputFile exists(path); // a missing file matters more than its ending
+  throwUnreadable(path,
+                  describeEnding(ending) +
+                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
+                      ".tsv, .vtk, .vtp, .vtu and .vts");
+}
+
+} // namespace io
+
+Dataset
+loadDataset(const std::string& path, const LoadOptions& options)
+{
+  const io::FileFormat format = io::formatOf(path, options);
+  return io::reading(path, [&] {
+    switch (format) {
+    case io::FileFormat::Pcd:
       return io::readPcd(path);
-    if (ending == ".ply")
+    case io::FileFormat::Ply:
       return io::readPly(path);
-    if (isOneOf(ending, vtk_endings))
-      return io::readVtk(path, ending);
-  }
-  catch (const InvalidArgument& error) {
-    throw IOError("Cannot read '" + path + "': " + error.message());
-  }
-  catch (const std::bad_alloc&) {
-    io::throwUnreadable(path, "there is not enough memory for it");
-  }
-  const io::InputFile exists(path); // a missing file matters more than its ending
-  io::throwUnreadable(path,
-                      describeEnding(ending) +
-                          "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                          ".tsv, .vtk, .vtp, .vtu and .vts");
+    case io::FileFormat::Text:
+      return io::readText(path, options);
+    default:
+      return io::readVtk(path);
+    }
+  });
 }
 
 void
@@ -218,16 +160,16 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
     throw InvalidArgument("There are coordinates of " + std::to_string(count) +
                           " points for a cloud of " +
                           std::to_string(cloud.width * cloud.height) + ".");
-  dataset.origin = originOf(xyz);
+  io::CoordinateRange range;
+  for (std::size_t i = 0; i < xyz.size(); ++i)
+    range.add(i % 3, xyz[i]);
+  dataset.origin = range.origin();
   cloud = io::repack(cloud, false);
   for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto relative =
-          static_cast<float>(xyz[3 * i + axis] - dataset.origin[axis]);
-      std::memcpy(cloud.data.data() + i * cloud.point_step + axis * sizeof(float),
-                  &relative,
-                  sizeof(relative));
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      io::putCoordinate(xyz[3 * i + axis] - dataset.origin[axis],
+                        axis,
+                        cloud.data.data() + i * cloud.point_step);
 }
 
 void

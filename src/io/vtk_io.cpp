@@ -239,8 +239,13 @@ PointCollector::collect()
 {
   addCoordinates();
   addPointData();
-  auto records = makeRecords(
-      path_, fields_, static_cast<std::uint64_t>(points_.GetNumberOfPoints()));
+  RecordInfo info;
+  info.fields = fields_;
+  info.count = static_cast<std::uint64_t>(points_.GetNumberOfPoints());
+  info.notes = notes_;
+  if (!vtkPointSet::SafeDownCast(&points_))
+    info.double_coordinates = false; // those of a lattice were computed here
+  auto records = makeRecords(path_, fields_, info.count);
   std::size_t offset = 0;
   for (const auto& array : arrays_) {
     const std::size_t bytes = static_cast<std::size_t>(array->GetDataTypeSize()) *
@@ -254,12 +259,7 @@ PointCollector::collect()
     }
     offset += bytes;
   }
-  const bool lattice = !vtkPointSet::SafeDownCast(&points_);
-  Dataset dataset = makeDataset(path_, std::move(records));
-  if (lattice)
-    dataset.double_coordinates = false; // the numbers were computed here
-  dataset.notes.insert(dataset.notes.begin(), notes_.begin(), notes_.end());
-  return dataset;
+  return makeDataset(path_, info, std::move(records));
 }
 
 int
@@ -358,9 +358,9 @@ polyDataOf(const Dataset& dataset)
 } // namespace
 
 Dataset
-readVtk(const std::string& path, const std::string& ending)
+readVtk(const std::string& path)
 {
-  const auto points = readPoints(path, ending);
+  const auto points = readPoints(path, endingOf(path));
   return PointCollector(path, *points).collect();
 }
 
