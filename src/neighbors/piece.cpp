@@ -47,7 +47,23 @@ anchored(const CellKey& key, std::vector<Position>& positions)
   return cell;
 }
 
-/** The samples of all runs, one after the other, and the cells of their trees. */
+std::vector<KdTree>
+treesOf(const std::vector<LentBrick>& bricks, const AxisCycle& axes, unsigned threads)
+{
+  std::vector<KdTree> trees(bricks.size());
+  parallelBlocks(bricks.size(), block_bricks, threads, [&](auto begin, auto end) {
+    Report none;
+    StepTimer step(none, "halo");
+    for (std::size_t i = begin; i < end; ++i) {
+      auto records = recordsOf(bricks[i].samples.positions, 1);
+      trees[i].build(records, axes, bricks[i].brick.depth, 1, step);
+    }
+  });
+  return trees;
+}
+
+/** Give trees whose samples stand one after the other their cells, and the positions
+ * what these rest on. */
 void
 placeTrees(SampleSet::Parts& parts, const std::vector<CellKey>& cells)
 {
@@ -245,14 +261,20 @@ Piece::getOwnSamples() const
   return lend({runs_[own_].begin, runs_[own_].count, 0, {}}).samples;
 }
 
+bool
+Piece::holds(const Brick& brick) const
+{
+  const auto run = std::lower_bound(
+      runs_.begin(), runs_.end(), brick.begin, [](const Run& r, std::uint64_t begin) {
+        return r.begin < begin;
+      });
+  return run != runs_.end() && run->begin == brick.begin;
+}
+
 std::size_t
 Piece::borrow(std::vector<LentBrick>&& bricks, unsigned threads)
 {
-  const auto is_known = [&](std::uint64_t begin) {
-    return std::any_of(
-        runs_.begin(), runs_.end(), [&](const Run& run) { return run.begin == begin; });
-  };
-  const auto begin_of = [](const LentBrick& a) { return a.brick.begin; };
+  const auto begin_of = [](const LentBrick& lent) { return lent.brick.begin; };
   std::sort(bricks.begin(), bricks.end(), [&](const auto& a, const auto& b) {
     return begin_of(a) < begin_of(b);
   });
@@ -262,72 +284,65 @@ Piece::borrow(std::vector<LentBrick>&& bricks, unsigned threads)
                              return begin_of(a) == begin_of(b);
                            }),
                bricks.end());
-  bricks.erase(
-      std::remove_if(bricks.begin(),
-                     bricks.end(),
-                     [&](const LentBrick& lent) { return is_known(begin_of(lent)); }),
-      bricks.end());
-  if (bricks.empty())
-    return 0;
+  bricks.erase(std::remove_if(bricks.begin(),
+                              bricks.end(),
+                              [&](const auto& lent) { return holds(lent.brick); }),
+               bricks.end());
+  if (!bricks.empty())
+    join(bricks, treesOf(bricks, axes_, threads));
+  return bricks.size();
+}
 
-  std::vector<KdTree> trees(bricks.size());
-  parallelBlocks(bricks.size(), block_bricks, threads, [&](auto begin, auto end) {
-    Report none;
-    StepTimer step(none, "halo");
-    for (std::size_t i = begin; i < end; ++i) {
-      auto records = recordsOf(bricks[i].samples.positions, 1);
-      trees[i].build(records, axes_, bricks[i].brick.depth, 1, step);
-    }
-  });
-
-  // Old and new runs in the order of their samples.
+void
+Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
+{
   SampleSet::Parts old = std::move(*samples_).take();
-  old.positions.resize(old.size);
   Samples before;
   before.positions = std::move(old.positions);
   before.values = std::move(values_);
   before.sources = std::move(sources_);
+
+  /** Samples of a run, and where they are. */
+  struct Block {
+    Run run;
+    KdTree* tree;
+    const Samples* samples;
+    std::size_t first;
+  };
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < runs_.size(); ++i)
+    blocks.push_back({runs_[i], &old.trees[i], &before, old.trees[i].getRoot().begin});
+  const std::uint64_t own_begin = runs_[own_].begin;
+  std::size_t total = old.size;
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    const Brick& brick = bricks[i].brick;
+    blocks.push_back(
+        {{brick.begin, brick.count, brick.cell}, &trees[i], &bricks[i].samples, 0});
+    total += brick.count;
+  }
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
+    return a.run.begin < b.run.begin;
+  });
+
   SampleSet::Parts parts;
   parts.scale = old.scale;
   Samples joined;
-  std::vector<Run> runs;
-  std::vector<CellKey> cells;
-  const auto take =
-      [&](const Run& run, KdTree&& tree, const Samples& samples, std::size_t first) {
-        joined.append(samples, first, run.count);
-        parts.trees.push_back(std::move(tree));
-        runs.push_back(run);
-        cells.push_back(run.cell);
-      };
-  std::size_t total = before.size();
-  for (const LentBrick& lent : bricks)
-    total += lent.samples.size();
   joined.reserve(total);
-  std::size_t next = 0;
-  const auto take_bricks_below = [&](std::uint64_t begin) {
-    for (; next < bricks.size() && begin_of(bricks[next]) < begin; ++next) {
-      const Brick& brick = bricks[next].brick;
-      take({brick.begin, brick.count, brick.cell},
-           std::move(trees[next]),
-           bricks[next].samples,
-           0);
-    }
-  };
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    take_bricks_below(runs_[i].begin);
-    parts.own = i == own_ ? runs.size() : parts.own;
-    const std::uint32_t first = old.trees[i].getRoot().begin;
-    take(runs_[i], std::move(old.trees[i]), before, first);
+  runs_.clear();
+  std::vector<CellKey> cells;
+  for (const Block& block : blocks) {
+    if (block.run.begin == own_begin)
+      own_ = parts.own = runs_.size();
+    joined.append(*block.samples, block.first, block.run.count);
+    parts.trees.push_back(std::move(*block.tree));
+    runs_.push_back(block.run);
+    cells.push_back(block.run.cell);
   }
-  take_bricks_below(~std::uint64_t(0));
-  own_ = parts.own;
-  runs_ = std::move(runs);
   parts.positions = std::move(joined.positions);
   values_ = std::move(joined.values);
   sources_ = std::move(joined.sources);
   placeTrees(parts, cells);
   samples_ = std::make_unique<SampleSet>(std::move(parts));
-  return bricks.size();
 }
 
 void

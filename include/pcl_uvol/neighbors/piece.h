@@ -163,6 +163,10 @@ public:
   Samples
   getOwnSamples() const;
 
+  /** \brief True for a brick of another piece that was borrowed. */
+  bool
+  holds(const Brick& brick) const;
+
   /** \brief Add to the halo; bricks that are there already are left out.
    * \return how many are new */
   std::size_t
@@ -180,6 +184,9 @@ private:
 
   std::uint32_t
   firstOf(const Run& run) const;
+
+  void
+  join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees);
 
   std::unique_ptr<SampleSet> samples_;
   std::vector<float> values_;
