@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -56,24 +55,6 @@ levelsFor(std::uint64_t samples, std::uint64_t max_memory)
     ++levels;
   return levels;
 }
-
-struct Range {
-  float min = std::numeric_limits<float>::infinity(), max = -min;
-
-  void
-  extend(const Range& other)
-  {
-    min = std::min(min, other.min);
-    max = std::max(max, other.max);
-  }
-
-  bool
-  holds(double isovalue) const
-  {
-    const auto rounded = static_cast<float>(isovalue);
-    return min < rounded && rounded <= max;
-  }
-};
 
 /** One extraction. */
 class OutOfCoreExtraction {
@@ -145,18 +126,25 @@ private:
       store_ = std::make_unique<io::PieceStore>(
           *log_, *decomposition_, out_of_core_.scratch_folder, out_of_core_.threads);
     }
-    report_.count("scratch_bytes", log_->bytes() + store_->bytes());
-    bricks_.assign(decomposition_->size(), {});
-    ranges_.assign(decomposition_->size(), {});
+    const std::uint64_t log_bytes = log_->bytes();
+    bricks_.clear();
+    ranges_.clear();
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
-      const auto built = build(piece);
+      const auto built = Piece::build(*decomposition_,
+                                      piece,
+                                      store_->load(piece),
+                                      settings_.scale,
+                                      out_of_core_.threads,
+                                      report_);
       if (!built)
         return false;
-      bricks_[piece] = built->getBricks();
-      for (const float value : built->getValues())
-        ranges_[piece].extend({value, value});
-      store_->save(piece, built->getOwnSamples());
+      bricks_.push_back(built->makeBricks());
+      const auto& values = built->getValues();
+      const auto [min, max] = std::minmax_element(values.begin(), values.end());
+      ranges_.push_back({*min, *max});
+      store_->save(piece, *built);
     }
+    report_.count("scratch_bytes", log_bytes + store_->bytes());
     log_.reset();
     report_.count("pieces", decomposition_->size());
     report_.count("samples", decomposition_->getSampleCount());
@@ -174,42 +162,39 @@ private:
     }
   }
 
-  std::optional<Piece>
-  build(std::size_t piece)
+  /** True if an isovalue lies between two values of a range. */
+  bool
+  isCrossed(float min, float max) const
   {
-    return Piece::build(*decomposition_,
-                        piece,
-                        store_->load(piece),
-                        settings_.scale,
-                        out_of_core_.threads,
-                        report_);
+    return std::any_of(
+        settings_.isovalues.begin(), settings_.isovalues.end(), [&](double isovalue) {
+          const auto rounded = static_cast<float>(isovalue);
+          return min < rounded && rounded <= max;
+        });
   }
 
-  /** Call visit for a piece and those that touch it. */
-  template <typename Visit>
-  void
-  forAround(std::size_t piece, const Visit& visit) const
-  {
-    const CellKey cell = decomposition_->getCell(piece);
-    for (std::size_t other = 0; other < decomposition_->size(); ++other)
-      if (other == piece || decomposition_->getCell(other).touches(cell))
-        visit(other);
-  }
-
+  /** True if an edge from a sample of the piece may be crossed. */
   bool
   isCrossed(std::size_t piece) const
   {
-    Range range;
-    forAround(piece, [&](std::size_t other) { range.extend(ranges_[other]); });
-    return std::any_of(settings_.isovalues.begin(),
-                       settings_.isovalues.end(),
-                       [&](double isovalue) { return range.holds(isovalue); });
+    const auto& [min, max] = ranges_[piece];
+    bool crossed = isCrossed(min, max);
+    const CellKey cell = decomposition_->getCell(piece);
+    for (std::size_t other = 0; other < ranges_.size() && !crossed; ++other)
+      if (other != piece)
+        bricks_[other].find(
+            [&](const CellKey& around) { return !crossed && around.touches(cell); },
+            [&, low = min, high = max](const Brick& brick) {
+              crossed = crossed || isCrossed(std::min(low, brick.range.min),
+                                             std::max(high, brick.range.max));
+            });
+    return crossed;
   }
 
   std::vector<std::vector<GlobalIsopoint>>
   findIsopoints(std::size_t index)
   {
-    Piece piece = *build(index);
+    Piece piece = store_->restore(*decomposition_, index, settings_.scale);
     std::vector<LentBrick> bricks;
     const auto lend = [&](std::size_t other, const Brick& brick) {
       bricks.push_back(store_->lend(other, decomposition_->getBegin(other), brick));
@@ -217,12 +202,11 @@ private:
     {
       const StepTimer timer(report_, "exchange");
       const CellKey& cell = piece.getCell();
-      forAround(index, [&](std::size_t other) {
+      for (std::size_t other = 0; other < decomposition_->size(); ++other)
         if (other != index)
           bricks_[other].find(
               [&](const CellKey& around) { return around.touches(cell); },
               [&](const Brick& brick) { lend(other, brick); });
-      });
       piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
     }
     PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
@@ -247,8 +231,8 @@ private:
   std::unique_ptr<io::SampleLog> log_;
   std::unique_ptr<io::PieceStore> store_;
   std::optional<Decomposition> decomposition_;
-  std::vector<BrickTable> bricks_; // by piece
-  std::vector<Range> ranges_;
+  std::vector<BrickTable> bricks_;        // by piece
+  std::vector<NodeRanges::Range> ranges_; // of values, by piece
 };
 
 /** The points that edges end at, and the edges by their indices. */

@@ -96,7 +96,9 @@ PieceStore::PieceStore(const SampleLog& log,
                        const std::string& folder,
                        unsigned threads)
     : file_(folder)
+    , planes_(folder)
     , begins_(decomposition.size() + 1)
+    , plane_begins_{0}
 {
   std::vector<std::uint32_t> pieces;
   const auto find_pieces = [&](const Position* positions, std::size_t count) {
@@ -174,9 +176,23 @@ PieceStore::load(std::size_t piece) const
 }
 
 void
-PieceStore::save(std::size_t piece, const Samples& samples)
+PieceStore::save(std::size_t piece, const Piece& built)
 {
-  write(begins_[piece], samples);
+  write(begins_[piece], built.getOwnSamples());
+  const auto& planes = built.getPlanes();
+  planes_.append(planes.data(), planes.size() * sizeof(SplitPlane));
+  plane_begins_.push_back(planes_.size());
+}
+
+Piece
+PieceStore::restore(const Decomposition& decomposition,
+                    std::size_t piece,
+                    const Position& scale) const
+{
+  std::vector<SplitPlane> planes((plane_begins_[piece + 1] - plane_begins_[piece]) /
+                                 sizeof(SplitPlane));
+  planes_.read(plane_begins_[piece], planes.data(), planes.size() * sizeof(SplitPlane));
+  return Piece::restore(decomposition, piece, load(piece), std::move(planes), scale);
 }
 
 LentBrick

@@ -55,15 +55,21 @@ public:
   std::uint64_t
   bytes() const
   {
-    return file_.size();
+    return file_.size() + planes_.size();
   }
 
   Samples
   load(std::size_t piece) const;
 
-  /** \brief Put as many samples of a piece back, in another order. */
+  /** \brief Put a piece back, in leaf order; one after the other. */
   void
-  save(std::size_t piece, const Samples& samples);
+  save(std::size_t piece, const Piece& built);
+
+  /** \brief That piece again. */
+  Piece
+  restore(const Decomposition& decomposition,
+          std::size_t piece,
+          const Position& scale) const;
 
   /** \brief Samples of a piece here and there, once they were put back in leaf order.
    * \param begin of the piece in the leaf order of all samples */
@@ -78,8 +84,9 @@ private:
   void
   write(std::uint64_t begin, const Samples& samples);
 
-  ScratchFile file_;
-  std::vector<std::uint64_t> begins_; // by piece, and the end
+  ScratchFile file_, planes_;
+  std::vector<std::uint64_t> begins_;       // by piece, and the end
+  std::vector<std::uint64_t> plane_begins_; // by piece, and the end, of those saved
 };
 
 } // namespace io

@@ -218,12 +218,14 @@ private:
   lendBorders()
   {
     const StepTimer timer(report_, "exchange");
+    for (const auto& [own, piece] : pieces_)
+      bricks_.emplace(own, piece.makeBricks());
     Loans loans(*this);
     for (const auto& [own, piece] : pieces_)
       for (std::size_t other = 0; other < decomposition_->size(); ++other) {
         const CellKey cell = decomposition_->getCell(other);
         if (other != own && cell.touches(piece.getCell()))
-          piece.getBricks().find(
+          bricks_.at(own).find(
               [&](const CellKey& around) { return around.touches(cell); },
               [&](const Brick& brick) { loans.lend(other, piece.lend(brick)); });
       }
@@ -267,11 +269,12 @@ private:
       for (const Bytes& bytes : exchange(std::move(messages), "bytes_exchanged"))
         for (ByteReader reader(bytes); !reader.atEnd();) {
           const auto borrower = reader.get<std::size_t>();
-          const Piece& piece = pieces_.at(reader.get<std::size_t>());
+          const auto lender = reader.get<std::size_t>();
+          const Piece& piece = pieces_.at(lender);
           std::vector<Ball> balls;
           reader.get(balls);
           const CellKey border = decomposition_->getCell(borrower);
-          forBricksIn(balls, piece.getBricks(), [&](const Brick& brick) {
+          forBricksIn(balls, bricks_.at(lender), [&](const Brick& brick) {
             if (!brick.cell.touches(border)) // it has those
               loans.lend(borrower, piece.lend(brick));
           });
@@ -322,6 +325,7 @@ private:
   std::optional<Decomposition> decomposition_;
   std::map<std::size_t, Samples> samples_; // by piece, until these are built
   std::map<std::size_t, Piece> pieces_;
+  std::map<std::size_t, BrickTable> bricks_; // of these
   std::map<std::size_t, PieceIsopoints> isopoints_;
 };
 

@@ -334,6 +334,17 @@ KdTree::build(std::vector<SampleRecord>& records,
 }
 
 void
+KdTree::restore(std::vector<SplitPlane>&& planes,
+                std::uint32_t count,
+                const AxisCycle& axes,
+                int depth)
+{
+  root_ = {1, 0, count, depth};
+  axis_at_depth_ = axes;
+  planes_ = std::move(planes);
+}
+
+void
 KdTree::place(std::uint32_t begin, const KdCell& cell)
 {
   for (SplitPlane& plane : planes_)

@@ -108,7 +108,11 @@ struct BrickTable::Walk {
     if (!accepts(cell))
       return;
     if (node.count <= most_samples) {
-      found({table.begin_ + node.begin, node.count, node.depth, cell});
+      found({table.begin_ + node.begin,
+             node.count,
+             node.depth,
+             cell,
+             table.ranges_[node.number]});
       return;
     }
     const auto axis =
@@ -126,6 +130,7 @@ struct BrickTable::Walk {
 
 BrickTable::BrickTable(const KdTree& tree,
                        const std::vector<Position>& positions,
+                       const std::vector<float>& values,
                        std::uint64_t begin,
                        const CellKey& cell)
     : root_(tree.getRoot())
@@ -135,8 +140,14 @@ BrickTable::BrickTable(const KdTree& tree,
   for (std::size_t depth = 0; depth < axes_.size(); ++depth)
     axes_[depth] = static_cast<std::int8_t>(tree.getAxis(static_cast<int>(depth)));
   const std::function<void(const KdNode&)> take = [&](const KdNode& node) {
-    if (node.count <= most_samples)
+    if (node.count <= most_samples) {
+      if (ranges_.size() <= node.number)
+        ranges_.resize(node.number + 1);
+      const auto [min, max] = std::minmax_element(
+          values.begin() + node.begin, values.begin() + node.begin + node.count);
+      ranges_[node.number] = {*min, *max};
       return;
+    }
     if (planes_.size() <= node.number)
       planes_.resize(node.number + 1);
     const SplitPlane& plane = tree.getPlane(node);
@@ -169,6 +180,26 @@ forBricksIn(const std::vector<Ball>& balls,
       found);
 }
 
+Piece::Piece(const Decomposition& decomposition,
+             std::size_t piece,
+             Samples&& samples,
+             KdTree&& tree,
+             const Position& scale)
+    : values_(std::move(samples.values))
+    , sources_(std::move(samples.sources))
+    , runs_{{decomposition.getBegin(piece),
+             static_cast<std::uint32_t>(samples.positions.size()),
+             decomposition.getCell(piece)}}
+    , axes_(decomposition.getAxes())
+{
+  SampleSet::Parts parts;
+  parts.scale = scale;
+  parts.positions = std::move(samples.positions);
+  parts.trees.push_back(std::move(tree));
+  placeTrees(parts, {runs_[0].cell});
+  samples_ = std::make_unique<SampleSet>(std::move(parts));
+}
+
 std::optional<Piece>
 Piece::build(const Decomposition& decomposition,
              std::size_t piece,
@@ -182,34 +213,52 @@ Piece::build(const Decomposition& decomposition,
   StepTimer step(report, "tree", samples.size());
   std::vector<SampleRecord> records = recordsOf(samples.positions, threads);
   samples.positions = {};
-  Piece result;
-  result.axes_ = decomposition.getAxes();
-  SampleSet::Parts parts;
-  parts.scale = scale;
-  KdTree& tree = parts.trees.emplace_back();
-  if (!tree.build(records, result.axes_, decomposition.getLevels(), threads, step)) {
-    samples.positions.resize(records.size());
+  KdTree tree;
+  const bool distinct = tree.build(
+      records, decomposition.getAxes(), decomposition.getLevels(), threads, step);
+  samples.positions.resize(records.size());
+  if (!distinct) {
     for (const SampleRecord& record : records)
       samples.positions[record.input_index] = record.position;
     return std::nullopt;
   }
-  parts.positions.resize(records.size());
-  result.values_.resize(records.size());
-  result.sources_.resize(records.size());
+  Samples ordered;
+  ordered.values.resize(records.size());
+  ordered.sources.resize(records.size());
   parallelBlocks(records.size(), block_samples, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
-      parts.positions[i] = records[i].position;
-      result.values_[i] = samples.values[records[i].input_index];
-      result.sources_[i] = samples.sources[records[i].input_index];
+      samples.positions[i] = records[i].position;
+      ordered.values[i] = samples.values[records[i].input_index];
+      ordered.sources[i] = samples.sources[records[i].input_index];
     }
   });
-  const CellKey cell = decomposition.getCell(piece);
-  const std::uint64_t begin = decomposition.getBegin(piece);
-  result.bricks_ = BrickTable(tree, parts.positions, begin, cell);
-  placeTrees(parts, {cell});
-  result.runs_ = {{begin, static_cast<std::uint32_t>(records.size()), cell}};
-  result.samples_ = std::make_unique<SampleSet>(std::move(parts));
-  return result;
+  ordered.positions = std::move(samples.positions);
+  return Piece(decomposition, piece, std::move(ordered), std::move(tree), scale);
+}
+
+Piece
+Piece::restore(const Decomposition& decomposition,
+               std::size_t piece,
+               Samples&& samples,
+               std::vector<SplitPlane>&& planes,
+               const Position& scale)
+{
+  KdTree tree;
+  tree.restore(std::move(planes),
+               static_cast<std::uint32_t>(samples.size()),
+               decomposition.getAxes(),
+               decomposition.getLevels());
+  return Piece(decomposition, piece, std::move(samples), std::move(tree), scale);
+}
+
+BrickTable
+Piece::makeBricks() const
+{
+  return {samples_->getTree(),
+          samples_->getPositions(),
+          values_,
+          runs_[own_].begin,
+          runs_[own_].cell};
 }
 
 std::uint32_t
@@ -258,7 +307,7 @@ Piece::lend(const Brick& brick) const
 Samples
 Piece::getOwnSamples() const
 {
-  return lend({runs_[own_].begin, runs_[own_].count, 0, {}}).samples;
+  return lend({runs_[own_].begin, runs_[own_].count, 0, {}, {}}).samples;
 }
 
 bool

@@ -144,6 +144,19 @@ public:
         unsigned threads,
         StepTimer& step);
 
+  /** \brief What build() finds out, to be kept elsewhere and restored. @{ */
+  const std::vector<SplitPlane>&
+  getPlanes() const
+  {
+    return planes_;
+  }
+  void
+  restore(std::vector<SplitPlane>&& planes,
+          std::uint32_t count,
+          const AxisCycle& axes,
+          int depth);
+  /** @} */
+
   /** \brief A cycle over some axes; over none, all zeros. */
   static AxisCycle
   cycleOver(const std::array<bool, 3>& axes);

@@ -52,10 +52,11 @@ struct Brick {
   std::uint32_t count; ///< samples
   std::int32_t depth;  ///< of its root
   CellKey cell;
+  NodeRanges::Range range; ///< of its values
 };
 
-/** \brief The planes of a piece's tree down to its bricks. Memory: about 1/8 byte per
- * sample. */
+/** \brief The planes of a piece's tree down to its bricks, and the ranges of their
+ * values. Memory: about 1/4 byte per sample. */
 class PCL_UVOL_EXPORTS BrickTable {
 public:
   /** \brief Largest number of samples in a brick. */
@@ -67,6 +68,7 @@ public:
    * \param begin, cell of the piece among all samples */
   BrickTable(const KdTree& tree,
              const std::vector<Position>& positions,
+             const std::vector<float>& values,
              std::uint64_t begin,
              const CellKey& cell);
 
@@ -84,6 +86,7 @@ private:
   std::uint64_t begin_ = 0;
   CellKey cell_;
   std::vector<PlaneKey> planes_; // by number, of nodes with more samples than a brick
+  std::vector<NodeRanges::Range> ranges_; // by number, of bricks
 };
 
 /** \brief Call found for each brick that meets one of the balls, ascending. */
@@ -114,6 +117,23 @@ public:
         const Position& scale,
         unsigned threads,
         Report& report);
+
+  /** \brief A piece that was built before.
+   * \param samples, planes in leaf order, as getOwnSamples() and getPlanes() gave them
+   */
+  static Piece
+  restore(const Decomposition& decomposition,
+          std::size_t piece,
+          Samples&& samples,
+          std::vector<SplitPlane>&& planes,
+          const Position& scale);
+
+  /** \brief Planes of the tree over the own samples, before anything was borrowed. */
+  const std::vector<SplitPlane>&
+  getPlanes() const
+  {
+    return samples_->getTree().getPlanes();
+  }
 
   /** \brief Own samples and those borrowed, in one leaf order. */
   const SampleSet&
@@ -149,11 +169,9 @@ public:
   toLocal(std::uint64_t sample) const;
   /** @} */
 
-  const BrickTable&
-  getBricks() const
-  {
-    return bricks_;
-  }
+  /** \brief Bricks of the own samples, before anything was borrowed. */
+  BrickTable
+  makeBricks() const;
 
   /** \brief The own samples of a brick of this piece. */
   LentBrick
@@ -180,7 +198,12 @@ private:
     CellKey cell;
   };
 
-  Piece() = default;
+  /** Of samples in leaf order. */
+  Piece(const Decomposition& decomposition,
+        std::size_t piece,
+        Samples&& samples,
+        KdTree&& tree,
+        const Position& scale);
 
   std::uint32_t
   firstOf(const Run& run) const;
@@ -193,8 +216,7 @@ private:
   std::vector<std::uint64_t> sources_;
   std::vector<Run> runs_; // ascending, one per tree of samples_
   std::size_t own_ = 0;
-  AxisCycle axes_{};
-  BrickTable bricks_;
+  AxisCycle axes_;
 };
 
 /** \brief Leave one of samples that coincide: the lower median of their values, and the
