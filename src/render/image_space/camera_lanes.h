@@ -23,6 +23,14 @@ toCamera(const Projection& p, const Vector& v)
           r[6] * v.x + r[7] * v.y + r[8] * v.z + p.translation[2]};
 }
 
+/** Pixels that a unit of length has at a depth. Divided and multiplied as shaders do,
+ * which know reciprocals only: all backends agree to the last bit. */
+inline Floats
+pixelsPerLength(const Projection& p, const Vector& c)
+{
+  return p.focal * (1.0f / c.z);
+}
+
 inline PixelKey
 keyOf(float depth, std::uint32_t point)
 {

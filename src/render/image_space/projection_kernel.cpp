@@ -91,7 +91,7 @@ projectPoints(const Projection& projection,
                 (laneNumbers() < fill(static_cast<std::int32_t>(here)));
     if (projection.cull_back_faces)
       seen &= facing >= 0.0f;
-    const Floats per_z = projection.focal / c.z;
+    const Floats per_z = pixelsPerLength(projection, c);
     const Floats px = projection.center_x + c.x * per_z;
     const Floats py = projection.center_y + c.y * per_z;
     if (points.radii != nullptr) {
