@@ -33,6 +33,7 @@ layout(location = 1) in float y;
 layout(location = 2) in float z;
 layout(location = 3) in uvec2 look; // packed normal, colour
 layout(location = 4) in float footprint;
+layout(location = 5) in float filler; // or footprint, among sparse points
 
 uniform mat3 rotation;
 uniform vec3 translation;
@@ -43,6 +44,7 @@ uniform float near;
 uniform bool culls;
 uniform bool is_two_sided;
 uniform float smallest_footprint;
+uniform float largest_filler;
 uniform float largest_reach; // of what is drawn as one point, pixels
 
 const vec4 nowhere = vec4(2.0, 2.0, 2.0, 1.0);
@@ -120,6 +122,12 @@ void setDisc(uint index, vec3 c, float radius, vec3 direction)
 #endif
 }
 
+float discRadius(vec3 c)
+{
+  EXACT float size = footprint * (focal * (1.0 / c.z));
+  return size > largest_filler ? footprint : filler;
+}
+
 bool isDisc(vec3 c, float radius)
 {
   EXACT float size = radius * (focal * (1.0 / c.z));
@@ -147,8 +155,8 @@ void main()
 {
   vec3 direction = unpackDirection(look.x);
   vec3 c = toCamera();
-  float radius = footprint * stretch;
-  bool is_disc = isDisc(c, footprint) && !isLarge(c, radius);
+  float unstretched = discRadius(c), radius = unstretched * stretch;
+  bool is_disc = isDisc(c, unstretched) && !isLarge(c, radius);
   vec2 place = placeOf(c);
   setDisc(uint(gl_VertexID), c, is_disc ? radius : 0.0, direction);
   vec2 size = reach(c, radius);
@@ -172,10 +180,10 @@ void main()
 {
   vec3 direction = unpackDirection(look.x);
   vec3 c = toCamera();
-  float radius = footprint * stretch;
+  float unstretched = discRadius(c), radius = unstretched * stretch;
   setDisc(uint(first + gl_InstanceID), c, radius, direction);
   gl_Position = nowhere;
-  if (isHidden(c, direction) || !isDisc(c, footprint) || !isLarge(c, radius))
+  if (isHidden(c, direction) || !isDisc(c, unstretched) || !isLarge(c, radius))
     return;
   vec2 low = origin, high = origin + extent;
   if (c.z - radius >= near) {

@@ -31,6 +31,16 @@ pixelsPerLength(const Projection& p, const Vector& c)
   return p.focal * (1.0f / c.z);
 }
 
+/** Of a disc, which is its point's footprint if that is too large for a filler. */
+inline Floats
+discRadius(const Projection& p,
+           const Floats& radius,
+           const Floats& footprint,
+           const Floats& pixels_per_length)
+{
+  return footprint * pixels_per_length > p.largest_filler ? footprint : radius;
+}
+
 inline PixelKey
 keyOf(float depth, std::uint32_t point)
 {

@@ -29,10 +29,12 @@ struct DiscLanes {
   DiscLanes(const Projection& projection,
             const Vector& position,
             const Ints& packed_normal,
-            const Floats& disc_radius)
+            const Floats& disc_radius,
+            const Floats& footprint)
       : center(toCamera(projection, position))
-      , radius(disc_radius)
   {
+    const Floats per_length = pixelsPerLength(projection, center);
+    radius = discRadius(projection, disc_radius, footprint, per_length);
     Floats n[3];
     unpackDirection(packed_normal, n);
     const float* const r = projection.rotation;
@@ -44,7 +46,6 @@ struct DiscLanes {
     const Floats slant = pixelSize(projection) * (1.0f / facing);
     tilt_x = axis.x * slant;
     tilt_y = axis.y * slant;
-    const Floats per_length = pixelsPerLength(projection, center);
     px = projection.center_x + center.x * per_length;
     py = projection.center_y + center.y * per_length;
   }
@@ -125,14 +126,15 @@ public:
   LargeDisc(const Projection& projection,
             const ProjectedPoints& points,
             std::uint32_t point,
-            float radius,
+            float stretch,
             const PixelBand& band)
       : disc_(projection,
               {fill(points.x[0][point]),
                fill(points.x[1][point]),
                fill(points.x[2][point])},
               fill(static_cast<std::int32_t>(points.normals[point])),
-              fill(radius))
+              fill(stretch * points.radii[point]),
+              fill(stretch * points.footprints[point]))
       , polynomials_(projection, disc_)
       , projection_(projection)
       , first_row_(band.first_row)
@@ -327,7 +329,7 @@ private:
          const std::uint32_t* discs,
          int count)
   {
-    alignas(64) float x[3][lanes], radius[lanes];
+    alignas(64) float x[3][lanes], radius[lanes], footprint[lanes];
     alignas(64) std::int32_t normal[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const std::uint32_t disc = discs[lane < count ? lane : 0];
@@ -335,11 +337,13 @@ private:
         x[axis][lane] = points.x[axis][disc];
       normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
       radius[lane] = points.radii[disc];
+      footprint[lane] = points.footprints[disc];
     }
     return DiscLanes(projection,
                      {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
                      load<Ints>(normal),
-                     load<Floats>(radius));
+                     load<Floats>(radius),
+                     load<Floats>(footprint));
   }
 
   /** How many columns beside their centres' discs can reach so many rows away. */
@@ -395,7 +399,7 @@ draw(const Projection& projection,
     for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
       const std::uint32_t point =
           discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
-      const LargeDisc disc(projection, points, point, points.radii[point], band);
+      const LargeDisc disc(projection, points, point, 1.0f, band);
       const float room = disc.radius() * (back * projection.per_far);
       disc.forCovered([&](int row, int column, float depth, float) {
         if (depth + room < 1.0f)
@@ -433,8 +437,7 @@ blend(const Projection& projection,
       const BlendSums& blended)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    const LargeDisc disc(
-        projection, points, discs[i], points.stretch * points.radii[discs[i]], band);
+    const LargeDisc disc(projection, points, discs[i], points.stretch, band);
     Floats direction[3];
     unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
     const Floats length =

@@ -95,7 +95,10 @@ projectPoints(const Projection& projection,
     const Floats px = projection.center_x + c.x * per_z;
     const Floats py = projection.center_y + c.y * per_z;
     if (points.radii != nullptr) {
-      const Floats radius = loadSome<Floats>(points.radii + i, here);
+      const Floats radius = discRadius(projection,
+                                       loadSome<Floats>(points.radii + i, here),
+                                       loadSome<Floats>(points.footprints + i, here),
+                                       per_z);
       const Ints is_disc = seen & (radius * per_z > projection.smallest_footprint);
       std::uint32_t bits = laneBits(is_disc);
       if (bits != 0)
