@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/isosurface_options.h"
 #include "common/level_set.h"
 #include "common/options.h"
 #include "common/point_files.h"
@@ -28,18 +29,18 @@ namespace {
 
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
+using uvol_tools::joined;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
 
-struct Arguments {
-  std::string input, output, field, where, picture;
+struct Arguments : uvol_tools::IsosurfaceOptions {
+  std::string input, output, picture;
   bool raytrace = false;
   uvol_tools::RenderOptions look;
   uvol_tools::RayOptions rays;
-  std::vector<double> isovalues, xyz;
-  std::string scale, outside = "lower", criterion = "kept", neighbors = "kdtree";
+  std::string neighbors = "kdtree";
   std::uint64_t grid = 0;
-  std::string interpolation = "smooth", normals = "auto";
+  std::string normals = "auto";
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
   std::string mu = "auto";
@@ -51,29 +52,7 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
-  options.numbers("iso", "v,...", 0, arguments.isovalues, "isovalues (required)");
-  options.text("field",
-               "name",
-               arguments.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
-  options.text("where",
-               "expr",
-               arguments.where,
-               "use only the points for which it holds: \"experiment=1 && T>4\"");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances in a stretched space; auto: equal spread per axis");
-  options.numbers("xyz",
-                  "ix,iy,iz",
-                  3,
-                  arguments.xyz,
-                  "columns of a text file that hold the coordinates, from 0");
-  options.choice("outside",
-                 {"lower", "higher"},
-                 arguments.outside,
-                 "the side normals point to: where values are lower or higher");
+  arguments.declareSamples(options);
   options.choice("neighbors",
                  {"kdtree", "voronoi"},
                  arguments.neighbors,
@@ -86,14 +65,7 @@ declare(Options& options, Arguments& arguments)
       pcl_uvol::GridShape::largest_side,
       "cells of -neighbors voronoi along the longest side (default: 4 samples "
       "to a cell)");
-  options.choice("criterion",
-                 {"kept", "all"},
-                 arguments.criterion,
-                 "angle criterion against kept or against all closer candidates");
-  options.choice("interpolation",
-                 {"linear", "smooth"},
-                 arguments.interpolation,
-                 "isopoints along the edges, or on local polynomial fits");
+  arguments.declareMethod(options);
   options.flag("smooth",
                arguments.smooth,
                "smooth noisy or uneven samples by a level set first");
@@ -128,35 +100,17 @@ declare(Options& options, Arguments& arguments)
 pcl_uvol::Dataset
 load(const Arguments& arguments, Report& report)
 {
-  pcl_uvol::LoadOptions options;
-  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
-    options.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
-    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
-      throw UsageError("-xyz takes three column numbers from 0.");
-  }
-  pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(arguments.input, report, options, arguments.where);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, arguments.makeLoadOptions(), arguments.where);
   report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
-}
-
-template <typename T>
-std::string
-joined(const T& numbers)
-{
-  std::ostringstream text;
-  for (const auto number : numbers)
-    text << (text.tellp() > 0 ? "," : "") << number;
-  return text.str();
 }
 
 /** What only some combinations of options allow. */
 void
 checkCombinations(const Options& options, Arguments& arguments)
 {
-  if (arguments.isovalues.empty())
-    throw UsageError(
-        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  arguments.check();
   const bool smooth = arguments.interpolation == "smooth";
   if (arguments.normals == "auto")
     arguments.normals = smooth ? "fit" : "pca";
@@ -229,14 +183,10 @@ extract(const Options& options,
   extraction.setScalarField(field);
   extraction.setIsoValues(isovalues);
   extraction.setScale(scale);
-  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                                     : pcl_uvol::Outside::Higher);
-  extraction.setInterpolation(arguments.interpolation == "smooth"
-                                  ? pcl_uvol::Interpolation::Smooth
-                                  : pcl_uvol::Interpolation::Linear);
-  extraction.setAngleCriterion(arguments.criterion == "kept"
-                                   ? pcl_uvol::AngleCriterion::Kept
-                                   : pcl_uvol::AngleCriterion::All);
+  const pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  extraction.setOutside(settings.outside);
+  extraction.setInterpolation(settings.interpolation);
+  extraction.setAngleCriterion(settings.criterion);
   if (arguments.neighbors == "voronoi") {
     pcl_uvol::VoronoiCandidateSettings voronoi;
     voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
@@ -312,20 +262,6 @@ filter(const Options& options,
                    return point.support !=
                           static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
                  }));
-}
-
-/** Fields of the samples that give way to those of the isopoints: a column called
- * error, say. Coordinates and normals are meant to. */
-void
-warnOfReplacedFields(const pcl_uvol::Dataset& input,
-                     const pcl::PCLPointCloud2& isopoints,
-                     Report& report)
-{
-  for (const auto& field : isopoints.fields)
-    if (field.name.size() > 1 && field.name.rfind("normal_", 0) != 0 &&
-        pcl_uvol::findField(input.cloud.fields, field.name) != nullptr)
-      report.warnings.push_back("The samples' field '" + field.name +
-                                "' is left out: isopoints have one of that name.");
 }
 
 /** The surface in image space. \return what it was drawn on */
@@ -442,7 +378,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    warnOfReplacedFields(input, output.cloud, report);
+    uvol_tools::warnOfReplacedFields(input, output.cloud, report);
     pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
   pcl_uvol::SaveOptions save;
