@@ -8,6 +8,7 @@
 #include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol {
@@ -23,6 +24,13 @@ struct IsopointInput {
   Interpolation interpolation;
   unsigned threads;
 };
+
+/** \brief Warn of an isovalue that no edge can cross, with the values there are. */
+void
+warnIfOutside(double isovalue,
+              const std::string& field,
+              const NodeRanges::Range& range,
+              Report& report);
 
 /** \brief An edge by sample indices, the lower one in the upper half: sorts by (lower,
  * higher). */

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct IsopointInput;
 
 /** \brief What IsosurfaceExtraction is told by its setters. */
 struct IsosurfaceSettings {
+  std::string field; ///< for warnings
   std::vector<double> isovalues;
   Outside outside = Outside::Lower;
   Interpolation interpolation = Interpolation::Smooth;
@@ -39,6 +41,13 @@ struct GlobalIsopoint {
   float mean_curvature, error, edge_length;
   std::uint8_t support, outcome;
 };
+
+/** \brief The order of isopoints: that of their edges. */
+inline bool
+isBefore(const GlobalIsopoint& a, const GlobalIsopoint& b)
+{
+  return std::pair(a.lower, a.higher) < std::pair(b.lower, b.higher);
+}
 
 /** \brief As a point of a cloud. */
 PCL_UVOL_EXPORTS PointIso
