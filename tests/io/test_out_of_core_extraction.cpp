@@ -60,7 +60,7 @@ protected:
     out_of_core.scratch_folder = folder_ / "";
     out_of_core.threads = threads;
     report_ = Report();
-    return extractOutOfCore(points, "intensity", settings, out_of_core, report_);
+    return extractOutOfCore(points, settings, out_of_core, report_);
   }
 
   void
@@ -89,6 +89,7 @@ protected:
     EXPECT_EQ(expected.data, carried.data);
     for (const auto& [name, count] : extraction.getReport().counts)
       EXPECT_EQ(count, report_.getCount(name)) << name;
+    EXPECT_EQ(extraction.getReport().warnings, report_.warnings);
     EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
   }
 
@@ -104,6 +105,7 @@ TEST_P(OutOfCoreOnEveryShape, GivesTheBytesOfMemory)
 {
   save(*uvol_test::makeCloud(GetParam(), 60000, 3));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.41234, 0.1, 7.0};
   expectAsInMemory(settings);
   EXPECT_GE(report_.getCount("pieces"), report_.getCount("samples") / 20000);
@@ -127,6 +129,7 @@ TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
   }
   save(*cloud);
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   settings.interpolation = Interpolation::Linear;
   settings.scale = {{2.0f, 1.0f, 0.25f}};
@@ -139,6 +142,7 @@ TEST_F(OutOfCore, DoesNotDependOnThreads)
 {
   save(*uvol_test::makeCloud("clustered", 50000, 2));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto one = extract(settings, 1), three = extract(settings, 3);
   ASSERT_EQ(one.isopoints.size(), three.isopoints.size());
@@ -165,12 +169,14 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
 {
   save(*uvol_test::makeCloud("uniform", 1000, 8));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto run = [&](const std::string& field, OutOfCoreSettings out_of_core) {
     return [&, field, out_of_core] {
       PointStream points(path_);
       Report report;
-      extractOutOfCore(points, field, settings, out_of_core, report);
+      settings.field = field;
+      extractOutOfCore(points, settings, out_of_core, report);
     };
   };
   OutOfCoreSettings enough{std::uint64_t(1) << 30, folder_ / "", 0};
@@ -186,6 +192,7 @@ TEST_F(OutOfCore, SaysThatTheDiskIsFull)
 {
   save(*uvol_test::makeCloud("uniform", 50000, 8));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   // A limit on the size of files stands for the end of the disk.
   rlimit before;
@@ -206,6 +213,7 @@ TEST_F(OutOfCore, HasNothingToSayOfNothing)
     point.x = std::numeric_limits<float>::quiet_NaN();
   save(cloud);
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   EXPECT_THROW(extract(settings), pcl_uvol::InvalidArgument);
 }
