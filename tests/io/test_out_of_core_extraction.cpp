@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <stdexcept>
 #include <sys/resource.h>
 
 namespace {
@@ -185,6 +187,29 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
       run("intensity", {1000000, folder_ / "", 0}), "at least");
   expectSentence<pcl_uvol::IOError>(
       run("intensity", {enough.max_memory, "/nowhere", 0}), "/nowhere");
+  EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+}
+
+TEST_F(OutOfCore, HasScratchFilesThatNobodySees)
+{
+  save(*uvol_test::makeCloud("uniform", 50000, 8));
+  IsosurfaceSettings settings;
+  settings.field = "intensity";
+  settings.isovalues = {0.3};
+  std::set<std::string> steps;
+  Report report;
+  report.progress = [&](const std::string& step, double) {
+    steps.insert(step);
+    EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+    if (step == "smooth_roots")
+      throw std::runtime_error("interrupted");
+  };
+  PointStream points(path_);
+  const OutOfCoreSettings out_of_core{tightMemory(50000), folder_ / "", 0};
+  EXPECT_THROW(extractOutOfCore(points, settings, out_of_core, report),
+               std::runtime_error);
+  EXPECT_EQ(1u, steps.count("scratch"));
+  EXPECT_EQ(1u, steps.count("tree"));
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
 }
 
