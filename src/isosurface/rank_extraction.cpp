@@ -273,21 +273,16 @@ private:
       const StepTimer timer(report_, "exchange");
       std::vector<Bytes> messages(ranks_.size());
       for (const auto& [index, isopoints] : isopoints_) {
-        const std::vector<Ball> balls = isopoints.getOpenBalls();
-        for (std::size_t other = 0; other < decomposition_->size(); ++other) {
-          const CellKey cell = decomposition_->getCell(other);
-          std::vector<Ball> reaching;
-          std::copy_if(balls.begin(),
-                       balls.end(),
-                       std::back_inserter(reaching),
-                       [&](const Ball& ball) { return meets(ball, cell); });
-          if (other == index || reaching.empty())
-            continue;
-          ByteWriter writer(messages[rankOf(other)]);
-          writer.put(index);
-          writer.put(other);
-          writer.put(reaching);
-        }
+        decomposition_->findPieces(
+            isopoints.getOpenBalls(),
+            [&, own = index](std::size_t other, const std::vector<Ball>& balls) {
+              if (other == own)
+                return;
+              ByteWriter writer(messages[rankOf(other)]);
+              writer.put(own);
+              writer.put(other);
+              writer.put(balls);
+            });
       }
       Loans loans(*this);
       for (const Bytes& bytes : exchange(std::move(messages), "bytes_exchanged"))
@@ -298,7 +293,7 @@ private:
           std::vector<Ball> balls;
           reader.get(balls);
           const CellKey border = decomposition_->getCell(borrower);
-          forBricksIn(balls, bricks_.at(lender), [&](const Brick& brick) {
+          bricks_.at(lender).find(balls, [&](const Brick& brick) {
             if (!brick.cell.touches(border)) // it has those
               loans.lend(borrower, piece.lend(brick));
           });
