@@ -359,8 +359,10 @@ readSamples(const CloudView& cloud,
             unsigned threads,
             Report& report)
 {
+  const StepTimer timer(report, "scalar");
   const std::vector<float> values = readValues(cloud, field, threads);
   Samples samples;
+  samples.reserve(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i) {
     if (std::isnan(values[i])) {
       report.count("no_value", 1);
