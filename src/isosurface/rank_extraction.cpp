@@ -34,6 +34,14 @@ levelsFor(std::size_t ranks, std::uint64_t samples)
   return levels;
 }
 
+/** What put makes of samples and the number of their piece. */
+std::size_t
+bytesOf(const Samples& samples)
+{
+  return 4 * sizeof(std::size_t) +
+         samples.size() * (sizeof(Position) + sizeof(float) + sizeof(std::uint64_t));
+}
+
 void
 put(ByteWriter& writer, const Samples& samples)
 {
@@ -156,18 +164,24 @@ private:
     samples = {};
     std::vector<Bytes> messages(ranks_.size());
     for (std::size_t piece = 0; piece < parts.size(); ++piece) {
-      if (isOwn(piece))
+      if (isOwn(piece)) {
         samples_[piece] = std::move(parts[piece]);
+        samples_[piece].reserve(decomposition_->getCount(piece)); // with those to come
+      }
       else if (parts[piece].size() > 0) {
-        ByteWriter writer(messages[rankOf(piece)]);
+        Bytes& message = messages[rankOf(piece)];
+        message.reserve(message.size() + bytesOf(parts[piece]));
+        ByteWriter writer(message);
         writer.put(piece);
         put(writer, parts[piece]);
       }
       parts[piece] = {};
     }
-    for (const Bytes& bytes : exchange(std::move(messages), "bytes_dealt_out"))
+    for (Bytes& bytes : exchange(std::move(messages), "bytes_dealt_out")) {
       for (ByteReader reader(bytes); !reader.atEnd();)
         get(reader, samples_[reader.get<std::size_t>()]);
+      bytes = {};
+    }
   }
 
   std::vector<Bytes>
@@ -358,8 +372,10 @@ readSamples(const CloudView& cloud,
             unsigned threads,
             Report& report)
 {
+  const StepTimer timer(report, "scalar");
   const std::vector<float> values = readValues(cloud, field, threads);
   Samples samples;
+  samples.reserve(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i) {
     if (std::isnan(values[i])) {
       report.count("no_value", 1);

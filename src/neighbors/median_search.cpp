@@ -211,13 +211,37 @@ private:
     for (std::size_t thread = 1; thread < threads_; ++thread)
       for (std::size_t node = 0; node < medians_.size(); ++node)
         take(above[0][node], axis_, above[thread][node]);
-    const std::vector<Position> next = gatherItems(ranks_, above[0]);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      take(medians_[i % medians_.size()].above, axis_, next[i]);
+    takeAbove(above[0]);
     for (Median& median : medians_)
       if (median.digits == position_digits)
         median.below = positionOf(axis_, median.prefix);
     choose(candidates);
+  }
+
+  /** The least position of all processes above each median. Each process compares
+   * those of some nodes, so that nobody gets what all have of all nodes. */
+  void
+  takeAbove(const std::vector<Position>& mine)
+  {
+    const std::size_t nodes = medians_.size();
+    const auto share = [&](std::size_t rank) { return nodes * rank / ranks_.size(); };
+    std::vector<Bytes> messages(ranks_.size());
+    for (std::size_t rank = 0; rank < ranks_.size(); ++rank) {
+      ByteWriter writer(messages[rank]);
+      for (std::size_t node = share(rank); node < share(rank + 1); ++node)
+        if (mine[node][axis_] < infinity)
+          writer.put(Candidate{static_cast<std::uint32_t>(node), mine[node]});
+    }
+    const std::size_t first = share(ranks_.rank());
+    std::vector<Position> least(share(ranks_.rank() + 1) - first, Median().above);
+    for (const Bytes& bytes : ranks_.exchange(std::move(messages)))
+      for (ByteReader reader(bytes); !reader.atEnd();) {
+        const auto found = reader.get<Candidate>();
+        take(least[found.node - first], axis_, found.position);
+      }
+    const std::vector<Position> next = gatherItems(ranks_, least);
+    for (std::size_t node = 0; node < nodes; ++node)
+      take(medians_[node].above, axis_, next[node]);
   }
 
   void
