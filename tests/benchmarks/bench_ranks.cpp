@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr std::size_t samples = 2000000;
+constexpr std::size_t samples = 10000000;
 
 const std::vector<pcl_uvol::Position>&
 positions()

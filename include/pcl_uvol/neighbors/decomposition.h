@@ -55,7 +55,7 @@ PCL_UVOL_EXPORTS bool
 liesWithin(const Ball& ball, const CellKey& cell);
 
 /** \brief Hands out the positions of a process's samples, block by block, as often as
- * asked: position i of a block is positions[i]. */
+ * asked and always in the same order: position i of a block is positions[i]. */
 using PositionScan =
     std::function<void(const std::function<void(const Position*, std::size_t)>& block)>;
 
