@@ -15,45 +15,79 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Points that are read at once. */
-constexpr std::size_t block_points = 1u << 18;
+/** Bytes of points that are read at once. */
+constexpr std::size_t block_bytes = 16u << 20;
 
-/** Bytes that a process takes besides samples: libraries, buffers, counts of digits. */
-constexpr std::uint64_t fixed_bytes = 160u << 20;
+/** Bytes that a process takes besides samples: libraries and buffers. */
+constexpr double fixed_bytes = 120e6;
 
-/** Bytes per sample of a piece at the worst moment, while what it borrowed is joined to
- * it: the joined samples and those before (24 each), planes (up to 16), ranges of
- * values (up to 8), and a tenth for the halo. */
-constexpr std::uint64_t piece_bytes = 80;
+/** Of all samples, whether they are in memory or not: tables of bricks. */
+constexpr double table_bytes = 0.5;
 
-/** Isopoints as multiples of samples^(2/3): a surface that crosses the cloud five
- * times.
- */
+/** Per sample of a piece while what it borrowed is joined to it: samples before and
+ * after (24 each), planes (up to 16) and positions that planes rest on. */
+constexpr double piece_bytes = 72.0;
+
+/** Per sample that it borrows: as it was lent, joined, and its planes. */
+constexpr double halo_bytes = 64.0;
+
+/** Sides of bricks, in spacings: a layer of them surrounds a piece. */
+constexpr double brick_side = 5.8;
+
+/** Isopoints of an isovalue as multiples of samples^(2/3): a surface that crosses the
+ * cloud five times. */
 constexpr double expected_isopoints = 10.0;
-constexpr std::uint64_t isopoint_bytes = 2 * sizeof(GlobalIsopoint);
 
-/** Fewer samples in a piece would make more halo than piece. */
+/** While they are merged, and as points with the samples that they rest on. */
+constexpr double isopoint_bytes = 2.0 * sizeof(GlobalIsopoint);
+
+/** Fewer samples in a piece would make three times as much halo as piece. */
 constexpr std::uint64_t least_piece = 1u << 14;
 constexpr int most_levels = 12;
 
-int
-levelsFor(std::uint64_t samples, std::uint64_t max_memory)
+/** Bytes of a piece with its halo. */
+double
+pieceBytes(double samples)
 {
-  const auto surface = static_cast<std::uint64_t>(
-      expected_isopoints * std::pow(static_cast<double>(samples), 2.0 / 3.0) *
-      static_cast<double>(isopoint_bytes));
-  const std::uint64_t besides = fixed_bytes + surface;
-  const std::uint64_t least = besides + piece_bytes * std::min(least_piece, samples);
-  if (max_memory < least)
-    throw InvalidArgument(
-        "The isosurface of " + std::to_string(samples) + " samples takes at least " +
-        formatBytes(static_cast<double>(least)) + " of memory, and " +
-        formatBytes(static_cast<double>(max_memory)) + " were allowed.");
-  const std::uint64_t most_samples = (max_memory - besides) / piece_bytes;
+  const double side = std::cbrt(samples);
+  return piece_bytes * samples +
+         halo_bytes * samples * (std::pow(1.0 + 2.0 * brick_side / side, 3.0) - 1.0);
+}
+
+/** Bytes besides pieces. */
+double
+besides(double samples, std::size_t isovalues)
+{
+  return fixed_bytes + table_bytes * samples +
+         isopoint_bytes * expected_isopoints * static_cast<double>(isovalues) *
+             std::pow(samples, 2.0 / 3.0);
+}
+
+/** Of pieces as small as they may be. */
+int
+mostLevelsFor(std::uint64_t samples)
+{
   int levels = 0;
-  while (levels < most_levels && samples >> levels > most_samples)
+  while (levels < most_levels && samples >> (levels + 1) >= least_piece)
     ++levels;
   return levels;
+}
+
+int
+levelsFor(std::uint64_t samples, std::size_t isovalues, std::uint64_t max_memory)
+{
+  const auto count = static_cast<double>(samples);
+  const double room = static_cast<double>(max_memory) - besides(count, isovalues);
+  for (int levels = 0; levels <= mostLevelsFor(samples); ++levels) {
+    const double piece = std::ldexp(count, -levels);
+    if (piece <= Piece::most_samples && pieceBytes(piece) <= room)
+      return levels;
+  }
+  throw InvalidArgument(
+      "The isosurface of " + std::to_string(samples) + " samples takes at least " +
+      formatBytes(static_cast<double>(leastOutOfCoreMemory(samples, isovalues))) +
+      " of memory, and " + formatBytes(static_cast<double>(max_memory)) +
+      " were allowed.");
 }
 
 /** One extraction. */
@@ -82,6 +116,7 @@ public:
         const auto parts = findIsopoints(piece);
         for (std::size_t i = 0; i < found.size(); ++i)
           found[i].insert(found[i].end(), parts[i].begin(), parts[i].end());
+        checkSurface(found);
       }
     for (auto& isopoints : found) {
       mergeIsopoints(isopoints, settings_.interpolation, out_of_core_.threads, report_);
@@ -96,7 +131,9 @@ private:
   {
     StepTimer step(report_, "scratch", points.size());
     pcl::PCLPointCloud2 block;
-    for (std::uint64_t begin = points.tell(); points.read(block_points, block) > 0;
+    const std::size_t count =
+        std::max<std::size_t>(block_bytes / points.getHeader().cloud.point_step, 1);
+    for (std::uint64_t begin = points.tell(); points.read(count, block) > 0;
          begin = points.tell()) {
       const CloudView view = viewOf(block);
       log_->append(readSamples(view,
@@ -120,13 +157,15 @@ private:
     {
       const StepTimer timer(report_, "decomposition");
       SingleRank alone;
-      decomposition_.emplace([&](const auto& block) { log_->scan(block); },
-                             levelsFor(log_->size(), out_of_core_.max_memory),
-                             alone,
-                             out_of_core_.threads);
+      decomposition_.emplace(
+          [&](const auto& block) { log_->scan(block); },
+          levelsFor(log_->size(), settings_.isovalues.size(), out_of_core_.max_memory),
+          alone,
+          out_of_core_.threads);
       store_ = std::make_unique<io::PieceStore>(
           *log_, *decomposition_, out_of_core_.scratch_folder, out_of_core_.threads);
     }
+    checkPieces();
     const std::uint64_t log_bytes = log_->bytes();
     bricks_.clear();
     ranges_.clear();
@@ -161,6 +200,34 @@ private:
       mergeDuplicates(samples, out_of_core_.threads, report_);
       log_->append(samples);
     }
+    store_.reset();
+  }
+
+  /** All samples at one place are in one piece, however many. */
+  void
+  checkPieces() const
+  {
+    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
+      if (pieceBytes(static_cast<double>(store_->count(piece))) + fixed_bytes >
+          2.0 * static_cast<double>(out_of_core_.max_memory))
+        throw InvalidArgument(
+            "Of the samples " + std::to_string(store_->count(piece)) +
+            " lie together because many are at one place: they do not fit into " +
+            formatBytes(static_cast<double>(out_of_core_.max_memory)) + " of memory.");
+  }
+
+  void
+  checkSurface(const std::vector<std::vector<GlobalIsopoint>>& found) const
+  {
+    std::size_t isopoints = 0;
+    for (const auto& part : found)
+      isopoints += part.size();
+    const double bytes = fixed_bytes + isopoint_bytes * static_cast<double>(isopoints);
+    if (bytes > static_cast<double>(out_of_core_.max_memory))
+      throw InvalidArgument("The isosurface alone takes more than " +
+                            formatBytes(bytes) + " of memory, and " +
+                            formatBytes(static_cast<double>(out_of_core_.max_memory)) +
+                            " were allowed.");
   }
 
   void
@@ -221,20 +288,22 @@ private:
       piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
     }
     PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
-    {
-      const StepTimer timer(report_, "exchange");
-      decomposition_->findPieces(
-          isopoints.getOpenBalls(),
-          [&](std::size_t other, const std::vector<Ball>& balls) {
-            if (other != index)
-              bricks_[other].find(balls, [&](const Brick& brick) {
-                if (!piece.holds(brick))
-                  lend(other, brick);
-              });
-          });
-      piece.borrow(std::move(bricks), out_of_core_.threads);
+    while (!isopoints.getOpenBalls().empty()) {
+      {
+        const StepTimer timer(report_, "exchange");
+        decomposition_->findPieces(
+            isopoints.getOpenBalls(),
+            [&](std::size_t other, const std::vector<Ball>& balls) {
+              if (other != index)
+                bricks_[other].find(balls, [&](const Brick& brick) {
+                  if (!piece.holds(brick))
+                    lend(other, brick);
+                });
+            });
+        piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
+      }
+      isopoints.settle();
     }
-    isopoints.settle();
     return std::move(isopoints).take();
   }
 
@@ -275,6 +344,15 @@ readEnds(PointStream& points,
 }
 
 } // namespace
+
+std::uint64_t
+leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues)
+{
+  const auto count = static_cast<double>(samples);
+  return static_cast<std::uint64_t>(
+      std::ceil(besides(count, isovalues) +
+                pieceBytes(std::ldexp(count, -mostLevelsFor(samples)))));
+}
 
 OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,

@@ -171,7 +171,7 @@ Samples
 PieceStore::load(std::size_t piece) const
 {
   Samples samples;
-  read(begins_[piece], begins_[piece + 1] - begins_[piece], samples);
+  read(begins_[piece], count(piece), samples);
   return samples;
 }
 

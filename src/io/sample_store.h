@@ -58,6 +58,12 @@ public:
     return file_.size() + planes_.size();
   }
 
+  std::uint64_t
+  count(std::size_t piece) const
+  {
+    return begins_[piece + 1] - begins_[piece];
+  }
+
   Samples
   load(std::size_t piece) const;
 

@@ -20,7 +20,7 @@ ScratchFile::ScratchFile(const std::string& folder)
 {
   if (descriptor_ < 0) { // not every file system has files without a name
     std::string path = folder + "/uvol_XXXXXX";
-    descriptor_ = ::mkstemp(path.data());
+    descriptor_ = ::mkostemp(path.data(), O_CLOEXEC);
     if (descriptor_ >= 0)
       ::unlink(path.c_str());
   }

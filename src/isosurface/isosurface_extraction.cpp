@@ -12,18 +12,18 @@
 namespace pcl_uvol {
 
 void
-IsosurfaceExtractionBase::checkParameters() const
+checkSettings(const IsosurfaceSettings& settings)
 {
-  if (isovalues_.empty())
+  if (settings.isovalues.empty())
     throw InvalidArgument(
         "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
-  for (const double isovalue : isovalues_)
+  for (const double isovalue : settings.isovalues)
     if (!std::isfinite(static_cast<float>(isovalue)))
       throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
                             " is not a finite number.");
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(scale_[axis]) || scale_[axis] <= 0.0f)
-      throw InvalidArgument("The scale " + std::to_string(scale_[axis]) +
+  for (const float factor : settings.scale.x)
+    if (!std::isfinite(factor) || factor <= 0.0f)
+      throw InvalidArgument("The scale " + std::to_string(factor) +
                             " is not allowed: it must be finite and positive.");
 }
 
@@ -106,7 +106,10 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
                                       const std::vector<int>& indices,
                                       pcl::PointCloud<PointIso>& isopoints)
 {
-  checkParameters();
+  IsosurfaceSettings settings;
+  settings.isovalues = isovalues_;
+  settings.scale = {{scale_[0], scale_[1], scale_[2]}};
+  checkSettings(settings);
   if (indices.empty())
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
   startReport();

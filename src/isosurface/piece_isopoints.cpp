@@ -15,6 +15,9 @@ namespace {
 /** Room for rounding: a ball must not be too small by one bit. */
 constexpr float slack = 1.0001f;
 
+/** Part of the distance of the farthest sample known that is asked for first. */
+constexpr float first_part = 0.25f;
+
 Position
 positionOf(const float* x)
 {
@@ -88,7 +91,7 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
     std::vector<std::size_t> all(found_[i].size());
     std::iota(all.begin(), all.end(), std::size_t(0));
     if (settings.interpolation == Interpolation::Smooth)
-      fit(input, i, all);
+      fit(input, i, all, std::vector<float>(all.size(), 0.0f));
   }
 }
 
@@ -123,7 +126,8 @@ PieceIsopoints::find(const IsopointInput& input, std::size_t which)
 void
 PieceIsopoints::fit(const IsopointInput& input,
                     std::size_t isovalue,
-                    const std::vector<std::size_t>& indices)
+                    const std::vector<std::size_t>& indices,
+                    const std::vector<float>& known)
 {
   std::vector<PointIso> points;
   IsoEdges edges;
@@ -140,10 +144,12 @@ PieceIsopoints::fit(const IsopointInput& input,
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
     setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
-    const Ball ball{stretched(isopoint.linear, settings_.scale),
-                    fits[i].radius * slack};
-    if (!liesWithin(ball, piece_.getCell()))
-      open_.push_back({isovalue, indices[i], ball});
+    Ball ball{stretched(isopoint.linear, settings_.scale), fits[i].radius * slack};
+    if (ball.radius <= known[i] || liesWithin(ball, piece_.getCell()))
+      continue;
+    ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
+                                  : first_part * ball.radius;
+    open_.push_back({isovalue, indices[i], ball});
   }
 }
 
@@ -172,12 +178,14 @@ PieceIsopoints::settle()
                             threads_};
   for (std::size_t isovalue = 0; isovalue < found_.size(); ++isovalue) {
     std::vector<std::size_t> indices;
+    std::vector<float> known;
     for (const Open& one : open)
-      if (one.isovalue == isovalue)
+      if (one.isovalue == isovalue) {
         indices.push_back(one.index);
-    fit(input, isovalue, indices);
+        known.push_back(one.ball.radius);
+      }
+    fit(input, isovalue, indices, known);
   }
-  open_.clear();
 }
 
 void

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -27,7 +28,8 @@ levelsFor(std::size_t ranks, std::uint64_t samples)
 {
   const bool is_power = (ranks & (ranks - 1)) == 0;
   int levels = 0;
-  while ((std::size_t(1) << levels) < (is_power ? ranks : pieces_per_rank * ranks))
+  while ((std::size_t(1) << levels) < (is_power ? ranks : pieces_per_rank * ranks) ||
+         samples >> levels > Piece::most_samples)
     ++levels;
   while ((std::uint64_t(1) << levels) > samples)
     --levels;
@@ -279,43 +281,56 @@ private:
                          std::forward_as_tuple(piece, settings_, threads_, report_));
   }
 
-  /** Ask for what balls around isopoints reach beyond their pieces. */
+  /** Ask for what balls around isopoints reach beyond their pieces, until none is
+   * open. */
   void
   settle()
   {
-    {
-      const StepTimer timer(report_, "exchange");
-      std::vector<Bytes> messages(ranks_.size());
-      for (const auto& [index, isopoints] : isopoints_) {
-        decomposition_->findPieces(
-            isopoints.getOpenBalls(),
-            [&, own = index](std::size_t other, const std::vector<Ball>& balls) {
-              if (other == own)
-                return;
-              ByteWriter writer(messages[rankOf(other)]);
-              writer.put(own);
-              writer.put(other);
-              writer.put(balls);
-            });
+    std::vector<std::uint64_t> open(1);
+    do {
+      lendToBalls();
+      open[0] = 0;
+      for (auto& [index, isopoints] : isopoints_) {
+        isopoints.settle();
+        open[0] += isopoints.getOpenBalls().size();
       }
-      Loans loans(*this);
-      for (const Bytes& bytes : exchange(std::move(messages), "bytes_exchanged"))
-        for (ByteReader reader(bytes); !reader.atEnd();) {
-          const auto borrower = reader.get<std::size_t>();
-          const auto lender = reader.get<std::size_t>();
-          const Piece& piece = pieces_.at(lender);
-          std::vector<Ball> balls;
-          reader.get(balls);
-          const CellKey border = decomposition_->getCell(borrower);
-          bricks_.at(lender).find(balls, [&](const Brick& brick) {
-            if (!brick.cell.touches(border)) // it has those
-              loans.lend(borrower, piece.lend(brick));
+      ranks_.sum(open);
+    } while (open[0] > 0);
+  }
+
+  void
+  lendToBalls()
+  {
+    const StepTimer timer(report_, "exchange");
+    std::vector<Bytes> messages(ranks_.size());
+    for (const auto& [index, isopoints] : isopoints_)
+      decomposition_->findPieces(
+          isopoints.getOpenBalls(),
+          [&, own = index](std::size_t other, const std::vector<Ball>& balls) {
+            if (other == own)
+              return;
+            ByteWriter writer(messages[rankOf(other)]);
+            writer.put(own);
+            writer.put(other);
+            writer.put(balls);
           });
-        }
-      loans.deliver();
-    }
-    for (auto& [index, isopoints] : isopoints_)
-      isopoints.settle();
+    Loans loans(*this);
+    for (const Bytes& bytes : exchange(std::move(messages), "bytes_exchanged"))
+      for (ByteReader reader(bytes); !reader.atEnd();) {
+        const auto borrower = reader.get<std::size_t>();
+        const auto lender = reader.get<std::size_t>();
+        const Piece& piece = pieces_.at(lender);
+        std::vector<Ball> balls;
+        reader.get(balls);
+        const CellKey border = decomposition_->getCell(borrower);
+        bricks_.at(lender).find(balls, [&](const Brick& brick) {
+          // Those at the border were lent before.
+          if (!brick.cell.touches(border) &&
+              lent_.emplace(borrower, brick.begin).second)
+            loans.lend(borrower, piece.lend(brick));
+        });
+      }
+    loans.deliver();
   }
 
   /** Isopoints that coincide or were found twice meet in the piece that they lie in. */
@@ -360,6 +375,7 @@ private:
   std::map<std::size_t, Piece> pieces_;
   std::map<std::size_t, BrickTable> bricks_; // of these
   std::map<std::size_t, PieceIsopoints> isopoints_;
+  std::set<std::pair<std::size_t, std::uint64_t>> lent_; // to balls: borrower, brick
 };
 
 } // namespace
@@ -400,6 +416,7 @@ extractFromRanks(Samples&& samples,
                  unsigned threads,
                  Report& report)
 {
+  checkSettings(settings);
   return RankExtraction(settings, ranks, threads, report).extract(std::move(samples));
 }
 

@@ -89,8 +89,11 @@ Decomposition::Decomposition(const PositionScan& scan,
                              RankGroup& ranks,
                              unsigned threads)
     : levels_(levels)
-    , planes_(size())
 {
+  if (levels < 0 || levels > most_levels)
+    throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
+                          std::to_string(most_levels) + " are.");
+  planes_.resize(size());
   MedianSearch search(scan, ranks, threads);
   axes_ = KdTree::cycleOver(search.findExtent());
   count_ = search.getSampleCount();

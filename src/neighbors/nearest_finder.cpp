@@ -266,18 +266,17 @@ void
 NearestFinder::searchAlone(const Position& point)
 {
   nearest_.clear();
-  // The tree that the point lies in comes first: its samples rule out most others.
-  std::vector<std::pair<float, const KdTree*>> trees;
+  const KdTree& own = samples_.getTree();
+  const auto search = [&](const KdTree& tree) {
+    Position offsets = offsetsFrom(point, tree.getCell());
+    const float sq_dist = sqLength(offsets);
+    if (nearest_.size() < k_ || sq_dist <= slack * nearest_.front().first)
+      descend(point, tree, tree.getRoot(), sq_dist, offsets);
+  };
+  search(own);
   for (const KdTree& tree : samples_.getTrees())
-    trees.emplace_back(sqLength(offsetsFrom(point, tree.getCell())), &tree);
-  std::stable_sort(trees.begin(), trees.end(), [](const auto& a, const auto& b) {
-    return a.first < b.first;
-  });
-  for (const auto& [sq_dist, tree] : trees)
-    if (nearest_.size() < k_ || sq_dist <= slack * nearest_.front().first) {
-      Position offsets = offsetsFrom(point, tree->getCell());
-      descend(point, *tree, tree->getRoot(), sq_dist, offsets);
-    }
+    if (&tree != &own)
+      search(tree);
   reach_ = std::sqrt(nearest_.front().first) * slack;
   std::sort(nearest_.begin(), nearest_.end(), [](const auto& a, const auto& b) {
     return a.second < b.second;

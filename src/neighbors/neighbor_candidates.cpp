@@ -41,7 +41,8 @@ bool
 isBounding(const KdCell& outer, const KdCell& inner)
 {
   const auto same = [](const SplitPlane& a, const SplitPlane& b) {
-    return a.coordinate == b.coordinate && a.below_sample == b.below_sample;
+    return std::isfinite(a.coordinate) && a.coordinate == b.coordinate &&
+           a.below_sample == b.below_sample;
   };
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (same(outer.low[axis], inner.low[axis]) ||

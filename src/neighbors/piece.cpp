@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/piece.h>
@@ -14,6 +15,9 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_samples = 1u << 14;
+
+/** Samples that the planes around a cell rest on. */
+constexpr std::size_t anchors_per_cell = 6;
 
 /** Bricks whose trees a thread builds at once. */
 constexpr std::size_t block_bricks = 16;
@@ -231,6 +235,10 @@ Piece::build(const Decomposition& decomposition,
              unsigned threads,
              Report& report)
 {
+  if (samples.size() > most_samples)
+    throw InvalidArgument("A piece of " + std::to_string(samples.size()) +
+                          " samples is too large: " + std::to_string(most_samples) +
+                          " are allowed.");
   if (samples.size() != decomposition.getCount(piece))
     return std::nullopt;
   StepTimer step(report, "tree", samples.size());
@@ -239,6 +247,7 @@ Piece::build(const Decomposition& decomposition,
   KdTree tree;
   const bool distinct = tree.build(
       records, decomposition.getAxes(), decomposition.getLevels(), threads, step);
+  samples.positions.reserve(records.size() + anchors_per_cell);
   samples.positions.resize(records.size());
   if (!distinct) {
     for (const SampleRecord& record : records)
@@ -368,6 +377,13 @@ Piece::borrow(std::vector<LentBrick>&& bricks, unsigned threads)
 void
 Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
 {
+  std::size_t total = samples_->size();
+  for (const LentBrick& lent : bricks)
+    total += lent.samples.size();
+  if (total >
+      std::size_t(2) * most_samples - anchors_per_cell * (runs_.size() + bricks.size()))
+    throw InvalidArgument("A piece cannot hold " + std::to_string(total) +
+                          " samples with those around it.");
   SampleSet::Parts old = std::move(*samples_).take();
   Samples before;
   before.positions = std::move(old.positions);
@@ -385,12 +401,10 @@ Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
   for (std::size_t i = 0; i < runs_.size(); ++i)
     blocks.push_back({runs_[i], &old.trees[i], &before, old.trees[i].getRoot().begin});
   const std::uint64_t own_begin = runs_[own_].begin;
-  std::size_t total = old.size;
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     const Brick& brick = bricks[i].brick;
     blocks.push_back(
         {{brick.begin, brick.count, brick.cell}, &trees[i], &bricks[i].samples, 0});
-    total += brick.count;
   }
   std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
     return a.run.begin < b.run.begin;
@@ -400,6 +414,7 @@ Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
   parts.scale = old.scale;
   Samples joined;
   joined.reserve(total);
+  joined.positions.reserve(total + anchors_per_cell * blocks.size());
   runs_.clear();
   std::vector<CellKey> cells;
   for (const Block& block : blocks) {
@@ -439,16 +454,8 @@ mergeDuplicates(Samples& samples, unsigned threads, Report& report)
       ++end;
     members.assign(order.begin() + static_cast<std::ptrdiff_t>(begin),
                    order.begin() + static_cast<std::ptrdiff_t>(end));
-    std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
-      return samples.values[a] < samples.values[b];
-    });
-    const auto value_of = [&](std::uint32_t member) { return samples.values[member]; };
-    conflicting += value_of(members.front()) != value_of(members.back());
-    const float median = value_of(members[(members.size() - 1) / 2]);
-    const auto source =
-        *std::find_if(members.begin(), members.end(), [&](std::uint32_t member) {
-          return value_of(member) == median;
-        });
+    const std::uint32_t source = representativeOf(
+        members, [&](auto member) { return samples.values[member]; }, conflicting);
     merged.append(samples, source, 1);
     begin = end;
   }

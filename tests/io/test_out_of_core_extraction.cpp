@@ -27,14 +27,6 @@ using pcl_uvol::OutOfCoreSettings;
 using pcl_uvol::PointStream;
 using pcl_uvol::Report;
 
-/** Room for the process, for the surface and for pieces of 16,384 to 20,000 samples. */
-std::uint64_t
-tightMemory(std::size_t samples)
-{
-  return static_cast<std::uint64_t>(
-      169.5e6 + 2080.0 * std::pow(static_cast<double>(samples), 2.0 / 3.0));
-}
-
 class OutOfCore : public testing::Test {
 protected:
   void
@@ -58,7 +50,8 @@ protected:
   {
     PointStream points(path_);
     OutOfCoreSettings out_of_core;
-    out_of_core.max_memory = tightMemory(points.size());
+    out_of_core.max_memory =
+        pcl_uvol::leastOutOfCoreMemory(points.size(), settings.isovalues.size());
     out_of_core.scratch_folder = folder_ / "";
     out_of_core.threads = threads;
     report_ = Report();
@@ -105,12 +98,12 @@ class OutOfCoreOnEveryShape : public OutOfCore,
 
 TEST_P(OutOfCoreOnEveryShape, GivesTheBytesOfMemory)
 {
-  save(*uvol_test::makeCloud(GetParam(), 60000, 3));
+  save(*uvol_test::makeCloud(GetParam(), 80000, 3));
   IsosurfaceSettings settings;
   settings.field = "intensity";
   settings.isovalues = {0.41234, 0.1, 7.0};
   expectAsInMemory(settings);
-  EXPECT_GE(report_.getCount("pieces"), report_.getCount("samples") / 20000);
+  EXPECT_GT(40000 * report_.getCount("pieces"), report_.getCount("samples"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Clouds,
@@ -205,7 +198,8 @@ TEST_F(OutOfCore, HasScratchFilesThatNobodySees)
       throw std::runtime_error("interrupted");
   };
   PointStream points(path_);
-  const OutOfCoreSettings out_of_core{tightMemory(50000), folder_ / "", 0};
+  const OutOfCoreSettings out_of_core{
+      pcl_uvol::leastOutOfCoreMemory(50000, 1), folder_ / "", 0};
   EXPECT_THROW(extractOutOfCore(points, settings, out_of_core, report),
                std::runtime_error);
   EXPECT_EQ(1u, steps.count("scratch"));
@@ -229,6 +223,18 @@ TEST_F(OutOfCore, SaysThatTheDiskIsFull)
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+}
+
+TEST_F(OutOfCore, RefusesMoreAtOnePlaceThanFits)
+{
+  pcl::PointCloud<pcl::PointXYZI> cloud(3000000, 1);
+  for (std::size_t i = 0; i < cloud.size(); i += 8)
+    cloud[i].x = cloud[i].y = cloud[i].z = cloud[i].intensity = static_cast<float>(i);
+  save(cloud);
+  IsosurfaceSettings settings;
+  settings.field = "intensity";
+  settings.isovalues = {0.3};
+  expectSentence<pcl_uvol::InvalidArgument>([&] { extract(settings); }, "at one place");
 }
 
 TEST_F(OutOfCore, HasNothingToSayOfNothing)

@@ -179,7 +179,7 @@ TEST(RankExtraction, AsksForWhatFitsReachBeyondNeighboringBricks)
 {
   const Cloud::Ptr cloud(new Cloud);
   const auto dense = uvol_test::makeCloud("uniform", 20000, 9);
-  // Thin out all but two corners, so that cells there are small.
+  // Thin out all but a corner, so that cells there are small.
   for (std::size_t i = 0; i < dense->size(); ++i) {
     const pcl::PointXYZI& point = (*dense)[i];
     if (i % 50 == 0 || point.x + point.y + point.z < 0.6f)

@@ -117,7 +117,8 @@ void
 runRanks(std::size_t count, const std::function<void(pcl_uvol::RankGroup&)>& body)
 {
   Board board(count);
-  std::vector<std::exception_ptr> errors(count);
+  std::exception_ptr first;
+  std::mutex mutex;
   std::vector<std::thread> threads;
   for (std::size_t rank = 0; rank < count; ++rank)
     threads.emplace_back([&, rank] {
@@ -126,15 +127,17 @@ runRanks(std::size_t count, const std::function<void(pcl_uvol::RankGroup&)>& bod
         body(group);
       }
       catch (...) {
-        errors[rank] = std::current_exception();
+        {
+          const std::lock_guard lock(mutex);
+          first = first ? first : std::current_exception();
+        }
         board.leave();
       }
     });
   for (std::thread& thread : threads)
     thread.join();
-  for (const std::exception_ptr& error : errors)
-    if (error)
-      std::rethrow_exception(error);
+  if (first)
+    std::rethrow_exception(first);
 }
 
 } // namespace uvol_test

@@ -9,7 +9,7 @@
 
 namespace uvol_test {
 
-/** \brief Call body on as many ranks at once. The first exception, by rank, is rethrown
+/** \brief Call body on as many ranks at once. The first exception, by time, is rethrown
  * when all have returned; a rank that waits for one that threw throws as well. */
 void
 runRanks(std::size_t count, const std::function<void(pcl_uvol::RankGroup&)>& body);

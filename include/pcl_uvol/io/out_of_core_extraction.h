@@ -30,6 +30,11 @@ struct PCL_UVOL_EXPORTS OutOfCoreIsosurface {
   pcl::PCLPointCloud2 samples; ///< the points of the file that edges end at
 };
 
+/** \brief The least bound in bytes that extractOutOfCore() takes for that many samples
+ * and isovalues. */
+PCL_UVOL_EXPORTS std::uint64_t
+leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues);
+
 /** \brief Extract the isosurface of a field of a stream of points, within a bound of
  * memory.
  *

@@ -29,6 +29,11 @@ struct IsosurfaceSettings {
   Position scale{{1.0f, 1.0f, 1.0f}};
 };
 
+/** \throws InvalidArgument without an isovalue, for one that is not finite in float and
+ * for factors that are not finite and positive */
+PCL_UVOL_EXPORTS void
+checkSettings(const IsosurfaceSettings& settings);
+
 /** \brief Warn of an isovalue that no edge can cross, with the values there are. */
 PCL_UVOL_EXPORTS void
 warnIfOutside(double isovalue,
@@ -72,13 +77,15 @@ public:
                  unsigned threads,
                  Report& report);
 
-  /** \brief Balls that have to be known and reach out of the piece's cell, in the
-   * stretched space: until the piece has all bricks that meet them, isopoints there are
-   * not settled. */
+  /** \brief Balls around isopoints that are not settled, since their fits may rest on
+   * samples beyond the piece: the piece needs all bricks that meet them. In the
+   * stretched space. They are small at first, and grow as long as the nearest samples
+   * may lie beyond them: a far one may turn out not to matter. */
   std::vector<Ball>
   getOpenBalls() const;
 
-  /** \brief Settle them, now that the piece has these bricks. */
+  /** \brief Fit again, now that the piece has these bricks; to be repeated until no
+   * ball is open. */
   void
   settle();
 
@@ -93,18 +100,20 @@ private:
   /** An isopoint that is not settled. */
   struct Open {
     std::size_t isovalue, index;
-    Ball ball;
+    Ball ball; ///< that is asked for
   };
 
   /** The linear isopoints of one isovalue. */
   void
   find(const IsopointInput& input, std::size_t isovalue);
 
-  /** Fit some of them; those that are not settled by it join the open ones. */
+  /** Fit some of them; those that are not settled by it join the open ones.
+   * \param known radii of balls around them all samples of which the piece has */
   void
   fit(const IsopointInput& input,
       std::size_t isovalue,
-      const std::vector<std::size_t>& indices);
+      const std::vector<std::size_t>& indices,
+      const std::vector<float>& known);
 
   const Piece& piece_;
   const IsosurfaceSettings& settings_;

@@ -63,6 +63,8 @@ using PositionScan =
  * if these are distinct. */
 class PCL_UVOL_EXPORTS Decomposition {
 public:
+  static constexpr int most_levels = 20;
+
   /** \brief Find the medians of all nodes of the first levels, level by level, by
    * counting digits of the coordinates (radix selection): about three passes over the
    * samples per level, and per node and pass 16 KiB of counts summed over the

@@ -107,14 +107,18 @@ struct LentBrick {
 };
 
 /** \brief The samples of one piece with their tree and, as far as it was borrowed,
- * their halo. Memory: 48 to 56 bytes per sample, 44 more while it is built. */
+ * their halo. Memory: 32 to 40 bytes per sample, 44 more while it is built, 24 more
+ * while it borrows. */
 class PCL_UVOL_EXPORTS Piece {
 public:
+  /** \brief Samples that a piece may have; with its halo it may hold twice as many. */
+  static constexpr std::uint32_t most_samples = 1u << 31;
+
   /** \brief Build the subtree of a piece.
    * \param samples all of the piece, in any order
    * \param scale by which the positions are stretched
    * \return nothing, and the samples stay, if some coincide: mergeDuplicates settles it
-   */
+   * \throws InvalidArgument for more than most_samples */
   static std::optional<Piece>
   build(const Decomposition& decomposition,
         std::size_t piece,
@@ -190,7 +194,8 @@ public:
   bool
   holds(const Brick& brick) const;
 
-  /** \brief Add to the halo; bricks that are there already are left out.
+  /** \brief Add to the halo; bricks that are there already are left out. If it throws,
+   * the piece is lost. \throws InvalidArgument if own and borrowed samples are too many
    * \return how many are new */
   std::size_t
   borrow(std::vector<LentBrick>&& bricks, unsigned threads);
