@@ -276,7 +276,7 @@ extractLevelSets(const Options& options,
     pcl_uvol::IsoEdges found;
     auto surface = extract(options,
                            arguments,
-                           uvol_tools::cloudOfPhi(view, phi),
+                           pcl_uvol::cloudOfPhi(view, phi),
                            "phi",
                            {0.0},
                            scale,
@@ -312,20 +312,6 @@ filter(const Options& options,
                    return point.support !=
                           static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
                  }));
-}
-
-/** Fields of the samples that give way to those of the isopoints: a column called
- * error, say. Coordinates and normals are meant to. */
-void
-warnOfReplacedFields(const pcl_uvol::Dataset& input,
-                     const pcl::PCLPointCloud2& isopoints,
-                     Report& report)
-{
-  for (const auto& field : isopoints.fields)
-    if (field.name.size() > 1 && field.name.rfind("normal_", 0) != 0 &&
-        pcl_uvol::findField(input.cloud.fields, field.name) != nullptr)
-      report.warnings.push_back("The samples' field '" + field.name +
-                                "' is left out: isopoints have one of that name.");
 }
 
 /** The surface in image space. \return what it was drawn on */
@@ -442,7 +428,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    warnOfReplacedFields(input, output.cloud, report);
+    pcl_uvol::warnOfReplacedFields(input.cloud, output.cloud, report);
     pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
   pcl_uvol::SaveOptions save;

@@ -219,7 +219,7 @@ readBinary(const InputFile& file, const std::string& path, Header& header)
   const std::uint64_t step = recordBytes(header.fields);
   if (header.count > left / step)
     throwTruncated(path, header.count, left);
-  auto records = makeRecords(path, std::move(header.fields), header.count);
+  auto records = makeRecords(std::move(header.fields), header.count);
   file.read(header.body, records.data.data(), records.data.size());
   return records;
 }
@@ -243,7 +243,7 @@ readCompressed(const InputFile& file, const std::string& path, Header& header)
                           " bytes, but its header promises " +
                           std::to_string(header.count * step));
   }
-  auto records = makeRecords(path, std::move(header.fields), header.count);
+  auto records = makeRecords(std::move(header.fields), header.count);
   if (header.count == 0)
     return records;
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
@@ -270,7 +270,7 @@ readAscii(const InputFile& file, const std::string& path, Header& header)
     numbers += field.count;
   if (numbers > 0 && header.count > (left + 1) / (2 * numbers)) // a digit and a blank
     throwTruncated(path, header.count, left);
-  auto records = makeRecords(path, std::move(header.fields), header.count);
+  auto records = makeRecords(std::move(header.fields), header.count);
   std::string text(left, '\0');
   file.read(header.body, text.data(), left);
   Lines lines(text, header.lines);
@@ -351,11 +351,11 @@ readPcd(const std::string& path)
   Header header = readHeader(file, path);
   switch (header.encoding) {
   case Encoding::Ascii:
-    return makeDataset(path, readAscii(file, path, header));
+    return makeDataset(readAscii(file, path, header));
   case Encoding::Binary:
-    return makeDataset(path, readBinary(file, path, header));
+    return makeDataset(readBinary(file, path, header));
   default:
-    return makeDataset(path, readCompressed(file, path, header));
+    return makeDataset(readCompressed(file, path, header));
   }
 }
 

@@ -349,13 +349,13 @@ PlyReader::read()
                       "' of the vertices is left out.");
   if (fields.empty())
     throwUnreadable(path_, "its vertices have no coordinates");
-  auto records = makeRecords(path_, std::move(fields), vertex->count);
+  auto records = makeRecords(std::move(fields), vertex->count);
   if (header_.format == Format::Ascii)
     readAscii(*vertex, records);
   else
     readBinary(*vertex, records);
   renameFields(records.fields, ply_normals, cloud_normals);
-  Dataset dataset = makeDataset(path_, std::move(records));
+  Dataset dataset = makeDataset(std::move(records));
   dataset.notes.insert(dataset.notes.end(), notes.begin(), notes.end());
   return dataset;
 }

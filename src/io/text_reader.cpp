@@ -3,7 +3,7 @@
 #include "files.h"
 #include "formats.h"
 #include "numbers.h"
-#include "records.h"
+#include <pcl_uvol/common/records.h>
 
 #include <algorithm>
 #include <cmath>
@@ -389,7 +389,7 @@ TextReader::collect()
     appendField(fields, column.name, datatype);
     taken.push_back(&column);
   }
-  auto records = makeRecords(path_, fields, columns_[0].values.size());
+  auto records = makeRecords(fields, columns_[0].values.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
     std::uint8_t* to = records.data.data() + fields[i].offset;
     for (const double value : taken[i]->values) {
@@ -431,7 +431,7 @@ TextReader::read()
   columns_ = std::move(ordered);
   const bool doubles =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
-  Dataset dataset = makeDataset(path_, collect());
+  Dataset dataset = makeDataset(collect());
   dataset.double_coordinates = doubles;
   dataset.has_coordinates = has_coordinates;
   dataset.notes.insert(dataset.notes.begin(), notes_.begin(), notes_.end());

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From records as they lie in files to datasets.
-#include "records.h"
-
-#include "files.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -13,7 +11,6 @@
 #include <unordered_set>
 
 namespace pcl_uvol {
-namespace io {
 namespace {
 
 using Type = pcl::PCLPointField;
@@ -66,7 +63,7 @@ isPadding(const pcl::PCLPointField& field)
 }
 
 void
-appendRun(std::vector<Run>& runs, const Run& run)
+appendRun(std::vector<ByteRun>& runs, const ByteRun& run)
 {
   if (!runs.empty() && runs.back().from + runs.back().bytes == run.from &&
       runs.back().to + runs.back().bytes == run.to)
@@ -102,14 +99,13 @@ recordBytes(const Fields& fields)
 }
 
 pcl::PCLPointCloud2
-makeRecords(const std::string& path, Fields fields, std::uint64_t count)
+makeRecords(Fields fields, std::uint64_t count)
 {
   const std::uint64_t step = recordBytes(fields);
   constexpr std::uint64_t most = std::numeric_limits<pcl::uindex_t>::max();
   if (count > most || step > most)
-    throwUnreadable(path,
-                    "it has " + std::to_string(count) + " points of " +
-                        std::to_string(step) + " bytes, more than PCL can number");
+    throw InvalidArgument(std::to_string(count) + " points of " + std::to_string(step) +
+                          " bytes are more than PCL can number.");
   pcl::PCLPointCloud2 records;
   records.fields = std::move(fields);
   records.height = 1;
@@ -121,14 +117,13 @@ makeRecords(const std::string& path, Fields fields, std::uint64_t count)
 }
 
 Dataset
-makeDataset(const std::string& path, pcl::PCLPointCloud2&& records)
+makeDataset(pcl::PCLPointCloud2&& records)
 {
   for (const char* const axis : axis_names) {
     const auto* const field = findField(records.fields, axis);
     if (!field || field->count > 1)
-      throwUnreadable(path,
-                      std::string("it has no scalar field ") + axis +
-                          "; its fields are " + describeFields(records.fields));
+      throw InvalidArgument(std::string("There is no scalar field ") + axis +
+                            "; the fields are " + describeFields(records.fields) + ".");
   }
   Dataset dataset;
   std::vector<std::string> names;
@@ -157,10 +152,47 @@ makeDataset(const std::string& path, pcl::PCLPointCloud2&& records)
   return dataset;
 }
 
+void
+checkComplete(const pcl::PCLPointCloud2& cloud)
+{
+  const auto points = static_cast<std::uint64_t>(cloud.width) * cloud.height;
+  if (cloud.data.size() / std::max<std::size_t>(cloud.point_step, 1) < points)
+    throw InvalidArgument("The cloud holds fewer bytes than its " +
+                          std::to_string(points) + " points need.");
+  for (const auto& field : cloud.fields)
+    if (field.offset + fieldBytes(field) > cloud.point_step)
+      throw InvalidArgument("The field '" + field.name + "' ends behind its point.");
+}
+
+Fields
+savedFields(const Dataset& dataset)
+{
+  const auto& cloud = dataset.cloud;
+  checkComplete(cloud);
+  const bool doubles =
+      dataset.double_coordinates || dataset.origin != std::array<double, 3>{};
+  Fields saved;
+  for (const auto& field : cloud.fields) {
+    if (isPadding(field))
+      continue;
+    saved.push_back(field);
+    saved.back().count = std::max(field.count, 1u);
+    if (axisOf(field.name) >= 0 && field.datatype == Type::FLOAT32 && doubles)
+      saved.back().datatype = Type::FLOAT64;
+  }
+  for (const char* const axis : {"x", "y", "z"}) {
+    const auto* const field = findField(cloud.fields, axis);
+    if (!field || field->datatype != Type::FLOAT32)
+      throw InvalidArgument("The cloud needs float32 fields x, y, z; it has " +
+                            describeFields(cloud.fields) + ".");
+  }
+  return saved;
+}
+
 pcl::PCLPointCloud2
 repack(const pcl::PCLPointCloud2& cloud, bool with_xyz)
 {
-  std::vector<Run> runs;
+  std::vector<ByteRun> runs;
   Fields fields;
   const auto copy = [&](const pcl::PCLPointField& field) {
     appendRun(runs, {field.offset, fields.back().offset, fieldBytes(fields.back())});
@@ -189,7 +221,7 @@ repack(const pcl::PCLPointCloud2& cloud, bool with_xyz)
   const std::uint8_t* from = cloud.data.data();
   std::uint8_t* to = packed.data.data();
   for (std::size_t i = 0; i < count; ++i, from += cloud.point_step, to += step)
-    for (const Run& run : runs)
+    for (const ByteRun& run : runs)
       std::memcpy(to + run.to, from + run.from, run.bytes);
   return packed;
 }
@@ -224,5 +256,4 @@ makeUnique(std::vector<std::string>& names)
   }
 }
 
-} // namespace io
 } // namespace pcl_uvol
