@@ -135,6 +135,7 @@ inline void
 expectSameData(vtkPolyData& actual, vtkPolyData& expected)
 {
   ASSERT_GT(expected.GetNumberOfPoints(), 0);
+  ASSERT_EQ(actual.GetNumberOfPoints(), expected.GetNumberOfPoints());
   expectSameNumbers(*actual.GetPoints()->GetData(), *expected.GetPoints()->GetData());
   EXPECT_EQ(actual.GetNumberOfVerts(), actual.GetNumberOfPoints());
   EXPECT_EQ(expected.GetNumberOfVerts(), expected.GetNumberOfPoints());
