@@ -1,5 +1,5 @@
-// Samples of a sphere through a VTK pipeline: smoothed, extracted, covered with splats, and
-// written by VTK's own writer, to be opened with ParaView.
+// Samples of a sphere through a VTK pipeline: smoothed, extracted, covered with splats,
+// and written by VTK's own writer, to be opened with ParaView.
 #include <pcl_uvol/filters/vtkUvolIsosurface.h>
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/filters/vtkUvolSplats.h>
@@ -46,6 +46,6 @@ main(int argc, char** argv)
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(splats->GetOutputPort());
   writer->SetFileName(argc > 1 ? argv[1] : "splats.vtp");
-  std::cout << (writer->Write() ? "" : "not ") << "written: "
-            << splats->GetOutput()->GetNumberOfPoints() << " splats\n";
+  std::cout << (writer->Write() ? "" : "not ")
+            << "written: " << splats->GetOutput()->GetNumberOfPoints() << " splats\n";
 }
