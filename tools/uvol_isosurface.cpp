@@ -11,6 +11,7 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/io/out_of_core_extraction.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -43,7 +45,18 @@ struct Arguments {
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
   std::string mu = "auto";
+  std::string max_memory, scratch;
   bool smooth = false, drop_bridged = false, ascii = false;
+};
+
+/** Isopoints, and what they rest on. */
+struct Extraction {
+  pcl_uvol::Dataset input; ///< all samples, or those at the ends of edges
+  std::string field;
+  Eigen::Array3f scale;
+  pcl::PointCloud<PointIso> isopoints;
+  pcl_uvol::IsoEdges edges;
+  std::vector<std::pair<std::string, std::string>> facts;
 };
 
 void
@@ -117,6 +130,16 @@ declare(Options& options, Arguments& arguments)
   options.flag("drop-bridged",
                arguments.drop_bridged,
                "leave out isopoints in gaps of the sampling");
+  options.text("max-memory",
+               "bytes",
+               arguments.max_memory,
+               "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
+               "ply and text that are not compressed");
+  options.text("scratch",
+               "folder",
+               arguments.scratch,
+               "with -max-memory: where they wait, 48 bytes each (default: beside the "
+               "output)");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   options.text("png",
                "out.png",
@@ -125,8 +148,8 @@ declare(Options& options, Arguments& arguments)
   options.flag("raytrace", arguments.raytrace, "by ray tracing of splats");
 }
 
-pcl_uvol::Dataset
-load(const Arguments& arguments, Report& report)
+pcl_uvol::LoadOptions
+loadOptions(const Arguments& arguments)
 {
   pcl_uvol::LoadOptions options;
   for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
@@ -134,8 +157,14 @@ load(const Arguments& arguments, Report& report)
     if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
       throw UsageError("-xyz takes three column numbers from 0.");
   }
-  pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(arguments.input, report, options, arguments.where);
+  return options;
+}
+
+pcl_uvol::Dataset
+load(const Arguments& arguments, Report& report)
+{
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, loadOptions(arguments), arguments.where);
   report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
 }
@@ -171,6 +200,13 @@ checkCombinations(const Options& options, Arguments& arguments)
     throw UsageError("-grid needs -neighbors voronoi.");
   if (options.given("mu") && !arguments.smooth)
     throw UsageError("-mu needs -smooth.");
+  if (options.given("scratch") && !options.given("max-memory"))
+    throw UsageError("-scratch needs -max-memory.");
+  if (options.given("max-memory") &&
+      (arguments.smooth || !arguments.where.empty() || arguments.scale == "auto" ||
+       arguments.neighbors == "voronoi"))
+    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
+                     "-neighbors voronoi, which need all samples in memory.");
   if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
     throw UsageError("-max-error and -drop-bridged need -interpolation smooth.");
 }
@@ -213,6 +249,27 @@ describeErrors(const pcl::PointCloud<PointIso>& isopoints)
   return text.str();
 }
 
+pcl_uvol::Outside
+outsideOf(const Arguments& arguments)
+{
+  return arguments.outside == "lower" ? pcl_uvol::Outside::Lower
+                                      : pcl_uvol::Outside::Higher;
+}
+
+pcl_uvol::Interpolation
+interpolationOf(const Arguments& arguments)
+{
+  return arguments.interpolation == "smooth" ? pcl_uvol::Interpolation::Smooth
+                                             : pcl_uvol::Interpolation::Linear;
+}
+
+pcl_uvol::AngleCriterion
+criterionOf(const Arguments& arguments)
+{
+  return arguments.criterion == "kept" ? pcl_uvol::AngleCriterion::Kept
+                                       : pcl_uvol::AngleCriterion::All;
+}
+
 /** The isopoints of one field of a cloud. */
 pcl::PointCloud<PointIso>
 extract(const Options& options,
@@ -229,14 +286,9 @@ extract(const Options& options,
   extraction.setScalarField(field);
   extraction.setIsoValues(isovalues);
   extraction.setScale(scale);
-  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                                     : pcl_uvol::Outside::Higher);
-  extraction.setInterpolation(arguments.interpolation == "smooth"
-                                  ? pcl_uvol::Interpolation::Smooth
-                                  : pcl_uvol::Interpolation::Linear);
-  extraction.setAngleCriterion(arguments.criterion == "kept"
-                                   ? pcl_uvol::AngleCriterion::Kept
-                                   : pcl_uvol::AngleCriterion::All);
+  extraction.setOutside(outsideOf(arguments));
+  extraction.setInterpolation(interpolationOf(arguments));
+  extraction.setAngleCriterion(criterionOf(arguments));
   if (arguments.neighbors == "voronoi") {
     pcl_uvol::VoronoiCandidateSettings voronoi;
     voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
@@ -290,6 +342,80 @@ extractLevelSets(const Options& options,
       facts.push_back(fact);
   }
   return isopoints;
+}
+
+std::string
+fieldOf(const Arguments& arguments, const pcl_uvol::Dataset& input)
+{
+  return arguments.field.empty()
+             ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
+             : arguments.field;
+}
+
+Extraction
+extractInMemory(const Options& options,
+                const Arguments& arguments,
+                const uvol_tools::ScaleOption& scale_option,
+                Report& report)
+{
+  Extraction result;
+  result.input = load(arguments, report);
+  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
+  result.field = fieldOf(arguments, result.input);
+  result.scale = scale_option.scaleOf(pcl_uvol::viewOf(result.input.cloud));
+  result.isopoints = arguments.smooth ? extractLevelSets(options,
+                                                         arguments,
+                                                         result.input.cloud,
+                                                         result.field,
+                                                         result.scale,
+                                                         result.edges,
+                                                         result.facts,
+                                                         report)
+                                      : extract(options,
+                                                arguments,
+                                                result.input.cloud,
+                                                result.field,
+                                                arguments.isovalues,
+                                                result.scale,
+                                                result.edges,
+                                                report);
+  return result;
+}
+
+Extraction
+extractFromDisk(const Options& options,
+                const Arguments& arguments,
+                const uvol_tools::ScaleOption& scale_option,
+                Report& report)
+{
+  pcl_uvol::PointStream points(arguments.input, loadOptions(arguments));
+  Extraction result;
+  result.input = points.getHeader();
+  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
+  result.field = fieldOf(arguments, result.input);
+  result.scale = scale_option.scaleOf({});
+  report.warnings = result.input.notes;
+  report.count("points", points.size());
+
+  pcl_uvol::IsosurfaceSettings settings;
+  settings.isovalues = arguments.isovalues;
+  settings.outside = outsideOf(arguments);
+  settings.interpolation = interpolationOf(arguments);
+  settings.criterion = criterionOf(arguments);
+  settings.scale = {{result.scale[0], result.scale[1], result.scale[2]}};
+  pcl_uvol::OutOfCoreSettings out_of_core;
+  out_of_core.max_memory = uvol_tools::parseBytes("max-memory", arguments.max_memory);
+  out_of_core.scratch_folder =
+      arguments.scratch.empty()
+          ? std::filesystem::absolute(arguments.output).parent_path().string()
+          : arguments.scratch;
+  out_of_core.threads = options.threads();
+  auto surface =
+      pcl_uvol::extractOutOfCore(points, result.field, settings, out_of_core, report);
+  result.isopoints = std::move(surface.isopoints);
+  result.edges = std::move(surface.edges);
+  result.input.cloud = std::move(surface.samples);
+  return result;
 }
 
 /** Leave out what -max-error and -drop-bridged do not want. */
@@ -395,30 +521,10 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  const pcl_uvol::Dataset input = load(arguments, report);
-  pcl_uvol::checkSavePath(arguments.output, input.cloud.fields);
-  const std::string field = arguments.field.empty()
-                                ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
-                                : arguments.field;
-  const Eigen::Array3f scale = scale_option.scaleOf(pcl_uvol::viewOf(input.cloud));
-  pcl_uvol::IsoEdges edges;
-  std::vector<std::pair<std::string, std::string>> level_set_facts;
-  auto isopoints = arguments.smooth ? extractLevelSets(options,
-                                                       arguments,
-                                                       input.cloud,
-                                                       field,
-                                                       scale,
-                                                       edges,
-                                                       level_set_facts,
-                                                       report)
-                                    : extract(options,
-                                              arguments,
-                                              input.cloud,
-                                              field,
-                                              arguments.isovalues,
-                                              scale,
-                                              edges,
-                                              report);
+  auto [input, field, scale, isopoints, edges, level_set_facts] =
+      options.given("max-memory")
+          ? extractFromDisk(options, arguments, scale_option, report)
+          : extractInMemory(options, arguments, scale_option, report);
   replaceNormals(options, arguments, scale, isopoints, report);
   filter(options, arguments, isopoints, edges, report);
 

@@ -16,36 +16,58 @@ namespace {
 using Type = pcl::PCLPointField;
 constexpr std::array<const char*, 3> axis_names{{"x", "y", "z"}};
 
-/** x, y, z are in front, nothing lies between fields, and points are aligned. */
-bool
-isPacked(const pcl::PCLPointCloud2& records)
+/** Points with x, y, z in front and the others packed behind. */
+struct PackedLayout {
+  Fields fields;
+  std::size_t step;
+  std::vector<ByteRun> runs; ///< to it
+};
+
+PackedLayout
+packedLayout(const Fields& fields, bool with_xyz)
 {
-  std::size_t end = 0;
-  for (std::size_t i = 0; i < records.fields.size(); ++i) {
-    const auto& field = records.fields[i];
-    if (field.offset != end || isPadding(field) ||
-        (i < 3 && field.name != axis_names[i]))
-      return false;
-    end += fieldBytes(field);
+  PackedLayout packed;
+  const auto copy = [&packed](const pcl::PCLPointField& field) {
+    const auto& last = packed.fields.back();
+    appendRun(packed.runs, {field.offset, last.offset, fieldBytes(last)});
+  };
+  for (const char* const axis : axis_names) {
+    appendField(packed.fields, axis, Type::FLOAT32);
+    if (with_xyz)
+      copy(*findField(fields, axis));
   }
-  return end == records.point_step && end % alignof(float) == 0;
+  for (const auto& field : fields) {
+    if (isPadding(field) || axisOf(field.name) >= 0)
+      continue;
+    appendField(packed.fields, field.name, field.datatype, std::max(field.count, 1u));
+    copy(field);
+  }
+  packed.step = (recordBytes(packed.fields) + 3) / 4 * 4;
+  return packed;
 }
 
-std::vector<double>
-coordinatesOf(const pcl::PCLPointCloud2& records)
+void
+copyRuns(const std::vector<ByteRun>& runs, const std::uint8_t* from, std::uint8_t* to)
 {
-  std::array<FieldComponent, 3> axes{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& field = *findField(records.fields, axis_names[axis]);
-    axes[axis] = {field.offset, field.datatype};
+  for (const ByteRun& run : runs)
+    std::memcpy(to + run.to, from + run.from, run.bytes);
+}
+
+/** Names that differ, empty for padding. */
+Fields
+namedFields(Fields fields, std::vector<std::string>& notes)
+{
+  std::vector<std::string> names;
+  for (const auto& field : fields)
+    names.push_back(isPadding(field) ? std::string() : field.name);
+  makeUnique(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] != fields[i].name && !names[i].empty())
+      notes.push_back("A further field '" + fields[i].name + "' is called '" +
+                      names[i] + "'.");
+    fields[i].name = names[i];
   }
-  std::vector<double> xyz;
-  xyz.reserve(3 * static_cast<std::size_t>(records.width));
-  const std::uint8_t* point = records.data.data();
-  for (std::size_t i = 0; i < records.width; ++i, point += records.point_step)
-    for (const auto& axis : axes)
-      xyz.push_back(axis.read(point));
-  return xyz;
+  return fields;
 }
 
 } // namespace
@@ -98,57 +120,126 @@ recordBytes(const Fields& fields)
   return fields.empty() ? 0 : fields.back().offset + fieldBytes(fields.back());
 }
 
-pcl::PCLPointCloud2
-makeRecords(Fields fields, std::uint64_t count)
+void
+checkSize(std::uint64_t count, std::uint64_t step)
 {
-  const std::uint64_t step = recordBytes(fields);
   constexpr std::uint64_t most = std::numeric_limits<pcl::uindex_t>::max();
   if (count > most || step > most)
     throw InvalidArgument(std::to_string(count) + " points of " + std::to_string(step) +
                           " bytes are more than PCL can number.");
+}
+
+pcl::PCLPointCloud2
+makeRecords(Fields fields, std::uint64_t count)
+{
+  checkSize(count, recordBytes(fields));
   pcl::PCLPointCloud2 records;
   records.fields = std::move(fields);
-  records.height = 1;
-  records.width = static_cast<pcl::uindex_t>(count);
-  records.point_step = static_cast<pcl::uindex_t>(step);
-  records.row_step = static_cast<pcl::uindex_t>(step * count);
-  records.data.resize(step * count);
+  records.point_step = static_cast<pcl::uindex_t>(recordBytes(records.fields));
+  resizePoints(records, static_cast<std::size_t>(count));
   return records;
 }
 
-Dataset
-makeDataset(pcl::PCLPointCloud2&& records)
+RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
+    : record_step_(step)
+    , point_bytes_(0)
 {
   for (const char* const axis : axis_names) {
-    const auto* const field = findField(records.fields, axis);
+    const auto* const field = findField(info.fields, axis);
     if (!field || field->count > 1)
       throw InvalidArgument(std::string("There is no scalar field ") + axis +
-                            "; the fields are " + describeFields(records.fields) + ".");
+                            "; the fields are " + describeFields(info.fields) + ".");
   }
-  Dataset dataset;
-  std::vector<std::string> names;
-  for (const auto& field : records.fields)
-    names.push_back(isPadding(field) ? std::string() : field.name);
-  makeUnique(names);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] != records.fields[i].name && !names[i].empty())
-      dataset.notes.push_back("A further field '" + records.fields[i].name +
-                              "' is called '" + names[i] + "'.");
-    records.fields[i].name = names[i];
+  header_.notes = info.notes;
+  header_.has_coordinates = info.has_coordinates;
+  const Fields fields = namedFields(info.fields, header_.notes);
+  bool doubles = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& field = *findField(fields, axis_names[axis]);
+    axes_[axis] = {field.offset, field.datatype};
+    floats_ = floats_ && field.datatype == Type::FLOAT32;
+    doubles = doubles || field.datatype == Type::FLOAT64;
   }
-  bool floats = true;
-  for (const char* const axis : axis_names) {
-    const std::uint8_t datatype = findField(records.fields, axis)->datatype;
-    floats = floats && datatype == Type::FLOAT32;
-    dataset.double_coordinates |= datatype == Type::FLOAT64;
+  header_.double_coordinates = info.double_coordinates.value_or(doubles);
+  header_.origin = info.origin.value_or(header_.origin);
+  needs_origin_ = !floats_ && !info.origin;
+  PackedLayout packed = packedLayout(fields, floats_);
+  runs_ = std::move(packed.runs);
+  point_bytes_ = recordBytes(packed.fields);
+  header_.cloud.fields = std::move(packed.fields);
+  header_.cloud.point_step = static_cast<pcl::uindex_t>(packed.step);
+  resizePoints(header_.cloud, 0);
+}
+
+bool
+RecordLayout::isIdentity() const
+{
+  const std::size_t step = header_.cloud.point_step;
+  return floats_ && step == record_step_ && runs_.size() == 1 && runs_[0].from == 0 &&
+         runs_[0].bytes == step;
+}
+
+void
+RecordLayout::setOrigin(const std::array<double, 3>& origin)
+{
+  header_.origin = origin;
+  needs_origin_ = false;
+}
+
+void
+RecordLayout::addTo(CoordinateRange& range,
+                    const std::uint8_t* records,
+                    std::size_t count) const
+{
+  for (std::size_t i = 0; i < count; ++i, records += record_step_)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      range.add(axis, axes_[axis].read(records));
+}
+
+void
+RecordLayout::convert(const std::uint8_t* records,
+                      std::size_t count,
+                      std::uint8_t* points) const
+{
+  const std::size_t step = header_.cloud.point_step;
+  for (std::size_t i = 0; i < count; ++i, records += record_step_, points += step) {
+    copyRuns(runs_, records, points);
+    for (std::size_t axis = 0; axis < 3 && !floats_; ++axis)
+      putCoordinate(axes_[axis].read(records) - header_.origin[axis], axis, points);
+    if (point_bytes_ < step)
+      std::memset(points + point_bytes_, 0, step - point_bytes_);
   }
-  if (floats) {
-    dataset.cloud = isPacked(records) ? std::move(records) : repack(records, true);
+}
+
+void
+resizePoints(pcl::PCLPointCloud2& cloud, std::size_t count)
+{
+  cloud.height = 1;
+  cloud.width = static_cast<pcl::uindex_t>(count);
+  cloud.row_step = static_cast<pcl::uindex_t>(count * cloud.point_step);
+  cloud.data.resize(count * cloud.point_step);
+}
+
+Dataset
+makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
+{
+  info.fields = records.fields;
+  RecordLayout layout(info, records.point_step);
+  const std::size_t count = records.width;
+  if (layout.needsOrigin()) {
+    CoordinateRange range;
+    layout.addTo(range, records.data.data(), count);
+    layout.setOrigin(range.origin());
+  }
+  Dataset dataset = layout.getHeader();
+  dataset.cloud.header = records.header;
+  if (layout.isIdentity()) {
+    dataset.cloud.data = std::move(records.data);
+    resizePoints(dataset.cloud, count);
     return dataset;
   }
-  const std::vector<double> xyz = coordinatesOf(records);
-  dataset.cloud = std::move(records);
-  setCoordinates(dataset, xyz);
+  resizePoints(dataset.cloud, count);
+  layout.convert(records.data.data(), count, dataset.cloud.data.data());
   return dataset;
 }
 
@@ -192,37 +283,17 @@ savedFields(const Dataset& dataset)
 pcl::PCLPointCloud2
 repack(const pcl::PCLPointCloud2& cloud, bool with_xyz)
 {
-  std::vector<ByteRun> runs;
-  Fields fields;
-  const auto copy = [&](const pcl::PCLPointField& field) {
-    appendRun(runs, {field.offset, fields.back().offset, fieldBytes(fields.back())});
-  };
-  for (const char* const axis : axis_names) {
-    appendField(fields, axis, Type::FLOAT32);
-    if (with_xyz)
-      copy(*findField(cloud.fields, axis));
-  }
-  for (const auto& field : cloud.fields) {
-    if (isPadding(field) || axisOf(field.name) >= 0)
-      continue;
-    appendField(fields, field.name, field.datatype, std::max(field.count, 1u));
-    copy(field);
-  }
+  PackedLayout layout = packedLayout(cloud.fields, with_xyz);
   pcl::PCLPointCloud2 packed;
   packed.header = cloud.header;
-  packed.fields = std::move(fields);
-  packed.height = 1;
-  packed.width = cloud.width * cloud.height;
-  const std::size_t count = packed.width,
-                    step = (recordBytes(packed.fields) + 3) / 4 * 4;
-  packed.point_step = static_cast<pcl::uindex_t>(step);
-  packed.row_step = static_cast<pcl::uindex_t>(step * count);
-  packed.data.resize(step * count);
+  packed.fields = std::move(layout.fields);
+  packed.point_step = static_cast<pcl::uindex_t>(layout.step);
+  const std::size_t count = cloud.width * cloud.height;
+  resizePoints(packed, count);
   const std::uint8_t* from = cloud.data.data();
   std::uint8_t* to = packed.data.data();
-  for (std::size_t i = 0; i < count; ++i, from += cloud.point_step, to += step)
-    for (const ByteRun& run : runs)
-      std::memcpy(to + run.to, from + run.from, run.bytes);
+  for (std::size_t i = 0; i < count; ++i, from += cloud.point_step, to += layout.step)
+    copyRuns(layout.runs, from, to);
   return packed;
 }
 

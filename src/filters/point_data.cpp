@@ -116,15 +116,14 @@ private:
 
   vtkDataSet& data_;
   PointArrays result_;
-  Fields fields_;
+  RecordInfo info_;
   std::vector<vtkSmartPointer<vtkDataArray>> columns_;
-  std::vector<std::string> notes_;
 };
 
 void
 PointCollector::append(const std::string& name, vtkDataArray& array, std::size_t count)
 {
-  appendField(fields_, name, datatypeOf(array), count);
+  appendField(info_.fields, name, datatypeOf(array), count);
 }
 
 void
@@ -138,7 +137,7 @@ PointCollector::addCoordinates()
 void
 PointCollector::addNumbers(const std::string& name, vtkDataArray& array)
 {
-  const std::size_t first = fields_.size();
+  const std::size_t first = info_.fields.size();
   columns_.push_back(plainArray(&array));
   vtkDataArray& plain = *columns_.back();
   if (&array == data_.GetPointData()->GetNormals())
@@ -147,12 +146,12 @@ PointCollector::addNumbers(const std::string& name, vtkDataArray& array)
   else {
     const bool taken = axisOf(name) >= 0 || name == "_";
     if (taken)
-      notes_.push_back("The array '" + name + "' is called '" + name + "_2'.");
+      info_.notes.push_back("The array '" + name + "' is called '" + name + "_2'.");
     append(taken ? name + "_2" : name,
            plain,
            static_cast<std::size_t>(plain.GetNumberOfComponents()));
   }
-  result_.numbers.push_back({&array, first, fields_.size() - first});
+  result_.numbers.push_back({&array, first, info_.fields.size() - first});
 }
 
 void
@@ -167,10 +166,10 @@ PointCollector::addPointData()
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     if (array->GetNumberOfTuples() != data_.GetNumberOfPoints() ||
         array->GetNumberOfComponents() < 1)
-      notes_.push_back("The array '" + name + "' has " +
-                       std::to_string(array->GetNumberOfTuples()) + " tuples for " +
-                       std::to_string(data_.GetNumberOfPoints()) +
-                       " points and is left out.");
+      info_.notes.push_back("The array '" + name + "' has " +
+                            std::to_string(array->GetNumberOfTuples()) +
+                            " tuples for " + std::to_string(data_.GetNumberOfPoints()) +
+                            " points and is left out.");
     else if (numbers)
       addNumbers(name, *numbers);
     else
@@ -178,7 +177,7 @@ PointCollector::addPointData()
   }
   if (point_data.GetNumberOfArrays() == 0 &&
       data_.GetCellData()->GetNumberOfArrays() > 0)
-    notes_.emplace_back("There are data of cells only, which are left out.");
+    info_.notes.emplace_back("There are data of cells only, which are left out.");
 }
 
 PointArrays
@@ -186,8 +185,10 @@ PointCollector::collect()
 {
   addCoordinates();
   addPointData();
+  if (!vtkPointSet::SafeDownCast(&data_))
+    info_.double_coordinates = false; // those of a lattice were computed here
   auto records =
-      makeRecords(fields_, static_cast<std::uint64_t>(data_.GetNumberOfPoints()));
+      makeRecords(info_.fields, static_cast<std::uint64_t>(data_.GetNumberOfPoints()));
   std::size_t offset = 0;
   for (const auto& array : columns_) {
     const std::size_t bytes = static_cast<std::size_t>(array->GetDataTypeSize()) *
@@ -201,11 +202,7 @@ PointCollector::collect()
     }
     offset += bytes;
   }
-  result_.dataset = makeDataset(std::move(records));
-  if (!vtkPointSet::SafeDownCast(&data_))
-    result_.dataset.double_coordinates = false; // the numbers were computed here
-  auto& notes = result_.dataset.notes;
-  notes.insert(notes.begin(), notes_.begin(), notes_.end());
+  result_.dataset = makeDataset(std::move(records), info_);
   return std::move(result_);
 }
 

@@ -28,36 +28,49 @@ describeEnding(const std::string& ending)
 
 } // namespace
 
-Dataset
-loadDataset(const std::string& path, const LoadOptions& options)
+namespace io {
+
+FileFormat
+formatOf(const std::string& path, const LoadOptions& options)
 {
-  const std::string ending = io::endingOf(path);
-  const bool text = isOneOf(ending, text_endings);
-  if (options.xyz_columns != LoadOptions().xyz_columns && !text)
+  const std::string ending = endingOf(path);
+  if (isOneOf(ending, text_endings))
+    return FileFormat::Text;
+  if (options.xyz_columns != LoadOptions().xyz_columns)
     throw InvalidArgument(
         "Columns of coordinates can be chosen in text files only, and '" + path +
         "' is none.");
-  try {
-    if (text)
-      return io::readText(path, options);
-    if (ending == ".pcd")
+  if (ending == ".pcd")
+    return FileFormat::Pcd;
+  if (ending == ".ply")
+    return FileFormat::Ply;
+  if (isOneOf(ending, vtk_endings))
+    return FileFormat::Vtk;
+  const InputFile exists(path); // a missing file matters more than its ending
+  throwUnreadable(path,
+                  describeEnding(ending) +
+                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
+                      ".tsv, .vtk, .vtp, .vtu and .vts");
+}
+
+} // namespace io
+
+Dataset
+loadDataset(const std::string& path, const LoadOptions& options)
+{
+  const io::FileFormat format = io::formatOf(path, options);
+  return io::reading(path, [&] {
+    switch (format) {
+    case io::FileFormat::Pcd:
       return io::readPcd(path);
-    if (ending == ".ply")
+    case io::FileFormat::Ply:
       return io::readPly(path);
-    if (isOneOf(ending, vtk_endings))
-      return io::readVtk(path, ending);
-  }
-  catch (const InvalidArgument& error) {
-    throw IOError("Cannot read '" + path + "': " + error.message());
-  }
-  catch (const std::bad_alloc&) {
-    io::throwUnreadable(path, "there is not enough memory for it");
-  }
-  const io::InputFile exists(path); // a missing file matters more than its ending
-  io::throwUnreadable(path,
-                      describeEnding(ending) +
-                          "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                          ".tsv, .vtk, .vtp, .vtu and .vts");
+    case io::FileFormat::Text:
+      return io::readText(path, options);
+    default:
+      return io::readVtk(path);
+    }
+  });
 }
 
 void

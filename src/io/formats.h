@@ -5,12 +5,28 @@
 #include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace pcl_uvol {
 namespace io {
 
+class RecordSource;
+
+enum class FileFormat { Pcd, Ply, Text, Vtk };
+
+/** \brief The format of the points in a file, by the ending of its name.
+ * \throws IOError for another ending \throws InvalidArgument for columns of
+ * coordinates chosen in a file that is no text */
+FileFormat
+formatOf(const std::string& path, const LoadOptions& options);
+
+/** \throws IOError that says what has to be read whole, and what is read as a stream */
+[[noreturn]] void
+throwNoStream(const std::string& path, const std::string& what);
+
+/** Readers of whole files. @{ */
 Dataset
 readPcd(const std::string& path);
 
@@ -21,9 +37,22 @@ readPly(const std::string& path);
 Dataset
 readText(const std::string& path, const LoadOptions& options);
 
-/** \brief .vtk, .vtp, .vtu or .vts. \param ending in lower case, with its dot */
+/** \brief .vtk, .vtp, .vtu or .vts. */
 Dataset
-readVtk(const std::string& path, const std::string& ending);
+readVtk(const std::string& path);
+/** @} */
+
+/** Files whose header was read, and text whose types of columns are known. @{ */
+/** \throws IOError for compressed points */
+std::unique_ptr<RecordSource>
+openPcd(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openPly(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openText(const std::string& path, const LoadOptions& options);
+/** @} */
 
 /** Writers write to `file`, which exists; errors call it `path`. @{ */
 void

@@ -89,9 +89,9 @@ readPoints(const std::string& path, const std::string& ending)
 } // namespace
 
 Dataset
-readVtk(const std::string& path, const std::string& ending)
+readVtk(const std::string& path)
 {
-  const auto points = readPoints(path, ending);
+  const auto points = readPoints(path, endingOf(path));
   return toPointCloud(points);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../neighbors/sample_values.h"
 #include "isopoints.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
@@ -135,7 +136,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
 
   const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];
   const IsopointInput input{*samples_,
-                            scalar_->samples,
+                            scalar_->samples.values,
                             scalar_->ranges,
                             *candidates_,
                             criterion_,
@@ -148,7 +149,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
     const auto rounded = static_cast<float>(isovalue);
     if (!(range.min < rounded && rounded <= range.max))
       report_.warnings.push_back(emptyWarning(isovalue, field_, range));
-    appendIsopoints(input, rounded, found, edges, report_);
+    appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
   }
   report_.count("isopoints", found.size());
   isopoints.swap(found);

@@ -328,4 +328,23 @@ Options::printHelp() const
   print("-version", "print the version");
 }
 
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text)
+{
+  static const std::string units = "KMGT";
+  std::string digits = text;
+  double factor = 1.0;
+  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  if (unit != std::string::npos) {
+    digits.pop_back();
+    factor = std::pow(1000.0, static_cast<double>(unit + 1));
+  }
+  const double bytes = digits.empty() ? 0.0 : parseNumber(option, digits) * factor;
+  if (!(bytes >= 1.0 && bytes < 1e18))
+    throw UsageError("-" + option +
+                     " takes a number of bytes, as in 1500M or 2G, and '" + text +
+                     "' is none.");
+  return static_cast<std::uint64_t>(bytes);
+}
+
 } // namespace uvol_tools

@@ -147,4 +147,9 @@ printReport(const Options& options,
 int
 runTool(const char* tool, const std::function<int()>& body);
 
+/** \brief A number of bytes: digits, and K, M, G or T for powers of 1000.
+ * \throws UsageError that names the option */
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text);
+
 } // namespace uvol_tools

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/rank_group.h>
+
+namespace pcl_uvol {
+
+RankGroup::~RankGroup() = default;
+
+std::vector<Bytes>
+RankGroup::gatherAll(const Bytes& message)
+{
+  return exchange(std::vector<Bytes>(size(), message));
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample_store.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/memory.h>
+#include <pcl_uvol/io/out_of_core_extraction.h>
+#include <pcl_uvol/isosurface/rank_extraction.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Points that are read at once. */
+constexpr std::size_t block_points = 1u << 18;
+
+/** Bytes that a process takes besides samples: libraries, buffers, counts of digits. */
+constexpr std::uint64_t fixed_bytes = 160u << 20;
+
+/** Bytes per sample of a piece at the worst moment, while what it borrowed is joined to
+ * it: the joined samples and those before (24 each), planes (up to 16), ranges of
+ * values (up to 8), and a tenth for the halo. */
+constexpr std::uint64_t piece_bytes = 80;
+
+/** Isopoints as multiples of samples^(2/3): a surface that crosses the cloud five
+ * times.
+ */
+constexpr double expected_isopoints = 10.0;
+constexpr std::uint64_t isopoint_bytes = 2 * sizeof(GlobalIsopoint);
+
+/** Fewer samples in a piece would make more halo than piece. */
+constexpr std::uint64_t least_piece = 1u << 14;
+constexpr int most_levels = 12;
+
+int
+levelsFor(std::uint64_t samples, std::uint64_t max_memory)
+{
+  const auto surface = static_cast<std::uint64_t>(
+      expected_isopoints * std::pow(static_cast<double>(samples), 2.0 / 3.0) *
+      static_cast<double>(isopoint_bytes));
+  const std::uint64_t besides = fixed_bytes + surface;
+  const std::uint64_t least = besides + piece_bytes * std::min(least_piece, samples);
+  if (max_memory < least)
+    throw InvalidArgument(
+        "The isosurface of " + std::to_string(samples) + " samples takes at least " +
+        formatBytes(static_cast<double>(least)) + " of memory, and " +
+        formatBytes(static_cast<double>(max_memory)) + " were allowed.");
+  const std::uint64_t most_samples = (max_memory - besides) / piece_bytes;
+  int levels = 0;
+  while (levels < most_levels && samples >> levels > most_samples)
+    ++levels;
+  return levels;
+}
+
+/** One extraction. */
+class OutOfCoreExtraction {
+public:
+  OutOfCoreExtraction(const IsosurfaceSettings& settings,
+                      const OutOfCoreSettings& out_of_core,
+                      Report& report)
+      : settings_(settings)
+      , out_of_core_(out_of_core)
+      , report_(report)
+      , log_(std::make_unique<io::SampleLog>(out_of_core.scratch_folder))
+  {
+  }
+
+  std::vector<std::vector<GlobalIsopoint>>
+  extract(PointStream& points, const std::string& field)
+  {
+    readPoints(points, field);
+    std::vector<std::vector<GlobalIsopoint>> found(settings_.isovalues.size());
+    while (!makePieces())
+      mergeInPieces();
+    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
+      if (isCrossed(piece)) {
+        const auto parts = findIsopoints(piece);
+        for (std::size_t i = 0; i < found.size(); ++i)
+          found[i].insert(found[i].end(), parts[i].begin(), parts[i].end());
+      }
+    for (auto& isopoints : found) {
+      mergeIsopoints(isopoints, settings_.interpolation, out_of_core_.threads, report_);
+      report_.count("isopoints", isopoints.size());
+    }
+    return found;
+  }
+
+private:
+  void
+  readPoints(PointStream& points, const std::string& name)
+  {
+    StepTimer step(report_, "scratch", points.size());
+    pcl::PCLPointCloud2 block;
+    for (std::uint64_t begin = points.tell(); points.read(block_points, block) > 0;
+         begin = points.tell()) {
+      const CloudView view = viewOf(block);
+      log_->append(readSamples(view,
+                               ScalarField(view.fields, name),
+                               settings_.scale,
+                               begin,
+                               out_of_core_.threads,
+                               report_));
+      step.advance(view.count);
+    }
+    if (log_->size() == 0)
+      throw InvalidArgument("No sample has a position and a finite value of " + name +
+                            ".");
+  }
+
+  /** Part the samples, order those of each piece. \return false if some coincide: the
+   * log then has to be made anew from the pieces */
+  bool
+  makePieces()
+  {
+    {
+      const StepTimer timer(report_, "decomposition");
+      SingleRank alone;
+      decomposition_.emplace([&](const auto& block) { log_->scan(block); },
+                             levelsFor(log_->size(), out_of_core_.max_memory),
+                             alone,
+                             out_of_core_.threads);
+      store_ = std::make_unique<io::PieceStore>(
+          *log_, *decomposition_, out_of_core_.scratch_folder, out_of_core_.threads);
+    }
+    const std::uint64_t log_bytes = log_->bytes();
+    bricks_.clear();
+    ranges_.clear();
+    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
+      const auto built = Piece::build(*decomposition_,
+                                      piece,
+                                      store_->load(piece),
+                                      settings_.scale,
+                                      out_of_core_.threads,
+                                      report_);
+      if (!built)
+        return false;
+      bricks_.push_back(built->makeBricks());
+      const auto& values = built->getValues();
+      const auto [min, max] = std::minmax_element(values.begin(), values.end());
+      ranges_.push_back({*min, *max});
+      store_->save(piece, *built);
+    }
+    report_.count("scratch_bytes", log_bytes + store_->bytes());
+    log_.reset();
+    report_.count("pieces", decomposition_->size());
+    report_.count("samples", decomposition_->getSampleCount());
+    return true;
+  }
+
+  void
+  mergeInPieces()
+  {
+    log_ = std::make_unique<io::SampleLog>(out_of_core_.scratch_folder);
+    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
+      Samples samples = store_->load(piece);
+      mergeDuplicates(samples, out_of_core_.threads, report_);
+      log_->append(samples);
+    }
+  }
+
+  /** True if an isovalue lies between two values of a range. */
+  bool
+  isCrossed(float min, float max) const
+  {
+    return std::any_of(
+        settings_.isovalues.begin(), settings_.isovalues.end(), [&](double isovalue) {
+          const auto rounded = static_cast<float>(isovalue);
+          return min < rounded && rounded <= max;
+        });
+  }
+
+  /** True if an edge from a sample of the piece may be crossed. */
+  bool
+  isCrossed(std::size_t piece) const
+  {
+    const auto& [min, max] = ranges_[piece];
+    bool crossed = isCrossed(min, max);
+    const CellKey cell = decomposition_->getCell(piece);
+    for (std::size_t other = 0; other < ranges_.size() && !crossed; ++other)
+      if (other != piece)
+        bricks_[other].find(
+            [&](const CellKey& around) { return !crossed && around.touches(cell); },
+            [&, low = min, high = max](const Brick& brick) {
+              crossed = crossed || isCrossed(std::min(low, brick.range.min),
+                                             std::max(high, brick.range.max));
+            });
+    return crossed;
+  }
+
+  std::vector<std::vector<GlobalIsopoint>>
+  findIsopoints(std::size_t index)
+  {
+    Piece piece = store_->restore(*decomposition_, index, settings_.scale);
+    std::vector<LentBrick> bricks;
+    const auto lend = [&](std::size_t other, const Brick& brick) {
+      bricks.push_back(store_->lend(other, decomposition_->getBegin(other), brick));
+    };
+    {
+      const StepTimer timer(report_, "exchange");
+      const CellKey& cell = piece.getCell();
+      for (std::size_t other = 0; other < decomposition_->size(); ++other)
+        if (other != index)
+          bricks_[other].find(
+              [&](const CellKey& around) { return around.touches(cell); },
+              [&](const Brick& brick) { lend(other, brick); });
+      piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
+    }
+    PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
+    {
+      const StepTimer timer(report_, "exchange");
+      const std::vector<Ball> balls = isopoints.getOpenBalls();
+      for (std::size_t other = 0; other < decomposition_->size(); ++other)
+        if (other != index)
+          forBricksIn(balls, bricks_[other], [&](const Brick& brick) {
+            if (!piece.holds(brick))
+              lend(other, brick);
+          });
+      piece.borrow(std::move(bricks), out_of_core_.threads);
+    }
+    isopoints.settle();
+    return std::move(isopoints).take();
+  }
+
+  const IsosurfaceSettings& settings_;
+  const OutOfCoreSettings& out_of_core_;
+  Report& report_;
+  std::unique_ptr<io::SampleLog> log_;
+  std::unique_ptr<io::PieceStore> store_;
+  std::optional<Decomposition> decomposition_;
+  std::vector<BrickTable> bricks_;        // by piece
+  std::vector<NodeRanges::Range> ranges_; // of values, by piece
+};
+
+/** The points that edges end at, and the edges by their indices. */
+void
+readEnds(PointStream& points,
+         const std::vector<std::vector<GlobalIsopoint>>& isopoints,
+         OutOfCoreIsosurface& surface)
+{
+  std::vector<std::uint64_t> ends;
+  for (const auto& part : isopoints)
+    for (const GlobalIsopoint& isopoint : part) {
+      ends.push_back(isopoint.first);
+      ends.push_back(isopoint.second);
+    }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  const auto index_of = [&](std::uint64_t end) {
+    return static_cast<std::uint32_t>(std::lower_bound(ends.begin(), ends.end(), end) -
+                                      ends.begin());
+  };
+  for (const auto& part : isopoints)
+    for (const GlobalIsopoint& isopoint : part)
+      surface.edges.push_back(
+          {index_of(isopoint.first), index_of(isopoint.second), isopoint.t});
+  points.seek(0);
+  points.readRows(ends, surface.samples);
+}
+
+} // namespace
+
+OutOfCoreIsosurface
+extractOutOfCore(PointStream& points,
+                 const std::string& field,
+                 const IsosurfaceSettings& settings,
+                 const OutOfCoreSettings& out_of_core,
+                 Report& report)
+{
+  const auto found =
+      OutOfCoreExtraction(settings, out_of_core, report).extract(points, field);
+  OutOfCoreIsosurface surface;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (const GlobalIsopoint& isopoint : found[i])
+      surface.isopoints.push_back(toPointIso(isopoint, settings.isovalues[i]));
+  const StepTimer timer(report, "fields");
+  readEnds(points, found, surface);
+  return surface;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "median_search.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/neighbors/decomposition.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+bool
+isBelow(int axis, const PlaneKey& a, const PlaneKey& b)
+{
+  if (a.coordinate != b.coordinate)
+    return a.coordinate < b.coordinate;
+  return lessAlong(axis, a.below, b.below);
+}
+
+} // namespace
+
+CellKey
+CellKey::unbounded()
+{
+  CellKey cell;
+  cell.low.fill({-infinity, {}});
+  cell.high.fill({infinity, {}});
+  return cell;
+}
+
+bool
+CellKey::touches(const CellKey& other) const
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (isBelow(axis, high[i], other.low[i]) || isBelow(axis, other.high[i], low[i]))
+      return false;
+  }
+  return true;
+}
+
+bool
+meets(const Ball& ball, const CellKey& cell)
+{
+  double sq_dist = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double x = ball.center[axis];
+    const double offset =
+        std::max({cell.low[i].coordinate - x, x - cell.high[i].coordinate, 0.0});
+    sq_dist += offset * offset;
+  }
+  const double radius = ball.radius;
+  return sq_dist <= radius * radius;
+}
+
+bool
+liesWithin(const Ball& ball, const CellKey& cell)
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double x = ball.center[axis];
+    if (!(x - ball.radius > cell.low[i].coordinate &&
+          x + ball.radius < cell.high[i].coordinate))
+      return false;
+  }
+  return true;
+}
+
+Decomposition::Decomposition(const PositionScan& scan,
+                             int levels,
+                             RankGroup& ranks,
+                             unsigned threads)
+    : levels_(levels)
+    , planes_(size())
+{
+  MedianSearch search(scan, ranks, threads);
+  axes_ = KdTree::cycleOver(search.findExtent());
+  count_ = search.getSampleCount();
+  if (count_ < size())
+    throw InvalidArgument(std::to_string(count_) + " samples cannot be parted into " +
+                          std::to_string(size()) + " pieces.");
+  for (int depth = 0; depth < levels; ++depth)
+    search.findMedians(depth, axes_, planes_);
+}
+
+std::uint64_t
+Decomposition::getBegin(std::size_t piece) const
+{
+  if (piece == size())
+    return count_;
+  std::uint64_t begin = 0, count = count_;
+  for (int depth = 0; depth < levels_; ++depth) {
+    const std::uint64_t half = (count + 1) / 2; // the left half takes the odd sample
+    const bool is_right = (piece >> (levels_ - 1 - depth) & 1) != 0;
+    begin += is_right ? half : 0;
+    count = is_right ? count - half : half;
+  }
+  return begin;
+}
+
+CellKey
+Decomposition::getCell(std::size_t piece) const
+{
+  CellKey cell = CellKey::unbounded();
+  for (int depth = 0; depth < levels_; ++depth) {
+    const std::size_t node = (size() + piece) >> (levels_ - depth);
+    const auto axis = static_cast<std::size_t>(axes_[static_cast<std::size_t>(depth)]);
+    const bool is_right = (piece >> (levels_ - 1 - depth) & 1) != 0;
+    (is_right ? cell.low : cell.high)[axis] = planes_[node];
+  }
+  return cell;
+}
+
+std::size_t
+Decomposition::pieceOf(const Position& position) const
+{
+  return nodeOf(position, levels_, axes_, planes_) - size();
+}
+
+} // namespace pcl_uvol
