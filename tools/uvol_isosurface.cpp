@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/isosurface_options.h"
 #include "common/level_set.h"
 #include "common/options.h"
 #include "common/point_files.h"
@@ -30,18 +31,18 @@ namespace {
 
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
+using uvol_tools::joined;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
 
-struct Arguments {
-  std::string input, output, field, where, picture;
+struct Arguments : uvol_tools::IsosurfaceOptions {
+  std::string input, output, picture;
   bool raytrace = false;
   uvol_tools::RenderOptions look;
   uvol_tools::RayOptions rays;
-  std::vector<double> isovalues, xyz;
-  std::string scale, outside = "lower", criterion = "kept", neighbors = "kdtree";
+  std::string neighbors = "kdtree";
   std::uint64_t grid = 0;
-  std::string interpolation = "smooth", normals = "auto";
+  std::string normals = "auto";
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
   std::string mu = "auto";
@@ -64,29 +65,7 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
-  options.numbers("iso", "v,...", 0, arguments.isovalues, "isovalues (required)");
-  options.text("field",
-               "name",
-               arguments.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
-  options.text("where",
-               "expr",
-               arguments.where,
-               "use only the points for which it holds: \"experiment=1 && T>4\"");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances in a stretched space; auto: equal spread per axis");
-  options.numbers("xyz",
-                  "ix,iy,iz",
-                  3,
-                  arguments.xyz,
-                  "columns of a text file that hold the coordinates, from 0");
-  options.choice("outside",
-                 {"lower", "higher"},
-                 arguments.outside,
-                 "the side normals point to: where values are lower or higher");
+  arguments.declareSamples(options);
   options.choice("neighbors",
                  {"kdtree", "voronoi"},
                  arguments.neighbors,
@@ -99,14 +78,7 @@ declare(Options& options, Arguments& arguments)
       pcl_uvol::GridShape::largest_side,
       "cells of -neighbors voronoi along the longest side (default: 4 samples "
       "to a cell)");
-  options.choice("criterion",
-                 {"kept", "all"},
-                 arguments.criterion,
-                 "angle criterion against kept or against all closer candidates");
-  options.choice("interpolation",
-                 {"linear", "smooth"},
-                 arguments.interpolation,
-                 "isopoints along the edges, or on local polynomial fits");
+  arguments.declareMethod(options);
   options.flag("smooth",
                arguments.smooth,
                "smooth noisy or uneven samples by a level set first");
@@ -138,7 +110,7 @@ declare(Options& options, Arguments& arguments)
   options.text("scratch",
                "folder",
                arguments.scratch,
-               "with -max-memory: where they wait, 48 bytes each (default: beside the "
+               "with -max-memory: where they wait, 60 bytes each (default: beside the "
                "output)");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   options.text("png",
@@ -148,44 +120,20 @@ declare(Options& options, Arguments& arguments)
   options.flag("raytrace", arguments.raytrace, "by ray tracing of splats");
 }
 
-pcl_uvol::LoadOptions
-loadOptions(const Arguments& arguments)
-{
-  pcl_uvol::LoadOptions options;
-  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
-    options.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
-    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
-      throw UsageError("-xyz takes three column numbers from 0.");
-  }
-  return options;
-}
-
 pcl_uvol::Dataset
 load(const Arguments& arguments, Report& report)
 {
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
-      arguments.input, report, loadOptions(arguments), arguments.where);
+      arguments.input, report, arguments.makeLoadOptions(), arguments.where);
   report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
-}
-
-template <typename T>
-std::string
-joined(const T& numbers)
-{
-  std::ostringstream text;
-  for (const auto number : numbers)
-    text << (text.tellp() > 0 ? "," : "") << number;
-  return text.str();
 }
 
 /** What only some combinations of options allow. */
 void
 checkCombinations(const Options& options, Arguments& arguments)
 {
-  if (arguments.isovalues.empty())
-    throw UsageError(
-        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  arguments.check();
   const bool smooth = arguments.interpolation == "smooth";
   if (arguments.normals == "auto")
     arguments.normals = smooth ? "fit" : "pca";
@@ -249,27 +197,6 @@ describeErrors(const pcl::PointCloud<PointIso>& isopoints)
   return text.str();
 }
 
-pcl_uvol::Outside
-outsideOf(const Arguments& arguments)
-{
-  return arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                      : pcl_uvol::Outside::Higher;
-}
-
-pcl_uvol::Interpolation
-interpolationOf(const Arguments& arguments)
-{
-  return arguments.interpolation == "smooth" ? pcl_uvol::Interpolation::Smooth
-                                             : pcl_uvol::Interpolation::Linear;
-}
-
-pcl_uvol::AngleCriterion
-criterionOf(const Arguments& arguments)
-{
-  return arguments.criterion == "kept" ? pcl_uvol::AngleCriterion::Kept
-                                       : pcl_uvol::AngleCriterion::All;
-}
-
 /** The isopoints of one field of a cloud. */
 pcl::PointCloud<PointIso>
 extract(const Options& options,
@@ -286,9 +213,10 @@ extract(const Options& options,
   extraction.setScalarField(field);
   extraction.setIsoValues(isovalues);
   extraction.setScale(scale);
-  extraction.setOutside(outsideOf(arguments));
-  extraction.setInterpolation(interpolationOf(arguments));
-  extraction.setAngleCriterion(criterionOf(arguments));
+  const pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  extraction.setOutside(settings.outside);
+  extraction.setInterpolation(settings.interpolation);
+  extraction.setAngleCriterion(settings.criterion);
   if (arguments.neighbors == "voronoi") {
     pcl_uvol::VoronoiCandidateSettings voronoi;
     voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
@@ -388,7 +316,7 @@ extractFromDisk(const Options& options,
                 const uvol_tools::ScaleOption& scale_option,
                 Report& report)
 {
-  pcl_uvol::PointStream points(arguments.input, loadOptions(arguments));
+  pcl_uvol::PointStream points(arguments.input, arguments.makeLoadOptions());
   Extraction result;
   result.input = points.getHeader();
   pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
@@ -397,11 +325,8 @@ extractFromDisk(const Options& options,
   report.warnings = result.input.notes;
   report.count("points", points.size());
 
-  pcl_uvol::IsosurfaceSettings settings;
-  settings.isovalues = arguments.isovalues;
-  settings.outside = outsideOf(arguments);
-  settings.interpolation = interpolationOf(arguments);
-  settings.criterion = criterionOf(arguments);
+  pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  settings.field = result.field;
   settings.scale = {{result.scale[0], result.scale[1], result.scale[2]}};
   pcl_uvol::OutOfCoreSettings out_of_core;
   out_of_core.max_memory = uvol_tools::parseBytes("max-memory", arguments.max_memory);
@@ -410,8 +335,7 @@ extractFromDisk(const Options& options,
           ? std::filesystem::absolute(arguments.output).parent_path().string()
           : arguments.scratch;
   out_of_core.threads = options.threads();
-  auto surface =
-      pcl_uvol::extractOutOfCore(points, result.field, settings, out_of_core, report);
+  auto surface = pcl_uvol::extractOutOfCore(points, settings, out_of_core, report);
   result.isopoints = std::move(surface.isopoints);
   result.edges = std::move(surface.edges);
   result.input.cloud = std::move(surface.samples);

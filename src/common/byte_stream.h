@@ -95,4 +95,17 @@ private:
   std::size_t next_ = 0;
 };
 
+/** \brief The items of all processes, one after the other. */
+template <typename T>
+std::vector<T>
+gatherItems(RankGroup& ranks, const std::vector<T>& items)
+{
+  Bytes message;
+  ByteWriter(message).put(items);
+  std::vector<T> all;
+  for (const Bytes& bytes : ranks.gatherAll(message))
+    ByteReader(bytes).get(all);
+  return all;
+}
+
 } // namespace pcl_uvol

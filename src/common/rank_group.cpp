@@ -5,6 +5,13 @@ namespace pcl_uvol {
 
 RankGroup::~RankGroup() = default;
 
+void
+RankGroup::meet()
+{
+  std::vector<std::uint64_t> nothing{0};
+  sum(nothing);
+}
+
 std::vector<Bytes>
 RankGroup::gatherAll(const Bytes& message)
 {

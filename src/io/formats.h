@@ -42,6 +42,10 @@ Dataset
 readVtk(const std::string& path);
 /** @} */
 
+/** \brief The files that a .pvtp lists. \throws IOError if it is none */
+std::vector<std::string>
+readPieceList(const std::string& path);
+
 /** Files whose header was read, and text whose types of columns are known. @{ */
 /** \throws IOError for compressed points */
 std::unique_ptr<RecordSource>
@@ -78,6 +82,14 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
 
 void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset);
+
+/** \brief A .pvtp. \param dataset has the fields of the pieces \param pieces .vtp
+ * files in its folder */
+void
+writePieceList(const std::string& file,
+               const std::string& path,
+               const Dataset& dataset,
+               const std::vector<std::string>& pieces);
 /** @} */
 
 } // namespace io

@@ -70,12 +70,13 @@ public:
   }
 
   std::vector<std::vector<GlobalIsopoint>>
-  extract(PointStream& points, const std::string& field)
+  extract(PointStream& points)
   {
-    readPoints(points, field);
+    readPoints(points);
     std::vector<std::vector<GlobalIsopoint>> found(settings_.isovalues.size());
     while (!makePieces())
       mergeInPieces();
+    warnOfEmpty();
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
       if (isCrossed(piece)) {
         const auto parts = findIsopoints(piece);
@@ -91,7 +92,7 @@ public:
 
 private:
   void
-  readPoints(PointStream& points, const std::string& name)
+  readPoints(PointStream& points)
   {
     StepTimer step(report_, "scratch", points.size());
     pcl::PCLPointCloud2 block;
@@ -99,7 +100,7 @@ private:
          begin = points.tell()) {
       const CloudView view = viewOf(block);
       log_->append(readSamples(view,
-                               ScalarField(view.fields, name),
+                               ScalarField(view.fields, settings_.field),
                                settings_.scale,
                                begin,
                                out_of_core_.threads,
@@ -107,8 +108,8 @@ private:
       step.advance(view.count);
     }
     if (log_->size() == 0)
-      throw InvalidArgument("No sample has a position and a finite value of " + name +
-                            ".");
+      throw InvalidArgument("No sample has a position and a finite value of " +
+                            settings_.field + ".");
   }
 
   /** Part the samples, order those of each piece. \return false if some coincide: the
@@ -160,6 +161,16 @@ private:
       mergeDuplicates(samples, out_of_core_.threads, report_);
       log_->append(samples);
     }
+  }
+
+  void
+  warnOfEmpty()
+  {
+    NodeRanges::Range range = ranges_.front();
+    for (const auto& [min, max] : ranges_)
+      range = {std::min(range.min, min), std::max(range.max, max)};
+    for (const double isovalue : settings_.isovalues)
+      warnIfOutside(isovalue, settings_.field, range, report_);
   }
 
   /** True if an isovalue lies between two values of a range. */
@@ -265,13 +276,11 @@ readEnds(PointStream& points,
 
 OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,
-                 const std::string& field,
                  const IsosurfaceSettings& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report)
 {
-  const auto found =
-      OutOfCoreExtraction(settings, out_of_core, report).extract(points, field);
+  const auto found = OutOfCoreExtraction(settings, out_of_core, report).extract(points);
   OutOfCoreIsosurface surface;
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const GlobalIsopoint& isopoint : found[i])

@@ -3,11 +3,13 @@
 
 #include "smooth_roots.h"
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/isosurface/piece_isopoints.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 namespace pcl_uvol {
 
@@ -22,6 +24,28 @@ edgeKey(std::uint32_t a, std::uint32_t b)
 }
 
 } // namespace
+
+void
+warnIfOutside(double isovalue,
+              const std::string& field,
+              const NodeRanges::Range& range,
+              Report& report)
+{
+  const auto rounded = static_cast<float>(isovalue);
+  if (range.min < rounded && rounded <= range.max)
+    return;
+  std::ostringstream text;
+  text << "No isopoints for " << isovalue << ": ";
+  if (range.min == range.max)
+    text << "all values of " << field << " are " << range.min << ".";
+  else if (isovalue == range.min)
+    text << "it is the lowest value of " << field
+         << ", and values equal to the isovalue count as above.";
+  else
+    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
+         << field << ".";
+  report.warnings.push_back(text.str());
+}
 
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,

@@ -8,6 +8,7 @@
 #include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol {

@@ -3,33 +3,13 @@
 #include "isopoints.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
+#include <pcl_uvol/isosurface/piece_isopoints.h>
 
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cmath>
-#include <sstream>
 
 namespace pcl_uvol {
-
-namespace {
-
-std::string
-emptyWarning(double isovalue, const std::string& field, const NodeRanges::Range& range)
-{
-  std::ostringstream text;
-  text << "No isopoints for " << isovalue << ": ";
-  if (range.min == range.max)
-    text << "all values of " << field << " are " << range.min << ".";
-  else if (isovalue == range.min)
-    text << "it is the lowest value of " << field
-         << ", and values equal to the isovalue count as above.";
-  else
-    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
-         << field << ".";
-  return text.str();
-}
-
-} // namespace
 
 void
 IsosurfaceExtractionBase::checkParameters() const
@@ -147,8 +127,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   IsoEdges edges;
   for (const double isovalue : isovalues_) {
     const auto rounded = static_cast<float>(isovalue);
-    if (!(range.min < rounded && rounded <= range.max))
-      report_.warnings.push_back(emptyWarning(isovalue, field_, range));
+    warnIfOutside(isovalue, field_, range, report_);
     appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
   }
   report_.count("isopoints", found.size());

@@ -21,12 +21,6 @@ positionOf(const float* x)
   return {{x[0], x[1], x[2]}};
 }
 
-bool
-isBefore(const GlobalIsopoint& a, const GlobalIsopoint& b)
-{
-  return std::pair(a.lower, a.higher) < std::pair(b.lower, b.higher);
-}
-
 /** The linear isopoint that a fit starts from. */
 PointIso
 linearPoint(const GlobalIsopoint& isopoint)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../common/byte_stream.h"
 #include "../neighbors/sample_values.h"
+#include "isopoints.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/isosurface/rank_extraction.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -75,6 +77,7 @@ public:
       pieces_.clear();
       dealOut(samples);
     }
+    describePieces();
     lendBorders();
     findIsopoints();
     settle();
@@ -213,6 +216,27 @@ private:
     RankExtraction& owner_;
     std::vector<Bytes> messages_;
   };
+
+  /** Counts, and warnings of isovalues that no sample reaches. */
+  void
+  describePieces()
+  {
+    report_.count("pieces", pieces_.size());
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::vector<NodeRanges::Range> ranges{{infinity, -infinity}};
+    const auto extend = [&](float min, float max) {
+      ranges[0] = {std::min(ranges[0].min, min), std::max(ranges[0].max, max)};
+    };
+    for (const auto& [index, piece] : pieces_) {
+      report_.count("samples", piece.getValues().size());
+      for (const float value : piece.getValues())
+        extend(value, value);
+    }
+    for (const NodeRanges::Range& range : gatherItems(ranks_, ranges))
+      extend(range.min, range.max);
+    for (const double isovalue : settings_.isovalues)
+      warnIfOutside(isovalue, settings_.field, ranges[0], report_);
+  }
 
   void
   lendBorders()
@@ -366,6 +390,25 @@ extractFromRanks(Samples&& samples,
                  Report& report)
 {
   return RankExtraction(settings, ranks, threads, report).extract(std::move(samples));
+}
+
+std::vector<std::vector<GlobalIsopoint>>
+gatherIsopoints(std::vector<std::vector<GlobalIsopoint>>&& isopoints,
+                RankGroup& ranks,
+                unsigned threads)
+{
+  std::vector<Bytes> messages(ranks.size());
+  for (auto& part : isopoints) {
+    ByteWriter(messages[0]).put(part);
+    part = {};
+  }
+  for (const Bytes& bytes : ranks.exchange(std::move(messages)))
+    for (ByteReader reader(bytes); !reader.atEnd();)
+      for (auto& part : isopoints)
+        reader.get(part);
+  for (auto& part : isopoints)
+    parallelSort(part.begin(), part.end(), threads, isBefore);
+  return std::move(isopoints);
 }
 
 } // namespace pcl_uvol

@@ -113,19 +113,6 @@ take(Position& least, int axis, const Position& position)
     least = position;
 }
 
-/** The items of all processes, one after the other. */
-template <typename T>
-std::vector<T>
-gatherFromAll(RankGroup& ranks, const std::vector<T>& items)
-{
-  Bytes message;
-  ByteWriter(message).put(items);
-  std::vector<T> all;
-  for (const Bytes& bytes : ranks.gatherAll(message))
-    ByteReader(bytes).get(all);
-  return all;
-}
-
 /** A sample that may be the median of a node. */
 struct Candidate {
   std::uint32_t node; // from the first one of the depth
@@ -220,11 +207,11 @@ private:
     std::vector<Candidate> mine;
     for (auto& part : found)
       mine.insert(mine.end(), part.begin(), part.end());
-    std::vector<Candidate> candidates = gatherFromAll(ranks_, mine);
+    std::vector<Candidate> candidates = gatherItems(ranks_, mine);
     for (std::size_t thread = 1; thread < threads_; ++thread)
       for (std::size_t node = 0; node < medians_.size(); ++node)
         take(above[0][node], axis_, above[thread][node]);
-    const std::vector<Position> next = gatherFromAll(ranks_, above[0]);
+    const std::vector<Position> next = gatherItems(ranks_, above[0]);
     for (std::size_t i = 0; i < next.size(); ++i)
       take(medians_[i % medians_.size()].above, axis_, next[i]);
     for (Median& median : medians_)
@@ -306,7 +293,7 @@ MedianSearch::findExtent()
   });
   ranks_.sum(count);
   count_ = count[0];
-  const std::vector<Position> extents = gatherFromAll(ranks_, extent);
+  const std::vector<Position> extents = gatherItems(ranks_, extent);
   for (std::size_t i = 0; i < extents.size(); i += 2)
     extend(extents[i], extents[i + 1]);
   std::array<bool, 3> differs;

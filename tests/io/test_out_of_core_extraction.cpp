@@ -13,6 +13,8 @@
 #include <csignal>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <stdexcept>
 #include <sys/resource.h>
 
 namespace {
@@ -60,7 +62,7 @@ protected:
     out_of_core.scratch_folder = folder_ / "";
     out_of_core.threads = threads;
     report_ = Report();
-    return extractOutOfCore(points, "intensity", settings, out_of_core, report_);
+    return extractOutOfCore(points, settings, out_of_core, report_);
   }
 
   void
@@ -89,6 +91,7 @@ protected:
     EXPECT_EQ(expected.data, carried.data);
     for (const auto& [name, count] : extraction.getReport().counts)
       EXPECT_EQ(count, report_.getCount(name)) << name;
+    EXPECT_EQ(extraction.getReport().warnings, report_.warnings);
     EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
   }
 
@@ -104,6 +107,7 @@ TEST_P(OutOfCoreOnEveryShape, GivesTheBytesOfMemory)
 {
   save(*uvol_test::makeCloud(GetParam(), 60000, 3));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.41234, 0.1, 7.0};
   expectAsInMemory(settings);
   EXPECT_GE(report_.getCount("pieces"), report_.getCount("samples") / 20000);
@@ -127,6 +131,7 @@ TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
   }
   save(*cloud);
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   settings.interpolation = Interpolation::Linear;
   settings.scale = {{2.0f, 1.0f, 0.25f}};
@@ -139,6 +144,7 @@ TEST_F(OutOfCore, DoesNotDependOnThreads)
 {
   save(*uvol_test::makeCloud("clustered", 50000, 2));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto one = extract(settings, 1), three = extract(settings, 3);
   ASSERT_EQ(one.isopoints.size(), three.isopoints.size());
@@ -165,12 +171,14 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
 {
   save(*uvol_test::makeCloud("uniform", 1000, 8));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto run = [&](const std::string& field, OutOfCoreSettings out_of_core) {
     return [&, field, out_of_core] {
       PointStream points(path_);
       Report report;
-      extractOutOfCore(points, field, settings, out_of_core, report);
+      settings.field = field;
+      extractOutOfCore(points, settings, out_of_core, report);
     };
   };
   OutOfCoreSettings enough{std::uint64_t(1) << 30, folder_ / "", 0};
@@ -182,10 +190,34 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
 }
 
+TEST_F(OutOfCore, HasScratchFilesThatNobodySees)
+{
+  save(*uvol_test::makeCloud("uniform", 50000, 8));
+  IsosurfaceSettings settings;
+  settings.field = "intensity";
+  settings.isovalues = {0.3};
+  std::set<std::string> steps;
+  Report report;
+  report.progress = [&](const std::string& step, double) {
+    steps.insert(step);
+    EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+    if (step == "smooth_roots")
+      throw std::runtime_error("interrupted");
+  };
+  PointStream points(path_);
+  const OutOfCoreSettings out_of_core{tightMemory(50000), folder_ / "", 0};
+  EXPECT_THROW(extractOutOfCore(points, settings, out_of_core, report),
+               std::runtime_error);
+  EXPECT_EQ(1u, steps.count("scratch"));
+  EXPECT_EQ(1u, steps.count("tree"));
+  EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+}
+
 TEST_F(OutOfCore, SaysThatTheDiskIsFull)
 {
   save(*uvol_test::makeCloud("uniform", 50000, 8));
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   // A limit on the size of files stands for the end of the disk.
   rlimit before;
@@ -206,6 +238,7 @@ TEST_F(OutOfCore, HasNothingToSayOfNothing)
     point.x = std::numeric_limits<float>::quiet_NaN();
   save(cloud);
   IsosurfaceSettings settings;
+  settings.field = "intensity";
   settings.isovalues = {0.3};
   EXPECT_THROW(extract(settings), pcl_uvol::InvalidArgument);
 }

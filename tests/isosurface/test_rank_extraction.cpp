@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <mutex>
@@ -190,6 +191,26 @@ TEST(RankExtraction, AsksForWhatFitsReachBeyondNeighboringBricks)
   EXPECT_GT(alone.isopoints.size(), 300u);
   for (const std::size_t ranks : {3, 8, 16})
     expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
+}
+
+/** Values in steps, the isovalue on one of them: edges meet in samples of all pieces.
+ */
+TEST(RankExtraction, MergesIsopointsThatCoincideAcrossPieces)
+{
+  for (const std::string shape : {"lattice", "uniform"}) {
+    const auto cloud = uvol_test::makeCloud(shape, 5000, 7);
+    for (auto& point : *cloud)
+      point.intensity = std::round(20.0f * point.intensity) / 20.0f;
+    IsosurfaceSettings settings;
+    settings.isovalues = {0.4};
+    for (const auto interpolation : {Interpolation::Linear, Interpolation::Smooth}) {
+      settings.interpolation = interpolation;
+      const Alone alone(cloud, settings);
+      EXPECT_GT(alone.report.getCount("coincident"), 500u);
+      for (const std::size_t ranks : {2, 3, 8})
+        expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
+    }
+  }
 }
 
 TEST(RankExtraction, DoesNotCareWhereSamplesAre)

@@ -123,6 +123,12 @@ Options::file(const std::string& name, std::string& target, bool required)
 }
 
 void
+Options::files(const std::string& name, std::vector<std::string>& targets)
+{
+  positionals_.push_back({name, nullptr, true, &targets});
+}
+
+void
 Options::flag(const std::string& name,
               bool& target,
               const std::string& help,
@@ -273,13 +279,13 @@ Options::parse(int argc, const char* const* argv)
       return false;
     }
   }
-  std::size_t files = 0;
+  std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument.size() < 2 || argument[0] != '-' || startsWithNumber(argument)) {
-      if (files == positionals_.size())
+      if (files.size() == positionals_.size() && !positionals_[0].targets)
         throw UsageError("The argument '" + argument + "' is one too many.");
-      *positionals_[files++].target = argument;
+      files.push_back(argument);
       continue;
     }
     Option& option = find(argument);
@@ -298,11 +304,26 @@ Options::parse(int argc, const char* const* argv)
                        " needs a value: " + option.placeholder + ".");
     option.assign(arguments[++i]);
   }
-  for (; files < positionals_.size(); ++files)
-    if (positionals_[files].required)
-      throw UsageError("The argument <" + positionals_[files].name +
-                       "> is missing: " + tool_ + " " + synopsis_);
+  assignFiles(files);
   return true;
+}
+
+void
+Options::assignFiles(const std::vector<std::string>& files) const
+{
+  for (std::size_t i = files.size(); i < positionals_.size(); ++i)
+    if (positionals_[i].required)
+      throw UsageError("The argument <" + positionals_[i].name +
+                       "> is missing: " + tool_ + " " + synopsis_);
+  auto next = files.begin();
+  for (std::size_t i = 0; i < positionals_.size() && next != files.end(); ++i)
+    if (positionals_[i].targets != nullptr) {
+      const auto last = files.end() - static_cast<int>(positionals_.size() - i - 1);
+      positionals_[i].targets->assign(next, last);
+      next = last;
+    }
+    else
+      *positionals_[i].target = *next++;
 }
 
 void

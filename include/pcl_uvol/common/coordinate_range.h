@@ -30,6 +30,18 @@ public:
     range.float_error = std::max(range.float_error, error);
   }
 
+  /** \brief Take what another range has taken. */
+  void
+  add(const CoordinateRange& other)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Axis& range = axes_[axis];
+      range.low = std::min(range.low, other.axes_[axis].low);
+      range.high = std::max(range.high, other.axes_[axis].high);
+      range.float_error = std::max(range.float_error, other.axes_[axis].float_error);
+    }
+  }
+
   /** \brief What setCoordinates() promises of an origin.
    * \throws InvalidArgument for a coordinate beyond float */
   std::array<double, 3>

@@ -41,6 +41,10 @@ public:
   virtual std::vector<Bytes>
   exchange(std::vector<Bytes>&& messages) = 0;
 
+  /** \brief Wait until all processes have come here. */
+  void
+  meet();
+
   /** \brief The message of every process. */
   std::vector<Bytes>
   gatherAll(const Bytes& message);

@@ -19,7 +19,7 @@ namespace pcl_uvol {
 /** \brief Where samples go that memory does not hold. */
 struct OutOfCoreSettings {
   std::uint64_t max_memory = 0;     ///< bytes that the process may take
-  std::string scratch_folder = "."; ///< about 48 bytes per sample go there
+  std::string scratch_folder = "."; ///< about 60 bytes per sample go there
   unsigned threads = 0;             ///< 0 = all cores
 };
 
@@ -39,7 +39,6 @@ struct PCL_UVOL_EXPORTS OutOfCoreIsosurface {
  * files have no names, so that none is left behind. The bound holds for the whole
  * process as long as the isosurface itself is small beside it; pieces are made that
  * small.
- * \param field see ScalarField
  * \param report gets the counts and times of IsosurfaceExtraction, the counts "pieces"
  * and "scratch_bytes", and the times of "scratch" and "decomposition"
  * \throws InvalidArgument for an unknown field, a bound that is too small, and without
@@ -47,7 +46,6 @@ struct PCL_UVOL_EXPORTS OutOfCoreIsosurface {
  * that is full or takes no files */
 PCL_UVOL_EXPORTS OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,
-                 const std::string& field,
                  const IsosurfaceSettings& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report);

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,12 +21,20 @@ struct IsopointInput;
 
 /** \brief What IsosurfaceExtraction is told by its setters. */
 struct IsosurfaceSettings {
+  std::string field; ///< see ScalarField
   std::vector<double> isovalues;
   Outside outside = Outside::Lower;
   Interpolation interpolation = Interpolation::Smooth;
   AngleCriterion criterion = AngleCriterion::Kept;
   Position scale{{1.0f, 1.0f, 1.0f}};
 };
+
+/** \brief Warn of an isovalue that no edge can cross, with the values there are. */
+PCL_UVOL_EXPORTS void
+warnIfOutside(double isovalue,
+              const std::string& field,
+              const NodeRanges::Range& range,
+              Report& report);
 
 /** \brief An isopoint, and what it takes to tell it from those of other pieces. */
 struct GlobalIsopoint {
@@ -39,6 +48,13 @@ struct GlobalIsopoint {
   float mean_curvature, error, edge_length;
   std::uint8_t support, outcome;
 };
+
+/** \brief The order of isopoints: that of their edges. */
+inline bool
+isBefore(const GlobalIsopoint& a, const GlobalIsopoint& b)
+{
+  return std::pair(a.lower, a.higher) < std::pair(b.lower, b.higher);
+}
 
 /** \brief As a point of a cloud. */
 PCL_UVOL_EXPORTS PointIso

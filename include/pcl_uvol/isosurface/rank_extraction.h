@@ -37,15 +37,22 @@ readSamples(const CloudView& cloud,
  * all processes together are those of IsosurfaceExtraction with the same settings, byte
  * for byte. \param samples of this process; there may be none \return per isovalue the
  * isopoints that lie in this process's pieces, ordered by their edges \param report
- * gets the counts and times of IsosurfaceExtraction for this process, the counts
- * "pieces", "bytes_dealt_out" and "bytes_exchanged", and the times of "decomposition"
- * and "exchange" \throws InvalidArgument on all processes if there is no sample at all.
- * Memory: about 130 bytes per sample. */
+ * gets the counts, times and warnings of IsosurfaceExtraction for this process, the
+ * counts "pieces", "bytes_dealt_out" and "bytes_exchanged", and the times of
+ * "decomposition" and "exchange" \throws InvalidArgument on all processes if there is
+ * no sample at all. Memory: about 130 bytes per sample. */
 PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
                  const IsosurfaceSettings& settings,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report);
+
+/** \brief Bring the isopoints of all processes to the first one, in the order in which
+ * IsosurfaceExtraction gives them. \return nothing, per isovalue, on the others */
+PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
+gatherIsopoints(std::vector<std::vector<GlobalIsopoint>>&& isopoints,
+                RankGroup& ranks,
+                unsigned threads);
 
 } // namespace pcl_uvol
