@@ -223,12 +223,14 @@ private:
     PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
     {
       const StepTimer timer(report_, "exchange");
-      const std::vector<Ball> balls = isopoints.getOpenBalls();
-      for (std::size_t other = 0; other < decomposition_->size(); ++other)
-        if (other != index)
-          forBricksIn(balls, bricks_[other], [&](const Brick& brick) {
-            if (!piece.holds(brick))
-              lend(other, brick);
+      decomposition_->findPieces(
+          isopoints.getOpenBalls(),
+          [&](std::size_t other, const std::vector<Ball>& balls) {
+            if (other != index)
+              bricks_[other].find(balls, [&](const Brick& brick) {
+                if (!piece.holds(brick))
+                  lend(other, brick);
+              });
           });
       piece.borrow(std::move(bricks), out_of_core_.threads);
     }

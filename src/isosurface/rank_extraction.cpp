@@ -34,6 +34,14 @@ levelsFor(std::size_t ranks, std::uint64_t samples)
   return levels;
 }
 
+/** What put makes of samples and the number of their piece. */
+std::size_t
+bytesOf(const Samples& samples)
+{
+  return 4 * sizeof(std::size_t) +
+         samples.size() * (sizeof(Position) + sizeof(float) + sizeof(std::uint64_t));
+}
+
 void
 put(ByteWriter& writer, const Samples& samples)
 {
@@ -156,18 +164,24 @@ private:
     samples = {};
     std::vector<Bytes> messages(ranks_.size());
     for (std::size_t piece = 0; piece < parts.size(); ++piece) {
-      if (isOwn(piece))
+      if (isOwn(piece)) {
         samples_[piece] = std::move(parts[piece]);
+        samples_[piece].reserve(decomposition_->getCount(piece)); // with those to come
+      }
       else if (parts[piece].size() > 0) {
-        ByteWriter writer(messages[rankOf(piece)]);
+        Bytes& message = messages[rankOf(piece)];
+        message.reserve(message.size() + bytesOf(parts[piece]));
+        ByteWriter writer(message);
         writer.put(piece);
         put(writer, parts[piece]);
       }
       parts[piece] = {};
     }
-    for (const Bytes& bytes : exchange(std::move(messages), "bytes_dealt_out"))
+    for (Bytes& bytes : exchange(std::move(messages), "bytes_dealt_out")) {
       for (ByteReader reader(bytes); !reader.atEnd();)
         get(reader, samples_[reader.get<std::size_t>()]);
+      bytes = {};
+    }
   }
 
   std::vector<Bytes>
@@ -273,21 +287,16 @@ private:
       const StepTimer timer(report_, "exchange");
       std::vector<Bytes> messages(ranks_.size());
       for (const auto& [index, isopoints] : isopoints_) {
-        const std::vector<Ball> balls = isopoints.getOpenBalls();
-        for (std::size_t other = 0; other < decomposition_->size(); ++other) {
-          const CellKey cell = decomposition_->getCell(other);
-          std::vector<Ball> reaching;
-          std::copy_if(balls.begin(),
-                       balls.end(),
-                       std::back_inserter(reaching),
-                       [&](const Ball& ball) { return meets(ball, cell); });
-          if (other == index || reaching.empty())
-            continue;
-          ByteWriter writer(messages[rankOf(other)]);
-          writer.put(index);
-          writer.put(other);
-          writer.put(reaching);
-        }
+        decomposition_->findPieces(
+            isopoints.getOpenBalls(),
+            [&, own = index](std::size_t other, const std::vector<Ball>& balls) {
+              if (other == own)
+                return;
+              ByteWriter writer(messages[rankOf(other)]);
+              writer.put(own);
+              writer.put(other);
+              writer.put(balls);
+            });
       }
       Loans loans(*this);
       for (const Bytes& bytes : exchange(std::move(messages), "bytes_exchanged"))
@@ -298,7 +307,7 @@ private:
           std::vector<Ball> balls;
           reader.get(balls);
           const CellKey border = decomposition_->getCell(borrower);
-          forBricksIn(balls, bricks_.at(lender), [&](const Brick& brick) {
+          bricks_.at(lender).find(balls, [&](const Brick& brick) {
             if (!brick.cell.touches(border)) // it has those
               loans.lend(borrower, piece.lend(brick));
           });
@@ -363,8 +372,10 @@ readSamples(const CloudView& cloud,
             unsigned threads,
             Report& report)
 {
+  const StepTimer timer(report, "scalar");
   const std::vector<float> values = readValues(cloud, field, threads);
   Samples samples;
+  samples.reserve(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i) {
     if (std::isnan(values[i])) {
       report.count("no_value", 1);

@@ -4,6 +4,7 @@
 #include <vtkMPIController.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -162,6 +163,29 @@ MpiRanks::exchange(std::vector<Bytes>&& messages)
                  other,
                  message_tag);
   parts.wait();
+  return received;
+}
+
+std::vector<Bytes>
+MpiRanks::gatherAll(const Bytes& message)
+{
+  std::vector<vtkIdType> lengths(size()), offsets(size());
+  proceed();
+  const auto length = static_cast<vtkIdType>(message.size());
+  check(controller_.AllGather(&length, lengths.data(), 1));
+  std::exclusive_scan(lengths.begin(), lengths.end(), offsets.begin(), vtkIdType(0));
+  const auto total = static_cast<std::size_t>(offsets.back() + lengths.back());
+  if (total > largest_part_) // MPI counts all of them together by int
+    return RankGroup::gatherAll(message);
+  Bytes all(std::max<std::size_t>(total, 1));
+  std::vector<Bytes> received(size());
+  proceed();
+  check(controller_.AllGatherV(
+      message.data(), all.data(), length, lengths.data(), offsets.data()));
+  for (std::size_t rank = 0; rank < size(); ++rank) {
+    const auto first = all.begin() + offsets[rank];
+    received[rank].assign(first, first + lengths[rank]);
+  }
   return received;
 }
 

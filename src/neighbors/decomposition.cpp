@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -57,6 +58,17 @@ meets(const Ball& ball, const CellKey& cell)
   }
   const double radius = ball.radius;
   return sq_dist <= radius * radius;
+}
+
+std::vector<Ball>
+ballsIn(const CellKey& cell, const std::vector<Ball>& balls)
+{
+  std::vector<Ball> meeting;
+  std::copy_if(balls.begin(),
+               balls.end(),
+               std::back_inserter(meeting),
+               [&](const Ball& ball) { return meets(ball, cell); });
+  return meeting;
 }
 
 bool
@@ -115,6 +127,37 @@ Decomposition::getCell(std::size_t piece) const
     (is_right ? cell.low : cell.high)[axis] = planes_[node];
   }
   return cell;
+}
+
+void
+Decomposition::findPieces(
+    const std::vector<Ball>& balls,
+    const std::function<void(std::size_t piece, const std::vector<Ball>&)>& found) const
+{
+  const std::function<void(std::size_t, int, CellKey&, const std::vector<Ball>&)>
+      visit = [&](std::size_t node,
+                  int depth,
+                  CellKey& cell,
+                  const std::vector<Ball>& above) {
+        const std::vector<Ball> meeting = ballsIn(cell, above);
+        if (meeting.empty())
+          return;
+        if (depth == levels_) {
+          found(node - size(), meeting);
+          return;
+        }
+        const auto axis =
+            static_cast<std::size_t>(axes_[static_cast<std::size_t>(depth)]);
+        const PlaneKey low = cell.low[axis], high = cell.high[axis];
+        cell.high[axis] = planes_[node];
+        visit(2 * node, depth + 1, cell, meeting);
+        cell.high[axis] = high;
+        cell.low[axis] = planes_[node];
+        visit(2 * node + 1, depth + 1, cell, meeting);
+        cell.low[axis] = low;
+      };
+  CellKey cell = CellKey::unbounded();
+  visit(1, 0, cell, balls);
 }
 
 std::size_t

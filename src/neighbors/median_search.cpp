@@ -23,6 +23,10 @@ constexpr std::size_t digit_values = 1u << 11;
  * depth and for one of many. */
 constexpr std::uint64_t few_candidates = 1u << 16, fewest_candidates = 16;
 
+/** Of as many samples of a process their nodes are remembered, which takes 64 MB: walks
+ * down the levels would be half of the work. */
+constexpr std::uint64_t most_remembered = 1u << 24;
+
 /** Samples that a thread takes at once. */
 constexpr std::size_t block_samples = 1u << 14;
 
@@ -127,7 +131,8 @@ public:
         unsigned threads,
         int depth,
         const AxisCycle& axes,
-        const std::vector<PlaneKey>& planes)
+        const std::vector<PlaneKey>& planes,
+        std::vector<std::uint32_t>& nodes)
       : scan_(scan)
       , ranks_(ranks)
       , threads_(resolveThreads(threads))
@@ -135,6 +140,7 @@ public:
       , axis_(axes[static_cast<std::size_t>(depth)])
       , axes_(axes)
       , planes_(planes)
+      , nodes_(nodes)
       , few_(std::max(few_candidates >> depth, fewest_candidates))
       , medians_(std::size_t(1) << depth)
   {
@@ -211,13 +217,37 @@ private:
     for (std::size_t thread = 1; thread < threads_; ++thread)
       for (std::size_t node = 0; node < medians_.size(); ++node)
         take(above[0][node], axis_, above[thread][node]);
-    const std::vector<Position> next = gatherItems(ranks_, above[0]);
-    for (std::size_t i = 0; i < next.size(); ++i)
-      take(medians_[i % medians_.size()].above, axis_, next[i]);
+    takeAbove(above[0]);
     for (Median& median : medians_)
       if (median.digits == position_digits)
         median.below = positionOf(axis_, median.prefix);
     choose(candidates);
+  }
+
+  /** The least position of all processes above each median. Each process compares
+   * those of some nodes, so that nobody gets what all have of all nodes. */
+  void
+  takeAbove(const std::vector<Position>& mine)
+  {
+    const std::size_t nodes = medians_.size();
+    const auto share = [&](std::size_t rank) { return nodes * rank / ranks_.size(); };
+    std::vector<Bytes> messages(ranks_.size());
+    for (std::size_t rank = 0; rank < ranks_.size(); ++rank) {
+      ByteWriter writer(messages[rank]);
+      for (std::size_t node = share(rank); node < share(rank + 1); ++node)
+        if (mine[node][axis_] < infinity)
+          writer.put(Candidate{static_cast<std::uint32_t>(node), mine[node]});
+    }
+    const std::size_t first = share(ranks_.rank());
+    std::vector<Position> least(share(ranks_.rank() + 1) - first, Median().above);
+    for (const Bytes& bytes : ranks_.exchange(std::move(messages)))
+      for (ByteReader reader(bytes); !reader.atEnd();) {
+        const auto found = reader.get<Candidate>();
+        take(least[found.node - first], axis_, found.position);
+      }
+    const std::vector<Position> next = gatherItems(ranks_, least);
+    for (std::size_t node = 0; node < nodes; ++node)
+      take(medians_[node].above, axis_, next[node]);
   }
 
   void
@@ -243,6 +273,19 @@ private:
     }
   }
 
+  /** The node of a sample, which is remembered from depth to depth. */
+  std::size_t
+  findNode(std::size_t sample, const Position& position) const
+  {
+    if (nodes_.empty())
+      return nodeOf(position, depth_, axes_, planes_);
+    std::uint32_t& node = nodes_[sample];
+    if (node < medians_.size()) // at the depth above
+      node = static_cast<std::uint32_t>(childOf(
+          node, position, axes_[static_cast<std::size_t>(depth_ - 1)], planes_));
+    return node;
+  }
+
   /** Call visit(thread, node from the first of the depth, position) for all samples of
    * this process. */
   template <typename Visit>
@@ -250,15 +293,15 @@ private:
   scan(const Visit& visit) const
   {
     const std::size_t first = medians_.size();
+    std::size_t passed = 0;
     scan_([&](const Position* positions, std::size_t count) {
       parallelBlocks(threads_, 1, threads_, [&](std::size_t thread, std::size_t) {
         for (std::size_t begin = thread * block_samples; begin < count;
              begin += threads_ * block_samples)
           for (std::size_t i = begin; i < std::min(begin + block_samples, count); ++i)
-            visit(thread,
-                  nodeOf(positions[i], depth_, axes_, planes_) - first,
-                  positions[i]);
+            visit(thread, findNode(passed + i, positions[i]) - first, positions[i]);
       });
+      passed += count;
     });
   }
 
@@ -268,6 +311,7 @@ private:
   int depth_, axis_;
   const AxisCycle& axes_;
   const std::vector<PlaneKey>& planes_;
+  std::vector<std::uint32_t>& nodes_; // by sample, or empty
   std::uint64_t few_;
   std::vector<Median> medians_;
 };
@@ -291,6 +335,8 @@ MedianSearch::findExtent()
       extend(positions[i], positions[i]);
     count[0] += size;
   });
+  if (count[0] <= most_remembered)
+    nodes_.assign(static_cast<std::size_t>(count[0]), 1);
   ranks_.sum(count);
   count_ = count[0];
   const std::vector<Position> extents = gatherItems(ranks_, extent);
@@ -307,7 +353,7 @@ MedianSearch::findMedians(int depth,
                           const AxisCycle& axes,
                           std::vector<PlaneKey>& planes)
 {
-  Level level(scan_, ranks_, threads_, depth, axes, planes);
+  Level level(scan_, ranks_, threads_, depth, axes, planes, nodes_);
   const auto& medians = level.find();
   const int axis = axes[static_cast<std::size_t>(depth)];
   for (std::size_t node = 0; node < medians.size(); ++node) {

@@ -6,6 +6,19 @@
 
 namespace pcl_uvol {
 
+/** \brief The child of a node that a position lies below. \param axis of the node's
+ * plane
+ */
+inline std::size_t
+childOf(std::size_t node,
+        const Position& position,
+        int axis,
+        const std::vector<PlaneKey>& planes)
+{
+  return node << 1 |
+         static_cast<std::size_t>(lessAlong(axis, planes[node].below, position));
+}
+
 /** \brief The node at a depth that a position lies below. \param planes by node number
  */
 inline std::size_t
@@ -16,8 +29,7 @@ nodeOf(const Position& position,
 {
   std::size_t node = 1;
   for (std::size_t d = 0; d < static_cast<std::size_t>(depth); ++d)
-    node = node << 1 |
-           static_cast<std::size_t>(lessAlong(axes[d], planes[node].below, position));
+    node = childOf(node, position, axes[d], planes);
   return node;
 }
 
@@ -43,7 +55,7 @@ public:
     return count_;
   }
 
-  /** \brief Set the planes of a depth; those above it must be set. A node with fewer
+  /** \brief Set the planes of a depth, one after another from 0 on. A node with fewer
    * than two samples, which only equal ones leave behind, has a plane above all of
    * them.
    */
@@ -55,6 +67,7 @@ private:
   RankGroup& ranks_;
   unsigned threads_;
   std::uint64_t count_ = 0;
+  std::vector<std::uint32_t> nodes_; // see Level::findNode
 };
 
 } // namespace pcl_uvol

@@ -75,6 +75,40 @@ placeTrees(SampleSet::Parts& parts, const std::vector<CellKey>& cells)
   }
 }
 
+/** Cells that a function accepts. */
+struct Accepted {
+  const std::function<bool(const CellKey&)>* accepts;
+  bool is_accepted;
+
+  Accepted
+  within(const CellKey& cell) const
+  {
+    return {accepts, (*accepts)(cell)};
+  }
+  bool
+  isEmpty() const
+  {
+    return !is_accepted;
+  }
+};
+
+/** Cells that meet balls: below a node only those that meet it are asked, so that many
+ * balls cost no more than their own paths. */
+struct MeetingBalls {
+  std::vector<Ball> balls;
+
+  MeetingBalls
+  within(const CellKey& cell) const
+  {
+    return {ballsIn(cell, balls)};
+  }
+  bool
+  isEmpty() const
+  {
+    return balls.empty();
+  }
+};
+
 } // namespace
 
 void
@@ -97,36 +131,31 @@ Samples::append(const Samples& others, std::size_t begin, std::size_t count)
   copy(others.sources, sources);
 }
 
-struct BrickTable::Walk {
-  const BrickTable& table;
-  const std::function<bool(const CellKey&)>& accepts;
-  const std::function<void(const Brick&)>& found;
-
-  void
-  visit(const KdNode& node, CellKey& cell) const
-  {
-    if (!accepts(cell))
-      return;
-    if (node.count <= most_samples) {
-      found({table.begin_ + node.begin,
-             node.count,
-             node.depth,
-             cell,
-             table.ranges_[node.number]});
-      return;
-    }
-    const auto axis =
-        static_cast<std::size_t>(table.axes_[static_cast<std::size_t>(node.depth)]);
-    const PlaneKey &plane = table.planes_[node.number], low = cell.low[axis],
-                   high = cell.high[axis];
-    cell.high[axis] = plane;
-    visit(node.left(), cell);
-    cell.high[axis] = high;
-    cell.low[axis] = plane;
-    visit(node.right(), cell);
-    cell.low[axis] = low;
+template <typename Criterion>
+void
+BrickTable::visit(const KdNode& node,
+                  CellKey& cell,
+                  const Criterion& criterion,
+                  const std::function<void(const Brick&)>& found) const
+{
+  const Criterion left = criterion.within(cell);
+  if (left.isEmpty())
+    return;
+  if (node.count <= most_samples) {
+    found({begin_ + node.begin, node.count, node.depth, cell, ranges_[node.number]});
+    return;
   }
-};
+  const auto axis =
+      static_cast<std::size_t>(axes_[static_cast<std::size_t>(node.depth)]);
+  const PlaneKey &plane = planes_[node.number], low = cell.low[axis],
+                 high = cell.high[axis];
+  cell.high[axis] = plane;
+  visit(node.left(), cell, left, found);
+  cell.high[axis] = high;
+  cell.low[axis] = plane;
+  visit(node.right(), cell, left, found);
+  cell.low[axis] = low;
+}
 
 BrickTable::BrickTable(const KdTree& tree,
                        const std::vector<Position>& positions,
@@ -163,21 +192,15 @@ BrickTable::find(const std::function<bool(const CellKey&)>& accepts,
                  const std::function<void(const Brick&)>& found) const
 {
   CellKey cell = cell_;
-  Walk{*this, accepts, found}.visit(root_, cell);
+  visit(root_, cell, Accepted{&accepts, true}, found);
 }
 
 void
-forBricksIn(const std::vector<Ball>& balls,
-            const BrickTable& bricks,
-            const std::function<void(const Brick&)>& found)
+BrickTable::find(const std::vector<Ball>& balls,
+                 const std::function<void(const Brick&)>& found) const
 {
-  bricks.find(
-      [&](const CellKey& cell) {
-        return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
-          return meets(ball, cell);
-        });
-      },
-      found);
+  CellKey cell = cell_;
+  visit(root_, cell, MeetingBalls{balls}, found);
 }
 
 Piece::Piece(const Decomposition& decomposition,

@@ -238,6 +238,29 @@ TEST(RankFiles, LeaveNothingIfOneCannotWrite)
   }
 }
 
+TEST(RankFiles, LeaveWhatWasThereIfOneCannotWrite)
+{
+  const TemporaryFolder folder;
+  const auto save = [&](std::size_t ranks, double value) {
+    runRanks(ranks, [&](RankGroup& group) {
+      savePieces(folder / "out.pvtp", line(3, 0.0, value), group);
+    });
+  };
+  const auto contents = [&] {
+    std::string all;
+    for (const char* const name : {"out.pvtp", "out_0.vtp", "out_1.vtp"})
+      all += readFile(folder / name);
+    return all;
+  };
+  save(2, 1.0);
+  const std::string before = contents();
+  std::filesystem::create_directory(folder / "out_2.vtp");
+  EXPECT_THROW(save(3, 2.0), std::exception);
+  EXPECT_EQ(before, contents());
+  save(2, 2.0);
+  EXPECT_NE(before, contents());
+}
+
 TEST(RankFiles, KnowWhereTheyCanWrite)
 {
   const TemporaryFolder folder;

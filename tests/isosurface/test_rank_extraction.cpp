@@ -206,7 +206,7 @@ TEST(RankExtraction, MergesIsopointsThatCoincideAcrossPieces)
     for (const auto interpolation : {Interpolation::Linear, Interpolation::Smooth}) {
       settings.interpolation = interpolation;
       const Alone alone(cloud, settings);
-      EXPECT_GT(alone.report.getCount("coincident"), 500u);
+      EXPECT_GT(alone.report.getCount("coincident"), 300u);
       for (const std::size_t ranks : {2, 3, 8})
         expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
     }

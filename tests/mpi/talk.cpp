@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes that exchange messages whose bytes each can foretell; run by mpirun from
 // test_mpi_ranks. usage: talk PARTS [LOSER FUNCTION]: the largest part of a message;
-// the process that fails while the others call sum or exchange.
+// the process that fails while the others call sum, gather or exchange.
 #include <pcl_uvol/mpi/mpi_ranks.h>
 
 #include <vtkMPIController.h>
@@ -38,6 +38,10 @@ talk(MpiRanks& ranks)
     for (std::size_t from = 0; from < ranks.size(); ++from)
       if (received.at(from) != messageOf(from, ranks.rank(), round))
         return "a message differs";
+    const auto gathered = ranks.gatherAll(messageOf(ranks.rank(), 0, round));
+    for (std::size_t from = 0; from < ranks.size(); ++from)
+      if (gathered.at(from) != messageOf(from, 0, round))
+        return "a gathered message differs";
     std::vector<std::uint64_t> numbers{ranks.rank(), std::uint64_t(1) << 40, round};
     ranks.sum(numbers);
     const std::uint64_t n = ranks.size();
@@ -58,6 +62,8 @@ fail(MpiRanks& ranks, std::size_t loser, const std::string& function)
     std::vector<std::uint64_t> numbers{1};
     if (function == "sum")
       ranks.sum(numbers);
+    else if (function == "gather")
+      ranks.gatherAll(Bytes(10));
     else
       ranks.exchange(std::vector<Bytes>(ranks.size(), Bytes(10)));
   }

@@ -51,6 +51,7 @@ TEST_F(MpiRanks, DoNotWaitForOneThatFailed)
 {
   expectSuccess(3, "1000 2 sum");
   expectSuccess(3, "1000 2 exchange");
+  expectSuccess(3, "1000 1 gather");
   expectSuccess(4, "1000 1 exchange"); // three of them at once
   expectSuccess(2, "1000 0 sum");
 }

@@ -46,7 +46,7 @@ public:
   meet();
 
   /** \brief The message of every process. */
-  std::vector<Bytes>
+  virtual std::vector<Bytes>
   gatherAll(const Bytes& message);
 };
 

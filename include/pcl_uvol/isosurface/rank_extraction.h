@@ -18,7 +18,7 @@ namespace pcl_uvol {
 /** \brief The samples of a cloud that have a value and a position.
  * \param scale factors per axis
  * \param first_source source of point 0; point i has i more
- * \param report gets the counts "no_value" and "non_finite" */
+ * \param report gets the counts "no_value" and "non_finite" and the time of "scalar" */
 PCL_UVOL_EXPORTS Samples
 readSamples(const CloudView& cloud,
             const ScalarField& field,

@@ -41,11 +41,14 @@ public:
 
   std::vector<Bytes>
   exchange(std::vector<Bytes>&& messages) override;
+
+  std::vector<Bytes>
+  gatherAll(const Bytes& message) override;
   /** @} */
 
-  /** \brief Tell the others how this process fares, where they call this function, sum
-   * or exchange. Once one has failed nothing is told any more.
-   * \return the first process that failed, size() for none */
+  /** \brief Tell the others how this process fares, where they call this function or
+   * one of those above. Once one has failed nothing is told any more. \return the first
+   * process that failed, size() for none */
   std::size_t
   agree(bool has_failed);
 

@@ -46,12 +46,16 @@ struct Ball {
 PCL_UVOL_EXPORTS bool
 meets(const Ball& ball, const CellKey& cell);
 
+/** \brief The balls that do. */
+PCL_UVOL_EXPORTS std::vector<Ball>
+ballsIn(const CellKey& cell, const std::vector<Ball>& balls);
+
 /** \brief True if a ball lies in the inside of a cell. */
 PCL_UVOL_EXPORTS bool
 liesWithin(const Ball& ball, const CellKey& cell);
 
 /** \brief Hands out the positions of a process's samples, block by block, as often as
- * asked: position i of a block is positions[i]. */
+ * asked and always in the same order: position i of a block is positions[i]. */
 using PositionScan =
     std::function<void(const std::function<void(const Position*, std::size_t)>& block)>;
 
@@ -114,6 +118,13 @@ public:
   /** \brief The piece that a sample belongs to, or in whose cell another point lies. */
   std::size_t
   pieceOf(const Position& position) const;
+
+  /** \brief Call found for each piece whose cell meets some balls, with these,
+   * ascending. */
+  void
+  findPieces(const std::vector<Ball>& balls,
+             const std::function<void(std::size_t piece, const std::vector<Ball>&)>&
+                 found) const;
 
 private:
   int levels_;

@@ -78,8 +78,19 @@ public:
   find(const std::function<bool(const CellKey&)>& accepts,
        const std::function<void(const Brick&)>& found) const;
 
+  /** \brief Call found for each brick that meets one of the balls, ascending. */
+  void
+  find(const std::vector<Ball>& balls,
+       const std::function<void(const Brick&)>& found) const;
+
 private:
-  struct Walk;
+  /** Visit the bricks below a node, with what is left of a criterion. */
+  template <typename Criterion>
+  void
+  visit(const KdNode& node,
+        CellKey& cell,
+        const Criterion& criterion,
+        const std::function<void(const Brick&)>& found) const;
 
   AxisCycle axes_{};
   KdNode root_{1, 0, 0, 0};
@@ -88,12 +99,6 @@ private:
   std::vector<PlaneKey> planes_; // by number, of nodes with more samples than a brick
   std::vector<NodeRanges::Range> ranges_; // by number, of bricks
 };
-
-/** \brief Call found for each brick that meets one of the balls, ascending. */
-PCL_UVOL_EXPORTS void
-forBricksIn(const std::vector<Ball>& balls,
-            const BrickTable& bricks,
-            const std::function<void(const Brick&)>& found);
 
 /** \brief A brick and its samples. */
 struct LentBrick {
