@@ -256,7 +256,7 @@ extractLevelSets(const Options& options,
     pcl_uvol::IsoEdges found;
     auto surface = extract(options,
                            arguments,
-                           uvol_tools::cloudOfPhi(view, phi),
+                           pcl_uvol::cloudOfPhi(view, phi),
                            "phi",
                            {0.0},
                            scale,
@@ -458,7 +458,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    uvol_tools::warnOfReplacedFields(input, output.cloud, report);
+    pcl_uvol::warnOfReplacedFields(input.cloud, output.cloud, report);
     pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
   pcl_uvol::SaveOptions save;

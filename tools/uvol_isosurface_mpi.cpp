@@ -123,7 +123,7 @@ makeOutput(const Arguments& arguments,
   output.origin = part.origin;
   output.double_coordinates = part.double_coordinates;
   pcl::toPCLPointCloud2(points, output.cloud);
-  uvol_tools::warnOfReplacedFields(part, output.cloud, report);
+  pcl_uvol::warnOfReplacedFields(part.cloud, output.cloud, report);
   pcl_uvol::interpolateFields(rows.cloud, rows.edges, output.cloud, threads);
   return output;
 }

@@ -217,7 +217,7 @@ zeroLevel(const pcl_uvol::Dataset& input,
           unsigned threads,
           const std::vector<float>& phi)
 {
-  const auto cloud = uvol_tools::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
+  const auto cloud = pcl_uvol::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
   extraction.setScalarField("phi");
@@ -293,7 +293,7 @@ run(int argc, char** argv)
   pcl_uvol::Dataset result = dataset;
   {
     const StepTimer timer(report, "fields");
-    result.cloud = uvol_tools::cloudOfPhi(view, phi);
+    result.cloud = pcl_uvol::cloudOfPhi(view, phi);
     pcl_uvol::copyFields(
         dataset.cloud, {all.begin(), all.end()}, result.cloud, options.threads());
   }

@@ -227,7 +227,7 @@ readCompressed(const InputFile& file, const std::string& path, const Header& hea
                           " bytes, but its header promises " +
                           std::to_string(count * step));
   }
-  auto records = makeRecords(path, header.info.fields, count);
+  auto records = makeRecords(header.info.fields, count);
   if (count == 0)
     return records;
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
@@ -373,9 +373,8 @@ readPcd(const std::string& path)
   auto cursor = std::make_unique<FileCursor>(path);
   const Header header = readHeader(*cursor, path);
   if (header.encoding == Encoding::Compressed)
-    return makeDataset(
-        path, header.info, readCompressed(cursor->getFile(), path, header));
-  return readWhole(path, makeSource(path, std::move(cursor), header));
+    return makeDataset(readCompressed(cursor->getFile(), path, header), header.info);
+  return readWhole(makeSource(path, std::move(cursor), header));
 }
 
 std::unique_ptr<RecordSource>

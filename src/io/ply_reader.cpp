@@ -415,7 +415,7 @@ openPly(const std::string& path)
 Dataset
 readPly(const std::string& path)
 {
-  return readWhole(path, openPly(path));
+  return readWhole(openPly(path));
 }
 
 } // namespace io

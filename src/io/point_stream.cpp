@@ -44,8 +44,7 @@ PointStream::PointStream(const std::string& path, const LoadOptions& options)
 {
   const io::FileFormat format = io::formatOf(path, options);
   io::reading(path, [&] {
-    reader_ =
-        std::make_unique<io::PointReader>(path, openSource(path, format, options));
+    reader_ = std::make_unique<io::PointReader>(openSource(path, format, options));
     reader_->findOrigin();
   });
 }
@@ -90,7 +89,7 @@ PointStream::read(std::size_t count, pcl::PCLPointCloud2& block)
   block.header = cloud.header;
   block.fields = cloud.fields;
   block.point_step = cloud.point_step;
-  io::resizePoints(block, count);
+  resizePoints(block, count);
   reader_->read(count, block.data.data());
   return count;
 }
@@ -105,7 +104,7 @@ PointStream::readRows(const std::vector<std::uint64_t>& points,
     throwNoPoint(points.back(), size());
   const std::size_t step = getHeader().cloud.point_step;
   read(0, rows);
-  io::resizePoints(rows, points.size());
+  resizePoints(rows, points.size());
   std::uint8_t* to = rows.data.data();
   pcl::PCLPointCloud2 block;
   for (auto first = points.begin(); first != points.end();) {

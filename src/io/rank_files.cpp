@@ -2,8 +2,8 @@
 #include "../common/byte_stream.h"
 #include "files.h"
 #include "formats.h"
-#include "records.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/point_stream.h>
 #include <pcl_uvol/io/rank_files.h>
@@ -74,7 +74,7 @@ struct Layout {
   std::string path; ///< of the piece that it comes from; "": there is none
   pcl::uindex_t point_step = 0;
   bool double_coordinates = false;
-  io::Fields fields;
+  Fields fields;
 
   Layout() = default;
   Layout(std::string name, const Dataset& dataset)
@@ -219,15 +219,15 @@ private:
   void
   findCommonOrigin()
   {
-    std::vector<io::CoordinateRange> ranges(1);
+    std::vector<CoordinateRange> ranges(1);
     forCoordinates([&](std::size_t axis, double coordinate, const std::uint8_t*) {
       ranges[0].add(axis, coordinate);
     });
-    for (const io::CoordinateRange& other : gatherItems(ranks_, ranges))
+    for (const CoordinateRange& other : gatherItems(ranks_, ranges))
       ranges[0].add(other);
     part_.origin = ranges[0].origin();
     forCoordinates([&](std::size_t axis, double coordinate, std::uint8_t* point) {
-      io::putCoordinate(coordinate - part_.origin[axis], axis, point);
+      putCoordinate(coordinate - part_.origin[axis], axis, point);
     });
   }
 

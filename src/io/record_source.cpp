@@ -116,9 +116,9 @@ SequentialSource::read(std::size_t count, std::uint8_t* records)
     finish();
 }
 
-PointReader::PointReader(const std::string& path, std::unique_ptr<RecordSource> source)
+PointReader::PointReader(std::unique_ptr<RecordSource> source)
     : source_(std::move(source))
-    , layout_(path, source_->getInfo())
+    , layout_(source_->getInfo(), recordBytes(source_->getInfo().fields))
 {
 }
 
@@ -165,19 +165,19 @@ PointReader::read(std::size_t count, std::uint8_t* points)
 }
 
 Dataset
-readWhole(const std::string& path, std::unique_ptr<RecordSource> source)
+readWhole(std::unique_ptr<RecordSource> source)
 {
-  PointReader reader(path, std::move(source));
+  PointReader reader(std::move(source));
   const RecordInfo& info = reader.getSource().getInfo();
   const auto count = static_cast<std::size_t>(info.count);
   if (reader.getLayout().needsOrigin()) {
     // Reading twice would take longer than all records take memory.
-    auto records = makeRecords(path, info.fields, count);
+    auto records = makeRecords(info.fields, count);
     reader.getSource().read(count, records.data.data());
-    return makeDataset(path, info, std::move(records));
+    return makeDataset(std::move(records), info);
   }
   Dataset dataset = reader.getLayout().getHeader();
-  checkSize(path, count, dataset.cloud.point_step);
+  checkSize(count, dataset.cloud.point_step);
   resizePoints(dataset.cloud, count);
   reader.read(count, dataset.cloud.data.data());
   return dataset;

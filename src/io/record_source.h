@@ -3,7 +3,7 @@
 #pragma once
 
 #include "file_cursor.h"
-#include "records.h"
+#include <pcl_uvol/common/records.h>
 
 #include <memory>
 
@@ -108,8 +108,8 @@ private:
 /** \brief Takes records of a source as points. */
 class PointReader {
 public:
-  /** \throws IOError without x, y, z */
-  PointReader(const std::string& path, std::unique_ptr<RecordSource> source);
+  /** \throws InvalidArgument without x, y, z */
+  explicit PointReader(std::unique_ptr<RecordSource> source);
 
   RecordSource&
   getSource()
@@ -142,9 +142,11 @@ private:
   std::vector<std::uint8_t> records_;
 };
 
-/** \brief The dataset of all the records of a source. \throws IOError */
+/** \brief The dataset of all the records of a source. \throws IOError
+ * \throws InvalidArgument without x, y, z, for a coordinate beyond float, and for more
+ * points than PCL can number */
 Dataset
-readWhole(const std::string& path, std::unique_ptr<RecordSource> source);
+readWhole(std::unique_ptr<RecordSource> source);
 
 } // namespace io
 } // namespace pcl_uvol

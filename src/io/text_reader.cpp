@@ -409,7 +409,7 @@ TextTable::describe()
 pcl::PCLPointCloud2
 TextTable::collect(const RecordInfo& info) const
 {
-  auto records = makeRecords(path_, info.fields, info.count);
+  auto records = makeRecords(info.fields, info.count);
   for (std::size_t i = 0; i < info.fields.size(); ++i) {
     std::uint8_t* to = records.data.data() + info.fields[i].offset;
     for (const double value : columns_[i].values) {
@@ -485,7 +485,7 @@ readText(const std::string& path, const LoadOptions& options)
   TextTable table(path, options);
   table.scan(true);
   const RecordInfo info = table.describe();
-  return makeDataset(path, info, table.collect(info));
+  return makeDataset(table.collect(info), info);
 }
 
 std::unique_ptr<RecordSource>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/isosurface_options.h"
 
-#include <pcl_uvol/common/scalar_field.h>
-
 namespace uvol_tools {
 
 void
@@ -79,18 +77,6 @@ IsosurfaceOptions::makeSettings() const
   settings.criterion = criterion == "kept" ? pcl_uvol::AngleCriterion::Kept
                                            : pcl_uvol::AngleCriterion::All;
   return settings;
-}
-
-void
-warnOfReplacedFields(const pcl_uvol::Dataset& input,
-                     const pcl::PCLPointCloud2& isopoints,
-                     pcl_uvol::Report& report)
-{
-  for (const auto& field : isopoints.fields)
-    if (field.name.size() > 1 && field.name.rfind("normal_", 0) != 0 &&
-        pcl_uvol::findField(input.cloud.fields, field.name) != nullptr)
-      report.warnings.push_back("The samples' field '" + field.name +
-                                "' is left out: isopoints have one of that name.");
 }
 
 } // namespace uvol_tools

@@ -50,11 +50,4 @@ joined(const T& numbers)
   return text.str();
 }
 
-/** \brief Warn of fields of the samples that give way to those of the isopoints: a
- * column called error, say. Coordinates and normals are meant to. */
-void
-warnOfReplacedFields(const pcl_uvol::Dataset& input,
-                     const pcl::PCLPointCloud2& isopoints,
-                     pcl_uvol::Report& report);
-
 } // namespace uvol_tools

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From records as they lie in files to datasets.
-#include "records.h"
-
-#include "files.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -13,7 +11,6 @@
 #include <unordered_set>
 
 namespace pcl_uvol {
-namespace io {
 namespace {
 
 using Type = pcl::PCLPointField;
@@ -23,7 +20,7 @@ constexpr std::array<const char*, 3> axis_names{{"x", "y", "z"}};
 struct PackedLayout {
   Fields fields;
   std::size_t step;
-  std::vector<Run> runs; ///< to it
+  std::vector<ByteRun> runs; ///< to it
 };
 
 PackedLayout
@@ -50,9 +47,9 @@ packedLayout(const Fields& fields, bool with_xyz)
 }
 
 void
-copyRuns(const std::vector<Run>& runs, const std::uint8_t* from, std::uint8_t* to)
+copyRuns(const std::vector<ByteRun>& runs, const std::uint8_t* from, std::uint8_t* to)
 {
-  for (const Run& run : runs)
+  for (const ByteRun& run : runs)
     std::memcpy(to + run.to, from + run.from, run.bytes);
 }
 
@@ -88,7 +85,7 @@ isPadding(const pcl::PCLPointField& field)
 }
 
 void
-appendRun(std::vector<Run>& runs, const Run& run)
+appendRun(std::vector<ByteRun>& runs, const ByteRun& run)
 {
   if (!runs.empty() && runs.back().from + runs.back().bytes == run.from &&
       runs.back().to + runs.back().bytes == run.to)
@@ -124,19 +121,18 @@ recordBytes(const Fields& fields)
 }
 
 void
-checkSize(const std::string& path, std::uint64_t count, std::uint64_t step)
+checkSize(std::uint64_t count, std::uint64_t step)
 {
   constexpr std::uint64_t most = std::numeric_limits<pcl::uindex_t>::max();
   if (count > most || step > most)
-    throwUnreadable(path,
-                    "it has " + std::to_string(count) + " points of " +
-                        std::to_string(step) + " bytes, more than PCL can number");
+    throw InvalidArgument(std::to_string(count) + " points of " + std::to_string(step) +
+                          " bytes are more than PCL can number.");
 }
 
 pcl::PCLPointCloud2
-makeRecords(const std::string& path, Fields fields, std::uint64_t count)
+makeRecords(Fields fields, std::uint64_t count)
 {
-  checkSize(path, count, recordBytes(fields));
+  checkSize(count, recordBytes(fields));
   pcl::PCLPointCloud2 records;
   records.fields = std::move(fields);
   records.point_step = static_cast<pcl::uindex_t>(recordBytes(records.fields));
@@ -144,16 +140,15 @@ makeRecords(const std::string& path, Fields fields, std::uint64_t count)
   return records;
 }
 
-RecordLayout::RecordLayout(const std::string& path, const RecordInfo& info)
-    : record_bytes_(recordBytes(info.fields))
+RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
+    : record_step_(step)
     , point_bytes_(0)
 {
   for (const char* const axis : axis_names) {
     const auto* const field = findField(info.fields, axis);
     if (!field || field->count > 1)
-      throwUnreadable(path,
-                      std::string("it has no scalar field ") + axis +
-                          "; its fields are " + describeFields(info.fields));
+      throw InvalidArgument(std::string("There is no scalar field ") + axis +
+                            "; the fields are " + describeFields(info.fields) + ".");
   }
   header_.notes = info.notes;
   header_.has_coordinates = info.has_coordinates;
@@ -180,7 +175,7 @@ bool
 RecordLayout::isIdentity() const
 {
   const std::size_t step = header_.cloud.point_step;
-  return floats_ && step == record_bytes_ && runs_.size() == 1 && runs_[0].from == 0 &&
+  return floats_ && step == record_step_ && runs_.size() == 1 && runs_[0].from == 0 &&
          runs_[0].bytes == step;
 }
 
@@ -196,7 +191,7 @@ RecordLayout::addTo(CoordinateRange& range,
                     const std::uint8_t* records,
                     std::size_t count) const
 {
-  for (std::size_t i = 0; i < count; ++i, records += record_bytes_)
+  for (std::size_t i = 0; i < count; ++i, records += record_step_)
     for (std::size_t axis = 0; axis < 3; ++axis)
       range.add(axis, axes_[axis].read(records));
 }
@@ -207,7 +202,7 @@ RecordLayout::convert(const std::uint8_t* records,
                       std::uint8_t* points) const
 {
   const std::size_t step = header_.cloud.point_step;
-  for (std::size_t i = 0; i < count; ++i, records += record_bytes_, points += step) {
+  for (std::size_t i = 0; i < count; ++i, records += record_step_, points += step) {
     copyRuns(runs_, records, points);
     for (std::size_t axis = 0; axis < 3 && !floats_; ++axis)
       putCoordinate(axes_[axis].read(records) - header_.origin[axis], axis, points);
@@ -226,11 +221,10 @@ resizePoints(pcl::PCLPointCloud2& cloud, std::size_t count)
 }
 
 Dataset
-makeDataset(const std::string& path,
-            const RecordInfo& info,
-            pcl::PCLPointCloud2&& records)
+makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
 {
-  RecordLayout layout(path, info);
+  info.fields = records.fields;
+  RecordLayout layout(info, records.point_step);
   const std::size_t count = records.width;
   if (layout.needsOrigin()) {
     CoordinateRange range;
@@ -238,6 +232,7 @@ makeDataset(const std::string& path,
     layout.setOrigin(range.origin());
   }
   Dataset dataset = layout.getHeader();
+  dataset.cloud.header = records.header;
   if (layout.isIdentity()) {
     dataset.cloud.data = std::move(records.data);
     resizePoints(dataset.cloud, count);
@@ -246,6 +241,43 @@ makeDataset(const std::string& path,
   resizePoints(dataset.cloud, count);
   layout.convert(records.data.data(), count, dataset.cloud.data.data());
   return dataset;
+}
+
+void
+checkComplete(const pcl::PCLPointCloud2& cloud)
+{
+  const auto points = static_cast<std::uint64_t>(cloud.width) * cloud.height;
+  if (cloud.data.size() / std::max<std::size_t>(cloud.point_step, 1) < points)
+    throw InvalidArgument("The cloud holds fewer bytes than its " +
+                          std::to_string(points) + " points need.");
+  for (const auto& field : cloud.fields)
+    if (field.offset + fieldBytes(field) > cloud.point_step)
+      throw InvalidArgument("The field '" + field.name + "' ends behind its point.");
+}
+
+Fields
+savedFields(const Dataset& dataset)
+{
+  const auto& cloud = dataset.cloud;
+  checkComplete(cloud);
+  const bool doubles =
+      dataset.double_coordinates || dataset.origin != std::array<double, 3>{};
+  Fields saved;
+  for (const auto& field : cloud.fields) {
+    if (isPadding(field))
+      continue;
+    saved.push_back(field);
+    saved.back().count = std::max(field.count, 1u);
+    if (axisOf(field.name) >= 0 && field.datatype == Type::FLOAT32 && doubles)
+      saved.back().datatype = Type::FLOAT64;
+  }
+  for (const char* const axis : {"x", "y", "z"}) {
+    const auto* const field = findField(cloud.fields, axis);
+    if (!field || field->datatype != Type::FLOAT32)
+      throw InvalidArgument("The cloud needs float32 fields x, y, z; it has " +
+                            describeFields(cloud.fields) + ".");
+  }
+  return saved;
 }
 
 pcl::PCLPointCloud2
@@ -295,5 +327,4 @@ makeUnique(std::vector<std::string>& names)
   }
 }
 
-} // namespace io
 } // namespace pcl_uvol

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where float holds no coordinate well enough, an origin is chosen amid them.
-#include "coordinate_range.h"
-
+#include <pcl_uvol/common/coordinate_range.h>
 #include <pcl_uvol/common/exceptions.h>
 
 namespace pcl_uvol {
-namespace io {
 namespace {
 
 /** Relative to the extent: what float may lose of a coordinate. */
@@ -44,5 +42,4 @@ CoordinateRange::origin() const
   return origin;
 }
 
-} // namespace io
 } // namespace pcl_uvol

@@ -2,6 +2,8 @@
 // The origin that float coordinates need, from what the coordinates in double are like.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,10 +11,9 @@
 #include <limits>
 
 namespace pcl_uvol {
-namespace io {
 
 /** \brief Takes coordinates one after another and tells the origin of them all. */
-class CoordinateRange {
+class PCL_UVOL_EXPORTS CoordinateRange {
 public:
   /** \brief Take a coordinate of an axis (0 to 2); one that is not finite counts for
    * nothing. */
@@ -67,5 +68,4 @@ private:
   std::array<Axis, 3> axes_;
 };
 
-} // namespace io
 } // namespace pcl_uvol
