@@ -267,7 +267,9 @@ private:
         if (other != own && cell.touches(piece.getCell()))
           bricks_.at(own).find(
               [&](const CellKey& around) { return around.touches(cell); },
-              [&](const Brick& brick) { loans.lend(other, piece.lend(brick)); });
+              [&, &lender = piece](const Brick& brick) {
+                loans.lend(other, lender.lend(brick));
+              });
       }
     loans.deliver();
   }

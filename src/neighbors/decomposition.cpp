@@ -125,7 +125,7 @@ Decomposition::getCell(std::size_t piece) const
   CellKey cell = CellKey::unbounded();
   for (int depth = 0; depth < levels_; ++depth) {
     const std::size_t node = (size() + piece) >> (levels_ - depth);
-    const auto axis = static_cast<std::size_t>(axes_[static_cast<std::size_t>(depth)]);
+    const std::size_t axis = axisAt(axes_, depth);
     const bool is_right = (piece >> (levels_ - 1 - depth) & 1) != 0;
     (is_right ? cell.low : cell.high)[axis] = planes_[node];
   }
@@ -149,8 +149,7 @@ Decomposition::findPieces(
           found(node - size(), meeting);
           return;
         }
-        const auto axis =
-            static_cast<std::size_t>(axes_[static_cast<std::size_t>(depth)]);
+        const std::size_t axis = axisAt(axes_, depth);
         const PlaneKey low = cell.low[axis], high = cell.high[axis];
         cell.high[axis] = planes_[node];
         visit(2 * node, depth + 1, cell, meeting);

@@ -137,7 +137,7 @@ public:
       , ranks_(ranks)
       , threads_(resolveThreads(threads))
       , depth_(depth)
-      , axis_(axes[static_cast<std::size_t>(depth)])
+      , axis_(static_cast<int>(axisAt(axes, depth)))
       , axes_(axes)
       , planes_(planes)
       , nodes_(nodes)
@@ -355,7 +355,7 @@ MedianSearch::findMedians(int depth,
 {
   Level level(scan_, ranks_, threads_, depth, axes, planes, nodes_);
   const auto& medians = level.find();
-  const int axis = axes[static_cast<std::size_t>(depth)];
+  const auto axis = static_cast<int>(axisAt(axes, depth));
   for (std::size_t node = 0; node < medians.size(); ++node) {
     const Position &below = medians[node].below, &above = medians[node].above;
     const double middle = 0.5 * (static_cast<double>(below[axis]) + above[axis]);

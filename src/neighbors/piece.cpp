@@ -149,8 +149,7 @@ BrickTable::visit(const KdNode& node,
     found({begin_ + node.begin, node.count, node.depth, cell, ranges_[node.number]});
     return;
   }
-  const auto axis =
-      static_cast<std::size_t>(axes_[static_cast<std::size_t>(node.depth)]);
+  const std::size_t axis = axisAt(axes_, node.depth);
   const PlaneKey &plane = planes_[node.number], low = cell.low[axis],
                  high = cell.high[axis];
   cell.high[axis] = plane;

@@ -15,6 +15,13 @@
 
 namespace pcl_uvol {
 
+/** \brief Axis of the splits at a depth. */
+inline std::size_t
+axisAt(const AxisCycle& axes, int depth)
+{
+  return static_cast<unsigned char>(axes[static_cast<std::size_t>(depth)]);
+}
+
 /** \brief A splitting plane that names its sample by position; of all positions those
  * up to that one lie below it. */
 struct PlaneKey {
