@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/level_set.h"
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
@@ -13,6 +14,8 @@
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/levelset/memory_need.h>
+#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
@@ -251,6 +254,16 @@ extract(const Options& options,
   return isopoints;
 }
 
+/** \return without the scale */
+pcl_uvol::LevelSetParameters
+levelSetOf(const Options& options, const Arguments& arguments)
+{
+  pcl_uvol::LevelSetParameters parameters;
+  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.threads = options.threads();
+  return parameters;
+}
+
 /** The isopoints of the level sets that start from the isosurfaces. */
 pcl::PointCloud<PointIso>
 extractLevelSets(const Options& options,
@@ -265,10 +278,8 @@ extractLevelSets(const Options& options,
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
   std::vector<int> all(view.count);
   std::iota(all.begin(), all.end(), 0);
-  pcl_uvol::LevelSetParameters parameters;
-  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  pcl_uvol::LevelSetParameters parameters = levelSetOf(options, arguments);
   parameters.scale = scale;
-  parameters.threads = options.threads();
   pcl::PointCloud<PointIso> isopoints;
   for (const double isovalue : arguments.isovalues) {
     const auto [phi, summary] =
@@ -381,6 +392,43 @@ draw(const Options& options,
   return backend;
 }
 
+/** What the tool holds beside the points, but for a picture.
+ * \param surfaces one per isovalue; none are empty ones */
+uvol_tools::MemoryGuard::Work
+memoryOf(const Options& options,
+         const Arguments& arguments,
+         std::vector<pcl_uvol::SurfaceSize> surfaces)
+{
+  surfaces.resize(arguments.isovalues.size());
+  return [&options, &arguments, surfaces](
+             double points, double step, pcl_uvol::MemoryForecast& forecast) {
+    if (!arguments.smooth)
+      forecast.run(pcl_uvol::isosurfaceNeed(points, surfaces));
+    else
+      forecast.hold(sizeof(int) * points); // indices of all
+    double isopoints = 0.0, largest = 0.0;
+    for (const auto& surface : surfaces) {
+      isopoints += surface.isopoints;
+      largest = std::max(largest, surface.isopoints);
+      if (!arguments.smooth)
+        continue;
+      forecast.run(
+          pcl_uvol::levelSetNeed(points, surface, levelSetOf(options, arguments)));
+      forecast.hold(uvol_tools::phi_point_bytes * points);
+      forecast.run(pcl_uvol::isosurfaceNeed(points, {surface}));
+      forecast.release((uvol_tools::phi_point_bytes + sizeof(float)) * points);
+    }
+    // Normals of one surface after the other, beside a copy of all where some are
+    // missing.
+    const auto k = static_cast<double>(arguments.k);
+    forecast.run(
+        {pcl_uvol::surfaceNormalsNeed(largest, k).peak + sizeof(PointIso) * isopoints,
+         0.0});
+    // As bytes, and with the other fields.
+    forecast.hold((2.0 * sizeof(PointIso) + step) * isopoints);
+  };
+}
+
 int
 run(int argc, char** argv)
 {
@@ -404,6 +452,8 @@ run(int argc, char** argv)
   arguments.rays.check(options);
   if (!arguments.picture.empty())
     pcl_uvol::checkPngPath(arguments.picture);
+  uvol_tools::MemoryGuard memory("An isosurface");
+  memory.checkFile(arguments.input, memoryOf(options, arguments, {}));
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -414,7 +464,14 @@ run(int argc, char** argv)
   const std::string field = arguments.field.empty()
                                 ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
                                 : arguments.field;
-  const Eigen::Array3f scale = scale_option.scaleOf(pcl_uvol::viewOf(input.cloud));
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(input.cloud);
+  const Eigen::Array3f scale = scale_option.scaleOf(view);
+  memory.checkCloud(
+      input,
+      memoryOf(options,
+               arguments,
+               pcl_uvol::estimateSurfaces(
+                   view, field, arguments.isovalues, scale, options.threads())));
   pcl_uvol::IsoEdges edges;
   std::vector<std::pair<std::string, std::string>> level_set_facts;
   auto isopoints = arguments.smooth ? extractLevelSets(options,
@@ -436,9 +493,7 @@ run(int argc, char** argv)
   replaceNormals(options, arguments, scale, isopoints, report);
   filter(options, arguments, isopoints, edges, report);
 
-  pcl_uvol::Dataset output;
-  output.origin = input.origin;
-  output.double_coordinates = input.double_coordinates;
+  pcl_uvol::Dataset output = uvol_tools::withoutCloud(input);
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
@@ -461,6 +516,7 @@ run(int argc, char** argv)
   if (!arguments.picture.empty())
     facts.emplace_back("backend", draw(options, arguments, output, report));
   total.reset();
+  facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

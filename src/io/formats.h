@@ -4,7 +4,9 @@
 
 #include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/memory_need.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,15 @@ readPcd(const std::string& path);
 
 Dataset
 readPly(const std::string& path);
+
+/** What the headers promise; nothing where they are not whole, or promise more than the
+ * file holds: reading tells what is wrong with them. @{ */
+std::optional<PromisedCloud>
+promisePcd(const std::string& path);
+
+std::optional<PromisedCloud>
+promisePly(const std::string& path);
+/** @} */
 
 /** \brief Text with a header line; the separator is found in it. */
 Dataset

@@ -212,12 +212,29 @@ throwTruncated(const std::string& path, std::uint64_t count, std::uint64_t left)
                       std::to_string(left) + " bytes follow");
 }
 
+/** Points of which a body of that size may hold the numbers. */
+std::uint64_t
+mostPoints(const Header& header, std::uint64_t left)
+{
+  std::uint64_t numbers = 0;
+  for (const auto& field : header.fields)
+    numbers += field.count;
+  const std::uint64_t step = recordBytes(header.fields);
+  switch (header.encoding) {
+  case Encoding::Ascii:
+    return (left + 1) / (2 * numbers); // a digit and a blank
+  case Encoding::Binary:
+    return left / step;
+  default:
+    return left * most_expansion / step;
+  }
+}
+
 pcl::PCLPointCloud2
 readBinary(const InputFile& file, const std::string& path, Header& header)
 {
   const std::uint64_t left = file.getSize() - header.body;
-  const std::uint64_t step = recordBytes(header.fields);
-  if (header.count > left / step)
+  if (header.count > mostPoints(header, left))
     throwTruncated(path, header.count, left);
   auto records = makeRecords(path, std::move(header.fields), header.count);
   file.read(header.body, records.data.data(), records.data.size());
@@ -268,7 +285,7 @@ readAscii(const InputFile& file, const std::string& path, Header& header)
   std::uint64_t numbers = 0;
   for (const auto& field : header.fields)
     numbers += field.count;
-  if (numbers > 0 && header.count > (left + 1) / (2 * numbers)) // a digit and a blank
+  if (header.count > mostPoints(header, left))
     throwTruncated(path, header.count, left);
   auto records = makeRecords(path, std::move(header.fields), header.count);
   std::string text(left, '\0');
@@ -343,6 +360,23 @@ makeHeader(const Fields& fields, std::uint64_t count, const SaveOptions& options
 }
 
 } // namespace
+
+std::optional<PromisedCloud>
+promisePcd(const std::string& path)
+{
+  const InputFile file(path);
+  const Header header = readHeader(file, path);
+  const std::uint64_t left = file.getSize() - header.body;
+  if (header.count > mostPoints(header, left))
+    return std::nullopt;
+  double beside = 0.0;
+  if (header.encoding != Encoding::Binary)
+    beside += static_cast<double>(left);
+  if (header.encoding == Encoding::Compressed) // unpacked, field by field
+    beside += static_cast<double>(header.count) *
+              static_cast<double>(recordBytes(header.fields));
+  return promiseOf(header.fields, header.count, beside);
+}
 
 Dataset
 readPcd(const std::string& path)

@@ -56,19 +56,39 @@ struct Header {
   std::size_t lines = 0;
 };
 
+/** The scalars. */
+Fields
+fieldsOf(const Element& element)
+{
+  Fields fields;
+  for (const auto& property : element.properties)
+    if (property.length_type == 0)
+      appendField(fields, property.name, property.datatype);
+  return fields;
+}
+
 /** The vertices of a file, record by record. */
 class PlyReader {
 public:
-  explicit PlyReader(const std::string& path);
+  /** \param most bytes to read: all that follow the header, or none of them */
+  PlyReader(const std::string& path, std::uint64_t most);
 
   Dataset
   read();
+
+  /** \param file_bytes of the whole file */
+  std::optional<PromisedCloud>
+  promise(std::uint64_t file_bytes) const;
 
 private:
   void
   parseHeader(Lines& lines);
   void
   parseProperty(const Words& words, std::size_t line);
+  const Element&
+  findVertex() const;
+  std::uint64_t
+  leastBytes(const Element& element) const;
   void
   checkCount(const Element& element) const;
   void
@@ -96,11 +116,10 @@ private:
   Lines lines_{std::string_view()}; ///< of an ascii body
 };
 
-PlyReader::PlyReader(const std::string& path)
+PlyReader::PlyReader(const std::string& path, std::uint64_t most)
     : path_(path)
 {
-  const InputFile file(path);
-  bytes_ = file.head(file.getSize());
+  bytes_ = InputFile(path).head(most);
   Lines lines(bytes_);
   parseHeader(lines);
   body_ = lines.rest();
@@ -189,15 +208,23 @@ PlyReader::throwTruncated(const Element& element) const
                       element.name + ", but the file ends before");
 }
 
+/** Of one of them in the file. */
+std::uint64_t
+PlyReader::leastBytes(const Element& element) const
+{
+  if (header_.format == Format::Ascii)
+    return 2 * element.properties.size(); // a digit and a blank each
+  std::uint64_t least = element.bytes();
+  for (const auto& property : element.properties)
+    least += property.length_type ? datatypeSize(property.length_type) : 0;
+  return least;
+}
+
 /** Before any memory is taken: does that much follow at all? */
 void
 PlyReader::checkCount(const Element& element) const
 {
-  std::uint64_t least = element.bytes();
-  for (const auto& property : element.properties)
-    least += property.length_type ? datatypeSize(property.length_type) : 0;
-  if (header_.format == Format::Ascii)
-    least = 2 * element.properties.size(); // a digit and a blank each
+  const std::uint64_t least = leastBytes(element);
   if (least > 0 && element.count > (body_.size() + 1) / least)
     throwTruncated(element);
 }
@@ -326,34 +353,49 @@ PlyReader::readAscii(const Element& vertex, pcl::PCLPointCloud2& records)
   }
 }
 
-Dataset
-PlyReader::read()
+const Element&
+PlyReader::findVertex() const
 {
   const auto is_vertex = [](const Element& e) { return e.name == "vertex"; };
   const auto vertex =
       std::find_if(header_.elements.begin(), header_.elements.end(), is_vertex);
   if (vertex == header_.elements.end())
     throwUnreadable(path_, "it has no element 'vertex'");
-  for (auto element = header_.elements.begin(); element != vertex; ++element)
+  return *vertex;
+}
+
+std::optional<PromisedCloud>
+PlyReader::promise(std::uint64_t file_bytes) const
+{
+  const Element& vertex = findVertex();
+  const std::uint64_t least = leastBytes(vertex);
+  if (least == 0 || vertex.count > (file_bytes + 1) / least)
+    return std::nullopt;
+  return promiseOf(fieldsOf(vertex), vertex.count, static_cast<double>(file_bytes));
+}
+
+Dataset
+PlyReader::read()
+{
+  const Element& vertex = findVertex();
+  for (const Element* element = header_.elements.data(); element != &vertex; ++element)
     skip(*element);
   if (header_.format == Format::Ascii)
     body_ = lines_.rest();
-  checkCount(*vertex);
-  Fields fields;
+  checkCount(vertex);
+  Fields fields = fieldsOf(vertex);
   std::vector<std::string> notes;
-  for (const auto& property : vertex->properties)
-    if (property.length_type == 0)
-      appendField(fields, property.name, property.datatype);
-    else
+  for (const auto& property : vertex.properties)
+    if (property.length_type != 0)
       notes.push_back("The list property '" + property.name +
                       "' of the vertices is left out.");
   if (fields.empty())
     throwUnreadable(path_, "its vertices have no coordinates");
-  auto records = makeRecords(path_, std::move(fields), vertex->count);
+  auto records = makeRecords(path_, std::move(fields), vertex.count);
   if (header_.format == Format::Ascii)
-    readAscii(*vertex, records);
+    readAscii(vertex, records);
   else
-    readBinary(*vertex, records);
+    readBinary(vertex, records);
   renameFields(records.fields, ply_normals, cloud_normals);
   Dataset dataset = makeDataset(path_, std::move(records));
   dataset.notes.insert(dataset.notes.end(), notes.begin(), notes.end());
@@ -365,7 +407,17 @@ PlyReader::read()
 Dataset
 readPly(const std::string& path)
 {
-  return PlyReader(path).read();
+  return PlyReader(path, InputFile(path).getSize()).read();
+}
+
+std::optional<PromisedCloud>
+promisePly(const std::string& path)
+{
+  constexpr std::uint64_t header_room = 1u << 16; // for nearly every header
+  const InputFile file(path);
+  if (file.head(header_room).find("\nend_header") == std::string::npos)
+    return std::nullopt;
+  return PlyReader(path, header_room).promise(file.getSize());
 }
 
 } // namespace io

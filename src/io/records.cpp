@@ -21,17 +21,17 @@ constexpr std::array<const char*, 3> axis_names{{"x", "y", "z"}};
 
 /** x, y, z are in front, nothing lies between fields, and points are aligned. */
 bool
-isPacked(const pcl::PCLPointCloud2& records)
+isPacked(const Fields& fields)
 {
   std::size_t end = 0;
-  for (std::size_t i = 0; i < records.fields.size(); ++i) {
-    const auto& field = records.fields[i];
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto& field = fields[i];
     if (field.offset != end || isPadding(field) ||
         (i < 3 && field.name != axis_names[i]))
       return false;
     end += fieldBytes(field);
   }
-  return end == records.point_step && end % alignof(float) == 0;
+  return end % alignof(float) == 0;
 }
 
 std::vector<double>
@@ -148,13 +148,38 @@ makeDataset(const std::string& path, pcl::PCLPointCloud2&& records)
     dataset.double_coordinates |= datatype == Type::FLOAT64;
   }
   if (floats) {
-    dataset.cloud = isPacked(records) ? std::move(records) : repack(records, true);
+    dataset.cloud =
+        isPacked(records.fields) ? std::move(records) : repack(records, true);
     return dataset;
   }
   const std::vector<double> xyz = coordinatesOf(records);
   dataset.cloud = std::move(records);
   setCoordinates(dataset, xyz);
   return dataset;
+}
+
+PromisedCloud
+promiseOf(const Fields& fields, std::uint64_t count, double beside)
+{
+  std::size_t packed = axis_names.size() * sizeof(float);
+  bool floats = true;
+  for (const auto& field : fields)
+    if (axisOf(field.name) >= 0)
+      floats = floats && field.datatype == Type::FLOAT32;
+    else if (!isPadding(field))
+      packed += fieldBytes(field);
+  PromisedCloud cloud;
+  cloud.points = count;
+  cloud.point_step = (packed + alignof(float) - 1) / alignof(float) * alignof(float);
+  double per_point = static_cast<double>(recordBytes(fields));
+  if (!floats) // coordinates in double on their way
+    per_point += axis_names.size() * sizeof(double);
+  if (!floats || !isPacked(fields))
+    per_point += static_cast<double>(cloud.point_step);
+  const auto points = static_cast<double>(count);
+  cloud.reading = {per_point * points + beside,
+                   static_cast<double>(cloud.point_step) * points};
+  return cloud;
 }
 
 pcl::PCLPointCloud2

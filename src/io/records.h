@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/memory_need.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,11 @@ makeRecords(const std::string& path, Fields fields, std::uint64_t count);
  * apart. \throws IOError without x, y, z */
 Dataset
 makeDataset(const std::string& path, pcl::PCLPointCloud2&& records);
+
+/** \brief What makeDataset needs and makes of such records.
+ * \param beside bytes that lie beside the records while they are made and converted */
+PromisedCloud
+promiseOf(const Fields& fields, std::uint64_t count, double beside);
 
 /** \brief 0, 1, 2 for x, y, z, and -1. */
 int

@@ -25,7 +25,7 @@ cloudOfPhi(const pcl_uvol::CloudView& cloud, const std::vector<float>& phi)
   pcl::PCLPointCloud2 result;
   result.width = static_cast<std::uint32_t>(phi.size());
   result.height = 1;
-  result.point_step = 4 * sizeof(float);
+  result.point_step = phi_point_bytes;
   result.row_step = result.point_step * result.width;
   result.is_dense = 0;
   for (const char* name : {"x", "y", "z", "phi"}) {

@@ -15,6 +15,9 @@ namespace uvol_tools {
 double
 parseMu(const std::string& text);
 
+/** \brief Bytes of a point of cloudOfPhi. */
+constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
+
 /** \brief A cloud of the points' coordinates and phi. */
 pcl::PCLPointCloud2
 cloudOfPhi(const pcl_uvol::CloudView& cloud, const std::vector<float>& phi);

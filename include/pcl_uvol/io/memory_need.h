@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes of reading a file, as far as its header tells.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/memory.h>
+
+#include <pcl/PCLPointField.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A cloud before it is read. */
+struct PCL_UVOL_EXPORTS PromisedCloud {
+  std::uint64_t points = 0;
+  std::size_t point_step = 0; ///< bytes of a point of Dataset::cloud
+  MemoryNeed reading;         ///< of loadDataset; the cloud is kept
+};
+
+/** \brief What the header of a .pcd or .ply file promises; nothing for other formats,
+ * whose size shows when they are read, and for damaged files. \throws IOError as
+ * loadDataset for a file that cannot be opened or has a malformed header */
+PCL_UVOL_EXPORTS std::optional<PromisedCloud>
+promisedCloud(const std::string& path);
+
+} // namespace pcl_uvol
