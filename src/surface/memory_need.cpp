@@ -20,8 +20,11 @@ constexpr double float_bytes = sizeof(float), index_bytes = sizeof(std::uint32_t
  * splat takes some ten microseconds to grow. */
 constexpr std::size_t patches = 2, patch_points = 2048, patches_part = 64;
 
-/** Fewer points are no patch: its rim would be most of it. */
+/** Fewer points are no patch. */
 constexpr std::size_t fewest_points = 256;
+
+/** Of a patch, those that count: splats do not grow across its rim. */
+constexpr std::size_t inner_part = 4;
 
 /** Where there is no patch: points of a surface that is sampled no finer than its
  * splats reach. */
@@ -79,6 +82,27 @@ takePatch(const CloudView& cloud,
   return {first, last};
 }
 
+/** Points in the middle of a patch, ascending. */
+std::vector<std::uint32_t>
+innerOf(const CloudView& cloud, std::vector<std::uint32_t> patch)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
+    return Eigen::Vector3f(cloud.xyz(i)).cast<double>();
+  };
+  for (const std::uint32_t point : patch)
+    sum += at(point);
+  const Eigen::Vector3d middle = sum / static_cast<double>(patch.size());
+  const auto end =
+      patch.begin() + static_cast<std::ptrdiff_t>(patch.size() / inner_part);
+  std::nth_element(patch.begin(), end, patch.end(), [&](auto a, auto b) {
+    return (at(a) - middle).squaredNorm() < (at(b) - middle).squaredNorm();
+  });
+  patch.erase(end, patch.end());
+  std::sort(patch.begin(), patch.end());
+  return patch;
+}
+
 } // namespace
 
 MemoryNeed
@@ -111,8 +135,13 @@ estimateSplats(const CloudView& cloud, const SplatParameters& parameters)
     const auto patch = takePatch(cloud, extent.finite, most, seed);
     try {
       Report ignored;
-      splats += generateSplats(cloud, patch, of_patch, ignored).cloud.size();
-      points += patch.size();
+      const auto grown = generateSplats(cloud, patch, of_patch, ignored);
+      const auto inner = innerOf(cloud, patch);
+      points += inner.size();
+      splats += static_cast<std::size_t>(std::count_if(
+          grown.sources.begin(), grown.sources.end(), [&](std::uint32_t source) {
+            return std::binary_search(inner.begin(), inner.end(), source);
+          }));
     }
     catch (const InvalidArgument&) {
       // the splats of the whole cloud will tell what is wrong

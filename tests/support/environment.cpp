@@ -82,6 +82,13 @@ dataFolder()
   return fs::is_directory(beside) ? beside.lexically_normal().string() : std::string();
 }
 
+bool
+isSanitized()
+{
+  return std::getenv("LSAN_OPTIONS") != nullptr ||
+         std::getenv("TSAN_OPTIONS") != nullptr;
+}
+
 CommandResult
 runCommand(const std::string& command)
 {

@@ -54,6 +54,10 @@ writeFile(const std::string& path, const std::string& content);
 std::string
 dataFolder();
 
+/** \brief True under a sanitizer, whose memory is not that of the program. */
+bool
+isSanitized();
+
 struct CommandResult {
   int exit_code; ///< -signal where a signal ended it
   std::string out, err;
