@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/isosurface_memory.h"
 #include "common/level_set.h"
-#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
@@ -14,8 +14,6 @@
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/levelset/memory_need.h>
-#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
@@ -392,41 +390,24 @@ draw(const Options& options,
   return backend;
 }
 
-/** What the tool holds beside the points, but for a picture.
- * \param surfaces one per isovalue; none are empty ones */
+/** \param surfaces one per isovalue; none where their sizes are not known */
 uvol_tools::MemoryGuard::Work
 memoryOf(const Options& options,
          const Arguments& arguments,
          std::vector<pcl_uvol::SurfaceSize> surfaces)
 {
-  surfaces.resize(arguments.isovalues.size());
-  return [&options, &arguments, surfaces](
-             double points, double step, pcl_uvol::MemoryForecast& forecast) {
-    if (!arguments.smooth)
-      forecast.run(pcl_uvol::isosurfaceNeed(points, surfaces));
-    else
-      forecast.hold(sizeof(int) * points); // indices of all
-    double isopoints = 0.0, largest = 0.0;
-    for (const auto& surface : surfaces) {
-      isopoints += surface.isopoints;
-      largest = std::max(largest, surface.isopoints);
-      if (!arguments.smooth)
-        continue;
-      forecast.run(
-          pcl_uvol::levelSetNeed(points, surface, levelSetOf(options, arguments)));
-      forecast.hold(uvol_tools::phi_point_bytes * points);
-      forecast.run(pcl_uvol::isosurfaceNeed(points, {surface}));
-      forecast.release((uvol_tools::phi_point_bytes + sizeof(float)) * points);
-    }
-    // Normals of one surface after the other, beside a copy of all where some are
-    // missing.
-    const auto k = static_cast<double>(arguments.k);
-    forecast.run(
-        {pcl_uvol::surfaceNormalsNeed(largest, k).peak + sizeof(PointIso) * isopoints,
-         0.0});
-    // As bytes, and with the other fields.
-    forecast.hold((2.0 * sizeof(PointIso) + step) * isopoints);
-  };
+  uvol_tools::IsosurfaceTask task;
+  task.surfaces = std::move(surfaces);
+  task.surfaces.resize(arguments.isovalues.size());
+  task.normal_neighbors = static_cast<double>(arguments.k);
+  if (arguments.smooth)
+    task.level_set = levelSetOf(options, arguments);
+  task.is_ray_traced = arguments.raytrace;
+  const double scale = arguments.look.getSupersampling();
+  if (!arguments.picture.empty())
+    task.pixels =
+        scale * arguments.look.getWidth() * scale * arguments.look.getHeight();
+  return uvol_tools::memoryOf(task);
 }
 
 int

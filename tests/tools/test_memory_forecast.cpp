@@ -28,6 +28,7 @@ const ToolRun runs[] = {
      "-iso 0 -interpolation linear -threads 1"},
     {"Isosurfaces", "uvol_isosurface", "in.pcd", "-iso -0.2,-0.1,0,0.1"},
     {"SmoothIsosurface", "uvol_isosurface", "in.pcd", "-iso 0 -smooth"},
+    {"Picture", "uvol_isosurface", "in.pcd", "-iso 0 -png out.png -size 1500"},
     {"LevelSet", "uvol_levelset", "in.pcd", "-iso 0"},
     {"LinearLevelSet",
      "uvol_levelset",
@@ -64,8 +65,9 @@ protected:
   run(const std::string& before = "") const
   {
     const ToolRun& tool = GetParam();
-    return runCommand(before + tool.tool + ' ' + (folder_ / tool.input) + ' ' +
-                      (folder_ / "out.ply") + ' ' + tool.options);
+    return runCommand(before + "cd " + (folder_ / "") + " && " + tool.tool + ' ' +
+                      (folder_ / tool.input) + ' ' + (folder_ / "out.ply") + ' ' +
+                      tool.options);
   }
 
   bool
