@@ -41,6 +41,9 @@ const ToolRun runs[] = {
     {"Splats", "uvol_splats", "in.ply", ""},
     {"FewSplats", "uvol_splats", "in.ply", "-delta 0.002 -threads 1"}};
 
+/** Megabytes of a tool that has not begun, which would hide what is wrong. */
+constexpr double started = 28.0;
+
 /** "memory: forecast 110 MB, peak 108 MB" in megabytes. */
 std::pair<double, double>
 readMemory(const std::string& report)
@@ -100,8 +103,8 @@ TEST_P(MemoryForecast, IsWithinAFifthOfThePeak)
   const auto result = run();
   ASSERT_EQ(0, result.exit_code) << result.err;
   const auto [forecast, peak] = readMemory(result.out);
-  ASSERT_GT(peak, 30.0) << result.out;
-  EXPECT_NEAR(peak, forecast, 0.2 * peak);
+  ASSERT_GT(peak, started + 10.0) << result.out;
+  EXPECT_NEAR(peak - started, forecast - started, 0.2 * (peak - started));
 }
 
 /** A header that promises four thousand million points, and a file as long, of which
