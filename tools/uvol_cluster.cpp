@@ -416,7 +416,8 @@ run(int argc, char** argv)
   arguments.stretch.emplace(arguments.scale);
   check(options, arguments);
   uvol_tools::MemoryGuard memory("Clustering");
-  memory.checkFile(arguments.input, memoryOf(arguments));
+  memory.checkFile(arguments.input,
+                   arguments.where.empty() ? memoryOf(arguments) : nullptr);
 
   Report report;
   uvol_tools::ProgressBar bar;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/isosurface_memory.h"
+#include "common/isosurface_options.h"
 #include "common/level_set.h"
 #include "common/options.h"
 #include "common/point_files.h"
@@ -12,6 +13,7 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/io/out_of_core_extraction.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -20,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -29,22 +32,33 @@ namespace {
 
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
+using uvol_tools::joined;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
 
-struct Arguments {
-  std::string input, output, field, where, picture;
+struct Arguments : uvol_tools::IsosurfaceOptions {
+  std::string input, output, picture;
   bool raytrace = false;
   uvol_tools::RenderOptions look;
   uvol_tools::RayOptions rays;
-  std::vector<double> isovalues, xyz;
-  std::string scale, outside = "lower", criterion = "kept", neighbors = "kdtree";
+  std::string neighbors = "kdtree";
   std::uint64_t grid = 0;
-  std::string interpolation = "smooth", normals = "auto";
+  std::string normals = "auto";
   double max_error = std::numeric_limits<double>::infinity();
   std::uint64_t k = 30;
   std::string mu = "auto";
+  std::string max_memory, scratch;
   bool smooth = false, drop_bridged = false, ascii = false;
+};
+
+/** Isopoints, and what they rest on. */
+struct Extraction {
+  pcl_uvol::Dataset input; ///< all samples, or those at the ends of edges
+  std::string field;
+  Eigen::Array3f scale;
+  pcl::PointCloud<PointIso> isopoints;
+  pcl_uvol::IsoEdges edges;
+  std::vector<std::pair<std::string, std::string>> facts;
 };
 
 void
@@ -52,29 +66,7 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
-  options.numbers("iso", "v,...", 0, arguments.isovalues, "isovalues (required)");
-  options.text("field",
-               "name",
-               arguments.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
-  options.text("where",
-               "expr",
-               arguments.where,
-               "use only the points for which it holds: \"experiment=1 && T>4\"");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances in a stretched space; auto: equal spread per axis");
-  options.numbers("xyz",
-                  "ix,iy,iz",
-                  3,
-                  arguments.xyz,
-                  "columns of a text file that hold the coordinates, from 0");
-  options.choice("outside",
-                 {"lower", "higher"},
-                 arguments.outside,
-                 "the side normals point to: where values are lower or higher");
+  arguments.declareSamples(options);
   options.choice("neighbors",
                  {"kdtree", "voronoi"},
                  arguments.neighbors,
@@ -87,14 +79,7 @@ declare(Options& options, Arguments& arguments)
       pcl_uvol::GridShape::largest_side,
       "cells of -neighbors voronoi along the longest side (default: 4 samples "
       "to a cell)");
-  options.choice("criterion",
-                 {"kept", "all"},
-                 arguments.criterion,
-                 "angle criterion against kept or against all closer candidates");
-  options.choice("interpolation",
-                 {"linear", "smooth"},
-                 arguments.interpolation,
-                 "isopoints along the edges, or on local polynomial fits");
+  arguments.declareMethod(options);
   options.flag("smooth",
                arguments.smooth,
                "smooth noisy or uneven samples by a level set first");
@@ -118,6 +103,16 @@ declare(Options& options, Arguments& arguments)
   options.flag("drop-bridged",
                arguments.drop_bridged,
                "leave out isopoints in gaps of the sampling");
+  options.text("max-memory",
+               "bytes",
+               arguments.max_memory,
+               "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
+               "ply and text that are not compressed");
+  options.text("scratch",
+               "folder",
+               arguments.scratch,
+               "with -max-memory: where they wait, 60 bytes each (default: beside the "
+               "output)");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   options.text("png",
                "out.png",
@@ -129,35 +124,25 @@ declare(Options& options, Arguments& arguments)
 pcl_uvol::Dataset
 load(const Arguments& arguments, Report& report)
 {
-  pcl_uvol::LoadOptions options;
-  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
-    options.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
-    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != arguments.xyz[i])
-      throw UsageError("-xyz takes three column numbers from 0.");
-  }
-  pcl_uvol::Dataset dataset =
-      uvol_tools::loadPoints(arguments.input, report, options, arguments.where);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
+      arguments.input, report, arguments.makeLoadOptions(), arguments.where);
   report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
 }
 
-template <typename T>
-std::string
-joined(const T& numbers)
+/** Whether something asks for all samples at once. */
+bool
+needsAllSamples(const Arguments& arguments)
 {
-  std::ostringstream text;
-  for (const auto number : numbers)
-    text << (text.tellp() > 0 ? "," : "") << number;
-  return text.str();
+  return arguments.smooth || !arguments.where.empty() || arguments.scale == "auto" ||
+         arguments.neighbors == "voronoi";
 }
 
 /** What only some combinations of options allow. */
 void
 checkCombinations(const Options& options, Arguments& arguments)
 {
-  if (arguments.isovalues.empty())
-    throw UsageError(
-        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  arguments.check();
   const bool smooth = arguments.interpolation == "smooth";
   if (arguments.normals == "auto")
     arguments.normals = smooth ? "fit" : "pca";
@@ -172,6 +157,11 @@ checkCombinations(const Options& options, Arguments& arguments)
     throw UsageError("-grid needs -neighbors voronoi.");
   if (options.given("mu") && !arguments.smooth)
     throw UsageError("-mu needs -smooth.");
+  if (options.given("scratch") && !options.given("max-memory"))
+    throw UsageError("-scratch needs -max-memory.");
+  if (options.given("max-memory") && needsAllSamples(arguments))
+    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
+                     "-neighbors voronoi, which need all samples in memory.");
   if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
     throw UsageError("-max-error and -drop-bridged need -interpolation smooth.");
 }
@@ -230,14 +220,10 @@ extract(const Options& options,
   extraction.setScalarField(field);
   extraction.setIsoValues(isovalues);
   extraction.setScale(scale);
-  extraction.setOutside(arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                                     : pcl_uvol::Outside::Higher);
-  extraction.setInterpolation(arguments.interpolation == "smooth"
-                                  ? pcl_uvol::Interpolation::Smooth
-                                  : pcl_uvol::Interpolation::Linear);
-  extraction.setAngleCriterion(arguments.criterion == "kept"
-                                   ? pcl_uvol::AngleCriterion::Kept
-                                   : pcl_uvol::AngleCriterion::All);
+  const pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  extraction.setOutside(settings.outside);
+  extraction.setInterpolation(settings.interpolation);
+  extraction.setAngleCriterion(settings.criterion);
   if (arguments.neighbors == "voronoi") {
     pcl_uvol::VoronoiCandidateSettings voronoi;
     voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
@@ -285,7 +271,7 @@ extractLevelSets(const Options& options,
     pcl_uvol::IsoEdges found;
     auto surface = extract(options,
                            arguments,
-                           uvol_tools::cloudOfPhi(view, phi),
+                           pcl_uvol::cloudOfPhi(view, phi),
                            "phi",
                            {0.0},
                            scale,
@@ -299,6 +285,109 @@ extractLevelSets(const Options& options,
       facts.push_back(fact);
   }
   return isopoints;
+}
+
+std::string
+fieldOf(const Arguments& arguments, const pcl_uvol::Dataset& input)
+{
+  return arguments.field.empty()
+             ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
+             : arguments.field;
+}
+
+/** \param surfaces one per isovalue; none where their sizes are not known */
+uvol_tools::MemoryGuard::Work
+memoryOf(const Options& options,
+         const Arguments& arguments,
+         std::vector<pcl_uvol::SurfaceSize> surfaces)
+{
+  uvol_tools::IsosurfaceTask task;
+  task.surfaces = std::move(surfaces);
+  task.surfaces.resize(arguments.isovalues.size());
+  task.normal_neighbors = static_cast<double>(arguments.k);
+  if (arguments.smooth)
+    task.level_set = levelSetOf(options, arguments);
+  task.is_ray_traced = arguments.raytrace;
+  const double scale = arguments.look.getSupersampling();
+  if (!arguments.picture.empty())
+    task.pixels =
+        scale * arguments.look.getWidth() * scale * arguments.look.getHeight();
+  return uvol_tools::memoryOf(task);
+}
+
+Extraction
+extractInMemory(const Options& options,
+                const Arguments& arguments,
+                const uvol_tools::ScaleOption& scale_option,
+                uvol_tools::MemoryGuard& memory,
+                Report& report)
+{
+  memory.checkFile(arguments.input,
+                   arguments.where.empty() ? memoryOf(options, arguments, {})
+                                           : nullptr);
+  Extraction result;
+  result.input = load(arguments, report);
+  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
+  result.field = fieldOf(arguments, result.input);
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(result.input.cloud);
+  result.scale = scale_option.scaleOf(view);
+  memory.checkCloud(result.input,
+                    memoryOf(options,
+                             arguments,
+                             pcl_uvol::estimateSurfaces(view,
+                                                        result.field,
+                                                        arguments.isovalues,
+                                                        result.scale,
+                                                        options.threads())));
+  result.isopoints = arguments.smooth ? extractLevelSets(options,
+                                                         arguments,
+                                                         result.input.cloud,
+                                                         result.field,
+                                                         result.scale,
+                                                         result.edges,
+                                                         result.facts,
+                                                         report)
+                                      : extract(options,
+                                                arguments,
+                                                result.input.cloud,
+                                                result.field,
+                                                arguments.isovalues,
+                                                result.scale,
+                                                result.edges,
+                                                report);
+  return result;
+}
+
+Extraction
+extractFromDisk(const Options& options,
+                const Arguments& arguments,
+                const uvol_tools::ScaleOption& scale_option,
+                Report& report)
+{
+  pcl_uvol::PointStream points(arguments.input, arguments.makeLoadOptions());
+  Extraction result;
+  result.input = points.getHeader();
+  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
+  result.field = fieldOf(arguments, result.input);
+  result.scale = scale_option.scaleOf({});
+  report.warnings = result.input.notes;
+  report.count("points", points.size());
+
+  pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  settings.field = result.field;
+  settings.scale = {{result.scale[0], result.scale[1], result.scale[2]}};
+  pcl_uvol::OutOfCoreSettings out_of_core;
+  out_of_core.max_memory = uvol_tools::parseBytes("max-memory", arguments.max_memory);
+  out_of_core.scratch_folder =
+      arguments.scratch.empty()
+          ? std::filesystem::absolute(arguments.output).parent_path().string()
+          : arguments.scratch;
+  out_of_core.threads = options.threads();
+  auto surface = pcl_uvol::extractOutOfCore(points, settings, out_of_core, report);
+  result.isopoints = std::move(surface.isopoints);
+  result.edges = std::move(surface.edges);
+  result.input.cloud = std::move(surface.samples);
+  return result;
 }
 
 /** Leave out what -max-error and -drop-bridged do not want. */
@@ -321,20 +410,6 @@ filter(const Options& options,
                    return point.support !=
                           static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
                  }));
-}
-
-/** Fields of the samples that give way to those of the isopoints: a column called
- * error, say. Coordinates and normals are meant to. */
-void
-warnOfReplacedFields(const pcl_uvol::Dataset& input,
-                     const pcl::PCLPointCloud2& isopoints,
-                     Report& report)
-{
-  for (const auto& field : isopoints.fields)
-    if (field.name.size() > 1 && field.name.rfind("normal_", 0) != 0 &&
-        pcl_uvol::findField(input.cloud.fields, field.name) != nullptr)
-      report.warnings.push_back("The samples' field '" + field.name +
-                                "' is left out: isopoints have one of that name.");
 }
 
 /** The surface in image space. \return what it was drawn on */
@@ -390,26 +465,6 @@ draw(const Options& options,
   return backend;
 }
 
-/** \param surfaces one per isovalue; none where their sizes are not known */
-uvol_tools::MemoryGuard::Work
-memoryOf(const Options& options,
-         const Arguments& arguments,
-         std::vector<pcl_uvol::SurfaceSize> surfaces)
-{
-  uvol_tools::IsosurfaceTask task;
-  task.surfaces = std::move(surfaces);
-  task.surfaces.resize(arguments.isovalues.size());
-  task.normal_neighbors = static_cast<double>(arguments.k);
-  if (arguments.smooth)
-    task.level_set = levelSetOf(options, arguments);
-  task.is_ray_traced = arguments.raytrace;
-  const double scale = arguments.look.getSupersampling();
-  if (!arguments.picture.empty())
-    task.pixels =
-        scale * arguments.look.getWidth() * scale * arguments.look.getHeight();
-  return uvol_tools::memoryOf(task);
-}
-
 int
 run(int argc, char** argv)
 {
@@ -433,44 +488,18 @@ run(int argc, char** argv)
   arguments.rays.check(options);
   if (!arguments.picture.empty())
     pcl_uvol::checkPngPath(arguments.picture);
-  uvol_tools::MemoryGuard memory("An isosurface");
-  memory.checkFile(arguments.input, memoryOf(options, arguments, {}));
 
+  uvol_tools::MemoryGuard memory(needsAllSamples(arguments)
+                                     ? "An isosurface"
+                                     : "Without -max-memory an isosurface");
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  const pcl_uvol::Dataset input = load(arguments, report);
-  pcl_uvol::checkSavePath(arguments.output, input.cloud.fields);
-  const std::string field = arguments.field.empty()
-                                ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
-                                : arguments.field;
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(input.cloud);
-  const Eigen::Array3f scale = scale_option.scaleOf(view);
-  memory.checkCloud(
-      input,
-      memoryOf(options,
-               arguments,
-               pcl_uvol::estimateSurfaces(
-                   view, field, arguments.isovalues, scale, options.threads())));
-  pcl_uvol::IsoEdges edges;
-  std::vector<std::pair<std::string, std::string>> level_set_facts;
-  auto isopoints = arguments.smooth ? extractLevelSets(options,
-                                                       arguments,
-                                                       input.cloud,
-                                                       field,
-                                                       scale,
-                                                       edges,
-                                                       level_set_facts,
-                                                       report)
-                                    : extract(options,
-                                              arguments,
-                                              input.cloud,
-                                              field,
-                                              arguments.isovalues,
-                                              scale,
-                                              edges,
-                                              report);
+  auto [input, field, scale, isopoints, edges, level_set_facts] =
+      options.given("max-memory")
+          ? extractFromDisk(options, arguments, scale_option, report)
+          : extractInMemory(options, arguments, scale_option, memory, report);
   replaceNormals(options, arguments, scale, isopoints, report);
   filter(options, arguments, isopoints, edges, report);
 
@@ -478,7 +507,7 @@ run(int argc, char** argv)
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
-    warnOfReplacedFields(input, output.cloud, report);
+    pcl_uvol::warnOfReplacedFields(input.cloud, output.cloud, report);
     pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
   }
   pcl_uvol::SaveOptions save;
@@ -497,7 +526,8 @@ run(int argc, char** argv)
   if (!arguments.picture.empty())
     facts.emplace_back("backend", draw(options, arguments, output, report));
   total.reset();
-  facts.push_back(memory.describe());
+  if (!options.given("max-memory"))
+    facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -219,7 +219,7 @@ zeroLevel(const pcl_uvol::Dataset& input,
           unsigned threads,
           const std::vector<float>& phi)
 {
-  const auto cloud = uvol_tools::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
+  const auto cloud = pcl_uvol::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
   extraction.setScalarField("phi");
@@ -244,7 +244,7 @@ memoryOf(const LevelSetParameters& parameters,
         forecast.hold(sizeof(int) * points); // indices of all
         pcl_uvol::MemoryNeed need = pcl_uvol::levelSetNeed(points, surface, parameters);
         // zeroLevel, beside the level set
-        const double of_phi = uvol_tools::phi_point_bytes * points;
+        const double of_phi = pcl_uvol::phi_point_bytes * points;
         if (has_snapshots)
           need.peak += of_phi + pcl_uvol::isosurfaceNeed(points, {surface}).peak;
         forecast.run(need);
@@ -326,7 +326,7 @@ run(int argc, char** argv)
   pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
   {
     const StepTimer timer(report, "fields");
-    result.cloud = uvol_tools::cloudOfPhi(view, phi);
+    result.cloud = pcl_uvol::cloudOfPhi(view, phi);
     pcl_uvol::copyFields(
         dataset.cloud, {all.begin(), all.end()}, result.cloud, options.threads());
   }

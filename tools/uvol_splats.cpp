@@ -64,7 +64,7 @@ run(int argc, char** argv)
     return 0;
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   pcl_uvol::checkSavePath(output);
-  uvol_tools::MemoryGuard memory("Splats");
+  uvol_tools::MemoryGuard memory("Making splats");
   memory.checkFile(input, memoryOf(0.0, true));
 
   Report report;

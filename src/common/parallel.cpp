@@ -2,6 +2,7 @@
 #include <pcl_uvol/common/parallel.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <omp.h>
 
@@ -9,17 +10,21 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Keeps the first exception of a team; the others are dropped with their work. */
+/** Keeps the first exception of a team; the others are dropped, and work that has not
+ * begun is left. */
 class FirstException {
 public:
   template <typename Function>
   void
   guard(const Function& function) noexcept
   {
+    if (thrown_)
+      return;
     try {
       function();
     }
     catch (...) {
+      thrown_ = true;
 #pragma omp critical(pcl_uvol_first_exception)
       if (!exception_)
         exception_ = std::current_exception();
@@ -34,6 +39,7 @@ public:
   }
 
 private:
+  std::atomic<bool> thrown_{false};
   std::exception_ptr exception_;
 };
 

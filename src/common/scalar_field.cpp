@@ -117,7 +117,7 @@ scalarComponent(const Fields& fields, const std::string& expression)
                             "| for their length.");
     return componentOf(*field, 0);
   }
-  const std::size_t bracket = expression.find('[');
+  const std::size_t bracket = expression.rfind('[');
   if (bracket == std::string::npos || bracket == 0 || expression.back() != ']')
     throwUnknown(fields, expression);
   std::size_t index = 0;
@@ -191,7 +191,7 @@ FieldComponent::read(const std::uint8_t* point) const
 }
 
 ScalarField::ScalarField(const Fields& fields, const std::string& expression)
-    : name_(trimmed(expression))
+    : name_(findField(fields, expression) ? expression : trimmed(expression))
     , is_length_(!findField(fields, name_) && name_.size() > 1 &&
                  name_.front() == '|' && name_.back() == '|')
 {

@@ -11,6 +11,7 @@ namespace {
 /** Attributes as the shaders number them. */
 constexpr GLuint look_attribute = 3;
 constexpr GLuint footprint_attribute = 4;
+constexpr GLuint filler_attribute = 5;
 
 /** Discs with a greater radius, in pixels, are rather drawn as two triangles. */
 constexpr float most_reach = 16.0f;
@@ -99,8 +100,10 @@ PointPass::bindAttributes(std::uint32_t first, GLuint divisor) const
   };
   for (GLuint axis = 0; axis < 3; ++axis)
     bindFloats(axis, coordinates_[axis]);
-  if (has_footprints_)
-    bindFloats(footprint_attribute, *radii_);
+  if (has_footprints_) {
+    bindFloats(footprint_attribute, footprints_);
+    bindFloats(filler_attribute, *radii_);
+  }
   constexpr auto stride = sizeof(SurfaceCloud::Look);
   gl_.BindBuffer(GL_ARRAY_BUFFER, looks_.get());
   gl_.VertexAttribIPointer(
@@ -143,6 +146,7 @@ PointPass::use(const shaders::Pass& pass,
   program.set("is_two_sided", frame.cloud.isTwoSided());
   program.set("culls", frame.settings.cull_back_faces && !frame.cloud.isTwoSided());
   program.set("smallest_footprint", smallest_footprint);
+  program.set("largest_filler", largest_filler);
   program.set("largest_reach", largest_reach_);
   return program;
 }

@@ -5,26 +5,46 @@ namespace pcl_uvol::shaders {
 
 namespace {
 
-// What all kinds of points begin with. Camera space: x right, y down, z forward.
+// Camera space: x right, y down, z forward.
+const char* const camera = R"(
+uniform vec2 center;
+uniform float focal;
+uniform float per_focal;
+uniform float per_far;
+
+// In the image, pixels.
+vec2 placeOf(vec3 c)
+{
+  EXACT vec2 place = center + c.xy * (focal * (1.0 / c.z));
+  return place;
+}
+
+float depthOf(vec3 c)
+{
+  EXACT float depth = sqrt(c.x * c.x + c.y * c.y + c.z * c.z) * per_far;
+  return depth;
+}
+)";
+
+// What all kinds of points begin with.
 const char* const projection = R"(
 layout(location = 0) in float x;
 layout(location = 1) in float y;
 layout(location = 2) in float z;
 layout(location = 3) in uvec2 look; // packed normal, colour
 layout(location = 4) in float footprint;
+layout(location = 5) in float filler; // or footprint, among sparse points
 
 uniform mat3 rotation;
 uniform vec3 translation;
 uniform vec3 eye; // in the cloud's coordinates
-uniform vec2 center;
 uniform vec2 origin; // pixel in the lower left corner of the viewport
 uniform vec2 extent; // of the viewport, pixels
-uniform float focal;
 uniform float near;
-uniform float per_far;
 uniform bool culls;
 uniform bool is_two_sided;
 uniform float smallest_footprint;
+uniform float largest_filler;
 uniform float largest_reach; // of what is drawn as one point, pixels
 
 const vec4 nowhere = vec4(2.0, 2.0, 2.0, 1.0);
@@ -34,9 +54,17 @@ vec4 atPixel(vec2 pixel)
   return vec4(2.0 * (pixel - origin) / extent - 1.0, 0.0, 1.0);
 }
 
-bool isHidden(vec3 c, vec3 normal)
+vec3 toCamera()
 {
-  return c.z < near || (culls && dot(normal, eye - vec3(x, y, z)) < 0.0);
+  EXACT vec3 c = rotation[0] * x + rotation[1] * y + rotation[2] * z + translation;
+  return c;
+}
+
+bool isHidden(vec3 c, vec3 direction)
+{
+  EXACT float facing = direction.x * (eye.x - x) + direction.y * (eye.y - y) +
+                       direction.z * (eye.z - z);
+  return c.z < near || (culls && facing < 0.0);
 }
 )";
 
@@ -46,11 +74,11 @@ flat out uvec2 point;
 
 void main()
 {
-  vec3 c = rotation * vec3(x, y, z) + translation;
-  vec2 pixel = floor(center + c.xy * (focal / c.z));
-  point = uvec2(floatBitsToUint(length(c) * per_far), uint(gl_VertexID));
+  vec3 c = toCamera();
+  point = uvec2(floatBitsToUint(depthOf(c)), uint(gl_VertexID));
   gl_PointSize = 1.0;
-  gl_Position = isHidden(c, unpackNormal(look.x)) ? nowhere : atPixel(pixel + 0.5);
+  gl_Position = isHidden(c, unpackDirection(look.x)) ? nowhere
+                                                     : atPixel(floor(placeOf(c)) + 0.5);
 }
 )";
 
@@ -67,10 +95,10 @@ void main()
 )";
 
 // In as few numbers as possible, for software OpenGL pays for each. Where a disc is
-// seen edge-on its plane is infinite, and no ray meets it.
+// seen edge-on its tilt is infinite, and no pixel is covered.
 const char* const disc_vertex = R"(
 flat out vec4 disc_center; // and radius, 0 for a mere pixel
-flat out uvec4 disc_plane; // 1 = dot(plane, place), as bits; index
+flat out uvec3 disc_tilt;  // change of 1 / z per pixel, as bits; index
 #ifdef BLENDED
 uniform float stretch; // discs reach so many of their radii
 flat out vec3 disc_normal; // in the cloud's axes
@@ -79,21 +107,31 @@ flat out vec3 disc_color;
 const float stretch = 1.0;
 #endif
 
-void setDisc(uint index, vec3 c, float radius, vec3 normal)
+void setDisc(uint index, vec3 c, float radius, vec3 direction)
 {
-  vec3 axis = rotation * normal;
-  float along = dot(axis, c);
+  EXACT vec3 axis =
+    rotation[0] * direction.x + rotation[1] * direction.y + rotation[2] * direction.z;
+  EXACT float facing = axis.x * c.x + axis.y * c.y + axis.z * c.z;
+  EXACT vec2 tilt = axis.xy * (c.z * per_focal * (1.0 / facing));
   disc_center = vec4(c, radius);
-  disc_plane = uvec4(floatBitsToUint(axis / along), index);
+  disc_tilt = uvec3(floatBitsToUint(tilt), index);
 #ifdef BLENDED
-  disc_normal = is_two_sided && along > 0.0 ? -normal : normal;
+  vec3 normal = normalize(direction);
+  disc_normal = is_two_sided && facing > 0.0 ? -normal : normal;
   disc_color = unpackColor(look.y);
 #endif
 }
 
+float discRadius(vec3 c)
+{
+  EXACT float size = footprint * (focal * (1.0 / c.z));
+  return size > largest_filler ? footprint : filler;
+}
+
 bool isDisc(vec3 c, float radius)
 {
-  return radius * (focal / c.z) > smallest_footprint;
+  EXACT float size = radius * (focal * (1.0 / c.z));
+  return size > smallest_footprint;
 }
 
 // Half of the width and height in the image, pixels.
@@ -115,12 +153,12 @@ bool isLarge(vec3 c, float radius)
 const char* const small_discs_vertex = R"(
 void main()
 {
-  vec3 normal = unpackNormal(look.x);
-  vec3 c = rotation * vec3(x, y, z) + translation;
-  float radius = footprint * stretch;
-  bool is_disc = isDisc(c, footprint) && !isLarge(c, radius);
-  vec2 place = center + c.xy * (focal / c.z);
-  setDisc(uint(gl_VertexID), c, is_disc ? radius : 0.0, normal);
+  vec3 direction = unpackDirection(look.x);
+  vec3 c = toCamera();
+  float unstretched = discRadius(c), radius = unstretched * stretch;
+  bool is_disc = isDisc(c, unstretched) && !isLarge(c, radius);
+  vec2 place = placeOf(c);
+  setDisc(uint(gl_VertexID), c, is_disc ? radius : 0.0, direction);
   vec2 size = reach(c, radius);
   const float slack = 0.1; // hardware rounds corners
   gl_PointSize = is_disc ? 2.0 * max(size.x, size.y) + slack : 1.0;
@@ -129,7 +167,7 @@ void main()
   if (!is_disc)
     gl_Position = nowhere;
 #endif
-  if (isHidden(c, normal))
+  if (isHidden(c, direction))
     gl_Position = nowhere;
 }
 )";
@@ -140,16 +178,16 @@ uniform int first; // index of the first instance
 
 void main()
 {
-  vec3 normal = unpackNormal(look.x);
-  vec3 c = rotation * vec3(x, y, z) + translation;
-  float radius = footprint * stretch;
-  setDisc(uint(first + gl_InstanceID), c, radius, normal);
+  vec3 direction = unpackDirection(look.x);
+  vec3 c = toCamera();
+  float unstretched = discRadius(c), radius = unstretched * stretch;
+  setDisc(uint(first + gl_InstanceID), c, radius, direction);
   gl_Position = nowhere;
-  if (isHidden(c, normal) || !isDisc(c, footprint) || !isLarge(c, radius))
+  if (isHidden(c, direction) || !isDisc(c, unstretched) || !isLarge(c, radius))
     return;
   vec2 low = origin, high = origin + extent;
   if (c.z - radius >= near) {
-    vec2 place = center + c.xy * (focal / c.z);
+    vec2 place = placeOf(c);
     vec2 size = 1.0 + reach(c, radius);
     low = max(low, place - size);
     high = min(high, place + size);
@@ -160,23 +198,35 @@ void main()
 )";
 
 const char* const disc_fragment = R"(
-uniform vec2 center;
-uniform float focal;
-uniform float per_focal;
-uniform float per_far;
-
 flat in vec4 disc_center;
-flat in uvec4 disc_plane;
+flat in uvec3 disc_tilt;
 
 // Does the disc cover this pixel? Its depth there, and the part of the squared radius.
+// The polynomial in the way e from the projected centre is that of the plain C++
+// backend: not positive within the disc.
 bool isCovered(out float depth, out float part)
 {
-  vec3 ray = vec3((gl_FragCoord.xy - margin - center) * per_focal, 1.0);
-  float along = 1.0 / dot(uintBitsToFloat(disc_plane.xyz), ray);
-  vec3 offset = along * ray - disc_center.xyz;
-  part = dot(offset, offset) / (disc_center.w * disc_center.w);
-  depth = along * length(ray) * per_far;
-  return along > 0.0 && part <= 1.0;
+  vec3 c = disc_center.xyz;
+  vec2 tilt = uintBitsToFloat(disc_tilt.xy);
+  EXACT vec2 e = gl_FragCoord.xy - margin - placeOf(c);
+  EXACT float size = c.z * per_focal;
+  EXACT vec3 u = vec3(size, 0.0, 0.0) - tilt.x * c;
+  EXACT vec3 v = vec3(0.0, size, 0.0) - tilt.y * c;
+  EXACT vec2 r = disc_center.w * tilt;
+  EXACT float xx = u.x * u.x + u.y * u.y + u.z * u.z - r.x * r.x;
+  EXACT float xy = 2.0 * (u.x * v.x + u.y * v.y + u.z * v.z - r.x * r.y);
+  EXACT float yy = v.x * v.x + v.y * v.y + v.z * v.z - r.y * r.y;
+  EXACT vec2 linear = -2.0 * (disc_center.w * r);
+  EXACT float beyond = (xx * e.x + (xy * e.y + linear.x)) * e.x +
+                       ((yy * e.y + linear.y) * e.y - disc_center.w * disc_center.w);
+  EXACT float toward = 1.0 + tilt.y * e.y + tilt.x * e.x;
+  EXACT vec2 ray = (gl_FragCoord.xy - margin - center) * per_focal;
+  EXACT float per_z = sqrt(ray.x * ray.x + (ray.y * ray.y + 1.0));
+  EXACT float there = c.z * (1.0 / toward) * per_z * per_far;
+  depth = there;
+  float radius = disc_center.w * toward;
+  part = 1.0 + beyond / (radius * radius);
+  return toward > 0.0 && beyond <= 0.0;
 }
 )";
 
@@ -188,7 +238,7 @@ layout(location = 0) out uvec2 state;
 
 bool isOwnPixel()
 {
-  vec2 own = floor(center + disc_center.xy * (focal / disc_center.z));
+  vec2 own = floor(placeOf(disc_center.xyz));
   return disc_center.w == 0.0 || floor(gl_FragCoord.xy - margin) == own;
 }
 
@@ -196,13 +246,14 @@ void main()
 {
   float depth, part;
   bool is_covered = isCovered(depth, part);
-  depth = is_covered ? depth + disc_center.w * (back * per_far) : 1.0;
+  EXACT float disc_depth = depth + disc_center.w * (back * per_far);
+  depth = is_covered ? disc_depth : 1.0;
 #ifdef WITH_PIXELS
-  depth = isOwnPixel() ? min(depth, length(disc_center.xyz) * per_far) : depth;
+  depth = isOwnPixel() ? min(depth, depthOf(disc_center.xyz)) : depth;
 #endif
   if (depth >= 1.0)
     discard;
-  state = uvec2(floatBitsToUint(depth), disc_plane.w);
+  state = uvec2(floatBitsToUint(depth), disc_tilt.z);
   gl_FragDepth = depth;
 }
 )";
@@ -231,14 +282,14 @@ void main()
 
 } // namespace
 
-extern const Pass points{{projection, points_vertex}, {points_fragment}};
-extern const Pass small_discs{{projection, disc_vertex, small_discs_vertex},
-                              {disc_fragment, discs_fragment}};
-extern const Pass large_discs{{projection, disc_vertex, large_discs_vertex},
-                              {disc_fragment, discs_fragment}};
-extern const Pass blend_small{{projection, disc_vertex, small_discs_vertex},
-                              {disc_fragment, blend_fragment}};
-extern const Pass blend_large{{projection, disc_vertex, large_discs_vertex},
-                              {disc_fragment, blend_fragment}};
+extern const Pass points{{camera, projection, points_vertex}, {points_fragment}};
+extern const Pass small_discs{{camera, projection, disc_vertex, small_discs_vertex},
+                              {camera, disc_fragment, discs_fragment}};
+extern const Pass large_discs{{camera, projection, disc_vertex, large_discs_vertex},
+                              {camera, disc_fragment, discs_fragment}};
+extern const Pass blend_small{{camera, projection, disc_vertex, small_discs_vertex},
+                              {camera, disc_fragment, blend_fragment}};
+extern const Pass blend_large{{camera, projection, disc_vertex, large_discs_vertex},
+                              {camera, disc_fragment, blend_fragment}};
 
 } // namespace pcl_uvol::shaders

@@ -4,20 +4,35 @@
 namespace pcl_uvol::shaders {
 
 const char* const prelude = R"(
+// What decides between points is computed as written, in the order of the plain C++
+// backend and with reciprocals for divisions: where these and roots are rounded
+// correctly, both backends agree to the last bit.
+#ifdef GL_ARB_gpu_shader5
+#extension GL_ARB_gpu_shader5 : enable
+#define EXACT precise
+#else
+#define EXACT
+#endif
+
 const float margin = 1.0;
 
 const uint background_bits = 0x3f800000u; // depth 1
 const uvec2 background = uvec2(background_bits, 0xffffffffu);
 
-// The octahedral map, as packNormal() has it.
-vec3 unpackNormal(uint bits)
+// The octahedral map, as packNormal() has it: a normal of any length.
+vec3 unpackDirection(uint bits)
 {
-  vec2 uv = vec2(int(bits << 16) >> 16, int(bits) >> 16) / 32767.0;
-  float z = 1.0 - abs(uv.x) - abs(uv.y);
+  vec2 uv = vec2(int(bits << 16) >> 16, int(bits) >> 16) * (1.0 / 32767.0);
+  EXACT float z = 1.0 - abs(uv.x) - abs(uv.y);
   float fold = max(-z, 0.0);
   uv.x -= uv.x < 0.0 ? -fold : fold;
   uv.y -= uv.y < 0.0 ? -fold : fold;
-  return normalize(vec3(uv, z));
+  return vec3(uv, z);
+}
+
+vec3 unpackNormal(uint bits)
+{
+  return normalize(unpackDirection(bits));
 }
 
 vec3 unpackColor(uint rgba)

@@ -13,7 +13,7 @@ namespace pcl_uvol::shaders {
 constexpr int margin = 1;
 
 /** \brief Parts of a shader, one after the other; null if there are fewer. */
-using Source = std::array<const char*, 3>;
+using Source = std::array<const char*, 4>;
 
 /** \brief A vertex and a fragment shader. */
 struct Pass {

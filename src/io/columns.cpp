@@ -43,7 +43,7 @@ private:
     std::size_t from, to;
     double addend;
   };
-  std::vector<Run> runs_;
+  std::vector<ByteRun> runs_;
   std::vector<Widened> widened_;
   std::size_t size_ = 0;
 };
@@ -63,7 +63,7 @@ RecordPacker::RecordPacker(const std::vector<Column>& columns)
 void
 RecordPacker::pack(const std::uint8_t* point, std::uint8_t* record) const
 {
-  for (const Run& run : runs_)
+  for (const ByteRun& run : runs_)
     std::memcpy(record + run.to, point + run.from, run.bytes);
   for (const Widened& wide : widened_) {
     float relative;
@@ -74,36 +74,6 @@ RecordPacker::pack(const std::uint8_t* point, std::uint8_t* record) const
 }
 
 } // namespace
-
-Fields
-savedFields(const Dataset& dataset)
-{
-  const auto& cloud = dataset.cloud;
-  const auto points = static_cast<std::uint64_t>(cloud.width) * cloud.height;
-  if (cloud.data.size() / std::max<std::size_t>(cloud.point_step, 1) < points)
-    throw InvalidArgument("The cloud holds fewer bytes than its " +
-                          std::to_string(points) + " points need.");
-  const bool doubles =
-      dataset.double_coordinates || dataset.origin != std::array<double, 3>{};
-  Fields saved;
-  for (const auto& field : cloud.fields) {
-    if (field.offset + fieldBytes(field) > cloud.point_step)
-      throw InvalidArgument("The field '" + field.name + "' ends behind its point.");
-    if (isPadding(field))
-      continue;
-    saved.push_back(field);
-    saved.back().count = std::max(field.count, 1u);
-    if (axisOf(field.name) >= 0 && field.datatype == Type::FLOAT32 && doubles)
-      saved.back().datatype = Type::FLOAT64;
-  }
-  for (const char* const axis : {"x", "y", "z"}) {
-    const auto* const field = findField(cloud.fields, axis);
-    if (!field || field->datatype != Type::FLOAT32)
-      throw InvalidArgument("The cloud needs float32 fields x, y, z; it has " +
-                            describeFields(cloud.fields) + ".");
-  }
-  return saved;
-}
 
 std::vector<Column>
 columnsOf(const Dataset& dataset, const Fields& fields)
@@ -183,19 +153,6 @@ writeRecords(OutputFile& file,
     }
     file.flushFull();
   }
-}
-
-void
-unpackRecords(const Dataset& dataset,
-              const std::vector<Column>& columns,
-              std::uint8_t* bytes)
-{
-  const auto& cloud = dataset.cloud;
-  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
-  const RecordPacker packer(columns);
-  const std::uint8_t* point = cloud.data.data();
-  for (std::size_t i = 0; i < count; ++i, point += cloud.point_step)
-    packer.pack(point, bytes + i * packer.size());
 }
 
 } // namespace io

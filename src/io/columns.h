@@ -2,7 +2,7 @@
 // The numbers of a dataset as writers put them into files.
 #pragma once
 
-#include "records.h"
+#include <pcl_uvol/common/records.h>
 
 namespace pcl_uvol {
 namespace io {
@@ -18,13 +18,7 @@ struct Column {
   double addend;
 };
 
-/** \brief The fields to be written: no padding, x, y, z in double if needed; offsets
- * are those in the point.
- * \throws InvalidArgument unless x, y, z are float32 and the data is complete */
-Fields
-savedFields(const Dataset& dataset);
-
-/** \brief The numbers of such fields; components are called name_0, name_1, ... */
+/** \brief The numbers of savedFields(); components are called name_0, name_1, ... */
 std::vector<Column>
 columnsOf(const Dataset& dataset, const Fields& fields);
 
@@ -44,12 +38,6 @@ writeRecords(OutputFile& file,
              const Dataset& dataset,
              const std::vector<Column>& columns,
              bool ascii);
-
-/** \brief The columns of every point as bytes one behind the other in memory. */
-void
-unpackRecords(const Dataset& dataset,
-              const std::vector<Column>& columns,
-              std::uint8_t* bytes);
 
 } // namespace io
 } // namespace pcl_uvol

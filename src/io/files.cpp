@@ -3,7 +3,6 @@
 #include "files.h"
 
 #include "numbers.h"
-#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -2,8 +2,11 @@
 // Files as bytes and lines, with errors that name the file in one sentence.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +25,23 @@ throwUnreadable(const std::string& path, std::size_t line, const std::string& re
 /** \throws IOError "Cannot write 'path': reason." */
 [[noreturn]] void
 throwUnwritable(const std::string& path, const std::string& reason);
+
+/** \brief Call what reads a file; numbers it cannot take and a lack of memory are
+ * errors of the file. \throws IOError */
+template <typename Reader>
+auto
+reading(const std::string& path, const Reader& read)
+{
+  try {
+    return read();
+  }
+  catch (const InvalidArgument& error) {
+    throw IOError("Cannot read '" + path + "': " + error.message());
+  }
+  catch (const std::bad_alloc&) {
+    throwUnreadable(path, "there is not enough memory for it");
+  }
+}
 
 /** \brief The ending of a file name in lower case, with its dot. */
 std::string

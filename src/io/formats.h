@@ -4,37 +4,59 @@
 
 #include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/memory_need.h>
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace pcl_uvol {
 namespace io {
 
+class RecordSource;
+
+enum class FileFormat { Pcd, Ply, Text, Vtk };
+
+/** \brief The format of the points in a file, by the ending of its name.
+ * \throws IOError for another ending \throws InvalidArgument for columns of
+ * coordinates chosen in a file that is no text */
+FileFormat
+formatOf(const std::string& path, const LoadOptions& options);
+
+/** \throws IOError that says what has to be read whole, and what is read as a stream */
+[[noreturn]] void
+throwNoStream(const std::string& path, const std::string& what);
+
+/** Readers of whole files. @{ */
 Dataset
 readPcd(const std::string& path);
 
 Dataset
 readPly(const std::string& path);
 
-/** What the headers promise; nothing where they are not whole, or promise more than the
- * file holds: reading tells what is wrong with them. @{ */
-std::optional<PromisedCloud>
-promisePcd(const std::string& path);
-
-std::optional<PromisedCloud>
-promisePly(const std::string& path);
-/** @} */
-
 /** \brief Text with a header line; the separator is found in it. */
 Dataset
 readText(const std::string& path, const LoadOptions& options);
 
-/** \brief .vtk, .vtp, .vtu or .vts. \param ending in lower case, with its dot */
+/** \brief .vtk, .vtp, .vtu or .vts. */
 Dataset
-readVtk(const std::string& path, const std::string& ending);
+readVtk(const std::string& path);
+/** @} */
+
+/** \brief The files that a .pvtp lists. \throws IOError if it is none */
+std::vector<std::string>
+readPieceList(const std::string& path);
+
+/** Files whose header was read, and text whose types of columns are known. @{ */
+/** \throws IOError for compressed points */
+std::unique_ptr<RecordSource>
+openPcd(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openPly(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openText(const std::string& path, const LoadOptions& options);
+/** @} */
 
 /** Writers write to `file`, which exists; errors call it `path`. @{ */
 void
@@ -60,6 +82,14 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
 
 void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset);
+
+/** \brief A .pvtp. \param dataset has the fields of the pieces \param pieces .vtp
+ * files in its folder */
+void
+writePieceList(const std::string& file,
+               const std::string& path,
+               const Dataset& dataset,
+               const std::vector<std::string>& pieces);
 /** @} */
 
 } // namespace io

@@ -2,10 +2,10 @@
 // Triangles of PLY files, and points spread over them.
 #include "files.h"
 #include "formats.h"
-#include "records.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/random.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
@@ -122,12 +122,12 @@ checkMeshPath(const std::string& path)
 Dataset
 toDataset(const Mesh& mesh)
 {
-  io::Fields fields;
+  Fields fields;
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"})
-    io::appendField(fields, name, pcl::PCLPointField::FLOAT32);
+    appendField(fields, name, pcl::PCLPointField::FLOAT32);
   Dataset dataset;
   dataset.origin = mesh.origin;
-  dataset.cloud = io::makeRecords("", fields, mesh.vertices.size());
+  dataset.cloud = makeRecords(fields, mesh.vertices.size());
   const auto normals = computeVertexNormals(mesh);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     std::uint8_t* const point = &dataset.cloud.data[i * dataset.cloud.point_step];

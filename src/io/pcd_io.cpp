@@ -5,12 +5,14 @@
 #include "files.h"
 #include "formats.h"
 #include "numbers.h"
+#include "record_source.h"
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <pcl/io/lzf.h>
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace pcl_uvol {
 namespace io {
@@ -22,11 +24,9 @@ using Words = std::vector<std::string_view>;
 enum class Encoding { Ascii, Binary, Compressed };
 
 struct Header {
-  Fields fields;
-  std::uint64_t count = 0;
+  RecordInfo info;
   Encoding encoding = Encoding::Ascii;
   std::uint64_t body = 0; ///< where the points start
-  std::size_t lines = 0;
 };
 
 /** A word of the header gives at most that many bytes per field. */
@@ -69,8 +69,9 @@ public:
   bool
   take(std::string_view line, std::size_t number);
 
+  /** The header but for the place of the body. */
   Header
-  finish(std::uint64_t body) const;
+  finish() const;
 
 private:
   std::uint64_t
@@ -143,13 +144,14 @@ HeaderParser::take(std::string_view line, std::size_t number)
 }
 
 Header
-HeaderParser::finish(std::uint64_t body) const
+HeaderParser::finish() const
 {
   if (names_.empty() || sizes_.size() != names_.size() ||
       types_.size() != names_.size() ||
       (!counts_.empty() && counts_.size() != names_.size()))
     throwUnreadable(path_, "FIELDS, SIZE, TYPE and COUNT of its header do not agree");
   Header header;
+  std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const std::uint8_t datatype = datatypeOf(types_[i], sizes_[i]);
     if (datatype == 0)
@@ -163,44 +165,38 @@ HeaderParser::finish(std::uint64_t body) const
       throwUnreadable(path_,
                       "the field '" + names_[i] + "' has the COUNT " + counts_[i] +
                           "; allowed is 1 to " + std::to_string(most_components));
-    appendField(header.fields, names_[i], datatype, count);
+    bytes += count * datatypeSize(datatype);
+    if (bytes > std::numeric_limits<pcl::uindex_t>::max())
+      throwUnreadable(path_, "the fields of its header are too large");
+    appendField(header.info.fields, names_[i], datatype, count);
   }
   const std::uint64_t height = has_height_ ? height_ : 1;
   if (!has_points_ && !has_width_)
     throwUnreadable(path_, "its header has neither POINTS nor WIDTH");
   if (has_width_ && height != 0 && width_ > UINT64_MAX / height)
     throwUnreadable(path_, "WIDTH and HEIGHT of its header are too large");
-  header.count = has_points_ ? points_ : width_ * height;
-  if (has_width_ && width_ * height != header.count)
+  header.info.count = has_points_ ? points_ : width_ * height;
+  if (has_width_ && width_ * height != header.info.count)
     throwUnreadable(path_,
-                    "its header has " + std::to_string(header.count) +
+                    "its header has " + std::to_string(header.info.count) +
                         " POINTS, but WIDTH " + std::to_string(width_) +
                         " and HEIGHT " + std::to_string(height));
   header.encoding = encoding_;
-  header.body = body;
-  header.lines = line_;
   return header;
 }
 
 Header
-readHeader(const InputFile& file, const std::string& path)
+readHeader(FileCursor& cursor, const std::string& path)
 {
-  // fits nearly every header; a longer one is read again, up to the whole file
-  for (std::uint64_t bytes = 1u << 14;; bytes *= 16) {
-    const std::string head = file.head(bytes);
-    HeaderParser parser(path);
-    Lines lines(head);
-    std::string_view line;
-    while (lines.next(line)) {
-      const bool complete = !lines.rest().empty() || head.size() == file.getSize();
-      if (!complete)
-        break;
-      if (parser.take(line, lines.lineNumber()))
-        return parser.finish(head.size() - lines.rest().size());
+  HeaderParser parser(path);
+  std::string_view line;
+  while (cursor.nextLine(line))
+    if (parser.take(line, cursor.tell().line)) {
+      Header header = parser.finish();
+      header.body = cursor.tell().offset;
+      return header;
     }
-    if (head.size() == file.getSize())
-      throwUnreadable(path, "its header has no DATA line");
-  }
+  throwUnreadable(path, "its header has no DATA line");
 }
 
 [[noreturn]] void
@@ -212,59 +208,30 @@ throwTruncated(const std::string& path, std::uint64_t count, std::uint64_t left)
                       std::to_string(left) + " bytes follow");
 }
 
-/** Points of which a body of that size may hold the numbers. */
-std::uint64_t
-mostPoints(const Header& header, std::uint64_t left)
-{
-  std::uint64_t numbers = 0;
-  for (const auto& field : header.fields)
-    numbers += field.count;
-  const std::uint64_t step = recordBytes(header.fields);
-  switch (header.encoding) {
-  case Encoding::Ascii:
-    return (left + 1) / (2 * numbers); // a digit and a blank
-  case Encoding::Binary:
-    return left / step;
-  default:
-    return left * most_expansion / step;
-  }
-}
-
 pcl::PCLPointCloud2
-readBinary(const InputFile& file, const std::string& path, Header& header)
+readCompressed(const InputFile& file, const std::string& path, const Header& header)
 {
-  const std::uint64_t left = file.getSize() - header.body;
-  if (header.count > mostPoints(header, left))
-    throwTruncated(path, header.count, left);
-  auto records = makeRecords(path, std::move(header.fields), header.count);
-  file.read(header.body, records.data.data(), records.data.size());
-  return records;
-}
-
-pcl::PCLPointCloud2
-readCompressed(const InputFile& file, const std::string& path, Header& header)
-{
-  const std::uint64_t left = file.getSize() - header.body;
-  const std::uint64_t step = recordBytes(header.fields);
+  std::uint64_t body = header.body;
+  const std::uint64_t left = file.getSize() - body, count = header.info.count;
+  const std::uint64_t step = recordBytes(header.info.fields);
   std::uint32_t sizes[2] = {0, 0};
-  if (header.count > 0) {
+  if (count > 0) {
     if (left < sizeof(sizes))
-      throwTruncated(path, header.count, left);
-    file.read(header.body, sizes, sizeof(sizes));
-    if (sizes[0] > left - sizeof(sizes) ||
-        header.count > sizes[0] * most_expansion / step)
-      throwTruncated(path, header.count, left);
-    if (sizes[1] != header.count * step)
+      throwTruncated(path, count, left);
+    file.read(body, sizes, sizeof(sizes));
+    if (sizes[0] > left - sizeof(sizes) || count > sizes[0] * most_expansion / step)
+      throwTruncated(path, count, left);
+    if (sizes[1] != count * step)
       throwUnreadable(path,
                       "its compressed data hold " + std::to_string(sizes[1]) +
                           " bytes, but its header promises " +
-                          std::to_string(header.count * step));
+                          std::to_string(count * step));
   }
-  auto records = makeRecords(path, std::move(header.fields), header.count);
-  if (header.count == 0)
+  auto records = makeRecords(header.info.fields, count);
+  if (count == 0)
     return records;
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
-  file.read(header.body + sizeof(sizes), packed.data(), packed.size());
+  file.read(body + sizeof(sizes), packed.data(), packed.size());
   if (pcl::lzfDecompress(packed.data(), sizes[0], unpacked.data(), sizes[1]) !=
       sizes[1])
     throwUnreadable(path, "its compressed data are damaged");
@@ -272,61 +239,100 @@ readCompressed(const InputFile& file, const std::string& path, Header& header)
   for (const auto& field : records.fields) {
     const std::size_t bytes = fieldBytes(field);
     std::uint8_t* to = records.data.data() + field.offset;
-    for (std::uint64_t i = 0; i < header.count; ++i, from += bytes, to += step)
+    for (std::uint64_t i = 0; i < count; ++i, from += bytes, to += step)
       std::memcpy(to, from, bytes);
   }
   return records;
 }
 
-pcl::PCLPointCloud2
-readAscii(const InputFile& file, const std::string& path, Header& header)
-{
-  const std::uint64_t left = file.getSize() - header.body;
-  std::uint64_t numbers = 0;
-  for (const auto& field : header.fields)
-    numbers += field.count;
-  if (header.count > mostPoints(header, left))
-    throwTruncated(path, header.count, left);
-  auto records = makeRecords(path, std::move(header.fields), header.count);
-  std::string text(left, '\0');
-  file.read(header.body, text.data(), left);
-  Lines lines(text, header.lines);
-  std::string_view line;
-  Words words;
-  std::uint64_t count = 0;
-  while (lines.next(line)) {
-    splitWords(line, words);
-    if (words.empty())
-      continue;
-    if (count == header.count)
-      throwUnreadable(path,
-                      lines.lineNumber(),
-                      "it holds more than the " + std::to_string(count) +
-                          " points that its header promises");
-    if (words.size() != numbers)
-      throwUnreadable(path,
-                      lines.lineNumber(),
-                      "there are " + std::to_string(words.size()) + " numbers where " +
-                          std::to_string(numbers) + " belong");
-    std::uint8_t* const point =
-        records.data.data() + records.point_step * std::size_t(count++);
-    const auto* word = words.data();
-    for (const auto& field : records.fields) {
-      const std::size_t bytes = datatypeSize(field.datatype);
-      for (std::size_t i = 0; i < field.count; ++i, ++word)
-        if (!parseNumber(*word, field.datatype, point + field.offset + i * bytes))
-          throwUnreadable(path,
-                          lines.lineNumber(),
-                          "'" + std::string(*word) + "' is no number for the field " +
-                              describeFields({field}));
-    }
+/** Points as lines of numbers. */
+class AsciiSource : public SequentialSource {
+public:
+  AsciiSource(const std::string& path,
+              std::unique_ptr<FileCursor> cursor,
+              const RecordInfo& info);
+
+private:
+  void
+  readRecord(std::uint8_t* record) override;
+  void
+  skipRecord() override
+  {
+    nextWords();
   }
-  if (count < header.count)
-    throwUnreadable(path,
+  void
+  finish() override;
+  void
+  nextWords();
+
+  std::size_t numbers_ = 0; ///< of a point
+  Words words_;
+};
+
+AsciiSource::AsciiSource(const std::string& path,
+                         std::unique_ptr<FileCursor> cursor,
+                         const RecordInfo& info)
+    : SequentialSource(path, std::move(cursor), info)
+{
+  for (const auto& field : info_.fields)
+    numbers_ += field.count;
+  const std::uint64_t left = cursor_->left();
+  if (info_.count > (left + 1) / (2 * numbers_)) // a digit and a blank
+    throwTruncated(path, info_.count, left);
+}
+
+void
+AsciiSource::nextWords()
+{
+  if (!cursor_->nextWords(words_))
+    throwUnreadable(path_,
                     "it is truncated: its header promises " +
-                        std::to_string(header.count) + " points, but only " +
-                        std::to_string(count) + " lines follow");
-  return records;
+                        std::to_string(info_.count) + " points, but only " +
+                        std::to_string(next_ - 1) + " lines follow");
+}
+
+void
+AsciiSource::readRecord(std::uint8_t* record)
+{
+  nextWords();
+  if (words_.size() != numbers_)
+    throwUnreadable(path_,
+                    cursor_->tell().line,
+                    "there are " + std::to_string(words_.size()) + " numbers where " +
+                        std::to_string(numbers_) + " belong");
+  const auto* word = words_.data();
+  for (const auto& field : info_.fields) {
+    const std::size_t bytes = datatypeSize(field.datatype);
+    for (std::size_t i = 0; i < field.count; ++i, ++word)
+      if (!parseNumber(*word, field.datatype, record + field.offset + i * bytes))
+        throwUnreadable(path_,
+                        cursor_->tell().line,
+                        "'" + std::string(*word) + "' is no number for the field " +
+                            describeFields({field}));
+  }
+}
+
+void
+AsciiSource::finish()
+{
+  if (cursor_->nextWords(words_))
+    throwUnreadable(path_,
+                    cursor_->tell().line,
+                    "it holds more than the " + std::to_string(info_.count) +
+                        " points that its header promises");
+}
+
+std::unique_ptr<RecordSource>
+makeSource(const std::string& path,
+           std::unique_ptr<FileCursor> cursor,
+           const Header& header)
+{
+  if (header.encoding == Encoding::Ascii)
+    return std::make_unique<AsciiSource>(path, std::move(cursor), header.info);
+  const std::uint64_t left = cursor->left();
+  if (header.info.count > left / recordBytes(header.info.fields))
+    throwTruncated(path, header.info.count, left);
+  return std::make_unique<FixedSource>(path, header.info, header.body, false);
 }
 
 std::string
@@ -361,36 +367,24 @@ makeHeader(const Fields& fields, std::uint64_t count, const SaveOptions& options
 
 } // namespace
 
-std::optional<PromisedCloud>
-promisePcd(const std::string& path)
-{
-  const InputFile file(path);
-  const Header header = readHeader(file, path);
-  const std::uint64_t left = file.getSize() - header.body;
-  if (header.count > mostPoints(header, left))
-    return std::nullopt;
-  double beside = 0.0;
-  if (header.encoding != Encoding::Binary)
-    beside += static_cast<double>(left);
-  if (header.encoding == Encoding::Compressed) // unpacked, field by field
-    beside += static_cast<double>(header.count) *
-              static_cast<double>(recordBytes(header.fields));
-  return promiseOf(header.fields, header.count, beside);
-}
-
 Dataset
 readPcd(const std::string& path)
 {
-  const InputFile file(path);
-  Header header = readHeader(file, path);
-  switch (header.encoding) {
-  case Encoding::Ascii:
-    return makeDataset(path, readAscii(file, path, header));
-  case Encoding::Binary:
-    return makeDataset(path, readBinary(file, path, header));
-  default:
-    return makeDataset(path, readCompressed(file, path, header));
-  }
+  auto cursor = std::make_unique<FileCursor>(path);
+  const Header header = readHeader(*cursor, path);
+  if (header.encoding == Encoding::Compressed)
+    return makeDataset(readCompressed(cursor->getFile(), path, header), header.info);
+  return readWhole(makeSource(path, std::move(cursor), header));
+}
+
+std::unique_ptr<RecordSource>
+openPcd(const std::string& path)
+{
+  auto cursor = std::make_unique<FileCursor>(path);
+  const Header header = readHeader(*cursor, path);
+  if (header.encoding == Encoding::Compressed)
+    throwNoStream(path, "points compressed as binary_compressed");
+  return makeSource(path, std::move(cursor), header);
 }
 
 void

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads vertices of PLY files: no reader at hand keeps the names and types of all
 // properties and finds truncated files.
-#include "files.h"
 #include "formats.h"
 #include "numbers.h"
 #include "ply_types.h"
+#include "record_source.h"
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -52,85 +52,45 @@ enum class Format { None, Ascii, LittleEndian, BigEndian };
 
 struct Header {
   Format format = Format::None;
-  std::vector<Element> elements; ///< up to the vertices
-  std::size_t lines = 0;
+  std::vector<Element> elements;
 };
 
-/** The scalars. */
-Fields
-fieldsOf(const Element& element)
-{
-  Fields fields;
-  for (const auto& property : element.properties)
-    if (property.length_type == 0)
-      appendField(fields, property.name, property.datatype);
-  return fields;
-}
-
-/** The vertices of a file, record by record. */
-class PlyReader {
+/** Parses the lines of a header, up to end_header. */
+class HeaderParser {
 public:
-  /** \param most bytes to read: all that follow the header, or none of them */
-  PlyReader(const std::string& path, std::uint64_t most);
+  HeaderParser(const std::string& path, FileCursor& cursor)
+      : path_(path)
+      , cursor_(cursor)
+  {
+  }
 
-  Dataset
-  read();
-
-  /** \param file_bytes of the whole file */
-  std::optional<PromisedCloud>
-  promise(std::uint64_t file_bytes) const;
+  Header
+  parse();
 
 private:
   void
-  parseHeader(Lines& lines);
+  takeLine(const Words& words);
+  Format
+  formatIn(const Words& words) const;
   void
-  parseProperty(const Words& words, std::size_t line);
-  const Element&
-  findVertex() const;
-  std::uint64_t
-  leastBytes(const Element& element) const;
-  void
-  checkCount(const Element& element) const;
-  void
-  skip(const Element& element);
-  void
-  readBinary(const Element& vertex, pcl::PCLPointCloud2& records);
-  void
-  readAscii(const Element& vertex, pcl::PCLPointCloud2& records);
+  takeProperty(const Words& words);
 
   [[noreturn]] void
-  throwTruncated(const Element& element) const;
-  const char*
-  take(std::uint64_t bytes, const Element& element);
-  void
-  copyNumber(const char* from, std::uint8_t datatype, std::uint8_t* to) const;
-  std::uint64_t
-  takeListLength(const Property& list, const Element& element);
-  bool
-  nextLine(Words& words);
+  throwInLine(const std::string& reason) const
+  {
+    throwUnreadable(path_, cursor_.tell().line, reason);
+  }
 
-  const std::string path_;
-  std::string bytes_;
+  const std::string& path_;
+  FileCursor& cursor_;
   Header header_;
-  std::string_view body_;
-  Lines lines_{std::string_view()}; ///< of an ascii body
 };
 
-PlyReader::PlyReader(const std::string& path, std::uint64_t most)
-    : path_(path)
-{
-  bytes_ = InputFile(path).head(most);
-  Lines lines(bytes_);
-  parseHeader(lines);
-  body_ = lines.rest();
-  lines_ = Lines(body_, lines.lineNumber());
-}
-
 void
-PlyReader::parseProperty(const Words& words, std::size_t line)
+HeaderParser::takeProperty(const Words& words)
 {
   if (header_.elements.empty())
-    throwUnreadable(path_, line, "a property comes before any element");
+    throwInLine("a property comes before any element");
   Property property;
   std::size_t type = 1;
   if (words.size() == 5 && words[1] == "list") {
@@ -138,286 +98,324 @@ PlyReader::parseProperty(const Words& words, std::size_t line)
     type = 3;
     if (property.length_type == 0 || property.length_type == Type::FLOAT32 ||
         property.length_type == Type::FLOAT64)
-      throwUnreadable(path_,
-                      line,
-                      "'" + std::string(words[2]) + "' is no type for a list's length");
+      throwInLine("'" + std::string(words[2]) + "' is no type for a list's length");
   }
   if (words.size() != type + 2)
-    throwUnreadable(path_, line, "a property needs a type and a name");
+    throwInLine("a property needs a type and a name");
   property.datatype = plyDatatype(words[type]);
   property.name = words[type + 1];
   if (property.datatype == 0)
-    throwUnreadable(path_,
-                    line,
-                    "the property '" + property.name + "' has the type '" +
-                        std::string(words[type]) + "', which PLY does not have");
+    throwInLine("the property '" + property.name + "' has the type '" +
+                std::string(words[type]) + "', which PLY does not have");
   header_.elements.back().properties.push_back(property);
 }
 
+Format
+HeaderParser::formatIn(const Words& words) const
+{
+  if (words.size() == 3 && words[1] == "ascii")
+    return Format::Ascii;
+  if (words.size() == 3 && words[1] == "binary_little_endian")
+    return Format::LittleEndian;
+  if (words.size() == 3 && words[1] == "binary_big_endian")
+    return Format::BigEndian;
+  throwInLine("the format is none of ascii, binary_little_endian and "
+              "binary_big_endian");
+}
+
 void
-PlyReader::parseHeader(Lines& lines)
+HeaderParser::takeLine(const Words& words)
+{
+  if (words[0] == "comment" || words[0] == "obj_info")
+    return;
+  if (words[0] == "format")
+    header_.format = formatIn(words);
+  else if (words[0] == "element") {
+    Element element;
+    if (words.size() != 3 || !parseCount(words[2], element.count))
+      throwInLine("an element needs a name and a count");
+    element.name = words[1];
+    header_.elements.push_back(element);
+  }
+  else if (words[0] == "property")
+    takeProperty(words);
+  else
+    throwInLine("this is no line of a PLY header");
+}
+
+Header
+HeaderParser::parse()
 {
   std::string_view line;
-  if (!lines.next(line) || line != "ply")
+  if (!cursor_.nextLine(line) || line != "ply")
     throwUnreadable(path_, "it is no PLY file: its first line is not 'ply'");
   Words words;
-  while (lines.next(line)) {
-    splitWords(line, words);
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info")
-      continue;
+  while (cursor_.nextWords(words)) {
     if (words[0] == "end_header") {
       if (header_.format == Format::None)
         throwUnreadable(path_, "its header has no format line");
-      return;
+      return std::move(header_);
     }
-    if (words[0] == "format") {
-      if (words.size() == 3 && words[1] == "ascii")
-        header_.format = Format::Ascii;
-      else if (words.size() == 3 && words[1] == "binary_little_endian")
-        header_.format = Format::LittleEndian;
-      else if (words.size() == 3 && words[1] == "binary_big_endian")
-        header_.format = Format::BigEndian;
-      else
-        throwUnreadable(path_,
-                        lines.lineNumber(),
-                        "the format is none of ascii, binary_little_endian and "
-                        "binary_big_endian");
-    }
-    else if (words[0] == "element") {
-      Element element;
-      if (words.size() != 3 || !parseCount(words[2], element.count))
-        throwUnreadable(
-            path_, lines.lineNumber(), "an element needs a name and a count");
-      element.name = words[1];
-      header_.elements.push_back(element);
-    }
-    else if (words[0] == "property")
-      parseProperty(words, lines.lineNumber());
-    else
-      throwUnreadable(path_, lines.lineNumber(), "this is no line of a PLY header");
+    takeLine(words);
   }
   throwUnreadable(path_, "its header has no end_header line");
 }
 
-void
-PlyReader::throwTruncated(const Element& element) const
+[[noreturn]] void
+throwTruncated(const std::string& path, const Element& element)
 {
-  throwUnreadable(path_,
+  throwUnreadable(path,
                   "it is truncated or damaged: its header promises " +
                       std::to_string(element.count) + " of the element " +
                       element.name + ", but the file ends before");
 }
 
-/** Of one of them in the file. */
-std::uint64_t
-PlyReader::leastBytes(const Element& element) const
+/** Before any memory is taken: do that many bytes follow at all? */
+void
+checkCount(const std::string& path,
+           const Element& element,
+           Format format,
+           std::uint64_t left)
 {
-  if (header_.format == Format::Ascii)
-    return 2 * element.properties.size(); // a digit and a blank each
   std::uint64_t least = element.bytes();
   for (const auto& property : element.properties)
     least += property.length_type ? datatypeSize(property.length_type) : 0;
-  return least;
+  if (format == Format::Ascii) { // a digit and a blank each, but for the last
+    least = 2 * element.properties.size();
+    ++left;
+  }
+  if (least > 0 && element.count > left / least)
+    throwTruncated(path, element);
 }
 
-/** Before any memory is taken: does that much follow at all? */
+/** Takes the numbers of an element from a binary body. */
+class BinaryElement {
+public:
+  BinaryElement(const std::string& path,
+                FileCursor& cursor,
+                const Element& element,
+                bool swapped)
+      : path_(path)
+      , cursor_(cursor)
+      , element_(element)
+      , swapped_(swapped)
+  {
+  }
+
+  void
+  take(std::uint8_t datatype, std::uint8_t* to);
+
+  void
+  skip(std::uint64_t bytes)
+  {
+    if (!cursor_.skip(bytes))
+      throwTruncated(path_, element_);
+  }
+
+  void
+  skip(const Property& property);
+
+private:
+  const std::string& path_;
+  FileCursor& cursor_;
+  const Element& element_;
+  const bool swapped_;
+};
+
 void
-PlyReader::checkCount(const Element& element) const
-{
-  const std::uint64_t least = leastBytes(element);
-  if (least > 0 && element.count > (body_.size() + 1) / least)
-    throwTruncated(element);
-}
-
-const char*
-PlyReader::take(std::uint64_t bytes, const Element& element)
-{
-  if (bytes > body_.size())
-    throwTruncated(element);
-  const char* const start = body_.data();
-  body_.remove_prefix(bytes);
-  return start;
-}
-
-void
-PlyReader::copyNumber(const char* from, std::uint8_t datatype, std::uint8_t* to) const
+BinaryElement::take(std::uint8_t datatype, std::uint8_t* to)
 {
   const std::size_t bytes = datatypeSize(datatype);
+  const char* const from = cursor_.take(bytes);
+  if (!from)
+    throwTruncated(path_, element_);
   std::memcpy(to, from, bytes);
-  if (header_.format == Format::BigEndian)
+  if (swapped_)
     std::reverse(to, to + bytes);
 }
 
-std::uint64_t
-PlyReader::takeListLength(const Property& list, const Element& element)
+void
+BinaryElement::skip(const Property& property)
 {
-  std::uint8_t bytes[8];
-  copyNumber(take(datatypeSize(list.length_type), element), list.length_type, bytes);
-  const double length = FieldComponent{0, list.length_type}.read(bytes);
-  if (length < 0)
-    throwUnreadable(path_, "a list '" + list.name + "' has a negative length");
-  return static_cast<std::uint64_t>(length);
+  double length = 1.0;
+  if (property.length_type) {
+    std::uint8_t bytes[8];
+    take(property.length_type, bytes);
+    length = FieldComponent{0, property.length_type}.read(bytes);
+    if (length < 0)
+      throwUnreadable(path_, "a list '" + property.name + "' has a negative length");
+  }
+  skip(static_cast<std::uint64_t>(length) * datatypeSize(property.datatype));
 }
 
-bool
-PlyReader::nextLine(Words& words)
-{
-  std::string_view line;
-  while (lines_.next(line)) {
-    splitWords(line, words);
-    if (!words.empty())
-      return true;
+/** Vertices that are not of one size, because they have lists. */
+class ListSource : public SequentialSource {
+public:
+  ListSource(const std::string& path,
+             std::unique_ptr<FileCursor> cursor,
+             RecordInfo info,
+             const Element& vertex,
+             bool swapped)
+      : SequentialSource(path, std::move(cursor), std::move(info))
+      , vertex_(vertex)
+      , binary_(path_, *cursor_, vertex_, swapped)
+  {
   }
-  return false;
+
+private:
+  void
+  readRecord(std::uint8_t* record) override
+  {
+    for (const auto& property : vertex_.properties)
+      if (property.length_type)
+        binary_.skip(property);
+      else {
+        binary_.take(property.datatype, record);
+        record += datatypeSize(property.datatype);
+      }
+  }
+
+  void
+  skipRecord() override
+  {
+    for (const auto& property : vertex_.properties)
+      binary_.skip(property);
+  }
+
+  const Element vertex_;
+  BinaryElement binary_;
+};
+
+/** Vertices as lines of numbers. */
+class AsciiSource : public SequentialSource {
+public:
+  AsciiSource(const std::string& path,
+              std::unique_ptr<FileCursor> cursor,
+              RecordInfo info,
+              const Element& vertex)
+      : SequentialSource(path, std::move(cursor), std::move(info))
+      , vertex_(vertex)
+  {
+  }
+
+private:
+  void
+  readRecord(std::uint8_t* record) override;
+  void
+  skipRecord() override;
+  [[noreturn]] void
+  throwInLine(const std::string& reason) const
+  {
+    throwUnreadable(path_, cursor_->tell().line, reason);
+  }
+
+  const Element vertex_;
+  Words words_;
+};
+
+void
+AsciiSource::skipRecord()
+{
+  if (!cursor_->nextWords(words_))
+    throwTruncated(path_, vertex_);
 }
 
 void
-PlyReader::skip(const Element& element)
+AsciiSource::readRecord(std::uint8_t* record)
 {
-  checkCount(element);
+  skipRecord();
+  std::size_t word = 0;
+  for (const auto& property : vertex_.properties) {
+    if (word >= words_.size())
+      throwInLine("there are too few numbers");
+    const std::string_view text = words_[word++];
+    std::uint64_t length = 0;
+    if (property.length_type) {
+      if (!parseCount(text, length) || length > words_.size() - word)
+        throwInLine("'" + std::string(text) + "' is no length of the list '" +
+                    property.name + "'");
+      word += length;
+      continue;
+    }
+    if (!parseNumber(text, property.datatype, record))
+      throwInLine("'" + std::string(text) + "' is no number for the property " +
+                  property.name + " (" + plyTypeName(property.datatype) + ")");
+    record += datatypeSize(property.datatype);
+  }
+  if (word != words_.size())
+    throwInLine("there are too many numbers");
+}
+
+/** Goes behind an element in front of the vertices. */
+void
+skipElement(const std::string& path,
+            FileCursor& cursor,
+            const Element& element,
+            Format format)
+{
+  checkCount(path, element, format, cursor.left());
   if (element.properties.empty())
     return;
-  if (header_.format == Format::Ascii) {
-    Words words;
-    for (std::uint64_t i = 0; i < element.count; ++i)
-      if (!nextLine(words))
-        throwTruncated(element);
-    return;
-  }
-  if (!element.hasLists()) {
-    take(element.bytes() * element.count, element);
-    return;
-  }
-  for (std::uint64_t i = 0; i < element.count; ++i)
-    for (const auto& property : element.properties) {
-      const std::uint64_t length =
-          property.length_type ? takeListLength(property, element) : 1;
-      take(length * datatypeSize(property.datatype), element);
-    }
-}
-
-void
-PlyReader::readBinary(const Element& vertex, pcl::PCLPointCloud2& records)
-{
-  std::uint8_t* to = records.data.data();
-  if (header_.format == Format::LittleEndian && !vertex.hasLists()) {
-    if (!records.data.empty())
-      std::memcpy(to, take(records.data.size(), vertex), records.data.size());
-    return;
-  }
-  for (std::uint64_t i = 0; i < vertex.count; ++i)
-    for (const auto& property : vertex.properties) {
-      const std::size_t bytes = datatypeSize(property.datatype);
-      if (property.length_type) {
-        take(takeListLength(property, vertex) * bytes, vertex);
-        continue;
-      }
-      copyNumber(take(bytes, vertex), property.datatype, to);
-      to += bytes;
-    }
-}
-
-void
-PlyReader::readAscii(const Element& vertex, pcl::PCLPointCloud2& records)
-{
-  std::uint8_t* to = records.data.data();
   Words words;
-  for (std::uint64_t i = 0; i < vertex.count; ++i) {
-    if (!nextLine(words))
-      throwTruncated(vertex);
-    std::size_t word = 0;
-    for (const auto& property : vertex.properties) {
-      if (word >= words.size())
-        throwUnreadable(path_, lines_.lineNumber(), "there are too few numbers");
-      const std::string_view text = words[word++];
-      std::uint64_t length = 0;
-      if (property.length_type) {
-        if (!parseCount(text, length) || length > words.size() - word)
-          throwUnreadable(path_,
-                          lines_.lineNumber(),
-                          "'" + std::string(text) + "' is no length of the list '" +
-                              property.name + "'");
-        word += length;
-        continue;
-      }
-      if (!parseNumber(text, property.datatype, to))
-        throwUnreadable(path_,
-                        lines_.lineNumber(),
-                        "'" + std::string(text) + "' is no number for the property " +
-                            property.name + " (" + plyTypeName(property.datatype) +
-                            ")");
-      to += datatypeSize(property.datatype);
-    }
-    if (word != words.size())
-      throwUnreadable(path_, lines_.lineNumber(), "there are too many numbers");
+  BinaryElement binary(path, cursor, element, format == Format::BigEndian);
+  if (format != Format::Ascii && !element.hasLists())
+    return binary.skip(element.bytes() * element.count);
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    if (format != Format::Ascii)
+      for (const auto& property : element.properties)
+        binary.skip(property);
+    else if (!cursor.nextWords(words))
+      throwTruncated(path, element);
   }
 }
 
-const Element&
-PlyReader::findVertex() const
+RecordInfo
+infoOf(const std::string& path, const Element& vertex)
 {
-  const auto is_vertex = [](const Element& e) { return e.name == "vertex"; };
-  const auto vertex =
-      std::find_if(header_.elements.begin(), header_.elements.end(), is_vertex);
-  if (vertex == header_.elements.end())
-    throwUnreadable(path_, "it has no element 'vertex'");
-  return *vertex;
-}
-
-std::optional<PromisedCloud>
-PlyReader::promise(std::uint64_t file_bytes) const
-{
-  const Element& vertex = findVertex();
-  const std::uint64_t least = leastBytes(vertex);
-  if (least == 0 || vertex.count > (file_bytes + 1) / least)
-    return std::nullopt;
-  return promiseOf(fieldsOf(vertex), vertex.count, static_cast<double>(file_bytes));
-}
-
-Dataset
-PlyReader::read()
-{
-  const Element& vertex = findVertex();
-  for (const Element* element = header_.elements.data(); element != &vertex; ++element)
-    skip(*element);
-  if (header_.format == Format::Ascii)
-    body_ = lines_.rest();
-  checkCount(vertex);
-  Fields fields = fieldsOf(vertex);
-  std::vector<std::string> notes;
+  RecordInfo info;
+  info.count = vertex.count;
   for (const auto& property : vertex.properties)
-    if (property.length_type != 0)
-      notes.push_back("The list property '" + property.name +
-                      "' of the vertices is left out.");
-  if (fields.empty())
-    throwUnreadable(path_, "its vertices have no coordinates");
-  auto records = makeRecords(path_, std::move(fields), vertex.count);
-  if (header_.format == Format::Ascii)
-    readAscii(vertex, records);
-  else
-    readBinary(vertex, records);
-  renameFields(records.fields, ply_normals, cloud_normals);
-  Dataset dataset = makeDataset(path_, std::move(records));
-  dataset.notes.insert(dataset.notes.end(), notes.begin(), notes.end());
-  return dataset;
+    if (property.length_type == 0)
+      appendField(info.fields, property.name, property.datatype);
+    else
+      info.notes.push_back("The list property '" + property.name +
+                           "' of the vertices is left out.");
+  if (info.fields.empty())
+    throwUnreadable(path, "its vertices have no coordinates");
+  renameFields(info.fields, ply_normals, cloud_normals);
+  return info;
 }
 
 } // namespace
 
+std::unique_ptr<RecordSource>
+openPly(const std::string& path)
+{
+  auto cursor = std::make_unique<FileCursor>(path);
+  const auto [format, elements] = HeaderParser(path, *cursor).parse();
+  const auto is_vertex = [](const Element& e) { return e.name == "vertex"; };
+  const auto vertex = std::find_if(elements.begin(), elements.end(), is_vertex);
+  if (vertex == elements.end())
+    throwUnreadable(path, "it has no element 'vertex'");
+  for (auto element = elements.begin(); element != vertex; ++element)
+    skipElement(path, *cursor, *element, format);
+  checkCount(path, *vertex, format, cursor->left());
+  RecordInfo info = infoOf(path, *vertex);
+  const bool swapped = format == Format::BigEndian;
+  if (format == Format::Ascii)
+    return std::make_unique<AsciiSource>(
+        path, std::move(cursor), std::move(info), *vertex);
+  if (vertex->hasLists())
+    return std::make_unique<ListSource>(
+        path, std::move(cursor), std::move(info), *vertex, swapped);
+  return std::make_unique<FixedSource>(
+      path, std::move(info), cursor->tell().offset, swapped);
+}
+
 Dataset
 readPly(const std::string& path)
 {
-  return PlyReader(path, InputFile(path).getSize()).read();
-}
-
-std::optional<PromisedCloud>
-promisePly(const std::string& path)
-{
-  constexpr std::uint64_t header_room = 1u << 16; // for nearly every header
-  const InputFile file(path);
-  if (file.head(header_room).find("\nend_header") == std::string::npos)
-    return std::nullopt;
-  return PlyReader(path, header_room).promise(file.getSize());
+  return readWhole(openPly(path));
 }
 
 } // namespace io

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads tables as text: CSV and its relatives with other separators.
-#include "files.h"
+// Reads tables as text: CSV and its relatives with other separators. The types of the
+// columns come from all rows, so these are looked at once before any is taken.
 #include "formats.h"
 #include "numbers.h"
-#include "records.h"
+#include "record_source.h"
+#include "text_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,17 +17,18 @@ namespace io {
 namespace {
 
 using Type = pcl::PCLPointField;
-using Cells = std::vector<std::string_view>;
 
-constexpr char blanks = ' '; ///< the separator of words between blanks and tabs
 constexpr double exact_integers = 0x1p53; ///< double holds the integers below
 
 struct TextColumn {
   std::string name;
-  std::vector<double> values;
-  bool floats = true;   ///< float32 holds all digits
-  bool integers = true; ///< all cells are whole numbers
-  bool inexact = false; ///< double does not hold some of these
+  std::optional<std::size_t> cell; ///< of the row; without one all values are 0
+  std::vector<double> values;      ///< if they are kept
+  bool floats = true;              ///< float32 holds all digits
+  bool integers = true;            ///< all cells are whole numbers
+  bool inexact = false;            ///< double does not hold some of these
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
   std::size_t numbers = 0;
   std::size_t texts = 0;
   std::size_t first_text_line = 0;
@@ -44,134 +46,122 @@ isMissing(std::string_view cell)
   return lower == "nan" || lower == "na" || lower == "n/a" || lower == "null";
 }
 
+/** NaN where the cell holds no number. */
+double
+numberIn(std::string_view cell)
+{
+  double value = std::numeric_limits<double>::quiet_NaN();
+  parseNumber(cell, value);
+  return value;
+}
+
 /** The smallest type that keeps the cells as they are given. */
 std::uint8_t
 datatypeOf(const TextColumn& column)
 {
-  if (column.integers && column.numbers > 0) {
-    const auto range = std::minmax_element(column.values.begin(), column.values.end());
-    if (*range.first >= std::numeric_limits<std::int32_t>::min() &&
-        *range.second <= std::numeric_limits<std::int32_t>::max())
-      return Type::INT32;
-  }
+  if (column.integers && column.numbers > 0 &&
+      column.low >= std::numeric_limits<std::int32_t>::min() &&
+      column.high <= std::numeric_limits<std::int32_t>::max())
+    return Type::INT32;
   return column.floats ? Type::FLOAT32 : Type::FLOAT64;
 }
 
-/** A table read line by line. */
-class TextReader {
-public:
-  TextReader(const std::string& path, const LoadOptions& options);
+void
+putNumber(double value, std::uint8_t datatype, std::uint8_t* to)
+{
+  const auto put = [to](auto number) { std::memcpy(to, &number, sizeof(number)); };
+  if (datatype == Type::FLOAT64)
+    put(value);
+  else if (datatype == Type::FLOAT32)
+    put(static_cast<float>(value));
+  else
+    put(static_cast<std::int32_t>(value));
+}
 
-  Dataset
-  read();
+/** A table whose header was read. */
+class TextTable {
+public:
+  TextTable(const std::string& path, const LoadOptions& options);
+
+  /** Looks at all rows. \param keep their values for collect() */
+  void
+  scan(bool keep);
+
+  /** The columns that hold numbers; to be called after scan(). */
+  RecordInfo
+  describe();
+
+  pcl::PCLPointCloud2
+  collect(const RecordInfo& info) const;
+
+  /** The rows again, one after another. */
+  std::unique_ptr<RecordSource>
+  stream(const RecordInfo& info);
 
 private:
   void
   parseHeader();
   void
+  appendColumn(const std::string& name);
+  void
   startColumns(std::string_view header, std::size_t line);
   void
   startUnnamedColumns(std::size_t count);
-  void
-  parseRow(std::string_view line);
-  void
-  takeCell(TextColumn& column, std::string_view cell);
-  void
-  split(std::string_view line, Cells& cells) const;
-  std::string_view
-  takeQuoted(std::string_view line, std::size_t& at) const;
   bool
   namesCoordinates() const;
-  void
-  addOrigins();
   std::array<std::size_t, 3>
   findCoordinates();
-  pcl::PCLPointCloud2
-  collect();
+  void
+  orderColumns();
+  double
+  takeCell(TextColumn& column, std::string_view cell);
 
   const std::string path_;
   const LoadOptions options_;
-  std::string text_;
-  Lines lines_{std::string_view()};
-  char separator_ = blanks;
+  std::unique_ptr<FileCursor> cursor_;
+  TextRows rows_;
+  FileCursor::Place start_; ///< of the first row
   std::vector<TextColumn> columns_;
-  Cells cells_;
+  bool has_coordinates_;
+  CoordinateRange range_;
+  std::uint64_t count_ = 0;
   std::vector<std::string> notes_;
 };
 
-TextReader::TextReader(const std::string& path, const LoadOptions& options)
+TextTable::TextTable(const std::string& path, const LoadOptions& options)
     : path_(path)
     , options_(options)
+    , cursor_(std::make_unique<FileCursor>(path, FileCursor::Content::Text))
+    , rows_(path_, *cursor_)
 {
-  const InputFile file(path);
-  text_ = file.head(file.getSize());
-  std::string_view text = text_;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
-    text.remove_prefix(byte_order_mark.size());
-  if (text.find('\0') != std::string_view::npos)
-    throwUnreadable(path, "it is no text: it has bytes that are zero");
-  lines_ = Lines(text);
-}
-
-/** What a quoted cell holds; `at` moves behind the closing quote. */
-std::string_view
-TextReader::takeQuoted(std::string_view line, std::size_t& at) const
-{
-  const std::size_t start = at + 1;
-  std::size_t end = line.find('"', start);
-  while (end != std::string_view::npos && line.substr(end + 1, 1) == "\"")
-    end = line.find('"', end + 2); // a doubled quote belongs to the cell
-  if (end == std::string_view::npos)
-    throwUnreadable(path_, lines_.lineNumber(), "a quoted cell does not end");
-  at = end + 1;
-  return line.substr(start, end - start);
+  if (cursor_->getFile().head(byte_order_mark.size()) == byte_order_mark)
+    cursor_->skip(byte_order_mark.size());
+  parseHeader();
+  rows_.setShape({rows_.getShape().separator, columns_.size()});
+  has_coordinates_ = options.needs_coordinates || namesCoordinates();
+  if (!has_coordinates_)
+    for (const char* const name : {"x", "y", "z"}) {
+      columns_.emplace_back();
+      columns_.back().name = name;
+    }
+  orderColumns();
 }
 
 void
-TextReader::split(std::string_view line, Cells& cells) const
+TextTable::appendColumn(const std::string& name)
 {
-  if (separator_ == blanks && line.find('"') == std::string_view::npos) {
-    splitWords(line, cells);
-    return;
-  }
-  cells.clear();
-  const auto is_end = [this](char c) {
-    return separator_ == blanks ? c == ' ' || c == '\t' : c == separator_;
-  };
-  for (std::size_t at = 0; at <= line.size(); ++at) {
-    std::size_t start = at;
-    while (start < line.size() && (line[start] == ' ' || line[start] == '\t') &&
-           line[start] != separator_)
-      ++start;
-    if (separator_ == blanks &&
-        (start = line.find_first_not_of(" \t", at)) == std::string_view::npos)
-      return;
-    std::string_view cell;
-    at = start;
-    if (start < line.size() && line[start] == '"') {
-      cell = takeQuoted(line, at);
-      const std::size_t behind = at;
-      while (at < line.size() && !is_end(line[at]))
-        ++at;
-      if (!trimmed(line.substr(behind, at - behind)).empty())
-        throwUnreadable(
-            path_, lines_.lineNumber(), "there is text behind the quotes of a cell");
-    }
-    else {
-      while (at < line.size() && !is_end(line[at]))
-        ++at;
-      cell = trimmed(line.substr(start, at - start));
-    }
-    cells.push_back(cell);
-  }
+  TextColumn column;
+  column.name = name;
+  column.cell = columns_.size();
+  columns_.push_back(std::move(column));
 }
 
 void
-TextReader::startColumns(std::string_view header, std::size_t line)
+TextTable::startColumns(std::string_view header, std::size_t line)
 {
   Cells cells;
-  split(header, cells);
+  rows_.split(header, cells);
   std::vector<std::string> names;
   for (const std::string_view cell : cells) {
     std::string name(trimmed(cell));
@@ -187,108 +177,79 @@ TextReader::startColumns(std::string_view header, std::size_t line)
     if (names[i] != originals[i])
       notes_.push_back("Line " + std::to_string(line) + " names '" + originals[i] +
                        "' again: that column is called '" + names[i] + "'.");
-    columns_.emplace_back();
-    columns_.back().name = names[i];
+    appendColumn(names[i]);
   }
 }
 
 void
-TextReader::startUnnamedColumns(std::size_t count)
+TextTable::startUnnamedColumns(std::size_t count)
 {
-  for (std::size_t i = 0; i < count; ++i) {
-    columns_.emplace_back();
-    columns_.back().name = "column_" + std::to_string(i);
-  }
+  for (std::size_t i = 0; i < count; ++i)
+    appendColumn("column_" + std::to_string(i));
   notes_.push_back(
       "There is no header line: the columns are called column_0 to column_" +
       std::to_string(count - 1) + ".");
 }
 
-/** Finds the separator and the names: in the first line, else in a comment above
- * numbers ("# x y z density"). */
-void
-TextReader::parseHeader()
+/** The first of these that stands outside of quotes. */
+char
+separatorIn(std::string_view line)
 {
-  std::string_view line, comment;
-  const auto is_comment = [](std::string_view text) {
-    return text.substr(0, 1) == "#" || text.substr(0, 2) == "//";
-  };
-  do {
-    if (!lines_.next(line))
-      throwUnreadable(path_, "it has no header line");
-    if (is_comment(line))
-      comment = line.substr(line[0] == '#' ? 1 : 2);
-  } while (trimmed(line).empty() || is_comment(line));
   for (const char candidate : {',', ';', '\t'}) {
     bool quoted = false;
     for (const char c : line) {
       quoted ^= c == '"';
       if (c == candidate && !quoted)
-        separator_ = candidate;
+        return candidate;
     }
-    if (separator_ != blanks)
-      break;
   }
-  const auto numbers_in = [](const Cells& cells) {
-    double ignored = 0.0;
-    return std::count_if(cells.begin(), cells.end(), [&](std::string_view cell) {
-      return isMissing(cell) || parseNumber(cell, ignored);
-    });
+  return TextRows::blanks;
+}
+
+std::size_t
+countNumbers(const Cells& cells)
+{
+  double ignored = 0.0;
+  return static_cast<std::size_t>(
+      std::count_if(cells.begin(), cells.end(), [&](std::string_view cell) {
+        return isMissing(cell) || parseNumber(cell, ignored);
+      }));
+}
+
+/** Finds the separator and the names: in the first line, else in a comment above
+ * numbers ("# x y z density"). */
+void
+TextTable::parseHeader()
+{
+  std::string_view line;
+  std::string comment;
+  const auto is_comment = [](std::string_view text) {
+    return text.substr(0, 1) == "#" || text.substr(0, 2) == "//";
   };
+  do {
+    start_ = cursor_->tell();
+    if (!cursor_->nextLine(line))
+      throwUnreadable(path_, "it has no header line");
+    if (is_comment(line))
+      comment = line.substr(line[0] == '#' ? 1 : 2);
+  } while (trimmed(line).empty() || is_comment(line));
+  rows_.setShape({separatorIn(line), 0});
   Cells cells, names;
-  split(line, cells);
-  if (numbers_in(cells) != static_cast<std::ptrdiff_t>(cells.size())) {
-    startColumns(line, lines_.lineNumber());
+  rows_.split(line, cells);
+  if (countNumbers(cells) != cells.size()) {
+    startColumns(line, cursor_->tell().line);
+    start_ = cursor_->tell();
     return;
   }
-  split(comment, names);
-  if (!comment.empty() && names.size() == cells.size() && numbers_in(names) == 0)
-    startColumns(comment, lines_.lineNumber() - 1);
+  rows_.split(comment, names);
+  if (!comment.empty() && names.size() == cells.size() && countNumbers(names) == 0)
+    startColumns(comment, start_.line);
   else
     startUnnamedColumns(cells.size());
-  parseRow(line);
-}
-
-void
-TextReader::takeCell(TextColumn& column, std::string_view cell)
-{
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const bool parsed = parseNumber(cell, value);
-  if (parsed && !std::isnan(value)) {
-    ++column.numbers;
-    column.floats = column.floats && floatHoldsDigits(cell, value);
-    column.integers = column.integers && std::floor(value) == value &&
-                      cell.find_first_of(".eE") == std::string_view::npos;
-    column.inexact =
-        column.inexact || (column.integers && std::abs(value) >= exact_integers);
-  }
-  else {
-    column.integers = false;
-    const bool text = !parsed && !isMissing(cell);
-    if (text && column.texts == 0) {
-      column.first_text_line = lines_.lineNumber();
-      column.first_text = cell;
-    }
-    column.texts += text;
-  }
-  column.values.push_back(value);
-}
-
-void
-TextReader::parseRow(std::string_view line)
-{
-  split(line, cells_);
-  if (cells_.size() != columns_.size())
-    throwUnreadable(path_,
-                    lines_.lineNumber(),
-                    "there are " + std::to_string(cells_.size()) + " cells for the " +
-                        std::to_string(columns_.size()) + " columns of the header");
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    takeCell(columns_[i], cells_[i]);
 }
 
 std::array<std::size_t, 3>
-TextReader::findCoordinates()
+TextTable::findCoordinates()
 {
   std::array<std::size_t, 3> found{{0, 1, 2}};
   if (options_.xyz_columns != LoadOptions().xyz_columns) {
@@ -330,7 +291,7 @@ TextReader::findCoordinates()
 
 /** By x, y, z, or by first columns such as x_km, y_km, z_minus_dbar. */
 bool
-TextReader::namesCoordinates() const
+TextTable::namesCoordinates() const
 {
   if (options_.xyz_columns != LoadOptions().xyz_columns ||
       std::any_of(columns_.begin(), columns_.end(), [](const TextColumn& column) {
@@ -348,77 +309,10 @@ TextReader::namesCoordinates() const
   return true;
 }
 
-/** Coordinates for points that have none. */
+/** Brings the coordinates to the front. */
 void
-TextReader::addOrigins()
+TextTable::orderColumns()
 {
-  for (const char* const name : {"x", "y", "z"}) {
-    TextColumn column;
-    column.name = name;
-    column.values.assign(columns_[0].values.size(), 0.0);
-    columns_.push_back(std::move(column));
-  }
-}
-
-/** The columns that hold numbers, as records. */
-pcl::PCLPointCloud2
-TextReader::collect()
-{
-  Fields fields;
-  std::vector<const TextColumn*> taken;
-  for (const auto& column : columns_) {
-    const bool coordinate = &column - columns_.data() < 3;
-    // names that happen to be numbers ("34873" beside "B1-001") make no column of
-    // numbers
-    const bool names = column.texts > column.numbers && !coordinate;
-    if (column.texts > 0 && !names)
-      throwUnreadable(path_,
-                      column.first_text_line,
-                      "'" + column.first_text + "' in column '" + column.name +
-                          "' is no number");
-    if (names) {
-      notes_.push_back("The column '" + column.name +
-                       "' holds names, not numbers, and is left out.");
-      continue;
-    }
-    const std::uint8_t datatype =
-        coordinate ? std::uint8_t{Type::FLOAT64} : datatypeOf(column);
-    if (column.inexact)
-      notes_.push_back("The column '" + column.name +
-                       "' holds integers beyond 2^53, which lose digits.");
-    appendField(fields, column.name, datatype);
-    taken.push_back(&column);
-  }
-  auto records = makeRecords(path_, fields, columns_[0].values.size());
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    std::uint8_t* to = records.data.data() + fields[i].offset;
-    for (const double value : taken[i]->values) {
-      const auto single = static_cast<float>(value);
-      if (fields[i].datatype == Type::FLOAT64)
-        std::memcpy(to, &value, sizeof(value));
-      else if (fields[i].datatype == Type::FLOAT32)
-        std::memcpy(to, &single, sizeof(single));
-      else {
-        const auto whole = static_cast<std::int32_t>(value);
-        std::memcpy(to, &whole, sizeof(whole));
-      }
-      to += records.point_step;
-    }
-  }
-  return records;
-}
-
-Dataset
-TextReader::read()
-{
-  parseHeader();
-  std::string_view line;
-  while (lines_.next(line))
-    if (!trimmed(line).empty() && line[0] != '#')
-      parseRow(line);
-  const bool has_coordinates = options_.needs_coordinates || namesCoordinates();
-  if (!has_coordinates)
-    addOrigins();
   const auto coordinates = findCoordinates();
   std::vector<TextColumn> ordered;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -429,13 +323,158 @@ TextReader::read()
     if (std::find(coordinates.begin(), coordinates.end(), i) == coordinates.end())
       ordered.push_back(std::move(columns_[i]));
   columns_ = std::move(ordered);
-  const bool doubles =
+}
+
+double
+TextTable::takeCell(TextColumn& column, std::string_view cell)
+{
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const bool parsed = parseNumber(cell, value);
+  if (parsed && !std::isnan(value)) {
+    ++column.numbers;
+    column.low = std::min(column.low, value);
+    column.high = std::max(column.high, value);
+    column.floats = column.floats && floatHoldsDigits(cell, value);
+    column.integers = column.integers && std::floor(value) == value &&
+                      cell.find_first_of(".eE") == std::string_view::npos;
+    column.inexact =
+        column.inexact || (column.integers && std::abs(value) >= exact_integers);
+  }
+  else {
+    column.integers = false;
+    const bool text = !parsed && !isMissing(cell);
+    if (text && column.texts == 0) {
+      column.first_text_line = cursor_->tell().line;
+      column.first_text = cell;
+    }
+    column.texts += text;
+  }
+  return value;
+}
+
+void
+TextTable::scan(bool keep)
+{
+  cursor_->seek(start_);
+  Cells cells;
+  for (; rows_.next(cells); ++count_)
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      TextColumn& column = columns_[i];
+      const double value = column.cell ? takeCell(column, cells[*column.cell]) : 0.0;
+      if (i < 3)
+        range_.add(i, value);
+      if (keep)
+        column.values.push_back(value);
+    }
+}
+
+RecordInfo
+TextTable::describe()
+{
+  RecordInfo info;
+  info.count = count_;
+  info.notes = notes_;
+  std::vector<TextColumn> taken;
+  for (auto& column : columns_) {
+    const bool coordinate = &column - columns_.data() < 3;
+    // names that happen to be numbers ("34873" beside "B1-001") make no column of
+    // numbers
+    const bool names = column.texts > column.numbers && !coordinate;
+    if (column.texts > 0 && !names)
+      throwUnreadable(path_,
+                      column.first_text_line,
+                      "'" + column.first_text + "' in column '" + column.name +
+                          "' is no number");
+    if (names) {
+      info.notes.push_back("The column '" + column.name +
+                           "' holds names, not numbers, and is left out.");
+      continue;
+    }
+    if (column.inexact)
+      info.notes.push_back("The column '" + column.name +
+                           "' holds integers beyond 2^53, which lose digits.");
+    appendField(info.fields,
+                column.name,
+                coordinate ? std::uint8_t{Type::FLOAT64} : datatypeOf(column));
+    taken.push_back(std::move(column));
+  }
+  columns_ = std::move(taken);
+  info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
-  Dataset dataset = makeDataset(path_, collect());
-  dataset.double_coordinates = doubles;
-  dataset.has_coordinates = has_coordinates;
-  dataset.notes.insert(dataset.notes.begin(), notes_.begin(), notes_.end());
-  return dataset;
+  info.has_coordinates = has_coordinates_;
+  info.origin = range_.origin();
+  return info;
+}
+
+pcl::PCLPointCloud2
+TextTable::collect(const RecordInfo& info) const
+{
+  auto records = makeRecords(info.fields, info.count);
+  for (std::size_t i = 0; i < info.fields.size(); ++i) {
+    std::uint8_t* to = records.data.data() + info.fields[i].offset;
+    for (const double value : columns_[i].values) {
+      putNumber(value, info.fields[i].datatype, to);
+      to += records.point_step;
+    }
+  }
+  return records;
+}
+
+/** The rows of a table that was looked at. */
+class TextSource : public SequentialSource {
+public:
+  /** \param columns those of the fields */
+  TextSource(const std::string& path,
+             std::unique_ptr<FileCursor> cursor,
+             const TextRows::Shape& shape,
+             const RecordInfo& info,
+             const std::vector<TextColumn>& columns)
+      : SequentialSource(path, std::move(cursor), info)
+      , rows_(path_, *cursor_)
+  {
+    rows_.setShape(shape);
+    for (const auto& column : columns)
+      columns_.push_back(column.cell);
+  }
+
+private:
+  void
+  readRecord(std::uint8_t* record) override
+  {
+    if (!rows_.next(cells_))
+      throwShorter();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const auto& field = info_.fields[i];
+      const double value = columns_[i] ? numberIn(cells_[*columns_[i]]) : 0.0;
+      putNumber(value, field.datatype, record + field.offset);
+    }
+  }
+
+  void
+  skipRecord() override
+  {
+    std::string_view line;
+    if (!rows_.nextLine(line))
+      throwShorter();
+  }
+
+  [[noreturn]] void
+  throwShorter() const
+  {
+    throwUnreadable(path_, "the file became shorter while it was read");
+  }
+
+  TextRows rows_;
+  Cells cells_;
+  std::vector<std::optional<std::size_t>> columns_;
+};
+
+std::unique_ptr<RecordSource>
+TextTable::stream(const RecordInfo& info)
+{
+  cursor_->seek(start_);
+  return std::make_unique<TextSource>(
+      path_, std::move(cursor_), rows_.getShape(), info, columns_);
 }
 
 } // namespace
@@ -443,7 +482,19 @@ TextReader::read()
 Dataset
 readText(const std::string& path, const LoadOptions& options)
 {
-  return TextReader(path, options).read();
+  TextTable table(path, options);
+  table.scan(true);
+  const RecordInfo info = table.describe();
+  return makeDataset(table.collect(info), info);
+}
+
+std::unique_ptr<RecordSource>
+openText(const std::string& path, const LoadOptions& options)
+{
+  TextTable table(path, options);
+  table.scan(false);
+  const RecordInfo info = table.describe();
+  return table.stream(info);
 }
 
 } // namespace io

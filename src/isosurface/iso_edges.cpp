@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 
@@ -21,12 +22,6 @@ struct FieldCopy {
   bool interpolated;
 };
 
-bool
-isPadding(const pcl::PCLPointField& field)
-{
-  return field.name == "_";
-}
-
 std::size_t
 countOf(const pcl::PCLPointField& field)
 {
@@ -42,7 +37,7 @@ append(const pcl::PCLPointField& field, pcl::PCLPointCloud2& layout)
   // PCL packs colours into a float's bits.
   const bool nominal =
       field.name == "rgb" || field.name == "rgba" || field.name == "label";
-  const std::size_t size = datatypeSize(field.datatype) * countOf(field);
+  const std::size_t size = fieldBytes(field);
   const FieldCopy copy{field.offset,
                        layout.point_step,
                        size,
@@ -182,6 +177,19 @@ copyFields(const pcl::PCLPointCloud2& cloud,
   for (const std::uint32_t source : sources)
     same.push_back({source, source, 0.0f});
   interpolateFields(cloud, same, points, threads);
+}
+
+void
+warnOfReplacedFields(const pcl::PCLPointCloud2& samples,
+                     const pcl::PCLPointCloud2& isopoints,
+                     Report& report)
+{
+  for (const auto& field : isopoints.fields)
+    if (!isPadding(field) && axisOf(field.name) < 0 &&
+        field.name.rfind("normal_", 0) != 0 &&
+        findField(samples.fields, field.name) != nullptr)
+      report.warnings.push_back("The samples' field '" + field.name +
+                                "' is left out: isopoints have one of that name.");
 }
 
 } // namespace pcl_uvol

@@ -3,11 +3,13 @@
 
 #include "smooth_roots.h"
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/isosurface/piece_isopoints.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 namespace pcl_uvol {
 
@@ -15,18 +17,36 @@ namespace {
 
 constexpr std::size_t block_edges = 1u << 10;
 
-/** An edge by sample indices, the lower one in the upper half: sorts by (lower,
- * higher). */
-using EdgeKey = std::uint64_t;
-
 EdgeKey
 edgeKey(std::uint32_t a, std::uint32_t b)
 {
   return (static_cast<EdgeKey>(std::min(a, b)) << 32) | std::max(a, b);
 }
 
-/** Neighbourhoods are not symmetric (2.4): an edge may be found from one end or from
- * both. Only samples that touch one of the other side can have it for a neighbour. */
+} // namespace
+
+void
+warnIfOutside(double isovalue,
+              const std::string& field,
+              const NodeRanges::Range& range,
+              Report& report)
+{
+  const auto rounded = static_cast<float>(isovalue);
+  if (range.min < rounded && rounded <= range.max)
+    return;
+  std::ostringstream text;
+  text << "No isopoints for " << isovalue << ": ";
+  if (range.min == range.max)
+    text << "all values of " << field << " are " << range.min << ".";
+  else if (isovalue == range.min)
+    text << "it is the lowest value of " << field
+         << ", and values equal to the isovalue count as above.";
+  else
+    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
+         << field << ".";
+  report.warnings.push_back(text.str());
+}
+
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,
@@ -34,7 +54,7 @@ findEdges(const IsopointInput& input,
           Report& report)
 {
   StepTimer step(report, "neighborhoods", crossing.size());
-  const std::vector<float>& f = input.scalar.values;
+  const std::vector<float>& f = input.values;
   auto edges = parallelGather<EdgeKey>(
       crossing.size(),
       block_edges,
@@ -54,7 +74,6 @@ findEdges(const IsopointInput& input,
   return edges;
 }
 
-/** Linear interpolation along the edge and the outside vector (2.4). */
 void
 placeIsopoint(const IsopointInput& input,
               EdgeKey key,
@@ -64,7 +83,7 @@ placeIsopoint(const IsopointInput& input,
 {
   const auto x = static_cast<std::uint32_t>(key >> 32);
   const auto y = static_cast<std::uint32_t>(key);
-  const double fx = input.scalar.values[x], fy = input.scalar.values[y];
+  const double fx = input.values[x], fy = input.values[y];
   const double t = (static_cast<double>(isovalue) - fx) / (fy - fx);
   const bool towards_second = (fy < fx) == (input.outside == Outside::Lower);
   edge = {x, y, static_cast<float>(t)};
@@ -86,72 +105,85 @@ placeIsopoint(const IsopointInput& input,
   point.edge_length = static_cast<float>(length);
 }
 
+namespace {
+
 /** A merged isopoint looks to the mean of the outside vectors, or where the first one
  * looks if they cancel out. */
 void
 averageNormal(const std::vector<SampleRecord>& order,
               std::size_t begin,
               std::size_t end,
-              std::vector<PointIso>& points)
+              std::vector<Position>& normals)
 {
   // Of unit vectors: a shorter sum has no direction to speak of.
   constexpr double smallest_sum = 1e-3;
   double sum[3] = {0.0, 0.0, 0.0};
   for (std::size_t i = begin; i < end; ++i)
     for (int axis = 0; axis < 3; ++axis)
-      sum[axis] += points[order[i].input_index].data_n[axis];
+      sum[axis] += normals[order[i].input_index][axis];
   const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
   if (length < smallest_sum)
     return;
   for (int axis = 0; axis < 3; ++axis)
-    points[order[begin].input_index].data_n[axis] =
-        static_cast<float>(sum[axis] / length);
+    normals[order[begin].input_index][axis] = static_cast<float>(sum[axis] / length);
 }
 
-/** Keep the first of isopoints that fall together: edges that meet in a sample exactly
- * at the isovalue, or cross in one point, as on lattices. */
+/** Leave only the first of isopoints that fall together. \return how many went */
 std::size_t
-mergeCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads)
+dropCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads)
 {
-  std::vector<SampleRecord> order(points.size());
+  std::vector<Position> positions(points.size()), normals(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    order[i] = {{{points[i].x, points[i].y, points[i].z}},
-                static_cast<std::uint32_t>(i)};
+    for (int axis = 0; axis < 3; ++axis) {
+      positions[i][axis] = points[i].data[axis];
+      normals[i][axis] = points[i].data_n[axis];
+    }
+  const auto stays = mergeCoincident(positions, normals, threads);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (stays[i] != 0) {
+      points[kept] = points[i];
+      std::copy(normals[i].x, normals[i].x + 3, points[kept].data_n);
+      edges[kept++] = edges[i];
+    }
+  const std::size_t gone = points.size() - kept;
+  points.resize(kept);
+  edges.resize(kept);
+  return gone;
+}
+
+} // namespace
+
+std::vector<std::uint8_t>
+mergeCoincident(const std::vector<Position>& positions,
+                std::vector<Position>& normals,
+                unsigned threads)
+{
+  std::vector<SampleRecord> order(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    order[i] = {positions[i], static_cast<std::uint32_t>(i)};
   const auto less = [](const SampleRecord& a, const SampleRecord& b) {
     if (lessAlong(0, a.position, b.position))
       return true;
     return !lessAlong(0, b.position, a.position) && a.input_index < b.input_index;
   };
   parallelSort(order.begin(), order.end(), threads, less);
-  std::vector<std::uint8_t> is_kept(points.size(), 1);
-  std::size_t merged = 0;
+  std::vector<std::uint8_t> stays(positions.size(), 1);
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin + 1;
     while (end < order.size() &&
            !lessAlong(0, order[begin].position, order[end].position))
-      is_kept[order[end++].input_index] = 0;
+      stays[order[end++].input_index] = 0;
     if (end - begin > 1)
-      averageNormal(order, begin, end, points);
-    merged += end - begin - 1;
+      averageNormal(order, begin, end, normals);
     begin = end;
   }
-  if (merged == 0)
-    return 0;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (is_kept[i]) {
-      points[kept] = points[i];
-      edges[kept++] = edges[i];
-    }
-  points.resize(kept);
-  edges.resize(kept);
-  return merged;
+  return stays;
 }
-
-} // namespace
 
 void
 appendIsopoints(const IsopointInput& input,
+                const std::vector<std::uint32_t>& sources,
                 float isovalue,
                 pcl::PointCloud<PointIso>& isopoints,
                 IsoEdges& edges,
@@ -173,13 +205,13 @@ appendIsopoints(const IsopointInput& input,
     });
     report.count("crossing_samples", crossing.size());
     report.count("edges", keys.size());
-    report.count("coincident", mergeCoincident(points, point_edges, input.threads));
+    report.count("coincident", dropCoincident(points, point_edges, input.threads));
   }
   if (input.interpolation == Interpolation::Smooth)
     smoothIsopoints(input, isovalue, point_edges, points, report);
   for (IsoEdge& edge : point_edges) {
-    edge.first = input.scalar.sources[edge.first];
-    edge.second = input.scalar.sources[edge.second];
+    edge.first = sources[edge.first];
+    edge.second = sources[edge.second];
   }
   isopoints.insert(isopoints.end(), points.begin(), points.end());
   edges.insert(edges.end(), point_edges.begin(), point_edges.end());

@@ -3,12 +3,12 @@
 // (thesis 2.4).
 #pragma once
 
-#include "../neighbors/sample_values.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol {
@@ -16,7 +16,7 @@ namespace pcl_uvol {
 /** \brief What the isopoints of one isovalue are made from. */
 struct IsopointInput {
   const SampleSet& samples;
-  const SampleValues& scalar;
+  const std::vector<float>& values; ///< in leaf order
   const NodeRanges& ranges;
   const NeighborCandidates& candidates;
   AngleCriterion criterion;
@@ -25,10 +25,43 @@ struct IsopointInput {
   unsigned threads;
 };
 
+/** \brief An edge by sample indices, the lower one in the upper half: sorts by (lower,
+ * higher). */
+using EdgeKey = std::uint64_t;
+
+/** \brief The edges from some samples that cross an isovalue, ascending.
+ *
+ * Neighbourhoods are not symmetric (2.4): an edge may be found from one end or from
+ * both. \param crossing samples that touch one of the other side: no others can have it
+ * for a neighbour */
+std::vector<EdgeKey>
+findEdges(const IsopointInput& input,
+          const std::vector<std::uint32_t>& crossing,
+          float isovalue,
+          Report& report);
+
+/** \brief Linear interpolation along an edge and the outside vector (2.4). */
+void
+placeIsopoint(const IsopointInput& input,
+              EdgeKey key,
+              float isovalue,
+              PointIso& point,
+              IsoEdge& edge);
+
+/** \brief Which isopoints stay: of those that fall together, where edges meet in a
+ * sample exactly at the isovalue or cross in one point, as on lattices, the first.
+ * \param normals outside vectors; those that stay for several are averaged */
+std::vector<std::uint8_t>
+mergeCoincident(const std::vector<Position>& positions,
+                std::vector<Position>& normals,
+                unsigned threads);
+
 /** \brief Append the isopoints of one isovalue and their edges.
+ * \param sources input index of each sample
  * \param report gets "crossing_samples", "edges", "coincident" and the times */
 void
 appendIsopoints(const IsopointInput& input,
+                const std::vector<std::uint32_t>& sources,
                 float isovalue,
                 pcl::PointCloud<PointIso>& isopoints,
                 IsoEdges& edges,

@@ -1,48 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../neighbors/sample_values.h"
 #include "isopoints.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
+#include <pcl_uvol/isosurface/piece_isopoints.h>
 
 #include <pcl/impl/pcl_base.hpp>
 
 #include <cmath>
-#include <sstream>
 
 namespace pcl_uvol {
 
-namespace {
-
-std::string
-emptyWarning(double isovalue, const std::string& field, const NodeRanges::Range& range)
-{
-  std::ostringstream text;
-  text << "No isopoints for " << isovalue << ": ";
-  if (range.min == range.max)
-    text << "all values of " << field << " are " << range.min << ".";
-  else if (isovalue == range.min)
-    text << "it is the lowest value of " << field
-         << ", and values equal to the isovalue count as above.";
-  else
-    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
-         << field << ".";
-  return text.str();
-}
-
-} // namespace
-
 void
-IsosurfaceExtractionBase::checkParameters() const
+checkSettings(const IsosurfaceSettings& settings)
 {
-  if (isovalues_.empty())
+  if (settings.isovalues.empty())
     throw InvalidArgument(
         "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
-  for (const double isovalue : isovalues_)
+  for (const double isovalue : settings.isovalues)
     if (!std::isfinite(static_cast<float>(isovalue)))
       throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
                             " is not a finite number.");
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(scale_[axis]) || scale_[axis] <= 0.0f)
-      throw InvalidArgument("The scale " + std::to_string(scale_[axis]) +
+  for (const float factor : settings.scale.x)
+    if (!std::isfinite(factor) || factor <= 0.0f)
+      throw InvalidArgument("The scale " + std::to_string(factor) +
                             " is not allowed: it must be finite and positive.");
 }
 
@@ -125,7 +106,10 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
                                       const std::vector<int>& indices,
                                       pcl::PointCloud<PointIso>& isopoints)
 {
-  checkParameters();
+  IsosurfaceSettings settings;
+  settings.isovalues = isovalues_;
+  settings.scale = {{scale_[0], scale_[1], scale_[2]}};
+  checkSettings(settings);
   if (indices.empty())
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
   startReport();
@@ -135,7 +119,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
 
   const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];
   const IsopointInput input{*samples_,
-                            scalar_->samples,
+                            scalar_->samples.values,
                             scalar_->ranges,
                             *candidates_,
                             criterion_,
@@ -146,9 +130,8 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   IsoEdges edges;
   for (const double isovalue : isovalues_) {
     const auto rounded = static_cast<float>(isovalue);
-    if (!(range.min < rounded && rounded <= range.max))
-      report_.warnings.push_back(emptyWarning(isovalue, field_, range));
-    appendIsopoints(input, rounded, found, edges, report_);
+    warnIfOutside(isovalue, field_, range, report_);
+    appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
   }
   report_.count("isopoints", found.size());
   isopoints.swap(found);

@@ -91,9 +91,6 @@ struct Surroundings {
   IsoSupport support;
 };
 
-/** Which root it is, or why the linear one stayed. */
-enum class Outcome { Cubic, Quadratic, Singular, Step, Far };
-
 /** Fits of consecutive isopoints; one object per thread. */
 class RootSmoother {
 public:
@@ -109,7 +106,7 @@ public:
 
   /** At most fit_lanes points. */
   void
-  smooth(const IsoEdge* edges, std::size_t count, PointIso* points, Outcome* outcomes)
+  smooth(const IsoEdge* edges, std::size_t count, PointIso* points, RootFit* fits)
   {
     Position centers[fit_lanes];
     for (std::size_t lane = 0; lane < count; ++lane)
@@ -124,11 +121,14 @@ public:
     FitResult result;
     fit_(samples_.data(), samples_.size(), weighted, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      outcomes[lane] = judge(result, lane, surroundings[lane]);
+      fits[lane] = {judge(result, lane, surroundings[lane]),
+                    weighted[lane] < static_cast<int>(fitted_samples)
+                        ? std::numeric_limits<float>::infinity()
+                        : static_cast<float>(surroundings[lane].radius)};
       finish(result,
              lane,
              surroundings[lane],
-             outcomes[lane] <= Outcome::Quadratic,
+             fits[lane].outcome <= RootOutcome::Quadratic,
              edges[lane],
              points[lane]);
     }
@@ -175,7 +175,7 @@ private:
     surroundings.edge_length = distance(positions[edge.first], positions[edge.second]);
     const auto neighbors =
         finder_.find(center, static_cast<float>(surroundings.edge_length));
-    const std::vector<float>& values = input_.scalar.values;
+    const std::vector<float>& values = input_.values;
     float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
     for (std::size_t j = 0; j < neighbors.size; ++j) {
       sq_nearest = std::min(sq_nearest, neighbors.sq_dists[j]);
@@ -222,23 +222,24 @@ private:
                : IsoSupport::Rim;
   }
 
-  static Outcome
+  static RootOutcome
   judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings)
   {
     if (result.order[lane] == fit_failed)
-      return Outcome::Singular;
+      return RootOutcome::Singular;
     const double residual = result.residual[lane] / surroundings.value_range;
     if (!(residual <=
           (surroundings.edge_span > step_span ? step_residual : largest_residual)))
-      return Outcome::Step;
+      return RootOutcome::Step;
     const double shift = std::hypot(
         result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
     const double room =
         std::max(surroundings.edge_length, farthest_shift * surroundings.radius);
     if (!(surroundings.radius * std::max(shift, error_factor * result.error[lane]) <=
           room))
-      return Outcome::Far;
-    return result.order[lane] == fit_cubic ? Outcome::Cubic : Outcome::Quadratic;
+      return RootOutcome::Far;
+    return result.order[lane] == fit_cubic ? RootOutcome::Cubic
+                                           : RootOutcome::Quadratic;
   }
 
   void
@@ -304,33 +305,38 @@ private:
 
 } // namespace
 
-void
-smoothIsopoints(const IsopointInput& input,
-                float isovalue,
-                const IsoEdges& edges,
-                std::vector<PointIso>& points,
-                Report& report)
+std::vector<RootFit>
+fitRoots(const IsopointInput& input,
+         float isovalue,
+         const IsoEdges& edges,
+         std::vector<PointIso>& points,
+         StepTimer& step)
 {
-  StepTimer step(report, "smooth_roots", points.size());
-  std::vector<Outcome> outcomes(points.size());
+  std::vector<RootFit> fits(points.size());
   parallelBlocks(points.size(),
                  block_points,
                  input.threads,
                  [&](std::size_t begin, std::size_t end) {
                    RootSmoother smoother(input, isovalue);
                    for (std::size_t i = begin; i < end; i += fit_lanes)
-                     smoother.smooth(&edges[i],
-                                     std::min(fit_lanes, end - i),
-                                     &points[i],
-                                     &outcomes[i]);
+                     smoother.smooth(
+                         &edges[i], std::min(fit_lanes, end - i), &points[i], &fits[i]);
                    step.advance(end - begin);
                  });
-  constexpr std::pair<const char*, Outcome> names[] = {
-      {"cubic_roots", Outcome::Cubic},
-      {"quadratic_roots", Outcome::Quadratic},
-      {"linear_singular", Outcome::Singular},
-      {"linear_step", Outcome::Step},
-      {"linear_far", Outcome::Far}};
+  return fits;
+}
+
+void
+countRoots(const std::vector<RootOutcome>& outcomes,
+           const std::vector<std::uint8_t>& supports,
+           Report& report)
+{
+  constexpr std::pair<const char*, RootOutcome> names[] = {
+      {"cubic_roots", RootOutcome::Cubic},
+      {"quadratic_roots", RootOutcome::Quadratic},
+      {"linear_singular", RootOutcome::Singular},
+      {"linear_step", RootOutcome::Step},
+      {"linear_far", RootOutcome::Far}};
   for (const auto& [name, outcome] : names)
     report.count(name,
                  static_cast<std::uint64_t>(
@@ -339,10 +345,25 @@ smoothIsopoints(const IsopointInput& input,
        {std::pair("bridged", IsoSupport::Bridged), std::pair("rim", IsoSupport::Rim)})
     report.count(
         name,
-        static_cast<std::uint64_t>(std::count_if(
-            points.begin(), points.end(), [support = support](const auto& point) {
-              return point.support == static_cast<std::uint8_t>(support);
-            })));
+        static_cast<std::uint64_t>(std::count(
+            supports.begin(), supports.end(), static_cast<std::uint8_t>(support))));
+}
+
+void
+smoothIsopoints(const IsopointInput& input,
+                float isovalue,
+                const IsoEdges& edges,
+                std::vector<PointIso>& points,
+                Report& report)
+{
+  StepTimer step(report, "smooth_roots", points.size());
+  std::vector<RootOutcome> outcomes;
+  for (const RootFit& fit : fitRoots(input, isovalue, edges, points, step))
+    outcomes.push_back(fit.outcome);
+  std::vector<std::uint8_t> supports;
+  for (const PointIso& point : points)
+    supports.push_back(point.support);
+  countRoots(outcomes, supports, report);
 }
 
 } // namespace pcl_uvol

@@ -5,16 +5,45 @@
 
 #include "isopoints.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief Which root an isopoint is, or why the linear one stayed. */
+enum class RootOutcome : std::uint8_t { Cubic, Quadratic, Singular, Step, Far };
+
+/** \brief What became of an isopoint. */
+struct RootFit {
+  RootOutcome outcome;
+  float radius; ///< of the ball around the linear root that the result depends on, in
+                ///< the stretched space; infinite where samples are few
+};
+
+/** \brief Move isopoints onto fits through their nearest samples.
+ * \param edges of the points, in any order
+ * \param points linear isopoints; where a fit does not serve, the point and its outside
+ * vector stay
+ * \return one per point */
+std::vector<RootFit>
+fitRoots(const IsopointInput& input,
+         float isovalue,
+         const IsoEdges& edges,
+         std::vector<PointIso>& points,
+         StepTimer& step);
+
+/** \brief Count "cubic_roots", "quadratic_roots", "linear_singular", "linear_step",
+ * "linear_far", "bridged" and "rim". \param outcomes, supports one per point */
+void
+countRoots(const std::vector<RootOutcome>& outcomes,
+           const std::vector<std::uint8_t>& supports,
+           Report& report);
 
 /** \brief Move isopoints onto fits through their nearest samples.
  * \param edges of the points, sorted by sample indices
  * \param points linear isopoints; where a fit does not
  * serve, the point and its outside vector stay
- * \param report gets "cubic_roots", "quadratic_roots", "linear_singular",
- * "linear_step", "linear_far", "bridged", "rim" and the time of "smooth_roots" */
+ * \param report gets the counts of countRoots and the time of "smooth_roots" */
 void
 smoothIsopoints(const IsopointInput& input,
                 float isovalue,

@@ -4,12 +4,15 @@
 #include "data_term.h"
 #include "evolver.h"
 #include "reinitialization.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
 
 #include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -447,6 +450,27 @@ evolveLevelSet(const CloudView& cloud,
 {
   checkParameters(parameters, isovalue);
   return LevelSetRun(cloud, indices, field, isovalue, parameters, report).run();
+}
+
+pcl::PCLPointCloud2
+cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi)
+{
+  if (phi.size() != cloud.count)
+    throw InvalidArgument(std::to_string(phi.size()) +
+                          " values of phi are not one for "
+                          "each of " +
+                          std::to_string(cloud.count) + " points.");
+  Fields fields;
+  for (const char* const name : {"x", "y", "z", "phi"})
+    appendField(fields, name, pcl::PCLPointField::FLOAT32);
+  pcl::PCLPointCloud2 result = makeRecords(std::move(fields), phi.size());
+  result.is_dense = 0;
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    std::uint8_t* const point = result.data.data() + i * result.point_step;
+    std::memcpy(point, cloud.xyz(i), 3 * sizeof(float));
+    std::memcpy(point + 3 * sizeof(float), &phi[i], sizeof(float));
+  }
+  return result;
 }
 
 template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PointXYZI>;

@@ -38,23 +38,22 @@ distanceToZeroLevel(const Band& band,
                     Report& report)
 {
   const StepTimer timer(report, "reinitialization");
-  SampleValues values;
-  values.values = phi;
-  values.sources.resize(phi.size());
-  std::iota(values.sources.begin(), values.sources.end(), 0u);
-  const NodeRanges ranges = samples.getTree().computeRanges(values.values, threads);
+  std::vector<std::uint32_t> sources(phi.size());
+  std::iota(sources.begin(), sources.end(), 0u);
+  const NodeRanges ranges = samples.getTree().computeRanges(phi, threads);
   pcl::PointCloud<PointIso> isopoints;
   IsoEdges edges;
   Report ignored;
   const TouchingCells candidates(samples);
   appendIsopoints({samples,
-                   values,
+                   phi,
                    ranges,
                    candidates,
                    AngleCriterion::Kept,
                    Outside::Higher,
                    Interpolation::Smooth,
                    threads},
+                  sources,
                   0.0f,
                   isopoints,
                   edges,

@@ -273,24 +273,43 @@ fillRanges(NodeRanges& ranges, const KdNode& node)
 
 } // namespace
 
+AxisCycle
+KdTree::cycleOver(const std::array<bool, 3>& axes)
+{
+  std::vector<std::int8_t> used;
+  for (std::int8_t axis = 0; axis < 3; ++axis)
+    if (axes[static_cast<std::size_t>(axis)])
+      used.push_back(axis);
+  AxisCycle cycle{};
+  for (std::size_t depth = 0; depth < cycle.size() && !used.empty(); ++depth)
+    cycle[depth] = used[depth % used.size()];
+  return cycle;
+}
+
 bool
 KdTree::build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step)
 {
-  count_ = static_cast<std::uint32_t>(records.size());
-  std::vector<std::int8_t> axes;
-  for (std::int8_t axis = 0; axis < 3; ++axis) {
-    const float first = records.front().position[axis];
-    // An axis along which all samples agree would only add splits by the other
-    // coordinates.
-    if (std::any_of(records.begin(), records.end(), [&](const SampleRecord& record) {
-          return record.position[axis] != first;
-        }))
-      axes.push_back(axis);
-  }
-  for (std::size_t depth = 0; depth < axis_at_depth_.size() && !axes.empty(); ++depth)
-    axis_at_depth_[depth] = axes[depth % axes.size()];
+  // An axis along which all samples agree would only add splits by the other
+  // coordinates.
+  std::array<bool, 3> varies;
+  for (int axis = 0; axis < 3; ++axis)
+    varies[static_cast<std::size_t>(axis)] =
+        std::any_of(records.begin(), records.end(), [&](const SampleRecord& record) {
+          return record.position[axis] != records.front().position[axis];
+        });
+  return build(records, cycleOver(varies), 0, threads, step);
+}
 
-  planes_.assign(innerNodeNumbers(count_), SplitPlane{0.0f, 0});
+bool
+KdTree::build(std::vector<SampleRecord>& records,
+              const AxisCycle& axes,
+              int depth,
+              unsigned threads,
+              StepTimer& step)
+{
+  root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
+  axis_at_depth_ = axes;
+  planes_.assign(innerNodeNumbers(root_.count), SplitPlane{0.0f, 0});
   Builder builder(*this, records, planes_, step);
   TaskGroup::run(threads, [&] { builder.build(getRoot()); });
   if (builder.hasDuplicates())
@@ -312,6 +331,26 @@ KdTree::build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& s
           planes_[i].below_sample = sample_of[planes_[i].below_sample];
       });
   return true;
+}
+
+void
+KdTree::restore(std::vector<SplitPlane>&& planes,
+                std::uint32_t count,
+                const AxisCycle& axes,
+                int depth)
+{
+  root_ = {1, 0, count, depth};
+  axis_at_depth_ = axes;
+  planes_ = std::move(planes);
+}
+
+void
+KdTree::place(std::uint32_t begin, const KdCell& cell)
+{
+  for (SplitPlane& plane : planes_)
+    plane.below_sample += begin - root_.begin; // modulo 2^32
+  root_.begin = begin;
+  cell_ = cell;
 }
 
 KdCell

@@ -16,6 +16,12 @@ namespace {
 /** A node number has at most 64 bits. */
 constexpr int max_depth = 64;
 
+bool
+crosses(const NodeRanges::Range& a, const NodeRanges::Range& b, float isovalue)
+{
+  return std::min(a.min, b.min) < isovalue && std::max(a.max, b.max) >= isovalue;
+}
+
 /** Descends pairs of touching nodes whose common range of values holds the isovalue. */
 class CrossingSearch {
 public:
@@ -83,7 +89,7 @@ private:
   bool
   crosses(const NodeRanges::Range& a, const NodeRanges::Range& b) const
   {
-    return std::min(a.min, b.min) < isovalue_ && std::max(a.max, b.max) >= isovalue_;
+    return pcl_uvol::crosses(a, b, isovalue_);
   }
 
   /** All pairs of a sample in lower and one in upper, two touching nodes that a plane
@@ -136,6 +142,70 @@ private:
   const NodeRanges& ranges_;
   float isovalue_;
   std::vector<std::atomic<std::uint64_t>> crossing_; // a bit per sample
+};
+
+/** Descends a tree to its samples that touch one of another tree on the other side. */
+class BorderSearch {
+public:
+  BorderSearch(const KdTree& tree,
+               const std::vector<Position>& positions,
+               const NodeRanges& ranges,
+               float isovalue,
+               const KdTree& other,
+               std::vector<std::uint32_t>& crossing)
+      : tree_(tree)
+      , positions_(positions)
+      , ranges_(ranges)
+      , isovalue_(isovalue)
+      , other_(other)
+      , crossing_(crossing)
+  {
+    const float* const first = ranges.values + other.getRoot().begin;
+    const auto [min, max] = std::minmax_element(first, first + other.getRoot().count);
+    other_range_ = {*min, *max};
+  }
+
+  void
+  descend(const KdNode& node, KdCell& cell)
+  {
+    if (!crosses(ranges_[node], other_range_, isovalue_) ||
+        !KdTree::touch(positions_, cell, other_.getCell()))
+      return;
+    if (node.isLeaf()) {
+      examine(node.begin, cell);
+      return;
+    }
+    const auto axis = static_cast<std::size_t>(tree_.getAxis(node.depth));
+    const SplitPlane low = cell.low[axis], high = cell.high[axis];
+    cell.high[axis] = tree_.getPlane(node);
+    descend(node.left(), cell);
+    cell.low[axis] = cell.high[axis];
+    cell.high[axis] = high;
+    descend(node.right(), cell);
+    cell.low[axis] = low;
+  }
+
+private:
+  void
+  examine(std::uint32_t sample, const KdCell& cell)
+  {
+    touching_.clear();
+    other_.findTouching(positions_, cell, touching_);
+    const bool is_above = ranges_.values[sample] >= isovalue_;
+    if (std::any_of(touching_.begin(), touching_.end(), [&](std::uint32_t y) {
+          return (ranges_.values[y] >= isovalue_) != is_above;
+        }))
+      crossing_.push_back(sample);
+  }
+
+  const KdTree& tree_;
+  const std::vector<Position>& positions_;
+  const NodeRanges& ranges_;
+  float isovalue_;
+  const KdTree& other_;
+  NodeRanges::Range other_range_;
+  std::vector<std::uint32_t>& crossing_;
+  std::vector<std::uint32_t> touching_;
 };
 
 } // namespace
@@ -204,7 +274,7 @@ KdTree::findTouching(const std::vector<Position>& positions,
       node = node.right();
     }
   }
-  KdCell cell = unboundedCell();
+  KdCell cell = cell_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (last_below[axis] >= 0)
       cell.low[axis] = getPlane(path[last_below[axis]]);
@@ -224,6 +294,51 @@ KdTree::findTouching(const std::vector<Position>& positions,
   }
 }
 
+KdCell
+KdTree::cellOf(std::uint32_t sample) const
+{
+  KdCell cell = cell_;
+  for (KdNode node = root_; !node.isLeaf();) {
+    const auto axis = static_cast<std::size_t>(getAxis(node.depth));
+    const SplitPlane& plane = getPlane(node);
+    const KdNode left = node.left();
+    const bool is_below = sample < left.begin + left.count;
+    (is_below ? cell.high : cell.low)[axis] = plane;
+    node = is_below ? left : node.right();
+  }
+  return cell;
+}
+
+void
+KdTree::findTouching(const std::vector<Position>& positions,
+                     const KdCell& cell,
+                     std::vector<std::uint32_t>& touching) const
+{
+  if (!touch(positions, cell, cell_))
+    return;
+  // The plane at which the paths of touching cells part bounds both.
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const bool is_above = !isBelow(positions, axis, cell_.low[a], cell.high[a]);
+    if (is_above || !isBelow(positions, axis, cell.low[a], cell_.high[a])) {
+      searchSubtree(positions, root_, axis, is_above, cell, touching);
+      return;
+    }
+  }
+}
+
+bool
+KdTree::touch(const std::vector<Position>& positions, const KdCell& a, const KdCell& b)
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (isBelow(positions, axis, a.high[i], b.low[i]) ||
+        isBelow(positions, axis, b.high[i], a.low[i]))
+      return false;
+  }
+  return true;
+}
+
 std::vector<std::uint32_t>
 KdTree::findCrossing(const std::vector<Position>& positions,
                      const NodeRanges& ranges,
@@ -231,8 +346,20 @@ KdTree::findCrossing(const std::vector<Position>& positions,
                      unsigned threads) const
 {
   CrossingSearch search(*this, positions, ranges, isovalue);
-  TaskGroup::run(threads, [&] { search.within(getRoot(), unboundedCell()); });
+  TaskGroup::run(threads, [&] { search.within(getRoot(), getCell()); });
   return search.collect();
+}
+
+void
+KdTree::findCrossing(const std::vector<Position>& positions,
+                     const NodeRanges& ranges,
+                     float isovalue,
+                     const KdTree& other,
+                     std::vector<std::uint32_t>& crossing) const
+{
+  KdCell cell = cell_;
+  BorderSearch(*this, positions, ranges, isovalue, other, crossing)
+      .descend(root_, cell);
 }
 
 } // namespace pcl_uvol

@@ -29,6 +29,26 @@ constexpr float slack = 1.0001f;
 const KernelTable<const NearestKernels*> kernel_table{
     &baseline::nearest_kernels, &avx2::nearest_kernels, &avx512::nearest_kernels};
 
+/** Per axis, from a point to the nearest place of a cell. */
+Position
+offsetsFrom(const Position& point, const KdCell& cell)
+{
+  Position offsets;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    offsets[axis] =
+        std::clamp(point[axis], cell.low[a].coordinate, cell.high[a].coordinate) -
+        point[axis];
+  }
+  return offsets;
+}
+
+float
+sqLength(const Position& offsets)
+{
+  return offsets[0] * offsets[0] + offsets[1] * offsets[1] + offsets[2] * offsets[2];
+}
+
 } // namespace
 
 NearestFinder::NearestFinder(const SampleSet& samples, std::size_t k)
@@ -60,18 +80,43 @@ NearestFinder::appendInside(std::uint32_t begin, std::uint32_t end)
 }
 
 bool
-NearestFinder::gatherBelow(const KdNode& node)
+NearestFinder::gatherBelow(const KdTree& tree, const KdNode& node)
 {
   if (node.count <= whole_subtree) {
     appendInside(node.begin, node.begin + node.count);
     return candidate_count_ <= std::max(least_crowd, crowd_per_neighbor * k_);
   }
   // Samples of the plane's own coordinate lie on either side of it.
-  const KdTree& tree = samples_.getTree();
   const int axis = tree.getAxis(node.depth);
   const float plane = tree.getPlane(node).coordinate;
-  return (low_[axis] > plane || gatherBelow(node.left())) &&
-         (high_[axis] < plane || gatherBelow(node.right()));
+  return (low_[axis] > plane || gatherBelow(tree, node.left())) &&
+         (high_[axis] < plane || gatherBelow(tree, node.right()));
+}
+
+bool
+NearestFinder::gatherFromAll()
+{
+  const KdTree& own = samples_.getTree();
+  const auto none_outside = [&](const KdCell& cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (low_[static_cast<int>(axis)] <= cell.low[axis].coordinate ||
+          high_[static_cast<int>(axis)] >= cell.high[axis].coordinate)
+        return false;
+    return true;
+  };
+  if (none_outside(own.getCell()))
+    return gatherBelow(own, own.getRoot());
+  const auto meets = [&](const KdCell& cell) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (low_[static_cast<int>(axis)] > cell.high[axis].coordinate ||
+          high_[static_cast<int>(axis)] < cell.low[axis].coordinate)
+        return false;
+    return true;
+  };
+  for (const KdTree& tree : samples_.getTrees())
+    if (meets(tree.getCell()) && !gatherBelow(tree, tree.getRoot()))
+      return false;
+  return true;
 }
 
 bool
@@ -83,7 +128,7 @@ NearestFinder::gather(const Position& low, const Position& high, float margin)
     high_[axis] = std::nextafter(high[axis] + margin, infinity);
   }
   candidate_count_ = 0;
-  const bool complete = gatherBelow(samples_.getTree().getRoot());
+  const bool complete = gatherFromAll();
   margin_ = complete ? margin : no_box;
   return complete;
 }
@@ -188,6 +233,7 @@ NearestFinder::select(const Position& point)
 
 void
 NearestFinder::descend(const Position& point,
+                       const KdTree& tree,
                        const KdNode& node,
                        float sq_bound,
                        Position& offsets)
@@ -203,16 +249,15 @@ NearestFinder::descend(const Position& point,
     }
     return;
   }
-  const KdTree& tree = samples_.getTree();
   const int axis = tree.getAxis(node.depth);
   const float offset = tree.getPlane(node).coordinate - point[axis];
-  descend(point, offset >= 0.0f ? node.left() : node.right(), sq_bound, offsets);
+  descend(point, tree, offset >= 0.0f ? node.left() : node.right(), sq_bound, offsets);
   // The far half begins at the plane (Arya and Mount 1993).
   const float old_offset = offsets[axis];
   const float sq_far = sq_bound - old_offset * old_offset + offset * offset;
   if (nearest_.size() < k_ || sq_far <= slack * nearest_.front().first) {
     offsets[axis] = offset;
-    descend(point, offset >= 0.0f ? node.right() : node.left(), sq_far, offsets);
+    descend(point, tree, offset >= 0.0f ? node.right() : node.left(), sq_far, offsets);
     offsets[axis] = old_offset;
   }
 }
@@ -221,8 +266,17 @@ void
 NearestFinder::searchAlone(const Position& point)
 {
   nearest_.clear();
-  Position offsets{};
-  descend(point, samples_.getTree().getRoot(), 0.0f, offsets);
+  const KdTree& own = samples_.getTree();
+  const auto search = [&](const KdTree& tree) {
+    Position offsets = offsetsFrom(point, tree.getCell());
+    const float sq_dist = sqLength(offsets);
+    if (nearest_.size() < k_ || sq_dist <= slack * nearest_.front().first)
+      descend(point, tree, tree.getRoot(), sq_dist, offsets);
+  };
+  search(own);
+  for (const KdTree& tree : samples_.getTrees())
+    if (&tree != &own)
+      search(tree);
   reach_ = std::sqrt(nearest_.front().first) * slack;
   std::sort(nearest_.begin(), nearest_.end(), [](const auto& a, const auto& b) {
     return a.second < b.second;

@@ -36,12 +36,35 @@ shapeFor(const SampleSet& samples, std::uint32_t cells)
       low, high, static_cast<std::uint32_t>(std::max(1.0, std::round(usual))));
 }
 
+/** True if one of the planes around a cell is one of those around a cell in it. */
+bool
+isBounding(const KdCell& outer, const KdCell& inner)
+{
+  const auto same = [](const SplitPlane& a, const SplitPlane& b) {
+    return std::isfinite(a.coordinate) && a.coordinate == b.coordinate &&
+           a.below_sample == b.below_sample;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (same(outer.low[axis], inner.low[axis]) ||
+        same(outer.high[axis], inner.high[axis]))
+      return true;
+  return false;
+}
+
 } // namespace
 
 void
 TouchingCells::find(std::uint32_t sample, std::vector<std::uint32_t>& candidates) const
 {
-  samples_.getTree().findTouching(samples_.getPositions(), sample, candidates);
+  const KdTree& own = samples_.getTree();
+  own.findTouching(samples_.getPositions(), sample, candidates);
+  if (samples_.getTrees().size() == 1)
+    return;
+  const KdCell cell = own.cellOf(sample);
+  if (isBounding(own.getCell(), cell))
+    for (const KdTree& tree : samples_.getTrees())
+      if (&tree != &own)
+        tree.findTouching(samples_.getPositions(), cell, candidates);
 }
 
 std::vector<std::uint32_t>
@@ -49,8 +72,21 @@ TouchingCells::findCrossing(const NodeRanges& ranges,
                             float isovalue,
                             unsigned threads) const
 {
-  return samples_.getTree().findCrossing(
-      samples_.getPositions(), ranges, isovalue, threads);
+  const KdTree& own = samples_.getTree();
+  const auto& positions = samples_.getPositions();
+  auto crossing = own.findCrossing(positions, ranges, isovalue, threads);
+  const auto& trees = samples_.getTrees();
+  if (trees.size() == 1)
+    return crossing;
+  const auto beside = parallelGather<std::uint32_t>(
+      trees.size(), 1, threads, [&](std::size_t i, std::size_t, auto& found) {
+        if (&trees[i] != &own)
+          own.findCrossing(positions, ranges, isovalue, trees[i], found);
+      });
+  crossing.insert(crossing.end(), beside.begin(), beside.end());
+  parallelSort(crossing.begin(), crossing.end(), threads, std::less<std::uint32_t>());
+  crossing.erase(std::unique(crossing.begin(), crossing.end()), crossing.end());
+  return crossing;
 }
 
 VoronoiCandidates::VoronoiCandidates(const SampleSet& samples,

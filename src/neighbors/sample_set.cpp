@@ -26,10 +26,7 @@ gatherRecords(const float* xyz,
         std::size_t next = begin;
         for (std::size_t i = begin; i < end; ++i) {
           const float* const point = xyz + use[i] * stride;
-          // Adding zero turns -0 into 0, which compare as equal.
-          const Position position{{point[0] * scale[0] + 0.0f,
-                                   point[1] * scale[1] + 0.0f,
-                                   point[2] * scale[2] + 0.0f}};
+          const Position position = stretched({{point[0], point[1], point[2]}}, scale);
           if (std::isfinite(position[0]) && std::isfinite(position[1]) &&
               std::isfinite(position[2]))
             records[next++] = {position, use[i]};
@@ -124,21 +121,24 @@ SampleSet::build(const float* xyz,
 
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);
-  set->scale_ = scale;
+  Parts& parts = set->parts_;
+  parts.scale = scale;
+  KdTree& tree = parts.trees.emplace_back();
   const std::size_t finite = records.size();
-  if (!set->tree_.build(records, threads, step)) {
+  if (!tree.build(records, threads, step)) {
     set->merged_ = mergeDuplicates(records);
-    set->tree_.build(records, threads, step);
+    tree.build(records, threads, step);
     renumberMerged(set->merged_, records);
   }
   report.count("duplicates", finite - records.size());
 
-  set->positions_.resize(records.size());
+  parts.size = records.size();
+  parts.positions.resize(records.size());
   set->input_indices_.resize(records.size());
   parallelBlocks(
       records.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          set->positions_[i] = records[i].position;
+          parts.positions[i] = records[i].position;
           set->input_indices_[i] = records[i].input_index;
         }
       });

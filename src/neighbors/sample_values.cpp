@@ -75,15 +75,9 @@ gatherValues(const SampleSet& samples,
   std::uint64_t conflicting = 0;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
     std::vector<std::uint32_t> members = merged.members;
-    std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
-      return input_values[a] < input_values[b];
-    });
-    conflicting += input_values[members.front()] != input_values[members.back()];
-    const float median = input_values[members[(members.size() - 1) / 2]];
-    const auto source = *std::find_if(members.begin(), members.end(), [&](auto member) {
-      return input_values[member] == median;
-    });
-    scalar.values[merged.sample] = median;
+    const std::uint32_t source = representativeOf(
+        members, [&](auto member) { return input_values[member]; }, conflicting);
+    scalar.values[merged.sample] = input_values[source];
     scalar.sources[merged.sample] = source;
   }
   report.count("conflicting_duplicates", conflicting);

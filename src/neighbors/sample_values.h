@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,27 @@ struct SampleValues {
   std::vector<float> values;
   std::vector<std::uint32_t> sources; ///< input index whose value it is
 };
+
+/** \brief Who stands for members that coincide: the first that has the lower median of
+ * their values.
+ * \param members in their order; come out sorted by value
+ * \param value_of a member
+ * \param conflicting gets one more if values differ */
+template <typename ValueOf>
+std::uint32_t
+representativeOf(std::vector<std::uint32_t>& members,
+                 const ValueOf& value_of,
+                 std::uint64_t& conflicting)
+{
+  std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
+    return value_of(a) < value_of(b);
+  });
+  conflicting += value_of(members.front()) != value_of(members.back());
+  const float median = value_of(members[(members.size() - 1) / 2]);
+  return *std::find_if(members.begin(), members.end(), [&](auto member) {
+    return value_of(member) == median;
+  });
+}
 
 /** \brief Bring values into leaf order; a merged sample takes the lower median of its
  * members' values, and becomes the member that has it.

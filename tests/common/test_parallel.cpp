@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <stdexcept>
 #include <vector>
@@ -43,6 +44,20 @@ TEST(Parallel, ExceptionsReachTheCaller)
   EXPECT_THROW(
       pcl_uvol::TaskGroup::run(3, [&] { pcl_uvol::TaskGroup::fork([] {}, fail); }),
       std::runtime_error);
+}
+
+TEST(Parallel, NoBlockBeginsAfterAnException)
+{
+  std::atomic<int> begun{0};
+  EXPECT_THROW(pcl_uvol::parallelBlocks(1000,
+                                        1,
+                                        3,
+                                        [&](std::size_t, std::size_t) {
+                                          if (++begun >= 10)
+                                            throw std::runtime_error("10");
+                                        }),
+               std::runtime_error);
+  EXPECT_LT(begun, 50);
 }
 
 } // namespace

@@ -72,9 +72,18 @@ TEST(ScalarField, ComponentsAndLengths)
 
 TEST(ScalarField, ExactNamesComeFirst)
 {
-  const auto dataset = makeDataset({{"a[1]", Type::INT32}, {"|b|", Type::INT32}}, 1, 3);
+  const auto dataset = makeDataset({{"a[1]", Type::INT32},
+                                    {"|b|", Type::INT32},
+                                    {" c", Type::INT32},
+                                    {"d [m/s]", Type::INT32, 2}},
+                                   1,
+                                   3);
   EXPECT_EQ(ScalarField(dataset.cloud.fields, "a[1]").getName(), "a[1]");
   EXPECT_FALSE(ScalarField(dataset.cloud.fields, "|b|").isLength());
+  EXPECT_EQ(ScalarField(dataset.cloud.fields, " c").getName(), " c");
+  const ScalarField component(dataset.cloud.fields, "d [m/s][1]");
+  EXPECT_EQ(component.getComponents().front().offset,
+            dataset.cloud.fields.back().offset + 4);
 }
 
 TEST(ScalarField, ErrorsListTheFields)

@@ -11,5 +11,8 @@ cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
 test "$("$folder/build/window_consumer")" = "bounds from 3"
+"$folder/build/pipeline_consumer" "$folder/splats.vtp" | tee "$folder/out"
+grep -Eq '^written: [1-9][0-9]* splats' "$folder/out"
+"$folder/prefix/bin/uvol_info" "$folder/splats.vtp" -field phi | grep -q tangent_x
 "$folder/prefix/bin/uvol_isosurface" -version
 "$folder/prefix/bin/uvol_viewer" -version

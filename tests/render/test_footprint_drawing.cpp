@@ -134,7 +134,7 @@ TEST(Footprints, CloseHolesThatTheMasksLeave)
 TEST(Footprints, CloseFewLargeHolesAmongDensePoints)
 {
   // Blocks are dense on the average; in each hole a disc is due.
-  const auto sphere = makeSphere(60000, 1);
+  const auto sphere = makeSphere(200000, 1);
   const SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
   const auto holes = makeSphere(200, 2);
   for (const auto& point : *sphere)
@@ -143,7 +143,7 @@ TEST(Footprints, CloseFewLargeHolesAmongDensePoints)
         }))
       cloud->push_back(point);
   EXPECT_LT(cloud->size(), sphere->size() - 1000);
-  for (const int size : {300, 450})
+  for (const int size : {450, 600})
     EXPECT_EQ(drawSphere(cloud, size).first, 0u) << size;
 }
 

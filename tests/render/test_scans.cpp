@@ -31,7 +31,7 @@ struct Scan {
   Eigen::Vector3d from;
   double zoom;
   int size;
-  int erosion; ///< pixels within the mesh's outline that may be open
+  std::size_t open; ///< pixels that may be, of those a pixel within the outline
 };
 
 void
@@ -40,15 +40,19 @@ PrintTo(const Scan& scan, std::ostream* out)
   *out << scan.file << ", " << scan.size << " pixels, zoom " << scan.zoom;
 }
 
-// The dragon's crest has notches between vertices several pixels apart, which only the
-// mesh fills. The blade's vertices lie on its edges: flat parts have next to none.
+// A triangle in the dragon's crest faces the eye while the normals of its vertices do
+// not: as points they are not seen, and leave a notch. The blade's vertices lie on its
+// edges: flat parts have holes of many times their spacing.
 const Scan scans[] = {
-    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 1.0, 512, 1},
-    {"bunny.ply", 0, {-1.0, 0.5, 0.3}, 1.0, 1024, 1},
-    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 10.0, 512, 1},
-    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 512, 1},
-    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 1024, 2},
-    {"turbineblade.ply", 883000, {1.0, 0.3, 0.4}, 1.0, 1024, 1},
+    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 1.0, 512, 0},
+    {"bunny.ply", 0, {-1.0, 0.5, 0.3}, 1.0, 1024, 0},
+    {"bunny.ply", 0, {0.2, 0.3, 1.0}, 10.0, 512, 0},
+    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 512, 0},
+    {"dragon_res3.ply", 0, {0.3, 0.2, 1.0}, 1.0, 1024, 6},
+    {"turbineblade.ply", 0, {1.0, 0.3, 0.4}, 1.0, 512, 0},
+    {"turbineblade.ply", 0, {1.0, 0.3, 0.4}, 1.0, 1024, 0},
+    {"turbineblade.ply", 0, {-0.3, 0.1, -1.0}, 1.0, 1024, 0},
+    {"turbineblade.ply", 883000, {1.0, 0.3, 0.4}, 1.0, 1024, 0},
 };
 
 /** The mesh's vertices with the normals of the file, or points scattered over it. */
@@ -146,7 +150,7 @@ TEST_P(ScanPicture, HasNoHoles)
   const View view(camera, renderer.getBounds(), scan.size, scan.size);
   const std::vector<double> truth = rasterize(mesh, camera, view);
   const double layer = 0.03 * renderer.getBounds().radius / view.far;
-  const std::ptrdiff_t size = scan.size, around = scan.erosion;
+  const std::ptrdiff_t size = scan.size, around = 1;
   std::size_t inside = 0, open = 0, shining = 0, swollen = 0;
   for (std::ptrdiff_t row = around; row + around < size; ++row)
     for (std::ptrdiff_t column = around; column + around < size; ++column) {
@@ -166,7 +170,7 @@ TEST_P(ScanPicture, HasNoHoles)
       shining += drawn > farthest + layer ? 1 : 0;
     }
   EXPECT_GT(inside, static_cast<std::size_t>(size * size / 20));
-  EXPECT_EQ(open, 0u);
+  EXPECT_LE(open, scan.open);
   EXPECT_LE(shining, inside / 1000);
   EXPECT_LE(swollen, inside / 100);
 }

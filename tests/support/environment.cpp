@@ -89,6 +89,12 @@ isSanitized()
          std::getenv("TSAN_OPTIONS") != nullptr;
 }
 
+bool
+resetPeakMemory()
+{
+  return bool(std::ofstream("/proc/self/clear_refs") << "5" << std::flush);
+}
+
 CommandResult
 runCommand(const std::string& command)
 {

@@ -58,6 +58,11 @@ dataFolder();
 bool
 isSanitized();
 
+/** \brief Forget how much memory the process had at most. \return false where the
+ * system does not allow it */
+bool
+resetPeakMemory();
+
 struct CommandResult {
   int exit_code; ///< -signal where a signal ended it
   std::string out, err;

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Include only downwards (see README, "Rooms"), and nothing but our own, PCL, Eigen and the
-# standard library in public headers, but VTK in those of its room. usage: check_layers.sh SOURCE_FOLDER
+# standard library in public headers, but VTK in those of its rooms. usage: check_layers.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 
 declare -A level=([common]=0 [neighbors]=1 [derivatives]=2 [isosurface]=3 [levelset]=4
-  [surface]=4 [multivariate]=4 [render]=5 [io]=6 [gl]=7 [vtk]=8)
+  [surface]=4 [multivariate]=4 [render]=5 [filters]=6 [io]=7 [gl]=8 [vtk]=9 [mpi]=9)
 breaches=0
 for module in "${!level[@]}"; do
   for file in $(find "include/pcl_uvol/$module" "src/$module" -type f 2>/dev/null); do
@@ -20,5 +20,5 @@ done
 while read -r line; do
   echo "foreign header in a public header: $line"
   breaches=$((breaches + 1))
-done < <(grep -rnE '^#include <(vtk|teem|flann|nlohmann|omp)' include | grep -v '^include/pcl_uvol/vtk/.*<vtk' || true)
+done < <(grep -rnE '^#include <(vtk|teem|flann|nlohmann|omp)' include | grep -v -E '^include/pcl_uvol/(vtk|filters)/.*<vtk' || true)
 [ "$breaches" -eq 0 ]

@@ -123,14 +123,39 @@ TEST_P(MemoryForecast, RefusesWhatDoesNotFit)
   std::filesystem::resize_file(folder_ / GetParam().input, 64000001000u);
   const auto result = run("ulimit -v 8000000; ");
   EXPECT_EQ(1, result.exit_code) << result.err;
-  const std::regex sentence(
-      std::string(GetParam().tool) +
-      ": [A-Z][a-z ]+ of 4000000000 points needs ([0-9.]+) ([GT]B) of memory, and only "
-      "([0-9.]+) GB are available\\.\n");
+  const std::regex sentence(std::string(GetParam().tool) +
+                            ": [A-Z][a-z -]+ of 4000000000 points needs ([0-9.]+) "
+                            "([GT]B) of memory, and only "
+                            "([0-9.]+) GB are available\\.\n");
   std::smatch match;
   ASSERT_TRUE(std::regex_match(result.err, match, sentence)) << result.err;
   EXPECT_LT(std::stod(match[3]), 8.2);
+  const std::string tool = GetParam().tool, options = GetParam().options;
+  const bool has_bound =
+      tool == "uvol_isosurface" && options.find("-smooth") == std::string::npos;
+  EXPECT_EQ(has_bound, result.err.find("Without -max-memory") != std::string::npos);
   EXPECT_EQ((std::vector<std::string>{"in.pcd", "in.ply"}), folder_.list());
+}
+
+/** The header tells nothing of how many points are left. */
+TEST(MemoryOfSelectedRows, IsThatOfThoseLeft)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "Sanitizers take memory of their own.";
+  const uvol_test::TemporaryFolder folder;
+  const std::string in = folder / "in.pcd";
+  ASSERT_EQ(0,
+            runCommand("uvol_generate " + in + " -field torus -n 2000000").exit_code);
+  for (const std::string tool :
+       {"uvol_isosurface -iso 0", "uvol_cluster -attributes torus"}) {
+    const std::string all =
+        "ulimit -d 110000; " + tool + " -threads 1 " + in + ' ' + (folder / "out.ply");
+    const auto refused = runCommand(all);
+    EXPECT_EQ(1, refused.exit_code) << refused.out;
+    EXPECT_NE(std::string::npos, refused.err.find("of memory")) << refused.err;
+    const auto result = runCommand(all + " -where 'x>0.8'");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Tools,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isosurface_memory.h"
 
-#include "level_set.h"
 #include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/levelset/memory_need.h>
 #include <pcl_uvol/surface/memory_need.h>
 
@@ -25,9 +25,9 @@ addLevelSets(const IsosurfaceTask& task,
   forecast.hold(sizeof(int) * points); // indices of all
   for (const auto& surface : task.surfaces) {
     forecast.run(pcl_uvol::levelSetNeed(points, surface, *task.level_set));
-    forecast.hold(phi_point_bytes * points);
+    forecast.hold(pcl_uvol::phi_point_bytes * points);
     forecast.run(pcl_uvol::isosurfaceNeed(points, {surface}));
-    forecast.release((phi_point_bytes + sizeof(float)) * points);
+    forecast.release((pcl_uvol::phi_point_bytes + sizeof(float)) * points);
   }
 }
 

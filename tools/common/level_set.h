@@ -2,7 +2,6 @@
 // What uvol_levelset and uvol_isosurface -smooth share.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <string>
@@ -14,13 +13,6 @@ namespace uvol_tools {
 /** \brief The value of -mu: a number in [0, 1], or "auto". \throws UsageError */
 double
 parseMu(const std::string& text);
-
-/** \brief Bytes of a point of cloudOfPhi. */
-constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
-
-/** \brief A cloud of the points' coordinates and phi. */
-pcl::PCLPointCloud2
-cloudOfPhi(const pcl_uvol::CloudView& cloud, const std::vector<float>& phi);
 
 /** \brief What an evolution found out, for the report. */
 std::vector<std::pair<std::string, std::string>>

@@ -31,7 +31,8 @@ MemoryGuard::checkFile(const std::string& path, const Work& work)
   const auto points = static_cast<double>(cloud->points);
   pcl_uvol::MemoryForecast forecast(base_);
   forecast.run(cloud->reading);
-  work(points, static_cast<double>(cloud->point_step), forecast);
+  if (work)
+    work(points, static_cast<double>(cloud->point_step), forecast);
   forecast_ = forecast.getPeak();
   check(points);
 }
@@ -43,7 +44,8 @@ MemoryGuard::checkCloud(const pcl_uvol::Dataset& dataset, const Work& work)
                       static_cast<double>(dataset.cloud.height);
   const auto step = static_cast<double>(dataset.cloud.point_step);
   pcl_uvol::MemoryForecast forecast(base_);
-  forecast.hold(points * step);
+  // Rows that were left out leave their room.
+  forecast.hold(static_cast<double>(dataset.cloud.data.capacity()));
   work(points, step, forecast);
   // What reading took is known by now.
   forecast_ = std::max(forecast.getPeak(), static_cast<double>(pcl_uvol::peakMemory()));

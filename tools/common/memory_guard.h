@@ -24,8 +24,8 @@ public:
   explicit MemoryGuard(std::string task);
 
   /** \brief By what the header of a file tells, before the file is read.
-   * \throws InvalidArgument with both figures if more is needed than is available, and
-   * IOError for a malformed header */
+   * \param work empty if only reading tells how many points are left
+   * \throws InvalidArgument with both figures if more is needed than is available */
   void
   checkFile(const std::string& path, const Work& work);
 

@@ -123,6 +123,12 @@ Options::file(const std::string& name, std::string& target, bool required)
 }
 
 void
+Options::files(const std::string& name, std::vector<std::string>& targets)
+{
+  positionals_.push_back({name, nullptr, true, &targets});
+}
+
+void
 Options::flag(const std::string& name,
               bool& target,
               const std::string& help,
@@ -273,13 +279,13 @@ Options::parse(int argc, const char* const* argv)
       return false;
     }
   }
-  std::size_t files = 0;
+  std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument.size() < 2 || argument[0] != '-' || startsWithNumber(argument)) {
-      if (files == positionals_.size())
+      if (files.size() == positionals_.size() && !positionals_[0].targets)
         throw UsageError("The argument '" + argument + "' is one too many.");
-      *positionals_[files++].target = argument;
+      files.push_back(argument);
       continue;
     }
     Option& option = find(argument);
@@ -298,11 +304,26 @@ Options::parse(int argc, const char* const* argv)
                        " needs a value: " + option.placeholder + ".");
     option.assign(arguments[++i]);
   }
-  for (; files < positionals_.size(); ++files)
-    if (positionals_[files].required)
-      throw UsageError("The argument <" + positionals_[files].name +
-                       "> is missing: " + tool_ + " " + synopsis_);
+  assignFiles(files);
   return true;
+}
+
+void
+Options::assignFiles(const std::vector<std::string>& files) const
+{
+  for (std::size_t i = files.size(); i < positionals_.size(); ++i)
+    if (positionals_[i].required)
+      throw UsageError("The argument <" + positionals_[i].name +
+                       "> is missing: " + tool_ + " " + synopsis_);
+  auto next = files.begin();
+  for (std::size_t i = 0; i < positionals_.size() && next != files.end(); ++i)
+    if (positionals_[i].targets != nullptr) {
+      const auto last = files.end() - static_cast<int>(positionals_.size() - i - 1);
+      positionals_[i].targets->assign(next, last);
+      next = last;
+    }
+    else
+      *positionals_[i].target = *next++;
 }
 
 void
@@ -326,6 +347,25 @@ Options::printHelp() const
   }
   print("-h", "print this");
   print("-version", "print the version");
+}
+
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text)
+{
+  static const std::string units = "KMGT";
+  std::string digits = text;
+  double factor = 1.0;
+  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  if (unit != std::string::npos) {
+    digits.pop_back();
+    factor = std::pow(1000.0, static_cast<double>(unit + 1));
+  }
+  const double bytes = digits.empty() ? 0.0 : parseNumber(option, digits) * factor;
+  if (!(bytes >= 1.0 && bytes < 1e18))
+    throw UsageError("-" + option +
+                     " takes a number of bytes, as in 1500M or 2G, and '" + text +
+                     "' is none.");
+  return static_cast<std::uint64_t>(bytes);
 }
 
 } // namespace uvol_tools

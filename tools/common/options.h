@@ -31,6 +31,9 @@ public:
   /** \brief Positional arguments, in this order; optional ones last. */
   void
   file(const std::string& name, std::string& target, bool required = true);
+  /** \brief One or more of them, before all others. */
+  void
+  files(const std::string& name, std::vector<std::string>& targets);
 
   /** \param value that the target gets where the option is given */
   void
@@ -111,10 +114,14 @@ private:
     std::string name;
     std::string* target;
     bool required;
+    std::vector<std::string>* targets = nullptr; // of one that takes several
   };
 
   Option&
   find(const std::string& argument);
+
+  void
+  assignFiles(const std::vector<std::string>& files) const;
 
   void
   printHelp() const;
@@ -134,17 +141,33 @@ parseNumbers(const std::string& option, const std::string& value, std::size_t co
 
 /** \brief Print counts, times and warnings: PCL's colours on a terminal, plain in a
  * pipe, one JSON object with -json (keys: counts, milliseconds, warnings, plus facts as
- * strings).
+ * strings). \param plain no colours: what looks like a terminal need not be one
  */
 void
 printReport(const Options& options,
             const pcl_uvol::Report& report,
-            const std::vector<std::pair<std::string, std::string>>& facts = {});
+            const std::vector<std::pair<std::string, std::string>>& facts = {},
+            bool plain = false);
+
+/** \brief How a tool's body ended. */
+struct Outcome {
+  int exit_code = 0;
+  std::string sentence; ///< why it failed
+};
+
+/** \brief Run a tool's body: its exit code, or 1 for a failure, or 2 for a UsageError.
+ * Signals that would kill a writer (SIGXFSZ, SIGPIPE) become write errors. */
+Outcome
+outcomeOf(const char* tool, const std::function<int()>& body);
 
 /** \brief Run a tool's body: 0, or 1 with one sentence on stderr for a failure, or 2
- * for a UsageError. Signals that would kill a writer (SIGXFSZ, SIGPIPE) become write
- * errors. */
+ * for a UsageError. */
 int
 runTool(const char* tool, const std::function<int()>& body);
+
+/** \brief A number of bytes: digits, and K, M, G or T for powers of 1000.
+ * \throws UsageError that names the option */
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text);
 
 } // namespace uvol_tools

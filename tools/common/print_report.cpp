@@ -15,9 +15,9 @@ namespace {
 /** Switches the terminal's colour for its lifetime; nothing in a pipe. */
 class Colour {
 public:
-  Colour(std::ostream& out, int descriptor, const char* code)
+  Colour(std::ostream& out, bool active, const char* code)
       : out_(out)
-      , active_(isatty(descriptor) != 0)
+      , active_(active)
   {
     if (active_)
       out_ << "\033[" << code << 'm';
@@ -41,11 +41,11 @@ constexpr const char* warning_colour = "0;33";
 
 template <typename T>
 void
-printRow(const std::string& name, const T& value, const char* unit)
+printRow(const std::string& name, const T& value, const char* unit, bool in_colour)
 {
   std::cout << "  " << std::left << std::setw(24) << name;
   {
-    const Colour colour(std::cout, STDOUT_FILENO, value_colour);
+    const Colour colour(std::cout, in_colour, value_colour);
     std::cout << std::right << std::setw(12) << value;
   }
   std::cout << unit << '\n';
@@ -56,7 +56,8 @@ printRow(const std::string& name, const T& value, const char* unit)
 void
 printReport(const Options& options,
             const pcl_uvol::Report& report,
-            const std::vector<std::pair<std::string, std::string>>& facts)
+            const std::vector<std::pair<std::string, std::string>>& facts,
+            bool plain)
 {
   if (options.json()) {
     nlohmann::ordered_json object;
@@ -72,15 +73,17 @@ printReport(const Options& options,
               << '\n';
     return;
   }
+  const bool in_colour = !plain && isatty(STDOUT_FILENO) != 0;
   for (const auto& [name, value] : facts)
     std::cout << name << ": " << value << '\n';
   for (const auto& [name, value] : report.counts)
-    printRow(name, value, "");
+    printRow(name, value, "", in_colour);
   std::cout << std::fixed << std::setprecision(1);
   for (const auto& [step, value] : report.milliseconds)
-    printRow(step, value, " ms");
+    printRow(step, value, " ms", in_colour);
   for (const std::string& warning : report.warnings) {
-    const Colour colour(std::cerr, STDERR_FILENO, warning_colour);
+    const Colour colour(
+        std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
     std::cerr << "Warning: " << warning << '\n';
   }
 }

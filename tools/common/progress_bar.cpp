@@ -16,8 +16,8 @@ constexpr std::chrono::milliseconds redraw_interval(100);
 
 } // namespace
 
-ProgressBar::ProgressBar()
-    : on_terminal_(isatty(STDERR_FILENO) != 0)
+ProgressBar::ProgressBar(bool always)
+    : is_seen_(always || isatty(STDERR_FILENO) != 0)
 {
 }
 
@@ -37,7 +37,7 @@ ProgressBar::wipe()
 void
 ProgressBar::operator()(const std::string& step, double done)
 {
-  if (!on_terminal_)
+  if (!is_seen_)
     return;
   const auto now = Clock::now();
   if (step != step_ || done <= 0.0) {

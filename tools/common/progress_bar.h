@@ -11,7 +11,8 @@ namespace uvol_tools {
 /** \brief A pcl_uvol::ProgressCallback (by std::ref); wipes its line when it goes. */
 class ProgressBar {
 public:
-  ProgressBar();
+  /** \param always draw on a stderr that is no terminal as well */
+  explicit ProgressBar(bool always = false);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar&
   operator=(const ProgressBar&) = delete;
@@ -25,7 +26,7 @@ private:
   wipe();
 
   using Clock = std::chrono::steady_clock;
-  bool on_terminal_;
+  bool is_seen_;
   bool drawn_ = false;
   std::string step_;
   Clock::time_point step_start_, last_drawn_;

@@ -9,34 +9,39 @@
 
 namespace uvol_tools {
 
-int
-runTool(const char* tool, const std::function<int()>& body)
+Outcome
+outcomeOf(const char* tool, const std::function<int()>& body)
 {
   // Writing beyond a limit or into a closed pipe shall be an error, not a sudden death.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  const auto fail = [&](int exit_code, const std::string& sentence) {
-    std::cerr << tool << ": " << sentence << '\n';
-    return exit_code;
-  };
   try {
     const int exit_code = body();
     if (!std::cout.flush())
-      return fail(1, "Standard output could not be written.");
-    return exit_code;
+      return {1, "Standard output could not be written."};
+    return {exit_code, ""};
   }
   catch (const UsageError& error) {
-    return fail(2, std::string(error.what()) + " (" + tool + " -h lists the options)");
+    return {2, std::string(error.what()) + " (" + tool + " -h lists the options)"};
   }
   catch (const pcl_uvol::Exception& error) {
-    return fail(1, error.message());
+    return {1, error.message()};
   }
   catch (const std::bad_alloc&) {
-    return fail(1, "There is not enough memory.");
+    return {1, "There is not enough memory."};
   }
   catch (const std::exception& error) {
-    return fail(1, error.what());
+    return {1, error.what()};
   }
+}
+
+int
+runTool(const char* tool, const std::function<int()>& body)
+{
+  const Outcome outcome = outcomeOf(tool, body);
+  if (!outcome.sentence.empty())
+    std::cerr << tool << ": " << outcome.sentence << '\n';
+  return outcome.exit_code;
 }
 
 } // namespace uvol_tools

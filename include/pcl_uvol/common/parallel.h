@@ -19,8 +19,10 @@ resolveThreads(unsigned requested);
 
 /** \brief Call body(begin, end) for consecutive blocks of [0, count), in parallel.
  * \param block indices per call, >= 1; fixed, so that per-block results do not depend
- * on the number of threads The first exception (by time) is rethrown when all threads
- * are done. */
+ * on the number of threads
+ *
+ * The first exception (by time) is rethrown when the blocks that were begun are done.
+ */
 PCL_UVOL_EXPORTS void
 parallelBlocks(std::size_t count,
                std::size_t block,

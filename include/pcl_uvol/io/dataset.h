@@ -1,41 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cloud as files give it: every field under its own name and type, and an origin in
-// double precision.
+// Clouds from files and into files.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 
-#include <pcl/PCLPointCloud2.h>
-
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace pcl_uvol {
-
-/** \brief What a file gives and takes.
- *
- * Positions are float in PCL; coordinates that float cannot hold (UTM, astronomical)
- * keep their digits because the origin is subtracted in double when they are read and
- * added back when they are written. */
-struct PCL_UVOL_EXPORTS Dataset {
-  /** Fields x, y, z are float32, relative to the origin; all others as in the file.
-   * Height is 1, padding fields ("_") are removed, x, y, z come first and the others
-   * follow without gaps; point_step is a multiple of 4, so that viewOf() takes it. */
-  pcl::PCLPointCloud2 cloud;
-  /** Added to x, y, z when the dataset is written; multiples of a power of two, or 0.
-   */
-  std::array<double, 3> origin{{0.0, 0.0, 0.0}};
-  /** The coordinates came in double: they are written in double. */
-  bool double_coordinates = false;
-  /** False: the file has none, and x, y, z are 0; see LoadOptions. */
-  bool has_coordinates = true;
-  /** One sentence each: what reading had to decide (columns taken as coordinates, list
-   * properties left out, ...). */
-  std::vector<std::string> notes;
-};
 
 /** \brief How a text file is read. */
 struct PCL_UVOL_EXPORTS LoadOptions {
@@ -75,27 +51,6 @@ saveDataset(const std::string& path,
 PCL_UVOL_EXPORTS void
 checkSavePath(const std::string& path,
               const std::vector<pcl::PCLPointField>& fields = {});
-
-/** \brief Put float32 x, y, z relative to a common origin into a dataset, in front of
- * its other fields, from coordinates in double; double_coordinates stays as it is.
- *
- * The origin of an axis is 0 where float holds every coordinate to 1e-7 of the extent
- * of that axis (of the cloud, for an axis that is flat beside it).
- * \param xyz three numbers per point
- * \throws InvalidArgument unless there are three per point, none beyond float */
-PCL_UVOL_EXPORTS void
-setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
-
-/** \brief Add a field of single numbers behind the others, or replace the one of that
- * name. \param values one per point \throws InvalidArgument for another number of
- * values, and for x, y and z @{ */
-PCL_UVOL_EXPORTS void
-setField(Dataset& dataset, const std::string& name, const std::vector<float>& values);
-PCL_UVOL_EXPORTS void
-setField(Dataset& dataset,
-         const std::string& name,
-         const std::vector<std::int32_t>& values);
-/** @} */
 
 /** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
  * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right

@@ -5,12 +5,10 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/memory.h>
 
-#include <pcl/PCLPointField.h>
-
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace pcl_uvol {
 
@@ -21,9 +19,9 @@ struct PCL_UVOL_EXPORTS PromisedCloud {
   MemoryNeed reading;         ///< of loadDataset; the cloud is kept
 };
 
-/** \brief What the header of a .pcd or .ply file promises; nothing for other formats,
- * whose size shows when they are read, and for damaged files. \throws IOError as
- * loadDataset for a file that cannot be opened or has a malformed header */
+/** \brief What the header of a .pcd or .ply file promises. Nothing for compressed PCD
+ * and other formats, whose size shows when they are read, and for files that cannot be
+ * read or hold less than they promise: reading says what is wrong with them. */
 PCL_UVOL_EXPORTS std::optional<PromisedCloud>
 promisedCloud(const std::string& path);
 

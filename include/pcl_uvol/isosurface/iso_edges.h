@@ -5,6 +5,7 @@
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/report.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
@@ -58,5 +59,13 @@ copyFields(const pcl::PCLPointCloud2& cloud,
            const std::vector<std::uint32_t>& sources,
            pcl::PCLPointCloud2& points,
            unsigned threads = 0);
+
+/** \brief Warn of every field of the samples that gives way to one of the isopoints, a
+ * column called error, say, before fields are carried along. Coordinates and normals
+ * are meant to. */
+PCL_UVOL_EXPORTS void
+warnOfReplacedFields(const pcl::PCLPointCloud2& samples,
+                     const pcl::PCLPointCloud2& isopoints,
+                     Report& report);
 
 } // namespace pcl_uvol

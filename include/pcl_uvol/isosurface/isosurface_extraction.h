@@ -131,9 +131,6 @@ protected:
 
 private:
   void
-  checkParameters() const;
-
-  void
   updateSamples(const CloudView& cloud, std::vector<std::uint32_t>&& use);
 
   void

@@ -30,6 +30,16 @@ struct Position {
   }
 };
 
+/** \brief A position times factors per axis. Adding zero turns -0 into 0, which compare
+ * as equal. */
+inline Position
+stretched(const Position& position, const Position& scale)
+{
+  return {{position[0] * scale[0] + 0.0f,
+           position[1] * scale[1] + 0.0f,
+           position[2] * scale[2] + 0.0f}};
+}
+
 /** \brief A position and where it comes from: what the tree is built from. */
 struct SampleRecord {
   Position position;
@@ -91,6 +101,9 @@ struct KdCell {
   std::array<SplitPlane, 3> low, high;
 };
 
+/** \brief Axis of the splits at each depth. */
+using AxisCycle = std::array<std::int8_t, 64>;
+
 /** \brief Smallest and largest value of a scalar below every node, by node number;
  * leaves are the values themselves. */
 struct PCL_UVOL_EXPORTS NodeRanges {
@@ -122,10 +135,49 @@ public:
   bool
   build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step);
 
+  /** \brief The same for a subtree of a larger tree, whose cycle of axes decides.
+   * \param depth of the subtree's root in that tree */
+  bool
+  build(std::vector<SampleRecord>& records,
+        const AxisCycle& axes,
+        int depth,
+        unsigned threads,
+        StepTimer& step);
+
+  /** \brief What build() finds out, to be kept elsewhere and restored. @{ */
+  const std::vector<SplitPlane>&
+  getPlanes() const
+  {
+    return planes_;
+  }
+  void
+  restore(std::vector<SplitPlane>&& planes,
+          std::uint32_t count,
+          const AxisCycle& axes,
+          int depth);
+  /** @} */
+
+  /** \brief A cycle over some axes; over none, all zeros. */
+  static AxisCycle
+  cycleOver(const std::array<bool, 3>& axes);
+
+  /** \brief Give the root of a subtree its cell, and its samples their place among
+   * positions that hold other samples as well. \param begin of the first one
+   * \param cell planes whose samples are among the same positions */
+  void
+  place(std::uint32_t begin, const KdCell& cell);
+
   KdNode
   getRoot() const
   {
-    return {1, 0, count_, 0};
+    return root_;
+  }
+
+  /** \brief The whole space, unless the root was given another cell. */
+  const KdCell&
+  getCell() const
+  {
+    return cell_;
   }
 
   /** \brief Axis of the splits at a depth: a cycle over the axes along which the
@@ -146,14 +198,18 @@ public:
   static KdCell
   unboundedCell();
 
+  /** \brief The cell of a sample. */
+  KdCell
+  cellOf(std::uint32_t sample) const;
+
   /** \brief True if plane a lies below plane b in the total order along the axis
    * (ranks, not coordinates: cells of samples with equal coordinates have a thickness
    * of rank). */
-  bool
+  static bool
   isBelow(const std::vector<Position>& positions,
           int axis,
           const SplitPlane& a,
-          const SplitPlane& b) const
+          const SplitPlane& b)
   {
     if (a.coordinate != b.coordinate)
       return a.coordinate < b.coordinate;
@@ -166,6 +222,13 @@ public:
   void
   findTouching(const std::vector<Position>& positions,
                std::uint32_t sample,
+               std::vector<std::uint32_t>& touching) const;
+
+  /** \brief Append all samples whose closed cell shares a point with a cell that lies
+   * outside of the root's. */
+  void
+  findTouching(const std::vector<Position>& positions,
+               const KdCell& cell,
                std::vector<std::uint32_t>& touching) const;
 
   /** \brief Range of the values below every node.
@@ -183,6 +246,20 @@ public:
                float isovalue,
                unsigned threads) const;
 
+  /** \brief Append the samples that touch one of another tree, beside this one, on the
+   * other side of an isovalue. \param ranges of this tree; their values are those of
+   * the other one as well */
+  void
+  findCrossing(const std::vector<Position>& positions,
+               const NodeRanges& ranges,
+               float isovalue,
+               const KdTree& other,
+               std::vector<std::uint32_t>& crossing) const;
+
+  /** \brief True if two closed cells share a point. */
+  static bool
+  touch(const std::vector<Position>& positions, const KdCell& a, const KdCell& b);
+
 private:
   void
   searchSubtree(const std::vector<Position>& positions,
@@ -192,8 +269,9 @@ private:
                 const KdCell& cell,
                 std::vector<std::uint32_t>& touching) const;
 
-  std::uint32_t count_ = 0;
-  std::array<std::int8_t, 64> axis_at_depth_{};
+  KdNode root_{1, 0, 0, 0};
+  KdCell cell_ = unboundedCell();
+  AxisCycle axis_at_depth_{};
   std::vector<SplitPlane> planes_;
 };
 

@@ -59,7 +59,11 @@ private:
   gatherAround(const Position& point, float margin);
 
   bool
-  gatherBelow(const KdNode& node);
+  gatherBelow(const KdTree& tree, const KdNode& node);
+
+  /** Of the samples and their halo. */
+  bool
+  gatherFromAll();
 
   bool
   searchInBox(const Position& point, float length);
@@ -71,7 +75,11 @@ private:
   /** \param sq_bound least squared distance of the node's cell
    * \param offsets per axis, of the cell from the point */
   void
-  descend(const Position& point, const KdNode& node, float sq_bound, Position& offsets);
+  descend(const Position& point,
+          const KdTree& tree,
+          const KdNode& node,
+          float sq_bound,
+          Position& offsets);
 
   /** Distance to the next face of the box: all samples within it are candidates. */
   float

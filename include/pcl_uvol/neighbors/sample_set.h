@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -17,10 +18,36 @@ namespace pcl_uvol {
 /** \brief Finite, distinct samples in leaf order with the tree over them.
  *
  * "Sample index" means leaf order, which depends on coordinates alone; getInputIndex
- * gives the index in the input cloud. Memory: 24 bytes per sample. */
+ * gives the index in the input cloud. Memory: 24 bytes per sample.
+ *
+ * A set may be a piece of a larger one: it then holds, besides its own samples, some of
+ * other pieces around them, its halo, each block of which has a tree of its own.
+ * Indices follow the leaf order of the whole; see Piece. */
 class PCL_UVOL_EXPORTS SampleSet {
 public:
   using ConstPtr = std::shared_ptr<const SampleSet>;
+
+  /** \brief What a piece of a larger set is made of. */
+  struct Parts {
+    std::vector<Position> positions; ///< samples, behind them those that planes name
+    std::size_t size = 0;            ///< samples
+    std::vector<KdTree> trees;       ///< placed, ascending
+    std::size_t own = 0;             ///< the tree of the piece; the others are its halo
+    Position scale{{1.0f, 1.0f, 1.0f}};
+  };
+
+  /** \brief A piece; it knows no input indices. */
+  explicit SampleSet(Parts&& parts)
+      : parts_(std::move(parts))
+  {
+  }
+
+  /** \brief The parts back, to add to them. */
+  Parts
+  take() &&
+  {
+    return std::move(parts_);
+  }
 
   /** \brief Build from count positions.
    * \param xyz first coordinate of point 0; point i starts stride floats further on
@@ -40,27 +67,36 @@ public:
   std::size_t
   size() const
   {
-    return positions_.size();
+    return parts_.size;
   }
 
-  /** \brief Positions in leaf order, stretched by the scale. */
+  /** \brief Positions in leaf order, stretched by the scale; there may be more of them
+   * than samples. */
   const std::vector<Position>&
   getPositions() const
   {
-    return positions_;
+    return parts_.positions;
   }
 
+  /** \brief The tree over all samples but the halo. */
   const KdTree&
   getTree() const
   {
-    return tree_;
+    return parts_.trees[parts_.own];
+  }
+
+  /** \brief That tree and those of the halo, ascending by their samples. */
+  const std::vector<KdTree>&
+  getTrees() const
+  {
+    return parts_.trees;
   }
 
   /** \brief Factors per axis from the input's coordinates to those of the samples. */
   const Position&
   getScale() const
   {
-    return scale_;
+    return parts_.scale;
   }
 
   /** \brief Index in the input cloud of a sample: of several merged points the lowest.
@@ -87,11 +123,9 @@ public:
 private:
   SampleSet() = default;
 
-  Position scale_{{1.0f, 1.0f, 1.0f}};
-  std::vector<Position> positions_;
+  Parts parts_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<Merged> merged_;
-  KdTree tree_;
 };
 
 } // namespace pcl_uvol

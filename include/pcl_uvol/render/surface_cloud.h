@@ -123,9 +123,9 @@ public:
     return footprints_;
   }
 
-  /** \brief Radius of the disc by which every point fills a hole among dense points:
-   * each hole has one such disc, which leaves less of it than the masks close. Empty
-   * before computeFootprints(). */
+  /** \brief Radius of the disc by which every point fills a small hole among dense
+   * points: each hole has one such disc, which leaves less of it than the masks close.
+   * Empty before computeFootprints(). */
   const std::vector<float>&
   getFillers() const
   {

@@ -23,6 +23,24 @@ toCamera(const Projection& p, const Vector& v)
           r[6] * v.x + r[7] * v.y + r[8] * v.z + p.translation[2]};
 }
 
+/** Pixels that a unit of length has at a depth. Divided and multiplied as shaders do,
+ * which know reciprocals only: all backends agree to the last bit. */
+inline Floats
+pixelsPerLength(const Projection& p, const Vector& c)
+{
+  return p.focal * (1.0f / c.z);
+}
+
+/** Of a disc, which is its point's footprint if that is too large for a filler. */
+inline Floats
+discRadius(const Projection& p,
+           const Floats& radius,
+           const Floats& footprint,
+           const Floats& pixels_per_length)
+{
+  return footprint * pixels_per_length > p.largest_filler ? footprint : radius;
+}
+
 inline PixelKey
 keyOf(float depth, std::uint32_t point)
 {

@@ -20,34 +20,41 @@ slopeOf(const Ints& pixels, float center, float focal)
 
 /** Discs, or one disc in all lanes, in camera space. */
 struct DiscLanes {
-  Vector center, axis; ///< axis: normal of any length
-  Floats radius, plane;
+  Vector center;
+  Floats radius;
+  Floats facing;         ///< positive: seen from behind
+  Floats tilt_x, tilt_y; ///< relative change of 1 / z along the image, per pixel
+  Floats px, py;         ///< the centre in the image, pixels
 
   DiscLanes(const Projection& projection,
             const Vector& position,
             const Ints& packed_normal,
-            const Floats& disc_radius)
+            const Floats& disc_radius,
+            const Floats& footprint)
       : center(toCamera(projection, position))
-      , radius(disc_radius)
   {
+    const Floats per_length = pixelsPerLength(projection, center);
+    radius = discRadius(projection, disc_radius, footprint, per_length);
     Floats n[3];
     unpackDirection(packed_normal, n);
     const float* const r = projection.rotation;
-    axis = {r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
-            r[3] * n[0] + r[4] * n[1] + r[5] * n[2],
-            r[6] * n[0] + r[7] * n[1] + r[8] * n[2]};
-    plane = axis.x * center.x + axis.y * center.y + axis.z * center.z;
+    const Vector axis = {r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
+                         r[3] * n[0] + r[4] * n[1] + r[5] * n[2],
+                         r[6] * n[0] + r[7] * n[1] + r[8] * n[2]};
+    facing = axis.x * center.x + axis.y * center.y + axis.z * center.z;
+    // Infinite where a disc is seen edge-on, so that no pixel is covered.
+    const Floats slant = pixelSize(projection) * (1.0f / facing);
+    tilt_x = axis.x * slant;
+    tilt_y = axis.y * slant;
+    px = projection.center_x + center.x * per_length;
+    py = projection.center_y + center.y * per_length;
   }
 
-  /** Where rays meet the discs: their parameter along the ray, and the squared distance
-   * from the centre. */
-  void
-  intersect(const Floats& qx, const Floats& qy, Floats& along, Floats& sq_dist) const
+  /** Side of a pixel in the centres. */
+  Floats
+  pixelSize(const Projection& projection) const
   {
-    along = plane / (axis.x * qx + axis.y * qy + axis.z);
-    const Floats x = along * qx - center.x, y = along * qy - center.y,
-                 z = along - center.z;
-    sq_dist = x * x + y * y + z * z;
+    return center.z * (1.0f / projection.focal);
   }
 
   /** How far the discs reach in the image, in pixels, along the axis of a slope. */
@@ -59,14 +66,52 @@ struct DiscLanes {
   }
 };
 
+/** \param z of the place where a ray meets a disc */
 Floats
 depthAt(const Projection& projection,
-        const Floats& along,
+        const Floats& z,
         const Floats& qx,
         const Floats& qy)
 {
-  return along * squareRoot(qx * qx + (qy * qy + 1.0f)) * projection.per_far;
+  return z * squareRoot(qx * qx + (qy * qy + 1.0f)) * projection.per_far;
 }
+
+/** Which pixels discs cover, as polynomials of the way from the projected centres, in
+ * pixels: cheaper than meeting every ray with its plane, and more exact far away. */
+struct DiscPolynomials {
+  Floats xx, xy, yy, x, y, one; ///< not positive: covered
+
+  DiscPolynomials(const Projection& projection, const DiscLanes& disc)
+  {
+    // With e the way in pixels, s their size in the centre c, t the tilt: rays meet the
+    // plane of the disc where z is c.z / (1 + t.e), so that the disc is
+    // |s e - (t.e) c| <= radius |1 + t.e|. The left side vanishes in the centre.
+    const Vector& c = disc.center;
+    const Floats size = disc.pixelSize(projection), tx = disc.tilt_x, ty = disc.tilt_y;
+    const Vector u = {size - tx * c.x, -(tx * c.y), -(tx * c.z)};
+    const Vector v = {-(ty * c.x), size - ty * c.y, -(ty * c.z)};
+    const Floats r = disc.radius, rx = r * tx, ry = r * ty;
+    xx = u.x * u.x + u.y * u.y + u.z * u.z - rx * rx;
+    xy = 2.0f * (u.x * v.x + u.y * v.y + u.z * v.z - rx * ry);
+    yy = v.x * v.x + v.y * v.y + v.z * v.z - ry * ry;
+    x = -2.0f * (r * rx);
+    y = -2.0f * (r * ry);
+    one = -(r * r);
+  }
+
+  /** In one row, as a polynomial of the way along it: linear and constant term. @{ */
+  Floats
+  linearAt(const Floats& ey) const
+  {
+    return xy * ey + x;
+  }
+  Floats
+  constantAt(const Floats& ey) const
+  {
+    return (yy * ey + y) * ey + one;
+  }
+  /** @} */
+};
 
 void
 keepFront(PixelKey& pixel, float depth, std::uint32_t point)
@@ -81,29 +126,30 @@ public:
   LargeDisc(const Projection& projection,
             const ProjectedPoints& points,
             std::uint32_t point,
-            float radius,
+            float stretch,
             const PixelBand& band)
-      : projection_(projection)
-      , disc_(projection,
+      : disc_(projection,
               {fill(points.x[0][point]),
                fill(points.x[1][point]),
                fill(points.x[2][point])},
               fill(static_cast<std::int32_t>(points.normals[point])),
-              fill(radius))
+              fill(stretch * points.radii[point]),
+              fill(stretch * points.footprints[point]))
+      , polynomials_(projection, disc_)
+      , projection_(projection)
       , first_row_(band.first_row)
       , last_row_(band.last_row)
       , last_column_(band.width)
   {
-    const Floats x = disc_.center.x / disc_.center.z,
-                 y = disc_.center.y / disc_.center.z;
     if (disc_.center.z[0] - disc_.radius[0] < projection.near)
       return;
-    range(projection.center_x + projection.focal * x[0],
-          disc_.extent(projection, x)[0],
+    const Floats per_z = 1.0f / disc_.center.z;
+    range(disc_.px[0],
+          disc_.extent(projection, disc_.center.x * per_z)[0],
           first_column_,
           last_column_);
-    range(projection.center_y + projection.focal * y[0],
-          disc_.extent(projection, y)[0],
+    range(disc_.py[0],
+          disc_.extent(projection, disc_.center.y * per_z)[0],
           first_row_,
           last_row_);
   }
@@ -141,7 +187,7 @@ public:
   bool
   looksAway() const
   {
-    return disc_.plane[0] > 0.0f;
+    return disc_.facing[0] > 0.0f;
   }
 
 private:
@@ -160,12 +206,14 @@ private:
   {
     const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
     const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
-    Floats along, sq_dist;
-    disc_.intersect(qx, qy, along, sq_dist);
-    const Floats depth = depthAt(projection_, along, qx, qy);
-    const Ints covered = (along > 0.0f) & (sq_dist <= disc_.radius * disc_.radius) &
-                         (depth < 1.0f) & (rows < fill(last_row_)) &
-                         (columns < fill(last_column_));
+    const Floats ex = toFloats(columns) + 0.5f - disc_.px,
+                 ey = toFloats(rows) + 0.5f - disc_.py;
+    const Floats beyond = (polynomials_.xx * ex + polynomials_.linearAt(ey)) * ex +
+                          polynomials_.constantAt(ey);
+    const Floats toward = (1.0f + disc_.tilt_y * ey) + disc_.tilt_x * ex;
+    const Floats depth = depthAt(projection_, disc_.center.z * (1.0f / toward), qx, qy);
+    const Ints covered = (toward > 0.0f) & (beyond <= 0.0f) & (depth < 1.0f) &
+                         (rows < fill(last_row_)) & (columns < fill(last_column_));
     std::uint32_t bits = laneBits(covered);
     if (bits == 0)
       return;
@@ -174,15 +222,17 @@ private:
     store(row, rows);
     store(column, columns);
     store(depths, depth);
-    store(parts, sq_dist / (disc_.radius * disc_.radius));
+    const Floats radius = disc_.radius * toward;
+    store(parts, 1.0f + beyond / (radius * radius));
     for (; bits != 0; bits &= bits - 1) {
       const int lane = __builtin_ctz(bits);
       visit(row[lane], column[lane], depths[lane], parts[lane]);
     }
   }
 
-  const Projection& projection_;
   DiscLanes disc_;
+  DiscPolynomials polynomials_;
+  const Projection& projection_;
   int first_row_, last_row_, first_column_ = 0, last_column_;
 };
 
@@ -195,36 +245,6 @@ largest(const Floats& values)
   return most;
 }
 
-/** Which pixels discs cover, as polynomials of the way from the projected centres, in
- * pixels: cheaper than meeting every ray with its plane. */
-struct DiscPolynomials {
-  Floats xx, xy, yy, x, y, one;      ///< not positive: covered
-  Floats toward, toward_x, toward_y; ///< ray of a pixel times axis
-
-  DiscPolynomials(const Projection& projection, const DiscLanes& disc)
-  {
-    // With q the ray of a pixel, a the axis, c the centre: the ray meets the plane at
-    // (a.c / a.q) q, so that the disc is |(a.c) q - (a.q) c| <= radius |a.q|. The left
-    // side vanishes in the centre.
-    const Vector &a = disc.axis, &c = disc.center;
-    const float per_focal = 1.0f / projection.focal;
-    const Floats ax = a.x * per_focal, ay = a.y * per_focal;
-    const Floats az = a.z * per_focal;
-    toward = disc.plane / c.z;
-    toward_x = ax;
-    toward_y = ay;
-    const Vector u = {ay * c.y + az * c.z, -(ax * c.y), -(ax * c.z)};
-    const Vector v = {-(ay * c.x), ax * c.x + az * c.z, -(ay * c.z)};
-    const Floats rx = disc.radius * ax, ry = disc.radius * ay, r = disc.radius * toward;
-    xx = u.x * u.x + u.y * u.y + u.z * u.z - rx * rx;
-    xy = 2.0f * (u.x * v.x + u.y * v.y + u.z * v.z - rx * ry);
-    yy = v.x * v.x + v.y * v.y + v.z * v.z - ry * ry;
-    x = -2.0f * r * rx;
-    y = -2.0f * r * ry;
-    one = -(r * r);
-  }
-};
-
 /** Up to a register of discs, one per lane. */
 class DiscGroup {
 public:
@@ -232,28 +252,26 @@ public:
             const ProjectedPoints& points,
             const std::uint32_t* discs,
             int count)
-      : projection_(projection)
+      : disc_(gather(projection, points, discs, count))
+      , projection_(projection)
       , discs_(discs)
-      , disc_(gather(projection, points, discs, count))
-      , slope_x_(disc_.center.x / disc_.center.z)
-      , slope_y_(disc_.center.y / disc_.center.z)
   {
-    const Floats extent =
-        maximum(disc_.extent(projection, slope_x_), disc_.extent(projection, slope_y_));
+    const Floats per_z = 1.0f / disc_.center.z;
+    const Floats extent = maximum(disc_.extent(projection, disc_.center.x * per_z),
+                                  disc_.extent(projection, disc_.center.y * per_z));
     constexpr auto most = static_cast<float>(largest_side_by_side);
     const Ints is_here = laneNumbers() < fill(count);
     const Ints is_small =
         (disc_.center.z - disc_.radius >= projection.near) & (extent <= most);
     large_ = laneBits(is_here & ~is_small);
-    px_ = projection.center_x + projection.focal * slope_x_;
-    py_ = projection.center_y + projection.focal * slope_y_;
     // Far outside no pixel is reached, and integers do not take it. Conversion goes
     // towards zero: shifted, to the lower pixel.
     constexpr float shift = most + 1.0f;
-    small_ = is_here & is_small & (px_ > -shift) & (py_ > -shift) &
-             (px_ < pixel_limit) & (py_ < pixel_limit);
-    column_ = toInts(small_ ? px_ + shift : Floats{}) - static_cast<int>(shift);
-    row_ = toInts(small_ ? py_ + shift : Floats{}) - static_cast<int>(shift);
+    const Floats &px = disc_.px, &py = disc_.py;
+    small_ = is_here & is_small & (px > -shift) & (py > -shift) & (px < pixel_limit) &
+             (py < pixel_limit);
+    column_ = toInts(small_ ? px + shift : Floats{}) - static_cast<int>(shift);
+    row_ = toInts(small_ ? py + shift : Floats{}) - static_cast<int>(shift);
     reach_ = largest(small_ ? extent : Floats{});
   }
 
@@ -273,7 +291,8 @@ public:
     const Floats behind = disc_.radius * (back * projection_.per_far);
     const Ints places =
         (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
-    const Floats x = toFloats(column_) + 0.5f - px_, y = toFloats(row_) + 0.5f - py_;
+    const Floats x = toFloats(column_) + 0.5f - disc_.px,
+                 y = toFloats(row_) + 0.5f - disc_.py;
     const float farthest = reach_ + 0.5f; // of a pixel's middle, rounded down
     const int rows = static_cast<int>(farthest);
     for (int dy = -rows; dy <= rows; ++dy) {
@@ -281,20 +300,20 @@ public:
       const Ints in_band =
           small_ & (row >= fill(band.first_row)) & (row < fill(band.last_row));
       const Floats ey = y + static_cast<float>(dy);
-      const Floats linear = p.xy * ey + p.x, one = (p.yy * ey + p.y) * ey + p.one;
+      const Floats linear = p.linearAt(ey), constant = p.constantAt(ey);
       const Floats qy = slopeOf(row, projection_.center_y, projection_.focal);
-      const Floats toward = p.toward + p.toward_y * ey;
+      const Floats toward = 1.0f + disc_.tilt_y * ey;
       const int columns = columnsAt(dy);
       for (int dx = -columns; dx <= columns; ++dx) {
         const Floats ex = x + static_cast<float>(dx);
         const Ints column = column_ + dx;
-        const Ints covered = in_band & ((p.xx * ex + linear) * ex + one <= 0.0f) &
+        const Ints covered = in_band & ((p.xx * ex + linear) * ex + constant <= 0.0f) &
                              (column >= 0) & (column < fill(band.width));
         if (laneBits(covered) == 0)
           continue;
         const Floats qx = slopeOf(column, projection_.center_x, projection_.focal);
-        const Floats along = disc_.plane / (toward + p.toward_x * ex);
-        const Floats depth = depthAt(projection_, along, qx, qy) + behind;
+        const Floats z = disc_.center.z * (1.0f / (toward + disc_.tilt_x * ex));
+        const Floats depth = depthAt(projection_, z, qx, qy) + behind;
         keepLanes(laneBits(covered & (depth < 1.0f)),
                   depth,
                   places + (dy * static_cast<int>(band.stride) + dx),
@@ -310,7 +329,7 @@ private:
          const std::uint32_t* discs,
          int count)
   {
-    alignas(64) float x[3][lanes], radius[lanes];
+    alignas(64) float x[3][lanes], radius[lanes], footprint[lanes];
     alignas(64) std::int32_t normal[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const std::uint32_t disc = discs[lane < count ? lane : 0];
@@ -318,11 +337,13 @@ private:
         x[axis][lane] = points.x[axis][disc];
       normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
       radius[lane] = points.radii[disc];
+      footprint[lane] = points.footprints[disc];
     }
     return DiscLanes(projection,
                      {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
                      load<Ints>(normal),
-                     load<Floats>(radius));
+                     load<Floats>(radius),
+                     load<Floats>(footprint));
   }
 
   /** How many columns beside their centres' discs can reach so many rows away. */
@@ -331,7 +352,10 @@ private:
   {
     const float rows = dy == 0 ? 0.0f : static_cast<float>(dy < 0 ? -dy : dy) - 0.5f;
     const float left = reach_ * reach_ - rows * rows;
-    return left < 0.0f ? -1 : static_cast<int>(__builtin_sqrtf(left) + 0.5f);
+    if (left < 0.0f)
+      return -1;
+    const float farthest = __builtin_sqrtf(left) + 0.5f; // of a pixel's middle
+    return static_cast<int>(farthest);
   }
 
   void
@@ -351,11 +375,10 @@ private:
     }
   }
 
+  DiscLanes disc_;
+  Ints small_, column_, row_;
   const Projection& projection_;
   const std::uint32_t* discs_;
-  DiscLanes disc_;
-  Floats slope_x_, slope_y_, px_, py_;
-  Ints small_, column_, row_;
   float reach_; ///< of the small ones, in pixels
   std::uint32_t large_;
 };
@@ -376,8 +399,8 @@ draw(const Projection& projection,
     for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
       const std::uint32_t point =
           discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
-      const LargeDisc disc(projection, points, point, points.radii[point], band);
-      const float room = back * disc.radius() * projection.per_far;
+      const LargeDisc disc(projection, points, point, 1.0f, band);
+      const float room = disc.radius() * (back * projection.per_far);
       disc.forCovered([&](int row, int column, float depth, float) {
         if (depth + room < 1.0f)
           keepFront(band.keys[row * band.stride + column], depth + room, point);
@@ -414,8 +437,7 @@ blend(const Projection& projection,
       const BlendSums& blended)
 {
   for (std::size_t i = 0; i < count; ++i) {
-    const LargeDisc disc(
-        projection, points, discs[i], points.stretch * points.radii[discs[i]], band);
+    const LargeDisc disc(projection, points, discs[i], points.stretch, band);
     Floats direction[3];
     unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
     const Floats length =

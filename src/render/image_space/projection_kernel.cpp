@@ -91,11 +91,14 @@ projectPoints(const Projection& projection,
                 (laneNumbers() < fill(static_cast<std::int32_t>(here)));
     if (projection.cull_back_faces)
       seen &= facing >= 0.0f;
-    const Floats per_z = projection.focal / c.z;
+    const Floats per_z = pixelsPerLength(projection, c);
     const Floats px = projection.center_x + c.x * per_z;
     const Floats py = projection.center_y + c.y * per_z;
     if (points.radii != nullptr) {
-      const Floats radius = loadSome<Floats>(points.radii + i, here);
+      const Floats radius = discRadius(projection,
+                                       loadSome<Floats>(points.radii + i, here),
+                                       loadSome<Floats>(points.footprints + i, here),
+                                       per_z);
       const Ints is_disc = seen & (radius * per_z > projection.smallest_footprint);
       std::uint32_t bits = laneBits(is_disc);
       if (bits != 0)

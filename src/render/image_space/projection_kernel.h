@@ -27,8 +27,9 @@ struct PixelBand {
 struct ProjectedPoints {
   const float* x[3];
   const std::uint32_t* normals;
-  const float* radii; ///< of their discs; null: no footprints
-  float stretch;      ///< discs may reach so many of their radii
+  const float* radii;      ///< of their discs; null: no footprints
+  const float* footprints; ///< radii where these are too large for a filler
+  float stretch;           ///< discs may reach so many of their radii
 };
 
 /** A view, and which points are seen. */
@@ -37,8 +38,8 @@ struct Projection {
   float eye[3]; ///< in the coordinates of the points
   float focal, center_x, center_y, near, per_far;
   bool cull_back_faces;
-  bool two_sided;           ///< normals are turned to the eye
-  float smallest_footprint; ///< in pixels: see backend.h
+  bool two_sided;                           ///< normals are turned to the eye
+  float smallest_footprint, largest_filler; ///< in pixels: see backend.h
 };
 
 /** Points that projectPoints takes at once, at most. */

@@ -41,6 +41,7 @@ projectionOf(const Frame& frame)
       frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
   projection.two_sided = frame.cloud.isTwoSided();
   projection.smallest_footprint = smallest_footprint;
+  projection.largest_filler = largest_filler;
   return projection;
 }
 
@@ -86,11 +87,14 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
     , disc_kernels_(*disc_table.get())
 {
   const SurfaceCloud& cloud = frame.cloud;
+  const float* const footprints =
+      frame.hasFootprints() ? cloud.getFootprints().data() : nullptr;
   points_ = {{cloud.getCoordinates(0).data(),
               cloud.getCoordinates(1).data(),
               cloud.getCoordinates(2).data()},
              cloud.getNormals().data(),
-             frame.hasFootprints() ? cloud.getFootprints().data() : nullptr,
+             footprints,
+             footprints,
              blend_reach};
 }
 

@@ -90,6 +90,11 @@ struct PCL_UVOL_EXPORTS Frame {
  * masks close what is left open, holes of radius sqrt(2) at most. */
 constexpr float smallest_footprint = 1.4f;
 
+/** \brief Points with a larger footprint, in pixels, have all of it where others are
+ * fillers: the hole beside them is too large for one disc in its rim, which leaves it
+ * half as wide, and the masks close no more than sqrt(2) around its middle. */
+constexpr float largest_filler = 2.8f;
+
 /** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
  * blended into each other. In the other blocks discs only fill holes: they have the
  * radius of fillers, and lie deeper than their points, so that these stay sharp. */

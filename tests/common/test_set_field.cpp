@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fields added to a dataset: the others and the places stay as they are.
-#include "random_dataset.h"
+#include "io/random_dataset.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first levels of the kd-tree over samples that no process holds all of: they part
+// the samples into pieces, each of which becomes a subtree of its own.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/rank_group.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A splitting plane that names its sample by position; of all positions those
+ * up to that one lie below it. */
+struct PlaneKey {
+  float coordinate;
+  Position below;
+};
+
+/** \brief A cell between such planes; infinite coordinates at the border of the domain.
+ */
+struct PCL_UVOL_EXPORTS CellKey {
+  std::array<PlaneKey, 3> low, high;
+
+  /** \brief The whole space. */
+  static CellKey
+  unbounded();
+
+  /** \brief True if the closed cells share a point, see KdTree::touch. */
+  bool
+  touches(const CellKey& other) const;
+};
+
+/** \brief A ball, around an isopoint, say. */
+struct Ball {
+  Position center;
+  float radius;
+};
+
+/** \brief True if a ball and a cell share a point. */
+PCL_UVOL_EXPORTS bool
+meets(const Ball& ball, const CellKey& cell);
+
+/** \brief The balls that do. */
+PCL_UVOL_EXPORTS std::vector<Ball>
+ballsIn(const CellKey& cell, const std::vector<Ball>& balls);
+
+/** \brief True if a ball lies in the inside of a cell. */
+PCL_UVOL_EXPORTS bool
+liesWithin(const Ball& ball, const CellKey& cell);
+
+/** \brief Hands out the positions of a process's samples, block by block, as often as
+ * asked and always in the same order: position i of a block is positions[i]. */
+using PositionScan =
+    std::function<void(const std::function<void(const Position*, std::size_t)>& block)>;
+
+/** \brief The top of the kd-tree of thesis 2.2.1, exactly as over all samples at once,
+ * if these are distinct. */
+class PCL_UVOL_EXPORTS Decomposition {
+public:
+  static constexpr int most_levels = 20;
+
+  /** \brief Find the medians of all nodes of the first levels, level by level, by
+   * counting digits of the coordinates (radix selection): about three passes over the
+   * samples per level, and per node and pass 16 KiB of counts summed over the
+   * processes.
+   * \param scan finite positions of this process's samples, none of them -0
+   * \param levels 0 to 20: 2^levels pieces
+   * \throws InvalidArgument unless there are as many samples as pieces */
+  Decomposition(const PositionScan& scan,
+                int levels,
+                RankGroup& ranks,
+                unsigned threads);
+
+  /** \brief Pieces: they are numbered from left to right. */
+  std::size_t
+  size() const
+  {
+    return std::size_t(1) << levels_;
+  }
+
+  int
+  getLevels() const
+  {
+    return levels_;
+  }
+
+  const AxisCycle&
+  getAxes() const
+  {
+    return axes_;
+  }
+
+  /** \brief Samples of all processes. */
+  std::uint64_t
+  getSampleCount() const
+  {
+    return count_;
+  }
+
+  /** \brief Of a piece: its first sample in leaf order, and how many it has, if all
+   * samples are distinct; of equal ones all lie in one piece. @{ */
+  std::uint64_t
+  getBegin(std::size_t piece) const;
+  std::uint64_t
+  getCount(std::size_t piece) const
+  {
+    return getBegin(piece + 1) - getBegin(piece);
+  }
+  /** @} */
+
+  CellKey
+  getCell(std::size_t piece) const;
+
+  /** \brief The piece that a sample belongs to, or in whose cell another point lies. */
+  std::size_t
+  pieceOf(const Position& position) const;
+
+  /** \brief Call found for each piece whose cell meets some balls, with these,
+   * ascending. */
+  void
+  findPieces(const std::vector<Ball>& balls,
+             const std::function<void(std::size_t piece, const std::vector<Ball>&)>&
+                 found) const;
+
+private:
+  int levels_;
+  AxisCycle axes_{};
+  std::uint64_t count_ = 0;
+  std::vector<PlaneKey> planes_; // by node number
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A piece of a decomposed data set: a subtree of the kd-tree over all samples, and what
+// it borrows from the pieces around it.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/neighbors/decomposition.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Samples as plain arrays, in leaf order once they are part of a piece. */
+struct PCL_UVOL_EXPORTS Samples {
+  std::vector<Position> positions; ///< stretched by the scale; finite, none of them -0
+  std::vector<float> values;       ///< finite
+  std::vector<std::uint64_t>
+      sources; ///< where each comes from: an index of the caller's
+
+  std::size_t
+  size() const
+  {
+    return positions.size();
+  }
+
+  void
+  push(const Position& position, float value, std::uint64_t source)
+  {
+    positions.push_back(position);
+    values.push_back(value);
+    sources.push_back(source);
+  }
+
+  void
+  reserve(std::size_t count);
+
+  /** \brief Append consecutive samples of others. */
+  void
+  append(const Samples& others, std::size_t begin, std::size_t count);
+};
+
+/** \brief A subtree of some hundred samples, the unit in which pieces lend samples to
+ * each other. */
+struct Brick {
+  std::uint64_t begin; ///< its first sample in the leaf order of all samples
+  std::uint32_t count; ///< samples
+  std::int32_t depth;  ///< of its root
+  CellKey cell;
+  NodeRanges::Range range; ///< of its values
+};
+
+/** \brief The planes of a piece's tree down to its bricks, and the ranges of their
+ * values. Memory: about 1/4 byte per sample. */
+class PCL_UVOL_EXPORTS BrickTable {
+public:
+  /** \brief Largest number of samples in a brick. */
+  static constexpr std::uint32_t most_samples = 256;
+
+  BrickTable() = default;
+
+  /** \param tree of a piece, over the positions from 0 on
+   * \param begin, cell of the piece among all samples */
+  BrickTable(const KdTree& tree,
+             const std::vector<Position>& positions,
+             const std::vector<float>& values,
+             std::uint64_t begin,
+             const CellKey& cell);
+
+  /** \brief Call found for each brick whose cell is accepted, ascending; cells around
+   * bricks are asked first. */
+  void
+  find(const std::function<bool(const CellKey&)>& accepts,
+       const std::function<void(const Brick&)>& found) const;
+
+  /** \brief Call found for each brick that meets one of the balls, ascending. */
+  void
+  find(const std::vector<Ball>& balls,
+       const std::function<void(const Brick&)>& found) const;
+
+private:
+  /** Visit the bricks below a node, with what is left of a criterion. */
+  template <typename Criterion>
+  void
+  visit(const KdNode& node,
+        CellKey& cell,
+        const Criterion& criterion,
+        const std::function<void(const Brick&)>& found) const;
+
+  AxisCycle axes_{};
+  KdNode root_{1, 0, 0, 0};
+  std::uint64_t begin_ = 0;
+  CellKey cell_;
+  std::vector<PlaneKey> planes_; // by number, of nodes with more samples than a brick
+  std::vector<NodeRanges::Range> ranges_; // by number, of bricks
+};
+
+/** \brief A brick and its samples. */
+struct LentBrick {
+  Brick brick;
+  Samples samples;
+};
+
+/** \brief The samples of one piece with their tree and, as far as it was borrowed,
+ * their halo. Memory: 32 to 40 bytes per sample, 44 more while it is built, 24 more
+ * while it borrows. */
+class PCL_UVOL_EXPORTS Piece {
+public:
+  /** \brief Samples that a piece may have; with its halo it may hold twice as many. */
+  static constexpr std::uint32_t most_samples = 1u << 31;
+
+  /** \brief Build the subtree of a piece.
+   * \param samples all of the piece, in any order
+   * \param scale by which the positions are stretched
+   * \return nothing, and the samples stay, if some coincide: mergeDuplicates settles it
+   * \throws InvalidArgument for more than most_samples */
+  static std::optional<Piece>
+  build(const Decomposition& decomposition,
+        std::size_t piece,
+        Samples&& samples,
+        const Position& scale,
+        unsigned threads,
+        Report& report);
+
+  /** \brief A piece that was built before.
+   * \param samples, planes in leaf order, as getOwnSamples() and getPlanes() gave them
+   */
+  static Piece
+  restore(const Decomposition& decomposition,
+          std::size_t piece,
+          Samples&& samples,
+          std::vector<SplitPlane>&& planes,
+          const Position& scale);
+
+  /** \brief Planes of the tree over the own samples, before anything was borrowed. */
+  const std::vector<SplitPlane>&
+  getPlanes() const
+  {
+    return samples_->getTree().getPlanes();
+  }
+
+  /** \brief Own samples and those borrowed, in one leaf order. */
+  const SampleSet&
+  getSamples() const
+  {
+    return *samples_;
+  }
+
+  /** \brief By sample. @{ */
+  const std::vector<float>&
+  getValues() const
+  {
+    return values_;
+  }
+  std::uint64_t
+  getSource(std::uint32_t sample) const
+  {
+    return sources_[sample];
+  }
+  /** @} */
+
+  const CellKey&
+  getCell() const
+  {
+    return runs_[own_].cell;
+  }
+
+  /** \brief Index in the leaf order of all samples, and the way back. \throws
+   * InvalidArgument for a sample that the piece does not have @{ */
+  std::uint64_t
+  toGlobal(std::uint32_t sample) const;
+  std::uint32_t
+  toLocal(std::uint64_t sample) const;
+  /** @} */
+
+  /** \brief Bricks of the own samples, before anything was borrowed. */
+  BrickTable
+  makeBricks() const;
+
+  /** \brief The own samples of a brick of this piece. */
+  LentBrick
+  lend(const Brick& brick) const;
+
+  /** \brief All own samples, in leaf order. */
+  Samples
+  getOwnSamples() const;
+
+  /** \brief True for a brick of another piece that was borrowed. */
+  bool
+  holds(const Brick& brick) const;
+
+  /** \brief Add to the halo; bricks that are there already are left out. If it throws,
+   * the piece is lost. \throws InvalidArgument if own and borrowed samples are too many
+   * \return how many are new */
+  std::size_t
+  borrow(std::vector<LentBrick>&& bricks, unsigned threads);
+
+private:
+  /** Consecutive samples: the own ones, or those of a brick. */
+  struct Run {
+    std::uint64_t begin; // in the leaf order of all
+    std::uint32_t count;
+    CellKey cell;
+  };
+
+  /** Of samples in leaf order. */
+  Piece(const Decomposition& decomposition,
+        std::size_t piece,
+        Samples&& samples,
+        KdTree&& tree,
+        const Position& scale);
+
+  std::uint32_t
+  firstOf(const Run& run) const;
+
+  void
+  join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees);
+
+  std::unique_ptr<SampleSet> samples_;
+  std::vector<float> values_;
+  std::vector<std::uint64_t> sources_;
+  std::vector<Run> runs_; // ascending, one per tree of samples_
+  std::size_t own_ = 0;
+  AxisCycle axes_;
+};
+
+/** \brief Leave one of samples that coincide: the lower median of their values, and the
+ * first, by source, that has it, stands for all.
+ * \param samples come out sorted
+ * \param report gets the counts "duplicates" and "conflicting_duplicates" */
+PCL_UVOL_EXPORTS void
+mergeDuplicates(Samples& samples, unsigned threads, Report& report);
+
+} // namespace pcl_uvol

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Coordinates and fields put into datasets.
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
+
+#include <cstring>
+#include <limits>
+
+namespace pcl_uvol {
+namespace {
+
+/** \param values four bytes each */
+void
+replaceField(Dataset& dataset,
+             const std::string& name,
+             std::uint8_t datatype,
+             const void* values,
+             std::size_t count)
+{
+  pcl::PCLPointCloud2& cloud = dataset.cloud;
+  if (count != std::size_t{cloud.width} * cloud.height)
+    throw InvalidArgument("The field '" + name + "' has " + std::to_string(count) +
+                          " values for " + std::to_string(cloud.width) + " points.");
+  if (axisOf(name) >= 0)
+    throw InvalidArgument("The field '" + name + "' is a coordinate.");
+  // The old one becomes padding, which goes when the new one is packed.
+  for (auto& field : cloud.fields)
+    if (field.name == name)
+      field.name = "_";
+  pcl::PCLPointCloud2 packed = repack(cloud, true);
+  const std::size_t old_step = packed.point_step, new_step = old_step + 4;
+  appendField(packed.fields, name, datatype);
+  packed.fields.back().offset = static_cast<pcl::uindex_t>(old_step);
+  std::vector<std::uint8_t> data(new_step * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::memcpy(&data[i * new_step], &packed.data[i * old_step], old_step);
+    std::memcpy(&data[i * new_step + old_step],
+                static_cast<const std::uint8_t*>(values) + 4 * i,
+                4);
+  }
+  packed.data = std::move(data);
+  packed.point_step = static_cast<pcl::uindex_t>(new_step);
+  packed.row_step = static_cast<pcl::uindex_t>(new_step * count);
+  cloud = std::move(packed);
+}
+
+} // namespace
+
+void
+setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
+{
+  auto& cloud = dataset.cloud;
+  const std::size_t count = xyz.size() / 3;
+  if (xyz.size() % 3 != 0 || count > std::numeric_limits<pcl::uindex_t>::max())
+    throw InvalidArgument("There are " + std::to_string(xyz.size()) +
+                          " coordinates, which are not three for each point.");
+  if (cloud.fields.empty()) {
+    cloud.height = 1;
+    cloud.width = static_cast<pcl::uindex_t>(count);
+  }
+  else if (static_cast<std::size_t>(cloud.width) * cloud.height != count)
+    throw InvalidArgument("There are coordinates of " + std::to_string(count) +
+                          " points for a cloud of " +
+                          std::to_string(cloud.width * cloud.height) + ".");
+  CoordinateRange range;
+  for (std::size_t i = 0; i < xyz.size(); ++i)
+    range.add(i % 3, xyz[i]);
+  dataset.origin = range.origin();
+  cloud = repack(cloud, false);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      putCoordinate(xyz[3 * i + axis] - dataset.origin[axis],
+                    axis,
+                    cloud.data.data() + i * cloud.point_step);
+}
+
+void
+setField(Dataset& dataset, const std::string& name, const std::vector<float>& values)
+{
+  replaceField(
+      dataset, name, pcl::PCLPointField::FLOAT32, values.data(), values.size());
+}
+
+void
+setField(Dataset& dataset,
+         const std::string& name,
+         const std::vector<std::int32_t>& values)
+{
+  replaceField(dataset, name, pcl::PCLPointField::INT32, values.data(), values.size());
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "filter_run.h"
+
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/filters/point_data.h>
+
+#include <vtkAlgorithm.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Strings and variants come from the nearer sample. */
+void
+copyTuples(vtkAbstractArray& array, const IsoEdges& edges, vtkPointData& output)
+{
+  const auto count = static_cast<vtkIdType>(edges.size());
+  vtkNew<vtkIdList> from, to;
+  from->SetNumberOfIds(count);
+  to->SetNumberOfIds(count);
+  for (vtkIdType i = 0; i < count; ++i) {
+    const IsoEdge& edge = edges[static_cast<std::size_t>(i)];
+    from->SetId(i, edge.t <= 0.5f ? edge.first : edge.second);
+    to->SetId(i, i);
+  }
+  auto copy = vtkSmartPointer<vtkAbstractArray>::Take(array.NewInstance());
+  copy->SetName(array.GetName());
+  copy->SetNumberOfComponents(array.GetNumberOfComponents());
+  copy->SetNumberOfTuples(count);
+  copy->InsertTuples(to, from, &array);
+  output.AddArray(copy);
+}
+
+void
+copyComponentNames(vtkAbstractArray& from, vtkAbstractArray& to)
+{
+  if (from.GetNumberOfComponents() == to.GetNumberOfComponents() &&
+      from.HasAComponentName())
+    to.CopyComponentNames(&from);
+}
+
+/** What is active in the input is active in the output, unless something is. */
+void
+copyActiveArrays(vtkPointData& from, vtkPointData& to)
+{
+  for (const int role : {vtkDataSetAttributes::SCALARS,
+                         vtkDataSetAttributes::VECTORS,
+                         vtkDataSetAttributes::TCOORDS,
+                         vtkDataSetAttributes::TENSORS}) {
+    vtkAbstractArray* const active = from.GetAbstractAttribute(role);
+    if (active && active->GetName() && to.HasArray(active->GetName()))
+      to.SetActiveAttribute(active->GetName(), role);
+  }
+}
+
+} // namespace
+
+void
+PipelineProgress::tell(double done)
+{
+  if (std::this_thread::get_id() != thread_)
+    return;
+  if (done == 0.0)
+    ++started_;
+  const double steps = static_cast<double>(std::max<std::size_t>(started_, 1) - 1);
+  const double whole = (steps + done) / static_cast<double>(expected_);
+  filter_.UpdateProgress(std::min(std::max(whole, filter_.GetProgress()), 1.0));
+  if (filter_.GetAbortExecute())
+    throw Aborted();
+}
+
+std::vector<int>
+visiblePoints(vtkDataSet& input)
+{
+  constexpr unsigned char absent =
+      vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+  vtkUnsignedCharArray* const ghosts = input.GetPointGhostArray();
+  if (input.GetNumberOfPoints() > std::numeric_limits<int>::max())
+    throw InvalidArgument(std::to_string(input.GetNumberOfPoints()) +
+                          " points are more than PCL can number: take them in pieces.");
+  std::vector<int> visible;
+  visible.reserve(static_cast<std::size_t>(input.GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < input.GetNumberOfPoints(); ++i)
+    if (!ghosts || (ghosts->GetValue(i) & absent) == 0)
+      visible.push_back(static_cast<int>(i));
+  return visible;
+}
+
+void
+fillOutput(const Dataset& result,
+           const PointArrays& input,
+           const IsoEdges& edges,
+           FilterRun& run)
+{
+  run.output.ShallowCopy(fromPointCloud(result));
+  vtkPointData& data = *run.output.GetPointData();
+  const auto& fields = input.dataset.cloud.fields;
+  for (const PointArray& numbers : input.numbers)
+    if (auto* const array =
+            data.GetAbstractArray(fields[numbers.first_field].name.c_str()))
+      copyComponentNames(*numbers.array, *array);
+  for (const auto& array : input.others)
+    copyTuples(*array, edges, data);
+  copyActiveArrays(*run.input.GetPointData(), data);
+}
+
+IsoEdges
+edgesAt(const std::vector<std::uint32_t>& sources)
+{
+  IsoEdges edges;
+  edges.reserve(sources.size());
+  for (const std::uint32_t source : sources)
+    edges.push_back({source, source, 0.0f});
+  return edges;
+}
+
+} // namespace pcl_uvol

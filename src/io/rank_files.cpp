@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../common/byte_stream.h"
+#include "files.h"
+#include "formats.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/records.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/point_stream.h>
+#include <pcl_uvol/io/rank_files.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <glob.h>
+#include <limits>
+#include <unistd.h>
+
+namespace pcl_uvol {
+namespace {
+
+constexpr std::uint64_t most_points = std::numeric_limits<pcl::uindex_t>::max();
+
+std::vector<std::string>
+matching(const std::string& pattern)
+{
+  glob_t found{};
+  std::vector<std::string> paths;
+  if (::glob(pattern.c_str(), 0, nullptr, &found) == 0)
+    paths.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  ::globfree(&found);
+  if (paths.empty())
+    io::throwUnreadable(pattern, "no file matches");
+  return paths;
+}
+
+std::size_t
+countPoints(const Dataset& dataset)
+{
+  return std::size_t(dataset.cloud.width) * dataset.cloud.height;
+}
+
+void
+checkCount(std::uint64_t count)
+{
+  if (count > most_points)
+    throw InvalidArgument("A process would have to take " + std::to_string(count) +
+                          " points, and can take " + std::to_string(most_points) +
+                          ": use more processes.");
+}
+
+/** A share of a number of things. */
+std::uint64_t
+shareBegin(std::uint64_t count, std::uint64_t rank, const RankGroup& ranks)
+{
+  return count / ranks.size() * rank + count % ranks.size() * rank / ranks.size();
+}
+
+Dataset
+loadRange(const std::string& path, const LoadOptions& options, const RankGroup& ranks)
+{
+  PointStream stream(path, options);
+  if (stream.size() == 0)
+    throw InvalidArgument(path + " has no points.");
+  const std::uint64_t begin = shareBegin(stream.size(), ranks.rank(), ranks),
+                      end = shareBegin(stream.size(), ranks.rank() + 1, ranks);
+  checkCount(end - begin);
+  Dataset part = stream.getHeader();
+  stream.seek(begin);
+  stream.read(static_cast<std::size_t>(end - begin), part.cloud);
+  return part;
+}
+
+/** What pieces have to agree in. */
+struct Layout {
+  std::string path; ///< of the piece that it comes from; "": there is none
+  pcl::uindex_t point_step = 0;
+  bool double_coordinates = false;
+  Fields fields;
+
+  Layout() = default;
+  Layout(std::string name, const Dataset& dataset)
+      : path(std::move(name))
+      , point_step(dataset.cloud.point_step)
+      , double_coordinates(dataset.double_coordinates)
+      , fields(dataset.cloud.fields)
+  {
+  }
+  explicit Layout(const Bytes& message)
+  {
+    ByteReader reader(message);
+    const auto getText = [&] {
+      std::vector<char> text;
+      reader.get(text);
+      return std::string(text.begin(), text.end());
+    };
+    path = getText();
+    point_step = reader.get<pcl::uindex_t>();
+    double_coordinates = reader.get<bool>();
+    while (!reader.atEnd()) {
+      pcl::PCLPointField field;
+      field.name = getText();
+      field.offset = reader.get<pcl::uindex_t>();
+      field.datatype = reader.get<std::uint8_t>();
+      field.count = reader.get<pcl::uindex_t>();
+      fields.push_back(field);
+    }
+  }
+
+  Bytes
+  toMessage() const
+  {
+    Bytes message;
+    ByteWriter writer(message);
+    writer.put(std::vector<char>(path.begin(), path.end()));
+    writer.put(point_step);
+    writer.put(double_coordinates);
+    for (const auto& field : fields) {
+      writer.put(std::vector<char>(field.name.begin(), field.name.end()));
+      writer.put(field.offset);
+      writer.put(field.datatype);
+      writer.put(field.count);
+    }
+    return message;
+  }
+
+  /** Take what another piece has. \throws InvalidArgument for other fields */
+  void
+  join(const Layout& other)
+  {
+    if (other.path.empty())
+      return;
+    if (path.empty()) {
+      *this = other;
+      return;
+    }
+    const bool same = std::equal(fields.begin(),
+                                 fields.end(),
+                                 other.fields.begin(),
+                                 other.fields.end(),
+                                 [](const auto& a, const auto& b) {
+                                   return a.name == b.name && a.offset == b.offset &&
+                                          a.datatype == b.datatype &&
+                                          a.count == b.count;
+                                 });
+    if (!same)
+      throw InvalidArgument("The pieces '" + path + "' and '" + other.path +
+                            "' have different fields, the first " +
+                            describeFields(fields) + ", the second " +
+                            describeFields(other.fields) +
+                            ": write all of them with the same arrays.");
+    double_coordinates |= other.double_coordinates;
+  }
+};
+
+/** Pieces that one process reads, as one cloud. */
+class PieceCollector {
+public:
+  explicit PieceCollector(RankGroup& ranks)
+      : ranks_(ranks)
+  {
+  }
+
+  void
+  add(const std::string& path, const Dataset& piece)
+  {
+    part_.notes.insert(part_.notes.end(), piece.notes.begin(), piece.notes.end());
+    part_.has_coordinates = piece.has_coordinates;
+    if (countPoints(piece) == 0) // VTK writes such pieces without their arrays
+      return;
+    layout_.join({path, piece});
+    auto& cloud = part_.cloud;
+    if (origins_.empty())
+      part_.cloud = piece.cloud;
+    else {
+      cloud.data.insert(
+          cloud.data.end(), piece.cloud.data.begin(), piece.cloud.data.end());
+      checkCount(std::uint64_t(cloud.width) + countPoints(piece));
+      cloud.width += static_cast<pcl::uindex_t>(countPoints(piece));
+    }
+    origins_.emplace_back(countPoints(piece), piece.origin);
+  }
+
+  Dataset
+  finish(const std::vector<std::string>& paths)
+  {
+    for (const Bytes& message : ranks_.gatherAll(layout_.toMessage()))
+      layout_.join(Layout(message));
+    if (layout_.path.empty())
+      throw InvalidArgument(paths.size() == 1
+                                ? paths[0] + " has no points."
+                                : "None of the " + std::to_string(paths.size()) +
+                                      " pieces has points.");
+    auto& cloud = part_.cloud;
+    cloud.fields = layout_.fields;
+    cloud.point_step = layout_.point_step;
+    cloud.height = 1;
+    cloud.row_step = cloud.width * cloud.point_step;
+    part_.double_coordinates = layout_.double_coordinates;
+    if (part_.double_coordinates)
+      findCommonOrigin();
+    return std::move(part_);
+  }
+
+private:
+  /** Call visit(axis, coordinate in double, point) for all. */
+  template <typename Visit>
+  void
+  forCoordinates(const Visit& visit)
+  {
+    std::uint8_t* point = part_.cloud.data.data();
+    for (const auto& [count, origin] : origins_)
+      for (std::size_t i = 0; i < count; ++i, point += part_.cloud.point_step)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          float relative;
+          std::memcpy(&relative, point + axis * sizeof(relative), sizeof(relative));
+          visit(axis, origin[axis] + relative, point);
+        }
+  }
+
+  void
+  findCommonOrigin()
+  {
+    std::vector<CoordinateRange> ranges(1);
+    forCoordinates([&](std::size_t axis, double coordinate, const std::uint8_t*) {
+      ranges[0].add(axis, coordinate);
+    });
+    for (const CoordinateRange& other : gatherItems(ranks_, ranges))
+      ranges[0].add(other);
+    part_.origin = ranges[0].origin();
+    forCoordinates([&](std::size_t axis, double coordinate, std::uint8_t* point) {
+      putCoordinate(coordinate - part_.origin[axis], axis, point);
+    });
+  }
+
+  RankGroup& ranks_;
+  Dataset part_;
+  Layout layout_;
+  std::vector<std::pair<std::size_t, std::array<double, 3>>>
+      origins_; ///< of as many points
+};
+
+Dataset
+loadPieces(const std::vector<std::string>& paths,
+           const LoadOptions& options,
+           RankGroup& ranks)
+{
+  PieceCollector collector(ranks);
+  const auto begin = shareBegin(paths.size(), ranks.rank(), ranks),
+             end = shareBegin(paths.size(), ranks.rank() + 1, ranks);
+  for (std::size_t i = begin; i < end; ++i)
+    collector.add(paths[i], loadDataset(paths[i], options));
+  return collector.finish(paths);
+}
+
+/** name.pvtp -> name_<rank>.vtp */
+std::string
+pieceName(const std::string& path, std::size_t rank)
+{
+  std::filesystem::path name(path);
+  name.replace_extension();
+  return name.string() + '_' + std::to_string(rank) + ".vtp";
+}
+
+} // namespace
+
+std::vector<std::string>
+findPieces(const std::vector<std::string>& paths)
+{
+  std::vector<std::string> pieces;
+  for (const std::string& path : paths) {
+    const bool is_pattern = path.find_first_of("*?[") != std::string::npos &&
+                            !std::filesystem::exists(path);
+    for (const std::string& name :
+         is_pattern ? matching(path) : std::vector<std::string>{path})
+      if (io::endingOf(name) == ".pvtp")
+        for (const std::string& piece : io::readPieceList(name))
+          pieces.push_back(piece);
+      else
+        pieces.push_back(name);
+  }
+  return pieces;
+}
+
+Dataset
+loadPart(const std::vector<std::string>& paths,
+         const LoadOptions& options,
+         RankGroup& ranks)
+{
+  if (paths.empty())
+    throw InvalidArgument("No file is given to be read.");
+  if (paths.size() > 1 || io::formatOf(paths[0], options) == io::FileFormat::Vtk)
+    return loadPieces(paths, options, ranks);
+  Dataset part = loadRange(paths[0], options, ranks);
+  ranks.meet();
+  return part;
+}
+
+void
+checkSavePieces(const std::string& path)
+{
+  if (io::endingOf(path) != ".pvtp")
+    io::throwUnwritable(path, "lists of pieces end with .pvtp");
+  io::checkWritable(path);
+}
+
+void
+savePieces(const std::string& path, const Dataset& part, RankGroup& ranks)
+{
+  std::vector<std::string> pieces;
+  for (std::size_t rank = 0; rank < ranks.size(); ++rank)
+    pieces.push_back(pieceName(path, rank));
+  const std::string& own = pieces[ranks.rank()];
+  bool is_there = false;
+  try {
+    writeAtomically(own, [&](const std::string& file) {
+      io::writeVtp(file, own, part);
+      ranks.meet(); // whoever cannot write keeps all from taking their places
+    });
+    is_there = true;
+    ranks.meet();
+    if (ranks.rank() == 0)
+      writeAtomically(path, [&](const std::string& file) {
+        io::writePieceList(file, path, part, pieces);
+      });
+    ranks.meet();
+  }
+  catch (...) {
+    if (is_there)
+      ::unlink(own.c_str());
+    throw;
+  }
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a file as records, read from front to back or from any point on.
+#pragma once
+
+#include "file_cursor.h"
+#include <pcl_uvol/common/records.h>
+
+#include <memory>
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief The records of a file whose header has been read. */
+class RecordSource {
+public:
+  RecordSource() = default;
+  RecordSource(const RecordSource&) = delete;
+  RecordSource&
+  operator=(const RecordSource&) = delete;
+  virtual ~RecordSource() = default;
+
+  const RecordInfo&
+  getInfo() const
+  {
+    return info_;
+  }
+
+  /** \brief The number of the record that read() begins with. */
+  std::uint64_t
+  tell() const
+  {
+    return next_;
+  }
+
+  /** \param record 0 to the number of records \throws IOError */
+  virtual void
+  seek(std::uint64_t record) = 0;
+
+  /** \brief The next records one behind the other, native byte order.
+   * \param count at most what follows \throws IOError */
+  virtual void
+  read(std::size_t count, std::uint8_t* records) = 0;
+
+protected:
+  RecordInfo info_;
+  std::uint64_t next_ = 0;
+};
+
+/** \brief Records of a fixed number of bytes. */
+class FixedSource : public RecordSource {
+public:
+  /** \param offset of the first record in the file
+   * \param swapped the byte order is not the native one */
+  FixedSource(const std::string& path,
+              RecordInfo info,
+              std::uint64_t offset,
+              bool swapped);
+
+  void
+  seek(std::uint64_t record) override;
+
+  void
+  read(std::size_t count, std::uint8_t* records) override;
+
+private:
+  const InputFile file_;
+  const std::uint64_t offset_;
+  const std::size_t step_;
+  const bool swapped_;
+};
+
+/** \brief Records whose place in the file only those before them tell: lines, lists.
+ * Places passed are kept, one of many records, so that going back costs little. */
+class SequentialSource : public RecordSource {
+public:
+  void
+  seek(std::uint64_t record) override;
+
+  void
+  read(std::size_t count, std::uint8_t* records) override;
+
+protected:
+  /** \param cursor stands in front of the first record */
+  SequentialSource(const std::string& path,
+                   std::unique_ptr<FileCursor> cursor,
+                   RecordInfo info);
+
+  virtual void
+  readRecord(std::uint8_t* record) = 0;
+  virtual void
+  skipRecord() = 0;
+  /** \brief Look at what follows the last record. */
+  virtual void
+  finish()
+  {
+  }
+
+  const std::string path_;
+  const std::unique_ptr<FileCursor> cursor_;
+
+private:
+  void
+  pass();
+
+  std::vector<FileCursor::Place> marks_; ///< of every mark_spacing-th record
+};
+
+/** \brief Takes records of a source as points. */
+class PointReader {
+public:
+  /** \throws InvalidArgument without x, y, z */
+  explicit PointReader(std::unique_ptr<RecordSource> source);
+
+  RecordSource&
+  getSource()
+  {
+    return *source_;
+  }
+
+  const RecordLayout&
+  getLayout() const
+  {
+    return layout_;
+  }
+
+  /** \brief Look at all coordinates if their origin needs that.
+   * \throws InvalidArgument for a coordinate beyond float \throws IOError */
+  void
+  findOrigin();
+
+  /** \param count at most what follows \throws IOError */
+  void
+  read(std::size_t count, std::uint8_t* points);
+
+private:
+  template <typename Take>
+  void
+  readRecords(std::size_t count, const Take& take);
+
+  std::unique_ptr<RecordSource> source_;
+  RecordLayout layout_;
+  std::vector<std::uint8_t> records_;
+};
+
+/** \brief The dataset of all the records of a source. \throws IOError
+ * \throws InvalidArgument without x, y, z, for a coordinate beyond float, and for more
+ * points than PCL can number */
+Dataset
+readWhole(std::unique_ptr<RecordSource> source);
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "isopoints.h"
+#include "smooth_roots.h"
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/isosurface/piece_isopoints.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Room for rounding: a ball must not be too small by one bit. */
+constexpr float slack = 1.0001f;
+
+/** Part of the distance of the farthest sample known that is asked for first. */
+constexpr float first_part = 0.25f;
+
+Position
+positionOf(const float* x)
+{
+  return {{x[0], x[1], x[2]}};
+}
+
+/** The linear isopoint that a fit starts from. */
+PointIso
+linearPoint(const GlobalIsopoint& isopoint)
+{
+  PointIso point;
+  std::copy(isopoint.linear.x, isopoint.linear.x + 3, point.data);
+  std::copy(isopoint.outside.x, isopoint.outside.x + 3, point.data_n);
+  point.edge_length = isopoint.edge_length;
+  return point;
+}
+
+void
+setResult(GlobalIsopoint& isopoint, const PointIso& point)
+{
+  isopoint.position = positionOf(point.data);
+  isopoint.normal = positionOf(point.data_n);
+  isopoint.mean_curvature = point.mean_curvature;
+  isopoint.error = point.error;
+  isopoint.support = point.support;
+}
+
+} // namespace
+
+PointIso
+toPointIso(const GlobalIsopoint& isopoint, double isovalue)
+{
+  PointIso point;
+  std::copy(isopoint.position.x, isopoint.position.x + 3, point.data);
+  std::copy(isopoint.normal.x, isopoint.normal.x + 3, point.data_n);
+  point.isovalue = static_cast<float>(isovalue);
+  point.mean_curvature = isopoint.mean_curvature;
+  point.error = isopoint.error;
+  point.edge_length = isopoint.edge_length;
+  point.support = isopoint.support;
+  return point;
+}
+
+PieceIsopoints::PieceIsopoints(const Piece& piece,
+                               const IsosurfaceSettings& settings,
+                               unsigned threads,
+                               Report& report)
+    : piece_(piece)
+    , settings_(settings)
+    , threads_(threads)
+    , report_(report)
+    , found_(settings.isovalues.size())
+{
+  const SampleSet& samples = piece.getSamples();
+  NodeRanges ranges;
+  {
+    const StepTimer timer(report, "ranges");
+    ranges = samples.getTree().computeRanges(piece.getValues(), threads);
+  }
+  const TouchingCells candidates(samples);
+  const IsopointInput input{samples,
+                            piece.getValues(),
+                            ranges,
+                            candidates,
+                            settings.criterion,
+                            settings.outside,
+                            settings.interpolation,
+                            threads};
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    find(input, i);
+    std::vector<std::size_t> all(found_[i].size());
+    std::iota(all.begin(), all.end(), std::size_t(0));
+    if (settings.interpolation == Interpolation::Smooth)
+      fit(input, i, all, std::vector<float>(all.size(), 0.0f));
+  }
+}
+
+void
+PieceIsopoints::find(const IsopointInput& input, std::size_t which)
+{
+  const auto isovalue = static_cast<float>(settings_.isovalues[which]);
+  std::vector<std::uint32_t> crossing;
+  {
+    const StepTimer timer(report_, "crossing_pairs");
+    crossing = input.candidates.findCrossing(input.ranges, isovalue, threads_);
+  }
+  report_.count("crossing_samples", crossing.size());
+  for (const EdgeKey key : findEdges(input, crossing, isovalue, report_)) {
+    PointIso point;
+    IsoEdge edge;
+    placeIsopoint(input, key, isovalue, point, edge);
+    GlobalIsopoint isopoint{};
+    isopoint.lower = piece_.toGlobal(edge.first);
+    isopoint.higher = piece_.toGlobal(edge.second);
+    isopoint.first = piece_.getSource(edge.first);
+    isopoint.second = piece_.getSource(edge.second);
+    isopoint.t = edge.t;
+    isopoint.linear = positionOf(point.data);
+    isopoint.outside = positionOf(point.data_n);
+    isopoint.edge_length = point.edge_length;
+    setResult(isopoint, point);
+    found_[which].push_back(isopoint);
+  }
+}
+
+void
+PieceIsopoints::fit(const IsopointInput& input,
+                    std::size_t isovalue,
+                    const std::vector<std::size_t>& indices,
+                    const std::vector<float>& known)
+{
+  std::vector<PointIso> points;
+  IsoEdges edges;
+  for (const std::size_t index : indices) {
+    const GlobalIsopoint& isopoint = found_[isovalue][index];
+    points.push_back(linearPoint(isopoint));
+    edges.push_back(
+        {piece_.toLocal(isopoint.lower), piece_.toLocal(isopoint.higher), isopoint.t});
+  }
+  StepTimer step(report_, "smooth_roots", points.size());
+  const auto fits = fitRoots(
+      input, static_cast<float>(settings_.isovalues[isovalue]), edges, points, step);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
+    setResult(isopoint, points[i]);
+    isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
+    Ball ball{stretched(isopoint.linear, settings_.scale), fits[i].radius * slack};
+    if (ball.radius <= known[i] || liesWithin(ball, piece_.getCell()))
+      continue;
+    ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
+                                  : first_part * ball.radius;
+    open_.push_back({isovalue, indices[i], ball});
+  }
+}
+
+std::vector<Ball>
+PieceIsopoints::getOpenBalls() const
+{
+  std::vector<Ball> balls;
+  for (const Open& open : open_)
+    balls.push_back(open.ball);
+  return balls;
+}
+
+void
+PieceIsopoints::settle()
+{
+  const std::vector<Open> open = std::exchange(open_, {});
+  const NodeRanges none{};
+  const TouchingCells candidates(piece_.getSamples());
+  const IsopointInput input{piece_.getSamples(),
+                            piece_.getValues(),
+                            none,
+                            candidates,
+                            settings_.criterion,
+                            settings_.outside,
+                            settings_.interpolation,
+                            threads_};
+  for (std::size_t isovalue = 0; isovalue < found_.size(); ++isovalue) {
+    std::vector<std::size_t> indices;
+    std::vector<float> known;
+    for (const Open& one : open)
+      if (one.isovalue == isovalue) {
+        indices.push_back(one.index);
+        known.push_back(one.ball.radius);
+      }
+    fit(input, isovalue, indices, known);
+  }
+}
+
+void
+mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
+               Interpolation interpolation,
+               unsigned threads,
+               Report& report)
+{
+  parallelSort(isopoints.begin(), isopoints.end(), threads, isBefore);
+  isopoints.erase(std::unique(isopoints.begin(),
+                              isopoints.end(),
+                              [](const auto& a, const auto& b) {
+                                return a.lower == b.lower && a.higher == b.higher;
+                              }),
+                  isopoints.end());
+  report.count("edges", isopoints.size());
+  std::vector<Position> positions, normals;
+  for (const GlobalIsopoint& isopoint : isopoints) {
+    positions.push_back(isopoint.linear);
+    normals.push_back(isopoint.outside);
+  }
+  const auto stays = mergeCoincident(positions, normals, threads);
+  const bool smooth = interpolation == Interpolation::Smooth;
+  std::vector<RootOutcome> outcomes;
+  std::vector<std::uint8_t> supports;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    if (stays[i] != 0) {
+      GlobalIsopoint& isopoint = isopoints[kept++] = isopoints[i];
+      const auto outcome = static_cast<RootOutcome>(isopoint.outcome);
+      if (!smooth || outcome > RootOutcome::Quadratic)
+        isopoint.normal = normals[i];
+      outcomes.push_back(outcome);
+      supports.push_back(isopoint.support);
+    }
+  report.count("coincident", isopoints.size() - kept);
+  isopoints.resize(kept);
+  if (smooth)
+    countRoots(outcomes, supports, report);
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What processes read of files is all of it, and what they write is there or not.
+#include "random_dataset.h"
+#include "support/thread_ranks.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/rank_files.h>
+
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPPolyDataReader.h>
+
+#include <filesystem>
+
+using namespace pcl_uvol;
+using namespace uvol_test;
+
+namespace {
+
+/** What all ranks read. */
+struct Parts {
+  std::vector<Dataset> parts;
+
+  Parts(const std::vector<std::string>& paths, std::size_t ranks)
+      : parts(ranks)
+  {
+    runRanks(ranks, [&](RankGroup& group) {
+      parts[group.rank()] = loadPart(findPieces(paths), {}, group);
+    });
+  }
+
+  std::vector<std::uint8_t>
+  join() const
+  {
+    std::vector<std::uint8_t> data;
+    for (const Dataset& part : parts)
+      data.insert(data.end(), part.cloud.data.begin(), part.cloud.data.end());
+    return data;
+  }
+};
+
+/** Points in a row from a place on, with a value. */
+Dataset
+line(std::size_t count, double x, double value = 0.0, bool in_double = false)
+{
+  Dataset dataset;
+  std::vector<double> xyz;
+  for (std::size_t i = 0; i < count; ++i)
+    xyz.insert(xyz.end(), {x + static_cast<double>(i), 0.5, 0.25});
+  setCoordinates(dataset, xyz);
+  dataset.double_coordinates = in_double;
+  setField(dataset, "value", std::vector<float>(count, static_cast<float>(value)));
+  return dataset;
+}
+
+std::string
+complaintOf(const std::vector<std::string>& paths, std::size_t ranks)
+{
+  try {
+    Parts(paths, ranks);
+  }
+  catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void
+expectComplaint(const std::string& text, const std::string& message)
+{
+  EXPECT_NE(std::string::npos, message.find(text)) << message;
+}
+
+TEST(RankFiles, PartOneFileByItsPoints)
+{
+  const TemporaryFolder folder;
+  const Dataset dataset =
+      makeDataset({{"label", Type::INT32}, {"speed", Type::FLOAT64}}, 23, 3);
+  for (const std::string name : {"a.pcd", "a.ply", "a.csv"}) {
+    const std::string path = folder / name;
+    saveDataset(path, dataset);
+    const Dataset whole = loadDataset(path);
+    for (const std::size_t ranks : {1, 2, 3, 8, 30}) {
+      const Parts parts({path}, ranks);
+      EXPECT_EQ(whole.cloud.data, parts.join()) << name << ' ' << ranks;
+      for (const Dataset& part : parts.parts) {
+        EXPECT_LE(part.cloud.width, 23 / ranks + 1);
+        EXPECT_EQ(whole.cloud.point_step, part.cloud.point_step);
+      }
+    }
+  }
+}
+
+TEST(RankFiles, DealPiecesOut)
+{
+  const TemporaryFolder folder;
+  std::vector<std::uint8_t> all;
+  for (int i = 0; i < 5; ++i) {
+    const Dataset piece = line(4, 10 * i, i);
+    saveDataset(folder / ("in_" + std::to_string(i) + ".vtp"), piece);
+    all.insert(all.end(), piece.cloud.data.begin(), piece.cloud.data.end());
+  }
+  for (const std::size_t ranks : {1, 2, 3, 5, 9}) {
+    const Parts parts({folder / "in_*.vtp"}, ranks);
+    EXPECT_EQ(all, parts.join());
+    for (const Dataset& part : parts.parts) {
+      EXPECT_LE(part.cloud.width, 4 * ((5 + ranks - 1) / ranks));
+      EXPECT_EQ(parts.parts[0].cloud.fields.size(), part.cloud.fields.size());
+    }
+  }
+}
+
+/** A dataset in pieces is what it was, for VTK as well. */
+TEST(RankFiles, WritePiecesThatAreReadBack)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder / "out.pvtp";
+  std::vector<Dataset> written;
+  for (std::size_t rank = 0; rank < 3; ++rank)
+    written.push_back(makeDataset({{"speed (m/s)", Type::FLOAT32},
+                                   {"normal_x", Type::FLOAT32},
+                                   {"normal_y", Type::FLOAT32},
+                                   {"normal_z", Type::FLOAT32},
+                                   {"label", Type::UINT16},
+                                   {"big", Type::INT64, 3}},
+                                  5 * rank,
+                                  rank));
+  runRanks(3,
+           [&](RankGroup& ranks) { savePieces(path, written[ranks.rank()], ranks); });
+  EXPECT_EQ(
+      (std::vector<std::string>{"out.pvtp", "out_0.vtp", "out_1.vtp", "out_2.vtp"}),
+      folder.list());
+  const Parts parts({path}, 3);
+  const vtkNew<vtkXMLPPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  EXPECT_EQ(15, reader->GetOutput()->GetNumberOfPoints());
+  EXPECT_EQ(15, reader->GetOutput()->GetVerts()->GetNumberOfCells());
+  auto* const arrays = reader->GetOutput()->GetPointData();
+  EXPECT_NE(nullptr, arrays->GetNormals());
+  for (const char* const name : {"speed (m/s)", "label", "big"})
+    ASSERT_NE(nullptr, arrays->GetArray(name)) << name;
+  EXPECT_EQ(3, arrays->GetArray("big")->GetNumberOfComponents());
+  std::size_t points = 0;
+  for (std::size_t rank = 0; rank < 3; ++rank) {
+    saveDataset(folder / "expected.vtp", written[rank]);
+    EXPECT_EQ(loadDataset(folder / "expected.vtp").cloud.data,
+              parts.parts[rank].cloud.data);
+    points += parts.parts[rank].cloud.width;
+  }
+  EXPECT_EQ(15u, points);
+}
+
+TEST(RankFiles, MoveDoubleCoordinatesToOneOrigin)
+{
+  const TemporaryFolder folder;
+  saveDataset(folder / "in_0.vtp", line(3, 4000000.125, 1.0, true));
+  saveDataset(folder / "in_1.vtp", line(0, 0.0));
+  saveDataset(folder / "in_2.vtp", line(3, 4000900.125, 2.0, true));
+  const Parts parts({folder / "in_*.vtp"}, 4);
+  const auto& origin = parts.parts[0].origin;
+  EXPECT_NE(0.0, origin[0]);
+  std::vector<double> x;
+  for (const Dataset& part : parts.parts) {
+    EXPECT_EQ(origin, part.origin);
+    EXPECT_TRUE(part.double_coordinates);
+    for (std::size_t i = 0; i < part.cloud.width; ++i) {
+      float relative;
+      std::memcpy(&relative, &part.cloud.data[i * part.cloud.point_step], 4);
+      x.push_back(origin[0] + relative);
+    }
+  }
+  EXPECT_EQ((std::vector<double>{4000000.125,
+                                 4000001.125,
+                                 4000002.125,
+                                 4000900.125,
+                                 4000901.125,
+                                 4000902.125}),
+            x);
+}
+
+TEST(RankFiles, RefuseWhatDoesNotFitTogether)
+{
+  const TemporaryFolder folder;
+  saveDataset(folder / "in_0.vtp", line(3, 0.0));
+  Dataset other = line(3, 5.0);
+  setField(other, "label", std::vector<std::int32_t>(3));
+  saveDataset(folder / "in_1.vtp", other);
+  for (const std::size_t ranks : {1, 2, 5})
+    expectComplaint("have different fields, the first x (float32)",
+                    complaintOf({folder / "in_*.vtp"}, ranks));
+  saveDataset(folder / "none.vtp", line(0, 0.0));
+  expectComplaint("none.vtp has no points.", complaintOf({folder / "none.vtp"}, 2));
+  expectComplaint("None of the 2 pieces has points.",
+                  complaintOf({folder / "none.vtp", folder / "none.vtp"}, 2));
+  saveDataset(folder / "none.pcd", line(0, 0.0));
+  expectComplaint("none.pcd has no points.", complaintOf({folder / "none.pcd"}, 2));
+  expectComplaint("no file matches", complaintOf({folder / "else_*.vtp"}, 1));
+}
+
+TEST(RankFiles, RefuseDamagedLists)
+{
+  const TemporaryFolder folder;
+  runRanks(2, [&](RankGroup& ranks) {
+    savePieces(folder / "out.pvtp", line(3, 0.0), ranks);
+  });
+  const std::string list = readFile(folder / "out.pvtp");
+  const std::string bad = folder / "bad.pvtp";
+  for (const std::string& text : {list.substr(0, list.size() / 2),
+                                  std::string("no XML"),
+                                  std::string("<VTKFile type=\"PPolyData\"/>")}) {
+    writeFile(bad, text);
+    expectComplaint("no list of pieces", complaintOf({bad}, 1));
+  }
+  writeFile(bad, "<VTKFile><PPolyData><Piece/></PPolyData></VTKFile>");
+  expectComplaint("no list of pieces", complaintOf({bad}, 1));
+  writeFile(bad, "<VTKFile><PPolyData/></VTKFile>");
+  expectComplaint("it lists no pieces", complaintOf({bad}, 1));
+  writeFile(bad, "");
+  EXPECT_NE("", complaintOf({bad}, 1));
+  std::filesystem::remove(folder / "out_1.vtp");
+  expectComplaint("out_1.vtp': there is no such file",
+                  complaintOf({folder / "out.pvtp"}, 1));
+}
+
+TEST(RankFiles, LeaveNothingIfOneCannotWrite)
+{
+  for (const std::string taken : {"out_1.vtp", "out_0.vtp", "out.pvtp"}) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / taken);
+    EXPECT_THROW(runRanks(3,
+                          [&](RankGroup& ranks) {
+                            savePieces(folder / "out.pvtp", line(3, 0.0), ranks);
+                          }),
+                 std::exception);
+    EXPECT_EQ(std::vector<std::string>{taken}, folder.list());
+  }
+}
+
+TEST(RankFiles, LeaveWhatWasThereIfOneCannotWrite)
+{
+  const TemporaryFolder folder;
+  const auto save = [&](std::size_t ranks, double value) {
+    runRanks(ranks, [&](RankGroup& group) {
+      savePieces(folder / "out.pvtp", line(3, 0.0, value), group);
+    });
+  };
+  const auto contents = [&] {
+    std::string all;
+    for (const char* const name : {"out.pvtp", "out_0.vtp", "out_1.vtp"})
+      all += readFile(folder / name);
+    return all;
+  };
+  save(2, 1.0);
+  const std::string before = contents();
+  std::filesystem::create_directory(folder / "out_2.vtp");
+  EXPECT_THROW(save(3, 2.0), std::exception);
+  EXPECT_EQ(before, contents());
+  save(2, 2.0);
+  EXPECT_NE(before, contents());
+}
+
+TEST(RankFiles, KnowWhereTheyCanWrite)
+{
+  const TemporaryFolder folder;
+  checkSavePieces(folder / "out.pvtp");
+  EXPECT_THROW(checkSavePieces(folder / "out.vtp"), IOError);
+  EXPECT_THROW(checkSavePieces(folder / "none/out.pvtp"), IOError);
+}
+
+} // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Processes that exchange messages whose bytes each can foretell; run by mpirun from
+// test_mpi_ranks. usage: talk PARTS [LOSER FUNCTION]: the largest part of a message;
+// the process that fails while the others call sum, gather or exchange.
+#include <pcl_uvol/mpi/mpi_ranks.h>
+
+#include <vtkMPIController.h>
+#include <vtkNew.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace {
+
+using pcl_uvol::Bytes;
+using pcl_uvol::MpiRanks;
+
+/** Some are empty, some have many parts. */
+Bytes
+messageOf(std::size_t from, std::size_t to, std::size_t round)
+{
+  Bytes message((from * 7 + to * 3 + round) % 5 * 1000 * (round + 1));
+  for (std::size_t i = 0; i < message.size(); ++i)
+    message[i] = static_cast<std::uint8_t>(i * i + from * 31 + to * 17 + round);
+  return message;
+}
+
+/** \return what is wrong */
+std::string
+talk(MpiRanks& ranks)
+{
+  for (std::size_t round = 0; round < 5; ++round) {
+    std::vector<Bytes> messages;
+    for (std::size_t to = 0; to < ranks.size(); ++to)
+      messages.push_back(messageOf(ranks.rank(), to, round));
+    const auto received = ranks.exchange(std::move(messages));
+    for (std::size_t from = 0; from < ranks.size(); ++from)
+      if (received.at(from) != messageOf(from, ranks.rank(), round))
+        return "a message differs";
+    const auto gathered = ranks.gatherAll(messageOf(ranks.rank(), 0, round));
+    for (std::size_t from = 0; from < ranks.size(); ++from)
+      if (gathered.at(from) != messageOf(from, 0, round))
+        return "a gathered message differs";
+    std::vector<std::uint64_t> numbers{ranks.rank(), std::uint64_t(1) << 40, round};
+    ranks.sum(numbers);
+    const std::uint64_t n = ranks.size();
+    if (numbers != std::vector<std::uint64_t>{n * (n - 1) / 2, n << 40, n * round})
+      return "a sum differs";
+  }
+  ranks.meet();
+  return "";
+}
+
+/** \return what is wrong */
+std::string
+fail(MpiRanks& ranks, std::size_t loser, const std::string& function)
+{
+  if (ranks.rank() >= loser) // the first one counts
+    return ranks.agree(true) == loser ? "" : "the loser is another one";
+  try {
+    std::vector<std::uint64_t> numbers{1};
+    if (function == "sum")
+      ranks.sum(numbers);
+    else if (function == "gather")
+      ranks.gatherAll(Bytes(10));
+    else
+      ranks.exchange(std::vector<Bytes>(ranks.size(), Bytes(10)));
+  }
+  catch (const pcl_uvol::OtherRankFailed&) {
+    return ranks.agree(false) == loser ? "" : "the loser is forgotten";
+  }
+  return "nobody failed";
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  const vtkNew<vtkMPIController> controller;
+  controller->Initialize(&argc, &argv);
+  std::string complaint;
+  {
+    MpiRanks ranks(*controller, std::stoul(argv[1]));
+    complaint = talk(ranks);
+    if (complaint.empty() && argc == 4)
+      complaint = fail(ranks, std::stoul(argv[2]), argv[3]);
+    std::cout << "process " << ranks.rank() << " of " << ranks.size() << '\n';
+  }
+  controller->Finalize();
+  if (!complaint.empty())
+    std::cerr << complaint << '\n';
+  return complaint.empty() ? 0 : 1;
+}

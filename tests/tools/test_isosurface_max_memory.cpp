@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_isosurface within a bound of memory: the same file, or one sentence.
+#include "support/environment.h"
+#include "tools/tool_test.h"
+#include <pcl_uvol/common/random.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::uniformAt;
+
+class MaxMemory : public uvol_test::ToolTest {
+protected:
+  MaxMemory()
+      : ToolTest("uvol_isosurface", "out.ply")
+  {
+  }
+
+  void
+  SetUp() override
+  {
+    std::ostringstream csv;
+    csv << "x,y,z,distance,number\n";
+    for (std::uint64_t i = 0; i < 60000; ++i) {
+      const double x = uniformAt(5, i, 0), y = uniformAt(5, i, 1),
+                   z = uniformAt(5, i, 2);
+      csv << x << ',' << y << ',' << z << ','
+          << std::sqrt((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5) +
+                       (z - 0.5) * (z - 0.5))
+          << ',' << i << '\n';
+    }
+    uvol_test::writeFile(in_, csv.str());
+  }
+
+  const std::string iso_ = "-field distance -iso 0.3,0.4,2 ";
+  /** For several pieces. */
+  const std::string bound_ = "-max-memory 136M ";
+};
+
+TEST_F(MaxMemory, WritesTheSameFile)
+{
+  for (const std::string options : {"",
+                                    "-interpolation linear -criterion all",
+                                    "-scale 1,2,0.5 -outside higher -normals pca",
+                                    "-max-error 0.001 -drop-bridged -threads 1"}) {
+    expectSuccess(iso_ + options);
+    const std::string expected = uvol_test::readFile(out_);
+    const auto result = run(iso_ + options + " " + bound_);
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    EXPECT_EQ(expected, uvol_test::readFile(out_)) << options;
+    EXPECT_TRUE(std::regex_search(result.out, std::regex("pieces +[2-9]")))
+        << result.out;
+    EXPECT_NE(std::string::npos, result.err.find("No isopoints for 2")) << result.err;
+  }
+}
+
+TEST_F(MaxMemory, SaysWhatIsWrong)
+{
+  for (const std::string size : {"x", "0", "1.5", "2X", "M", "nan", "1e30"})
+    expectFailure(iso_ + "-max-memory " + size, size == "1.5" ? 1 : 2, "memory");
+  expectFailure(iso_ + "-max-memory 100M", 1, "at least");
+  expectFailure(iso_ + bound_ + "-smooth", 2, "-smooth");
+  expectFailure(iso_ + bound_ + "-scale auto", 2, "-scale auto");
+  expectFailure(iso_ + bound_ + "-neighbors voronoi", 2, "-neighbors voronoi");
+  expectFailure(iso_ + bound_ + "-where 'x>0'", 2, "-where");
+  expectFailure(iso_ + "-scratch .", 2, "-max-memory");
+  expectFailure(iso_ + bound_ + "-scratch /nowhere", 1, "/nowhere");
+  expectFailure(bound_ + "-iso 0.3 -field density", 1, "density");
+}
+
+TEST_F(MaxMemory, NamesFormatsThatDoNotStream)
+{
+  const std::string whole = folder_ / "whole.vtp";
+  const auto made =
+      uvol_test::runCommand("uvol_isosurface " + in_ + " " + whole + " " + iso_);
+  ASSERT_EQ(0, made.exit_code) << made.err;
+  const auto result = uvol_test::runCommand("uvol_isosurface " + whole + " " + out_ +
+                                            " -field number -iso 100 " + bound_);
+  EXPECT_EQ(1, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("PCD")) << result.err;
+}
+
+} // namespace

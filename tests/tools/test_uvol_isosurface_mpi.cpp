@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Processes of MPI write what one process writes, or one sentence and nothing.
+#include "support/clouds.h"
+#include "support/environment.h"
+#include "support/mpi_job.h"
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/rank_files.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using uvol_test::CommandResult;
+using uvol_test::mpirun;
+using uvol_test::runCommand;
+
+/** Points with labels that tell them apart. */
+Dataset
+labelled(const pcl::PointCloud<pcl::PointXYZI>& points)
+{
+  pcl::PointCloud<pcl::PointXYZI> dense = points;
+  dense.is_dense = true;
+  Dataset dataset;
+  std::vector<double> xyz;
+  std::vector<float> values;
+  std::vector<std::int32_t> labels(points.size());
+  for (const auto& point : points) {
+    xyz.insert(xyz.end(), {point.x, point.y, point.z});
+    values.push_back(point.intensity);
+  }
+  std::iota(labels.begin(), labels.end(), 0);
+  setCoordinates(dataset, xyz);
+  setField(dataset, "intensity", values);
+  setField(dataset, "label", labels);
+  return dataset;
+}
+
+Dataset
+rowsOf(const Dataset& dataset, std::size_t begin, std::size_t end)
+{
+  Dataset rows = dataset;
+  const std::size_t step = dataset.cloud.point_step;
+  rows.cloud.data.assign(
+      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(begin * step),
+      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(end * step));
+  rows.cloud.width = static_cast<pcl::uindex_t>(end - begin);
+  rows.cloud.row_step = rows.cloud.width * rows.cloud.point_step;
+  return rows;
+}
+
+/** The points of files as bytes, in one order; without the normals that
+ * uvol_isosurface took from points around them, where fits had none. */
+std::vector<std::string>
+sortedPoints(const std::vector<std::string>& paths)
+{
+  std::vector<std::string> points;
+  for (const std::string& path : paths) {
+    const Dataset dataset = pcl_uvol::loadDataset(path);
+    const auto& cloud = dataset.cloud;
+    const auto offsetOf = [&](const char* name) {
+      return pcl_uvol::findField(cloud.fields, name)->offset;
+    };
+    for (std::size_t i = 0; i < cloud.width; ++i) {
+      std::string point(
+          reinterpret_cast<const char*>(&cloud.data[i * cloud.point_step]),
+          cloud.point_step);
+      float curvature;
+      std::memcpy(&curvature, &point[offsetOf("mean_curvature")], sizeof(curvature));
+      if (std::isnan(curvature))
+        point.replace(offsetOf("normal_x"), 3 * sizeof(float), 12, '\0');
+      points.push_back(point);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+class IsosurfaceMpi : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    if (!uvol_test::hasMpirun())
+      GTEST_SKIP() << "there is no mpirun";
+  }
+
+  CommandResult
+  run(std::size_t processes, const std::string& arguments) const
+  {
+    return runCommand("cd " + folder_ / "" + " && " + mpirun(processes) +
+                      "uvol_isosurface_mpi " + arguments);
+  }
+
+  void
+  expectSuccess(std::size_t processes, const std::string& arguments) const
+  {
+    const auto result = run(processes, arguments);
+    EXPECT_EQ(0, result.exit_code) << arguments << ": " << result.err;
+  }
+
+  void
+  runAlone(const std::string& arguments) const
+  {
+    const auto result =
+        runCommand("cd " + folder_ / "" + " && uvol_isosurface " + arguments);
+    ASSERT_EQ(0, result.exit_code) << arguments << ": " << result.err;
+  }
+
+  /** That exit code, one sentence with that text, and no file that was not there. */
+  void
+  expectFailure(std::size_t processes,
+                const std::string& arguments,
+                int exit_code,
+                const std::string& text) const
+  {
+    const auto before = folder_.list();
+    const auto result = run(processes, arguments);
+    EXPECT_EQ(exit_code, result.exit_code) << arguments << ": " << result.err;
+    EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+    EXPECT_EQ(before, folder_.list()) << arguments;
+  }
+
+  void
+  save(const std::string& name, const Dataset& dataset) const
+  {
+    saveDataset(folder_ / name, dataset);
+  }
+
+  /** in_0.vtp, in_1.vtp, ... with the rows up to these ones. */
+  void
+  savePieces(const Dataset& dataset, const std::vector<std::size_t>& ends) const
+  {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < ends.size(); begin = ends[i++])
+      save("in_" + std::to_string(i) + ".vtp", rowsOf(dataset, begin, ends[i]));
+  }
+
+  std::vector<std::string>
+  piecesOf(const std::string& name) const
+  {
+    return pcl_uvol::findPieces({folder_ / name});
+  }
+
+  uvol_test::TemporaryFolder folder_;
+};
+
+class IsosurfaceMpiOnShapes : public IsosurfaceMpi,
+                              public testing::WithParamInterface<std::string> {};
+
+TEST_P(IsosurfaceMpiOnShapes, WritesThePointsOfOneProcess)
+{
+  save("in.pcd", labelled(*uvol_test::makeCloud(GetParam(), 3000, 7)));
+  const std::string options = " -iso 0.41234,0.2 -field intensity";
+  runAlone("in.pcd alone.pcd" + options);
+  const auto expected = sortedPoints({folder_ / "alone.pcd"});
+  EXPECT_LT(10u, expected.size());
+  for (const std::size_t processes : {1, 2, 3, 4, 8}) {
+    expectSuccess(processes, "in.pcd out.pvtp" + options);
+    EXPECT_EQ(processes, piecesOf("out.pvtp").size());
+    EXPECT_EQ(expected, sortedPoints(piecesOf("out.pvtp"))) << processes;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Clouds,
+    IsosurfaceMpiOnShapes,
+    testing::Values("uniform", "clustered", "lattice", "planar", "duplicates"),
+    [](const auto& shape) { return shape.param; });
+
+/** One file is written edge for edge as one process does. */
+TEST_F(IsosurfaceMpi, WritesTheFileOfOneProcess)
+{
+  const auto dataset = labelled(*uvol_test::makeCloud("clustered", 5000, 2));
+  save("in.ply", dataset);
+  const std::string options =
+      " -iso 0.3,0.45 -interpolation linear -criterion all -outside higher "
+      "-scale 1,2,0.5 -field intensity -where \"label>=100\"";
+  for (const std::string ending : {".ply", ".pcd", ".csv", ".vtp"}) {
+    runAlone("in.ply alone" + ending + options + " -normals edge");
+    const auto alone = uvol_test::readFile(folder_ / ("alone" + ending));
+    for (const std::size_t processes : {1, 3}) {
+      expectSuccess(processes, "in.ply out" + ending + options + " -threads 2");
+      EXPECT_EQ(alone, uvol_test::readFile(folder_ / ("out" + ending))) << ending;
+    }
+  }
+}
+
+TEST_F(IsosurfaceMpi, TakesPiecesWhereverTheirPointsAre)
+{
+  const auto dataset = labelled(*uvol_test::makeCloud("uniform", 3000, 4));
+  save("in.vtp", dataset);
+  const std::string options = " out.pvtp -iso 0.4 -field intensity";
+  runAlone("in.vtp alone.pcd -iso 0.4 -field intensity");
+  const auto expected = sortedPoints({folder_ / "alone.pcd"});
+  const auto expectExpected = [&](std::size_t processes, const std::string& input) {
+    expectSuccess(processes, input + options);
+    EXPECT_EQ(expected, sortedPoints(piecesOf("out.pvtp"))) << input;
+  };
+  expectExpected(3, "in.vtp"); // all on one process
+  savePieces(dataset, {100, 100, 1200, 1210, 3000});
+  expectExpected(3, "in_0.vtp in_1.vtp in_2.vtp in_3.vtp in_4.vtp");
+  expectExpected(8, "'in_*.vtp'"); // some processes without points
+  expectSuccess(2, "in.vtp again.pvtp -iso 0.4 -field intensity");
+  expectSuccess(4, "again.pvtp out.pvtp -iso 500 -field label");
+}
+
+TEST_F(IsosurfaceMpi, MergesDuplicatesAcrossProcesses)
+{
+  auto cloud = uvol_test::makeCloud("uniform", 1000, 4);
+  const auto once = *cloud;
+  *cloud += once;
+  save("in.pcd", labelled(*cloud));
+  runAlone("in.pcd alone.pcd -iso 0.4 -field intensity");
+  expectSuccess(4, "in.pcd out.pvtp -iso 0.4 -field intensity -json");
+  EXPECT_EQ(sortedPoints({folder_ / "alone.pcd"}), sortedPoints(piecesOf("out.pvtp")));
+}
+
+TEST_F(IsosurfaceMpi, TakesMoreProcessesThanSamples)
+{
+  save("in.csv", labelled(*uvol_test::makeCloud("uniform", 5, 4)));
+  runAlone("in.csv alone.csv -iso 0.4 -field intensity -interpolation linear "
+           "-normals edge");
+  expectSuccess(8, "in.csv out.csv -iso 0.4 -field intensity -interpolation linear");
+  EXPECT_EQ(uvol_test::readFile(folder_ / "alone.csv"),
+            uvol_test::readFile(folder_ / "out.csv"));
+}
+
+TEST_F(IsosurfaceMpi, KeepsLargeCoordinates)
+{
+  auto dataset = labelled(*uvol_test::makeCloud("uniform", 500, 4));
+  dataset.origin = {{4194304.0, 8388608.0, 0.0}};
+  dataset.double_coordinates = true;
+  save("in.csv", dataset);
+  const std::string options = ".csv -iso 0.4 -field intensity -interpolation linear";
+  runAlone("in.csv alone" + options + " -normals edge");
+  expectSuccess(3, "in.csv out" + options);
+  EXPECT_EQ(uvol_test::readFile(folder_ / "alone.csv"),
+            uvol_test::readFile(folder_ / "out.csv"));
+}
+
+TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
+{
+  save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 500, 4)));
+  const auto help = run(3, "-h");
+  EXPECT_EQ(help.out.find("Usage:"), help.out.rfind("Usage:"));
+  const auto result = run(3, "in.pcd out.pvtp -iso 40 -field intensity");
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.out.find("processes: 3"));
+  EXPECT_EQ(result.out.find("isopoints"), result.out.rfind("isopoints"));
+  EXPECT_NE(std::string::npos, result.err.find("it lies outside the range"));
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  EXPECT_EQ(std::string::npos, result.out.find('\033'));
+  const auto progress = run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress");
+  EXPECT_EQ(0, progress.exit_code);
+}
+
+TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
+{
+  const auto dataset = labelled(*uvol_test::makeCloud("uniform", 300, 4));
+  save("in.pcd", dataset);
+  savePieces(dataset, {100, 200, 300});
+  const std::string options = " out.pvtp -field intensity -iso 0.4";
+  expectFailure(3, "in.pcd out.pvtp -field intensity", 2, "-iso is missing");
+  expectFailure(3, "in.pcd" + options + " -scale auto", 2, "-scale auto");
+  expectFailure(3, "in.pcd" + options + " -scale 1,0,1", 2, "positive");
+  expectFailure(3, "none.pcd" + options, 1, "there is no such file");
+  expectFailure(3, "'none_*.vtp'" + options, 1, "no file matches");
+  expectFailure(3, "in.pcd out.pvtp -iso 0.4 -field speed", 1, "no field 'speed'");
+  expectFailure(3, "in.pcd none/out.pvtp -iso 0.4", 1, "there is no folder");
+  expectFailure(3, "in.pcd out.doc -iso 0.4", 1, "'.doc' is not known");
+  expectFailure(
+      3, "in.pcd" + options + " -where 'label<0'", 1, "no points for which label<0");
+
+  const std::string whole = uvol_test::readFile(folder_ / "in_1.vtp");
+  uvol_test::writeFile(folder_ / "in_1.vtp", whole.substr(0, whole.size() / 2));
+  expectFailure(3, "'in_*.vtp'" + options, 1, "in_1.vtp': it is truncated");
+  Dataset other = rowsOf(dataset, 100, 200);
+  setField(other, "more", std::vector<float>(100));
+  save("in_1.vtp", other);
+  expectFailure(3, "'in_*.vtp'" + options, 1, "have different fields");
+  std::filesystem::remove(folder_ / "in_1.vtp");
+  expectFailure(2, "in_0.vtp in_1.vtp in_2.vtp" + options, 1, "in_1.vtp': there is no");
+  std::filesystem::create_directory(folder_ / "out_1.vtp");
+  expectFailure(3, "in.pcd" + options, 1, "out_1.vtp': it is a directory");
+}
+
+/** mpirun ends the others, in the midst of it. */
+TEST_F(IsosurfaceMpi, LeavesNothingWhereAProcessIsKilled)
+{
+  save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 600000, 4)));
+  const std::string arguments =
+      "uvol_isosurface_mpi in.pcd out.pvtp -iso 0.4 -field intensity";
+  const auto result = runCommand("cd " + folder_ / "" + " && " + mpirun(2) + arguments +
+                                 " : -np 1 timeout -s KILL 0.4 " + arguments);
+  EXPECT_NE(0, result.exit_code);
+  EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+}
+
+} // namespace

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main job by many processes: each reads a part of the samples, and writes a part
+// of the isosurface.
+#include "common/isosurface_options.h"
+#include "common/progress_bar.h"
+#include "common/scale_option.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/rank_report.h>
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/io/rank_files.h>
+#include <pcl_uvol/isosurface/rank_extraction.h>
+#include <pcl_uvol/isosurface/rank_rows.h>
+#include <pcl_uvol/mpi/mpi_ranks.h>
+
+#include <pcl/conversions.h>
+#include <vtkMPIController.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using uvol_tools::joined;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+using Isopoints = std::vector<std::vector<pcl_uvol::GlobalIsopoint>>;
+
+constexpr const char* tool = "uvol_isosurface_mpi";
+
+struct Arguments : uvol_tools::IsosurfaceOptions {
+  std::vector<std::string> inputs;
+  std::string output;
+  bool progress = false, ascii = false;
+
+  bool
+  inPieces() const
+  {
+    return std::filesystem::path(output).extension() == ".pvtp";
+  }
+
+  unsigned
+  threads(const Options& options) const
+  {
+    return options.given("threads") ? options.threads() : 1;
+  }
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  options.files("in", arguments.inputs);
+  options.file("out", arguments.output);
+  arguments.declareSamples(options, false);
+  arguments.declareMethod(options);
+  options.flag("progress",
+               arguments.progress,
+               "draw the progress of the first process, whatever its stderr is");
+  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+}
+
+/** What can be said before any file is read. \return the scale */
+pcl_uvol::Position
+check(const Arguments& arguments)
+{
+  arguments.check();
+  if (arguments.scale == "auto")
+    throw UsageError("-scale auto is not offered, as no process sees all samples: give "
+                     "three factors.");
+  const uvol_tools::ScaleOption option(arguments.scale);
+  const Eigen::Array3f scale = option.scaleOf({});
+  if (!(scale > 0.0f).all() || !scale.isFinite().all())
+    throw UsageError("-scale takes three positive factors.");
+  if (arguments.inPieces())
+    pcl_uvol::checkSavePieces(arguments.output);
+  else
+    pcl_uvol::checkSavePath(arguments.output);
+  return {{scale[0], scale[1], scale[2]}};
+}
+
+pcl_uvol::Dataset
+load(const Arguments& arguments, pcl_uvol::RankGroup& ranks, Report& report)
+{
+  const StepTimer timer(report, "read");
+  pcl_uvol::Dataset part = pcl_uvol::loadPart(
+      pcl_uvol::findPieces(arguments.inputs), arguments.makeLoadOptions(), ranks);
+  report.warnings = part.notes;
+  report.count("points", part.cloud.width);
+  if (!arguments.where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(part, arguments.where));
+  std::vector<std::uint64_t> left{part.cloud.width};
+  ranks.sum(left);
+  if (left[0] == 0)
+    throw pcl_uvol::InvalidArgument(
+        joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
+  return part;
+}
+
+/** The isopoints of a process with their fields, ready to be written. */
+pcl_uvol::Dataset
+makeOutput(const Arguments& arguments,
+           const pcl_uvol::Dataset& part,
+           std::uint64_t first_row,
+           const Isopoints& isopoints,
+           unsigned threads,
+           pcl_uvol::RankGroup& ranks,
+           Report& report)
+{
+  const StepTimer timer(report, "fields");
+  const auto rows =
+      pcl_uvol::fetchRows(part.cloud, first_row, isopoints, ranks, report);
+  pcl::PointCloud<PointIso> points;
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    for (const pcl_uvol::GlobalIsopoint& isopoint : isopoints[i])
+      points.push_back(toPointIso(isopoint, arguments.isovalues[i]));
+  pcl_uvol::Dataset output;
+  output.origin = part.origin;
+  output.double_coordinates = part.double_coordinates;
+  pcl::toPCLPointCloud2(points, output.cloud);
+  pcl_uvol::warnOfReplacedFields(part.cloud, output.cloud, report);
+  pcl_uvol::interpolateFields(rows.cloud, rows.edges, output.cloud, threads);
+  return output;
+}
+
+void
+save(const Arguments& arguments,
+     const std::string& field,
+     const pcl_uvol::Dataset& output,
+     pcl_uvol::RankGroup& ranks,
+     Report& report)
+{
+  const StepTimer timer(report, "write");
+  if (arguments.inPieces())
+    return pcl_uvol::savePieces(arguments.output, output, ranks);
+  if (ranks.rank() == 0) {
+    pcl_uvol::SaveOptions options;
+    options.ascii = arguments.ascii;
+    options.comments = {"isosurface of " + field + " at " +
+                        joined(arguments.isovalues)};
+    pcl_uvol::saveDataset(arguments.output, output, options);
+  }
+  ranks.meet();
+}
+
+/** \return the field that was taken */
+std::string
+extract(const Arguments& arguments,
+        const pcl_uvol::Position& scale,
+        unsigned threads,
+        pcl_uvol::RankGroup& ranks,
+        Report& report)
+{
+  const StepTimer timer(report, "total");
+  const pcl_uvol::Dataset part = load(arguments, ranks, report);
+  const std::string field = arguments.field.empty()
+                                ? pcl_uvol::ScalarField::defaultName(part.cloud.fields)
+                                : arguments.field;
+  if (!arguments.inPieces())
+    pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
+  const std::uint64_t first_row = pcl_uvol::findFirstRow(part.cloud.width, ranks);
+  pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
+  settings.field = field;
+  settings.scale = scale;
+  const auto view = pcl_uvol::viewOf(part.cloud);
+  Isopoints isopoints = pcl_uvol::extractFromRanks(
+      pcl_uvol::readSamples(
+          view, {view.fields, field}, scale, first_row, threads, report),
+      settings,
+      ranks,
+      threads,
+      report);
+  if (!arguments.inPieces())
+    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), ranks, threads);
+  save(arguments,
+       field,
+       makeOutput(arguments, part, first_row, isopoints, threads, ranks, report),
+       ranks,
+       report);
+  return field;
+}
+
+int
+run(int argc, char** argv, pcl_uvol::RankGroup& ranks)
+{
+  Arguments arguments;
+  Options options(
+      tool,
+      "in.pvtp|in.vtp...|in.pcd out.pvtp -iso v[,v...] [options]",
+      "Extracts the isosurface of a scalar field given at scattered points by many "
+      "processes, as\nmpirun -np 8 uvol_isosurface_mpi in.pcd out.pvtp -iso 0.5 does: "
+      "the isopoints of uvol_isosurface.\nEach process reads a part of one file (pcd "
+      "ply csv txt), or of the pieces of a pvtp or of\nseveral files, and writes a vtp "
+      "of the pvtp. Output as pcd ply vtp csv comes from the first one.\nNormals are "
+      "those of the fits, else along the edges. -threads is per process, 1 if absent.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  const pcl_uvol::Position scale = check(arguments);
+
+  Report report;
+  std::optional<uvol_tools::ProgressBar> bar;
+  if (ranks.rank() == 0)
+    report.progress = std::ref(bar.emplace(arguments.progress));
+  const std::string field =
+      extract(arguments, scale, arguments.threads(options), ranks, report);
+  bar.reset();
+  const Report together = mergeReports(
+      report, ranks, {"bytes_dealt_out", "bytes_exchanged", "bytes_of_fields"});
+  if (ranks.rank() == 0)
+    uvol_tools::printReport(options,
+                            together,
+                            {{"input", joined(arguments.inputs)},
+                             {"output", arguments.output},
+                             {"processes", std::to_string(ranks.size())},
+                             {"field", field},
+                             {"isovalues", joined(arguments.isovalues)},
+                             {"scale", joined(scale.x)},
+                             {"interpolation", arguments.interpolation}},
+                            true); // mpirun's pipes look like terminals
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  const vtkNew<vtkMPIController> controller;
+  controller->Initialize(&argc, &argv);
+  int exit_code = 0;
+  {
+    pcl_uvol::MpiRanks ranks(*controller);
+    // Only the first process has anything to say, if all goes well.
+    std::ostringstream silence;
+    std::streambuf* const out = std::cout.rdbuf();
+    if (ranks.rank() != 0)
+      std::cout.rdbuf(silence.rdbuf());
+    const uvol_tools::Outcome outcome =
+        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, ranks); });
+    std::cout.rdbuf(out);
+    const std::size_t failed = ranks.agree(outcome.exit_code != 0);
+    if (failed == ranks.rank())
+      std::cerr << tool << ": " << outcome.sentence << '\n';
+    exit_code = failed == ranks.size() ? 0 : std::max(outcome.exit_code, 1);
+  }
+  controller->Finalize();
+  return exit_code;
+}
