@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clusters of samples by their attributes, and surfaces around them (thesis 2.6).
 #include "common/attribute_options.h"
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
@@ -12,8 +13,10 @@
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/table_file.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/isosurface/memory_need.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/multivariate/membership.h>
+#include <pcl_uvol/multivariate/memory_need.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <pcl/conversions.h>
@@ -255,9 +258,7 @@ membershipSurface(const Options& options,
   pcl::PointCloud<PointIso> isopoints;
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
-  Dataset surface;
-  surface.origin = dataset.origin;
-  surface.double_coordinates = dataset.double_coordinates;
+  Dataset surface = uvol_tools::withoutCloud(dataset);
   pcl::toPCLPointCloud2(isopoints, surface.cloud);
   pcl_uvol::interpolateFields(
       dataset.cloud, extraction.getEdges(), surface.cloud, options.threads());
@@ -368,6 +369,38 @@ describeSizes(const std::vector<std::int32_t>& labels)
   return text.str();
 }
 
+/** What the tool holds beside the points; grids of surfaces are looked at when their
+ * size is known. */
+uvol_tools::MemoryGuard::Work
+memoryOf(const Arguments& arguments)
+{
+  return [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+    constexpr double number_bytes = 4.0; // of an index, a label, a probability
+    // setField: the points packed anew, and with the field behind them
+    const auto set_field = [&] {
+      forecast.run({(2.0 * step + number_bytes) * points, number_bytes * points});
+      step += number_bytes;
+    };
+    forecast.hold(number_bytes * points); // labels
+    if (arguments.attributes.areGiven()) {
+      pcl_uvol::MemoryNeed need = pcl_uvol::clusteringNeed(
+          points,
+          static_cast<double>(arguments.attributes.required().size()),
+          static_cast<double>(arguments.k));
+      need.peak += number_bytes * points; // indices of all
+      forecast.run(need);
+      set_field();
+      set_field();
+      forecast.release(need.kept);
+    }
+    if (arguments.surface == "membership") {
+      forecast.hold((number_bytes + step) * points);
+      set_field();
+      forecast.run(pcl_uvol::isosurfaceNeed(points, {}));
+    }
+  };
+}
+
 int
 run(int argc, char** argv)
 {
@@ -382,6 +415,9 @@ run(int argc, char** argv)
     return 0;
   arguments.stretch.emplace(arguments.scale);
   check(options, arguments);
+  uvol_tools::MemoryGuard memory("Clustering");
+  memory.checkFile(arguments.input,
+                   arguments.where.empty() ? memoryOf(arguments) : nullptr);
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -389,6 +425,7 @@ run(int argc, char** argv)
   Dataset dataset = uvol_tools::loadPoints(
       arguments.input, report, uvol_tools::withoutPositions(), arguments.where);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
+  memory.checkCloud(dataset, memoryOf(arguments));
   std::vector<pcl_uvol::ClusterNode> tree;
   const auto labels = labelsOf(options, arguments, dataset, tree, report);
   Facts facts = {{"input", arguments.input},
@@ -403,6 +440,7 @@ run(int argc, char** argv)
   }
   if (!arguments.tree.empty())
     writeTree(arguments.tree, tree);
+  facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

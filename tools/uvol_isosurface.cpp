@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
+#include "common/isosurface_memory.h"
 #include "common/isosurface_options.h"
 #include "common/level_set.h"
 #include "common/options.h"
@@ -129,6 +130,14 @@ load(const Arguments& arguments, Report& report)
   return dataset;
 }
 
+/** Whether something asks for all samples at once. */
+bool
+needsAllSamples(const Arguments& arguments)
+{
+  return arguments.smooth || !arguments.where.empty() || arguments.scale == "auto" ||
+         arguments.neighbors == "voronoi";
+}
+
 /** What only some combinations of options allow. */
 void
 checkCombinations(const Options& options, Arguments& arguments)
@@ -150,9 +159,7 @@ checkCombinations(const Options& options, Arguments& arguments)
     throw UsageError("-mu needs -smooth.");
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
-  if (options.given("max-memory") &&
-      (arguments.smooth || !arguments.where.empty() || arguments.scale == "auto" ||
-       arguments.neighbors == "voronoi"))
+  if (options.given("max-memory") && needsAllSamples(arguments))
     throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
                      "-neighbors voronoi, which need all samples in memory.");
   if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
@@ -231,6 +238,16 @@ extract(const Options& options,
   return isopoints;
 }
 
+/** \return without the scale */
+pcl_uvol::LevelSetParameters
+levelSetOf(const Options& options, const Arguments& arguments)
+{
+  pcl_uvol::LevelSetParameters parameters;
+  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.threads = options.threads();
+  return parameters;
+}
+
 /** The isopoints of the level sets that start from the isosurfaces. */
 pcl::PointCloud<PointIso>
 extractLevelSets(const Options& options,
@@ -245,10 +262,8 @@ extractLevelSets(const Options& options,
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
   std::vector<int> all(view.count);
   std::iota(all.begin(), all.end(), 0);
-  pcl_uvol::LevelSetParameters parameters;
-  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  pcl_uvol::LevelSetParameters parameters = levelSetOf(options, arguments);
   parameters.scale = scale;
-  parameters.threads = options.threads();
   pcl::PointCloud<PointIso> isopoints;
   for (const double isovalue : arguments.isovalues) {
     const auto [phi, summary] =
@@ -280,17 +295,50 @@ fieldOf(const Arguments& arguments, const pcl_uvol::Dataset& input)
              : arguments.field;
 }
 
+/** \param surfaces one per isovalue; none where their sizes are not known */
+uvol_tools::MemoryGuard::Work
+memoryOf(const Options& options,
+         const Arguments& arguments,
+         std::vector<pcl_uvol::SurfaceSize> surfaces)
+{
+  uvol_tools::IsosurfaceTask task;
+  task.surfaces = std::move(surfaces);
+  task.surfaces.resize(arguments.isovalues.size());
+  task.normal_neighbors = static_cast<double>(arguments.k);
+  if (arguments.smooth)
+    task.level_set = levelSetOf(options, arguments);
+  task.is_ray_traced = arguments.raytrace;
+  const double scale = arguments.look.getSupersampling();
+  if (!arguments.picture.empty())
+    task.pixels =
+        scale * arguments.look.getWidth() * scale * arguments.look.getHeight();
+  return uvol_tools::memoryOf(task);
+}
+
 Extraction
 extractInMemory(const Options& options,
                 const Arguments& arguments,
                 const uvol_tools::ScaleOption& scale_option,
+                uvol_tools::MemoryGuard& memory,
                 Report& report)
 {
+  memory.checkFile(arguments.input,
+                   arguments.where.empty() ? memoryOf(options, arguments, {})
+                                           : nullptr);
   Extraction result;
   result.input = load(arguments, report);
   pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
   result.field = fieldOf(arguments, result.input);
-  result.scale = scale_option.scaleOf(pcl_uvol::viewOf(result.input.cloud));
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(result.input.cloud);
+  result.scale = scale_option.scaleOf(view);
+  memory.checkCloud(result.input,
+                    memoryOf(options,
+                             arguments,
+                             pcl_uvol::estimateSurfaces(view,
+                                                        result.field,
+                                                        arguments.isovalues,
+                                                        result.scale,
+                                                        options.threads())));
   result.isopoints = arguments.smooth ? extractLevelSets(options,
                                                          arguments,
                                                          result.input.cloud,
@@ -441,6 +489,9 @@ run(int argc, char** argv)
   if (!arguments.picture.empty())
     pcl_uvol::checkPngPath(arguments.picture);
 
+  uvol_tools::MemoryGuard memory(needsAllSamples(arguments)
+                                     ? "An isosurface"
+                                     : "Without -max-memory an isosurface");
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
@@ -448,13 +499,11 @@ run(int argc, char** argv)
   auto [input, field, scale, isopoints, edges, level_set_facts] =
       options.given("max-memory")
           ? extractFromDisk(options, arguments, scale_option, report)
-          : extractInMemory(options, arguments, scale_option, report);
+          : extractInMemory(options, arguments, scale_option, memory, report);
   replaceNormals(options, arguments, scale, isopoints, report);
   filter(options, arguments, isopoints, edges, report);
 
-  pcl_uvol::Dataset output;
-  output.origin = input.origin;
-  output.double_coordinates = input.double_coordinates;
+  pcl_uvol::Dataset output = uvol_tools::withoutCloud(input);
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, output.cloud);
@@ -477,6 +526,8 @@ run(int argc, char** argv)
   if (!arguments.picture.empty())
     facts.emplace_back("backend", draw(options, arguments, output, report));
   total.reset();
+  if (!options.given("max-memory"))
+    facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

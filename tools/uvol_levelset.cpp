@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
 #include "common/level_set.h"
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
@@ -14,6 +15,7 @@
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/levelset/memory_need.h>
 
 #include <pcl/conversions.h>
 
@@ -226,11 +228,32 @@ zeroLevel(const pcl_uvol::Dataset& input,
   extraction.setNumberOfThreads(threads);
   pcl::PointCloud<PointIso> isopoints;
   extraction.extract(isopoints);
-  pcl_uvol::Dataset surface;
-  surface.origin = input.origin;
-  surface.double_coordinates = input.double_coordinates;
+  pcl_uvol::Dataset surface = uvol_tools::withoutCloud(input);
   pcl::toPCLPointCloud2(isopoints, surface.cloud);
   return surface;
+}
+
+/** What the tool holds beside the points. \param surface of the isovalue */
+uvol_tools::MemoryGuard::Work
+memoryOf(const LevelSetParameters& parameters,
+         bool has_snapshots,
+         const pcl_uvol::SurfaceSize& surface)
+{
+  return
+      [=, &parameters](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        forecast.hold(sizeof(int) * points); // indices of all
+        pcl_uvol::MemoryNeed need = pcl_uvol::levelSetNeed(points, surface, parameters);
+        // zeroLevel, beside the level set
+        const double of_phi = pcl_uvol::phi_point_bytes * points;
+        if (has_snapshots)
+          need.peak += of_phi + pcl_uvol::isosurfaceNeed(points, {surface}).peak;
+        forecast.run(need);
+        forecast.hold(of_phi);
+        // Indices, edges and the output, phi longer than the input.
+        forecast.hold(
+            (sizeof(std::uint32_t) + sizeof(pcl_uvol::IsoEdge) + step + sizeof(float)) *
+            points);
+      };
 }
 
 /** out.ply becomes out_00010.ply. */
@@ -266,6 +289,9 @@ run(int argc, char** argv)
     pcl_uvol::checkTablePath(arguments.table);
   if (!arguments.plot.empty())
     pcl_uvol::checkPngPath(arguments.plot);
+  const bool has_snapshots = arguments.snapshots > 0;
+  uvol_tools::MemoryGuard memory("A level set");
+  memory.checkFile(arguments.input, memoryOf(parameters, has_snapshots, {}));
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -278,6 +304,13 @@ run(int argc, char** argv)
   const std::string field =
       arguments.field.empty() ? pcl_uvol::ScalarField::defaultName(dataset.cloud.fields)
                               : arguments.field;
+  memory.checkCloud(
+      dataset,
+      memoryOf(parameters,
+               has_snapshots,
+               pcl_uvol::estimateSurfaces(
+                   view, field, arguments.iso, parameters.scale, parameters.threads)
+                   .front()));
   std::vector<int> all(view.count);
   std::iota(all.begin(), all.end(), 0);
   parameters.snapshot_steps = arguments.snapshots;
@@ -290,7 +323,7 @@ run(int argc, char** argv)
   const auto [phi, summary] = pcl_uvol::evolveLevelSet(
       view, all, field, arguments.iso.front(), parameters, report);
 
-  pcl_uvol::Dataset result = dataset;
+  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
   {
     const StepTimer timer(report, "fields");
     result.cloud = pcl_uvol::cloudOfPhi(view, phi);
@@ -310,6 +343,7 @@ run(int argc, char** argv)
       {"input", arguments.input}, {"output", arguments.output}, {"field", field}};
   for (const auto& fact : uvol_tools::describe(summary, arguments.mu == "auto"))
     facts.push_back(fact);
+  facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

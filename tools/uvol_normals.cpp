@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
@@ -7,6 +8,7 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
@@ -15,6 +17,7 @@
 
 namespace {
 
+using pcl_uvol::IsoEdge;
 using pcl_uvol::Report;
 
 /** The cloud with new normals and curvature; all other fields as they were. */
@@ -35,6 +38,21 @@ withNormals(const pcl_uvol::CloudView& view,
   pcl::toPCLPointCloud2(points, result);
   pcl_uvol::copyFields(cloud, all, result);
   return result;
+}
+
+/** What the tool holds beside the points. */
+uvol_tools::MemoryGuard::Work
+memoryOf(std::uint64_t k)
+{
+  return [k](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+    forecast.hold(sizeof(std::uint32_t) * points); // indices of all
+    forecast.run(pcl_uvol::surfaceNormalsNeed(points, static_cast<double>(k)));
+    // withNormals: a cloud, the same as bytes, and the output, a normal and a curvature
+    // longer than the input.
+    forecast.hold((2.0 * sizeof(pcl::PointNormal) + sizeof(IsoEdge) + step +
+                   sizeof(pcl_uvol::SurfaceNormal)) *
+                  points);
+  };
 }
 
 int
@@ -64,12 +82,15 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   pcl_uvol::checkSavePath(output);
+  uvol_tools::MemoryGuard memory("Estimating normals");
+  memory.checkFile(input, memoryOf(k));
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
+  memory.checkCloud(dataset, memoryOf(k));
   pcl_uvol::SurfaceNormalParameters parameters;
   parameters.k = k;
   parameters.threads = options.threads();
@@ -90,13 +111,14 @@ run(int argc, char** argv)
   std::vector<std::uint32_t> all(view.count);
   std::iota(all.begin(), all.end(), 0u);
   const auto normals = pcl_uvol::estimateSurfaceNormals(view, all, parameters, report);
-  pcl_uvol::Dataset result = dataset;
+  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
   result.cloud = withNormals(view, dataset.cloud, all, normals);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);
   report.count("points", normals.size());
-  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  uvol_tools::printReport(
+      options, report, {{"input", input}, {"output", output}, memory.describe()});
   return 0;
 }
 

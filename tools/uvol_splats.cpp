@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats of a surface given as points (thesis 4.2.1).
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
 #include "common/splat_options.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <pcl/conversions.h>
@@ -25,6 +28,20 @@ withFields(const pcl_uvol::Splats& splats, const pcl::PCLPointCloud2& cloud)
   pcl::toPCLPointCloud2(splats.cloud, result);
   pcl_uvol::copyFields(cloud, splats.sources, result);
   return result;
+}
+
+/** What the tool holds beside the points. \param part of them that have a splat */
+uvol_tools::MemoryGuard::Work
+memoryOf(double part, bool has_normals)
+{
+  return [=](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+    const double splats = part * points;
+    forecast.hold(sizeof(std::uint32_t) * points); // indices of all
+    forecast.run(pcl_uvol::splatsNeed(points, splats, has_normals));
+    // withFields: as bytes, and with the other fields
+    forecast.hold((2.0 * sizeof(PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) *
+                  splats);
+  };
 }
 
 int
@@ -47,6 +64,8 @@ run(int argc, char** argv)
     return 0;
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   pcl_uvol::checkSavePath(output);
+  uvol_tools::MemoryGuard memory("Making splats");
+  memory.checkFile(input, memoryOf(0.0, true));
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -54,16 +73,21 @@ run(int argc, char** argv)
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  memory.checkCloud(
+      dataset,
+      memoryOf(pcl_uvol::estimateSplats(view, parameters),
+               pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
   std::vector<std::uint32_t> all(view.count);
   std::iota(all.begin(), all.end(), 0u);
   const pcl_uvol::Splats splats =
       pcl_uvol::generateSplats(view, all, parameters, report);
-  pcl_uvol::Dataset result = dataset;
+  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
   result.cloud = withFields(splats, dataset.cloud);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);
-  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  uvol_tools::printReport(
+      options, report, {{"input", input}, {"output", output}, memory.describe()});
   return 0;
 }
 

@@ -5,20 +5,134 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <sys/resource.h>
 
 namespace pcl_uvol {
+
+namespace {
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+/** The number behind a name in a file of lines "name number"; otherwise if there is
+ * none. */
+std::uint64_t
+numberIn(const std::string& path, const std::string& name, std::uint64_t otherwise)
+{
+  std::ifstream file(path);
+  for (std::string word; file >> word;) {
+    std::uint64_t number = 0;
+    if (word == name)
+      return file >> number ? number : otherwise;
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return otherwise;
+}
+
+/** The same in bytes, where the system counts in kB. */
+std::uint64_t
+bytesIn(const std::string& path, const std::string& name, std::uint64_t otherwise)
+{
+  constexpr std::uint64_t kibibyte = 1024;
+  const std::uint64_t number = numberIn(path, name, unlimited);
+  return number == unlimited ? otherwise : kibibyte * number;
+}
+
+/** The number that a file consists of; unlimited if there is none, as in "max". */
+std::uint64_t
+numberOf(const std::string& path)
+{
+  std::ifstream file(path);
+  std::uint64_t number = 0;
+  return file >> number ? number : unlimited;
+}
+
+/** Names of the files of a version of control groups. */
+struct GroupFiles {
+  const char *limit, *usage, *cache;
+};
+
+constexpr GroupFiles second_version = {"memory.max", "memory.current", "inactive_file"};
+constexpr GroupFiles first_version = {
+    "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
+
+/** What a group leaves. */
+std::uint64_t
+availableIn(const std::string& folder, const GroupFiles& names)
+{
+  const std::uint64_t limit = numberOf(folder + '/' + names.limit);
+  const std::uint64_t usage = numberOf(folder + '/' + names.usage);
+  if (limit == unlimited || usage == unlimited)
+    return unlimited;
+  const std::uint64_t cache =
+      std::min(usage, numberIn(folder + "/memory.stat", names.cache, 0));
+  return limit - std::min(limit, usage - cache);
+}
+
+/** What a group and those around it leave. In a container the path may be that on the
+ * host, and its own group the root. */
+std::uint64_t
+availableAround(const std::string& root, std::string path, const GroupFiles& names)
+{
+  std::uint64_t available = availableIn(root, names);
+  for (; path.size() > 1; path.resize(path.rfind('/')))
+    available = std::min(available, availableIn(root + path, names));
+  return available;
+}
+
+/** What a limit of the process leaves. \param used name of what it counts */
+std::uint64_t
+availableTo(decltype(RLIMIT_AS) resource, const char* used)
+{
+  rlimit limit{};
+  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return unlimited;
+  return limit.rlim_cur -
+         std::min<std::uint64_t>(limit.rlim_cur, bytesIn("/proc/self/status", used, 0));
+}
+
+} // namespace
 
 std::uint64_t
 availableMemory()
 {
-  std::ifstream file("/proc/meminfo");
-  for (std::string name; file >> name;) {
-    std::uint64_t kibibytes = 0;
-    if (name == "MemAvailable:" && file >> kibibytes)
-      return kibibytes * 1024;
-    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  return std::min({bytesIn("/proc/meminfo", "MemAvailable:", unlimited),
+                   availableInControlGroups(),
+                   availableTo(RLIMIT_AS, "VmSize:"),
+                   availableTo(RLIMIT_DATA, "VmData:")});
+}
+
+std::uint64_t
+availableInControlGroups(const std::string& groups, const std::string& root)
+{
+  std::uint64_t available = unlimited;
+  std::ifstream file(groups);
+  // "0::/path" of version 2, "4:memory:/path" of version 1, perhaps with others
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos || line.compare(second + 1, 1, "/") != 0)
+      continue;
+    const std::string path = line.substr(second + 1);
+    const std::string controllers =
+        ',' + line.substr(first + 1, second - first - 1) + ',';
+    if (controllers == ",,")
+      available = std::min(available, availableAround(root, path, second_version));
+    else if (controllers.find(",memory,") != std::string::npos)
+      available =
+          std::min(available, availableAround(root + "/memory", path, first_version));
   }
-  return std::numeric_limits<std::uint64_t>::max();
+  return available;
+}
+
+std::uint64_t
+residentMemory()
+{
+  return bytesIn("/proc/self/status", "VmRSS:", 0);
+}
+
+std::uint64_t
+peakMemory()
+{
+  return bytesIn("/proc/self/status", "VmHWM:", 0);
 }
 
 std::string
@@ -37,9 +151,9 @@ formatBytes(double bytes)
 }
 
 void
-checkMemory(const std::string& what, double bytes)
+checkMemory(const std::string& what, double bytes, double taken)
 {
-  const auto available = static_cast<double>(availableMemory());
+  const double available = static_cast<double>(availableMemory()) + taken;
   if (bytes > available)
     throw InvalidArgument(what + " needs " + formatBytes(bytes) +
                           " of memory, and only " + formatBytes(available) +

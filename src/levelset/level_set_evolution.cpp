@@ -272,6 +272,7 @@ private:
   makeBand(const std::vector<std::uint32_t>& crossing)
   {
     evolver_.reset();
+    band_.reset(); // before the new one takes as much again
     band_ = pcl_uvol::makeBand(*samples_,
                                crossing,
                                parameters_.band_width * summary_.spacing,

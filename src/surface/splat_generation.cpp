@@ -173,6 +173,26 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
   return accepted;
 }
 
+/** What splats are grown over goes with the end of it: most of the memory.
+ * \param delta a length */
+std::vector<Accepted>
+growOn(const OrientedPoints& points,
+       double delta,
+       const SplatParameters& parameters,
+       Report& report)
+{
+  const unsigned threads = parameters.threads;
+  Footprints footprints = computeFootprints(points, threads, report);
+  const SplatGround ground{
+      points,
+      std::move(footprints.on_rim),
+      std::move(footprints.nearest),
+      leastRadii(*points.samples, std::move(footprints.radii), delta, threads),
+      delta,
+      parameters.lambda};
+  return coverSurface(ground, threads, report);
+}
+
 constexpr std::array<const char*, 15> splat_fields = {"x",
                                                       "y",
                                                       "z",
@@ -212,15 +232,7 @@ generateSplats(const CloudView& cloud,
   if (!(extent >= smallest_extent && extent <= largest_extent))
     throw InvalidArgument("Splats are made for clouds, and error bounds, between 1e-12 "
                           "and 1e15 in extent: scale the coordinates.");
-  Footprints footprints = computeFootprints(points, threads, report);
-  const SplatGround ground{
-      points,
-      std::move(footprints.on_rim),
-      std::move(footprints.nearest),
-      leastRadii(*points.samples, std::move(footprints.radii), delta, threads),
-      delta,
-      parameters.lambda};
-  const auto accepted = coverSurface(ground, threads, report);
+  const auto accepted = growOn(points, delta, parameters, report);
   // In leaf order, where neighbours are close.
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> splat_of(points.samples->size(), none);

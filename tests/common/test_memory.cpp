@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work that does not fit into memory is refused, in figures that people can read.
+// What memory there is and what the process takes. Work that does not fit into memory
+// is refused, in figures that people can read.
+#include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/memory.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <regex>
 #include <sstream>
+#include <sys/resource.h>
 #include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -38,6 +44,130 @@ TEST(Memory, WhatIsAvailableIsAPartOfWhatIsThere)
   const auto available = static_cast<double>(pcl_uvol::availableMemory());
   EXPECT_GT(available, 1e6);
   EXPECT_LE(available, installed);
+}
+
+/** Whether what is available shrinks to a limit, in a process of its own. */
+template <typename Resource>
+bool
+isLimitedBy(Resource resource, double bytes)
+{
+  rlimit limit{};
+  getrlimit(resource, &limit);
+  limit.rlim_cur = static_cast<rlim_t>(bytes);
+  if (setrlimit(resource, &limit) != 0)
+    return false;
+  const auto available = static_cast<double>(pcl_uvol::availableMemory());
+  return available < bytes && available > 0.0;
+}
+
+TEST(Memory, LimitsOfTheProcessCount)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "Sanitizers map terabytes.";
+  ASSERT_GT(pcl_uvol::availableMemory(), 1000000000u);
+  EXPECT_EXIT(
+      _exit(isLimitedBy(RLIMIT_AS, 9e8) ? 0 : 1), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(
+      _exit(isLimitedBy(RLIMIT_DATA, 9e8) ? 0 : 1), testing::ExitedWithCode(0), "");
+}
+
+/** Files of control groups as the kernel writes them. */
+class ControlGroups : public testing::Test {
+protected:
+  void
+  write(const std::string& name, const std::string& content) const
+  {
+    const std::filesystem::path path = folder_ / name;
+    std::filesystem::create_directories(path.parent_path());
+    uvol_test::writeFile(path, content + '\n');
+  }
+
+  std::uint64_t
+  available(const std::string& groups) const
+  {
+    write("groups", groups);
+    return pcl_uvol::availableInControlGroups(folder_ / "groups", folder_ / "root");
+  }
+
+  static constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+  uvol_test::TemporaryFolder folder_;
+};
+
+TEST_F(ControlGroups, WithoutLimitsAllIsAvailable)
+{
+  EXPECT_EQ(unlimited, pcl_uvol::availableInControlGroups(folder_ / "none", "/none"));
+  EXPECT_EQ(unlimited, available("0::/"));
+  write("root/a/memory.max", "max");
+  write("root/a/memory.current", "1000");
+  EXPECT_EQ(unlimited, available("0::/a"));
+  EXPECT_EQ(unlimited, available("garbage\n:\n0::relative\n"));
+}
+
+TEST_F(ControlGroups, TheTightestOfTheGroupsAroundCounts)
+{
+  write("root/a/memory.max", "5000");
+  write("root/a/memory.current", "4000");
+  write("root/a/b/memory.max", "9000");
+  write("root/a/b/memory.current", "3000");
+  EXPECT_EQ(1000u, available("0::/a/b"));
+  EXPECT_EQ(1000u, available("0::/a/b/not_there"));
+  write("root/a/b/memory.current", "8500");
+  EXPECT_EQ(500u, available("0::/a/b"));
+  write("root/a/b/memory.current", "9100");
+  EXPECT_EQ(0u, available("0::/a/b"));
+}
+
+/** A container sees its own group as the root. */
+TEST_F(ControlGroups, FilesInMemoryAreAvailable)
+{
+  write("root/memory.max", "5000");
+  write("root/memory.current", "4000");
+  write("root/memory.stat", "anon 900\nfile 3100\ninactive_file 2500");
+  EXPECT_EQ(3500u, available("0::/"));
+}
+
+TEST_F(ControlGroups, TheFirstVersionCountsAsWell)
+{
+  write("root/memory/a/memory.limit_in_bytes", "5000");
+  write("root/memory/a/memory.usage_in_bytes", "4000");
+  write("root/memory/a/memory.stat", "inactive_file 7\ntotal_inactive_file 500");
+  EXPECT_EQ(1500u, available("5:cpu,cpuacct:/\n4:memory:/a\n0::/"));
+  EXPECT_EQ(1500u, available("4:hugetlb,memory:/a"));
+  EXPECT_EQ(unlimited, available("4:cpu:/a"));
+}
+
+TEST(Memory, PeakIsTheMostThatWasResident)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "Sanitizers keep what was freed.";
+  constexpr std::size_t bytes = 200000000;
+  const std::uint64_t before = pcl_uvol::residentMemory();
+  ASSERT_GT(before, 1000000u);
+  ASSERT_GE(pcl_uvol::peakMemory(), before);
+  {
+    const std::vector<char> taken(bytes, 1);
+    EXPECT_NEAR(
+        1.0, static_cast<double>(pcl_uvol::residentMemory() - before) / bytes, 0.05);
+  }
+  EXPECT_NEAR(1.0, static_cast<double>(pcl_uvol::peakMemory() - before) / bytes, 0.05);
+  EXPECT_LT(pcl_uvol::residentMemory(), before + bytes / 10);
+}
+
+TEST(MemoryForecast, AddsUpWhatLivesAtTheSameTime)
+{
+  pcl_uvol::MemoryForecast forecast(10.0);
+  EXPECT_EQ(10.0, forecast.getPeak());
+  forecast.hold(5.0);
+  forecast.run({100.0, 20.0}); // 115 while it runs, 35 after it
+  EXPECT_EQ(115.0, forecast.getPeak());
+  EXPECT_EQ(35.0, forecast.getHeld());
+  forecast.release(15.0);
+  forecast.run({90.0, 0.0});
+  EXPECT_EQ(115.0, forecast.getPeak());
+  forecast.run({100.0, 0.0});
+  EXPECT_EQ(120.0, forecast.getPeak());
+  forecast.run({1.0, 200.0}); // what remains was there at the peak
+  EXPECT_EQ(220.0, forecast.getPeak());
 }
 
 TEST(Memory, BytesAreTold)
@@ -75,6 +205,7 @@ TEST(Memory, OnlyWhatDoesNotFitIsRefused)
 {
   EXPECT_NO_THROW(checkMemory("A grid", 0.0));
   EXPECT_NO_THROW(checkMemory("A grid", 1e6));
+  EXPECT_NO_THROW(checkMemory("What is there already", 5e18, 5e18));
   try {
     checkMemory("A grid of 9 x 9 x 9 cells", 5e18);
     FAIL() << "5 EB are there";

@@ -82,6 +82,19 @@ dataFolder()
   return fs::is_directory(beside) ? beside.lexically_normal().string() : std::string();
 }
 
+bool
+isSanitized()
+{
+  return std::getenv("LSAN_OPTIONS") != nullptr ||
+         std::getenv("TSAN_OPTIONS") != nullptr;
+}
+
+bool
+resetPeakMemory()
+{
+  return bool(std::ofstream("/proc/self/clear_refs") << "5" << std::flush);
+}
+
 CommandResult
 runCommand(const std::string& command)
 {

@@ -54,6 +54,15 @@ writeFile(const std::string& path, const std::string& content);
 std::string
 dataFolder();
 
+/** \brief True under a sanitizer, whose memory is not that of the program. */
+bool
+isSanitized();
+
+/** \brief Forget how much memory the process had at most. \return false where the
+ * system does not allow it */
+bool
+resetPeakMemory();
+
 struct CommandResult {
   int exit_code; ///< -signal where a signal ended it
   std::string out, err;

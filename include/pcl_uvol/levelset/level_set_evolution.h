@@ -27,6 +27,9 @@ evolveLevelSet(const CloudView& cloud,
                const LevelSetParameters& parameters,
                Report& report);
 
+/** \brief Bytes of a point of cloudOfPhi(). */
+constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
+
 /** \brief A cloud of the points' coordinates and the field `phi`, of which
  * IsosurfaceExtraction makes the zero level. \param phi one per point
  * \throws InvalidArgument for another number */

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes of a clustering.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/memory.h>
+
+namespace pcl_uvol {
+
+/** \brief Of clusterCloud, besides the cloud: 60 bytes per point, 12 per point and
+ * attribute, and 8 per neighbour that core distances reach to, of which there are 8 at
+ * least; labels and probabilities remain. */
+PCL_UVOL_EXPORTS MemoryNeed
+clusteringNeed(double points, double attributes, double neighbors);
+
+} // namespace pcl_uvol

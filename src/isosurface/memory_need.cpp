@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/random.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/isosurface/memory_need.h>
+#include <pcl_uvol/neighbors/kd_tree.h>
+#include <pcl_uvol/neighbors/memory_need.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Samples of a thinned cloud: they resolve details of a tenth of its extent, and cost
+ * some milliseconds. */
+constexpr std::size_t thinned_samples = 1u << 14;
+
+constexpr double float_bytes = sizeof(float), index_bytes = sizeof(std::uint32_t);
+constexpr double isopoint_bytes = sizeof(PointIso) + sizeof(IsoEdge);
+constexpr double key_bytes = sizeof(std::uint64_t); // of an edge on its way
+
+/** Points at random, of which some may come twice. */
+pcl::PCLPointCloud2::Ptr
+thin(const CloudView& cloud)
+{
+  pcl::PCLPointCloud2::Ptr thinned(new pcl::PCLPointCloud2);
+  thinned->fields = cloud.fields;
+  thinned->height = 1;
+  thinned->width = static_cast<pcl::uindex_t>(std::min(cloud.count, thinned_samples));
+  thinned->point_step = static_cast<pcl::uindex_t>(cloud.point_step);
+  thinned->row_step = thinned->point_step * thinned->width;
+  thinned->data.resize(thinned->row_step);
+  for (std::size_t i = 0; i < thinned->width; ++i)
+    std::memcpy(
+        &thinned->data[i * cloud.point_step],
+        cloud.point(cloud.count > thinned_samples ? mixBits(i) % cloud.count : i),
+        cloud.point_step);
+  return thinned;
+}
+
+} // namespace
+
+std::vector<SurfaceSize>
+estimateSurfaces(const CloudView& cloud,
+                 const std::string& field,
+                 const std::vector<double>& isovalues,
+                 const Eigen::Array3f& scale,
+                 unsigned threads)
+{
+  std::vector<SurfaceSize> surfaces(isovalues.size());
+  if (cloud.count == 0)
+    return surfaces;
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(thin(cloud));
+  extraction.setScalarField(field);
+  extraction.setScale(scale);
+  extraction.setInterpolation(Interpolation::Linear);
+  extraction.setNumberOfThreads(threads);
+  pcl::PointCloud<PointIso> isopoints;
+  for (std::size_t i = 0; i < isovalues.size(); ++i) {
+    extraction.setIsoValue(isovalues[i]);
+    try {
+      extraction.extract(isopoints);
+    }
+    catch (const InvalidArgument&) {
+      return surfaces; // the extraction of the whole cloud will tell what is wrong
+    }
+    const Report& report = extraction.getReport();
+    const double factor = std::pow(static_cast<double>(cloud.count) /
+                                       static_cast<double>(report.getCount("samples")),
+                                   2.0 / 3.0);
+    surfaces[i] = {factor * static_cast<double>(report.getCount("crossing_samples")),
+                   factor * static_cast<double>(report.getCount("edges"))};
+  }
+  return surfaces;
+}
+
+MemoryNeed
+isosurfaceNeed(double samples, const std::vector<SurfaceSize>& surfaces)
+{
+  MemoryForecast forecast(0.0);
+  // Indices of the points: those given, those with a value, and those remembered.
+  forecast.hold(3.0 * index_bytes * samples);
+  forecast.hold(float_bytes * samples); // the scalar as it lies in the cloud
+  forecast.run(sampleSetNeed(samples));
+  forecast.hold((float_bytes + index_bytes) * samples); // in leaf order, with sources
+  forecast.hold(nodeRangesBytes(samples));
+  forecast.release(float_bytes * samples);
+  double kept = 0.0;
+  for (const SurfaceSize& surface : surfaces) {
+    const double count = surface.isopoints;
+    const double own =
+        index_bytes * surface.crossing + (key_bytes + isopoint_bytes) * count;
+    // Those that fall together are sorted out, which takes a half again to merge. Then
+    // they join those of the isovalues before.
+    const double sorting = (1.5 * sizeof(SampleRecord) + 1.0) * count;
+    const double joined = kept + isopoint_bytes * count;
+    forecast.run({own + std::max(sorting, joined), isopoint_bytes * count});
+    kept = joined;
+  }
+  forecast.hold(kept / isopoint_bytes * sizeof(IsoEdge)); // a copy for the caller
+  return {forecast.getPeak(), kept};
+}
+
+} // namespace pcl_uvol

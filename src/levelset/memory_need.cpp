@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "band.h"
+#include <pcl_uvol/levelset/memory_need.h>
+#include <pcl_uvol/neighbors/memory_need.h>
+
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr double float_bytes = sizeof(float), index_bytes = sizeof(std::uint32_t);
+
+/** In spacings, of random samples: samples next to a surface lie within so much of it
+ * on both sides together (measured on spheres, tori and gyroids: 2.9). */
+constexpr double crossing_thickness = 2.9;
+
+/** The stencils and weights of a centre (see Stencils). */
+double
+stencilBytes(const LevelSetParameters& parameters)
+{
+  const auto rows = static_cast<double>(derivativesOf(parameters.scheme));
+  const auto k = static_cast<double>(parameters.k);
+  return k * (index_bytes + rows * sizeof(std::int16_t)) + (rows + 3.0) * float_bytes;
+}
+
+/** Of a centre: its index and distance; target and trust of the data; phi and rate; and
+ * nine numbers of the evolver, three more for the normals of the linear scheme. */
+double
+centerBytes(const LevelSetParameters& parameters)
+{
+  const double of_evolver = parameters.scheme == FitScheme::Linear ? 12.0 : 9.0;
+  return index_bytes + (1.0 + 2.0 + 2.0 + of_evolver) * float_bytes;
+}
+
+/** Of a neighbour of theirs that is none: its index, the centre beside it, its phi, the
+ * rate and the target. */
+constexpr double other_bytes = index_bytes + sizeof(Band::Support) + 3.0 * float_bytes;
+
+} // namespace
+
+MemoryNeed
+levelSetNeed(double samples,
+             const SurfaceSize& surface,
+             const LevelSetParameters& parameters)
+{
+  // The band is as much thicker than the crossing samples as its width on both sides;
+  // neighbours reach beyond by the radius of the ball that holds k of them.
+  const auto k = static_cast<double>(parameters.k);
+  const double per_spacing = surface.crossing / crossing_thickness;
+  const double reach = std::cbrt(k / (4.0 / 3.0 * 3.14159265358979));
+  const double thickness = crossing_thickness + 2.0 * parameters.band_width;
+  const double centers = parameters.band_width > 0.0
+                             ? std::min(samples, per_spacing * thickness)
+                             : samples;
+  const double others = std::min(samples - centers, 2.0 * per_spacing * reach);
+
+  MemoryForecast forecast(0.0);
+  // The scalar, and the indices of the points with a value.
+  const double of_points = (float_bytes + index_bytes) * samples;
+  forecast.hold(of_points);
+  forecast.run(sampleSetNeed(samples));
+  forecast.hold((float_bytes + index_bytes) * samples); // in leaf order, with sources
+  forecast.release(of_points + index_bytes * samples);
+  forecast.hold(float_bytes * samples); // phi
+  forecast.run({nodeRangesBytes(samples), 0.0});
+  forecast.hold((stencilBytes(parameters) + centerBytes(parameters)) * centers +
+                other_bytes * others);
+  // phi of all samples, in leaf order and then as they came.
+  forecast.run({2.0 * float_bytes * samples, 0.0});
+  return {forecast.getPeak(), float_bytes * samples};
+}
+
+} // namespace pcl_uvol

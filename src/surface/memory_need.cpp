@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "splat_growth.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/random.h>
+#include <pcl_uvol/neighbors/memory_need.h>
+#include <pcl_uvol/surface/memory_need.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr double float_bytes = sizeof(float), index_bytes = sizeof(std::uint32_t);
+
+/** Patches, the points of one at most, and the part of all points that they may be: a
+ * splat takes some ten microseconds to grow. */
+constexpr std::size_t patches = 2, patch_points = 2048, patches_part = 64;
+
+/** Fewer points are no patch. */
+constexpr std::size_t fewest_points = 256;
+
+/** Of a patch, those that count: splats do not grow across its rim. */
+constexpr std::size_t inner_part = 4;
+
+/** Where there is no patch: points of a surface that is sampled no finer than its
+ * splats reach. */
+constexpr double usual_splats = 0.9;
+
+/** Splats that are grown at once, in parts of those that stand already when it is done
+ * for the last time, and what one says is covered: mostly none or a few. */
+constexpr double grown_part = 0.2, passed_over_bytes = 32.0;
+
+struct Extent {
+  std::vector<std::uint32_t> finite; ///< indices of points
+  float side = 0.0f;                 ///< the longest one
+};
+
+Extent
+extentOf(const CloudView& cloud)
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Extent extent;
+  extent.finite.reserve(cloud.count);
+  Position low{{infinity, infinity, infinity}}, high{{-infinity, -infinity, -infinity}};
+  for (std::uint32_t i = 0; i < cloud.count; ++i) {
+    const float* const xyz = cloud.xyz(i);
+    if (!std::all_of(xyz, xyz + 3, [](float x) { return std::isfinite(x); }))
+      continue;
+    extent.finite.push_back(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], xyz[axis]);
+      high[axis] = std::max(high[axis], xyz[axis]);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    extent.side = std::max(extent.side, high[axis] - low[axis]);
+  return extent;
+}
+
+/** A cell of the kd-tree with that many points at most: halves at random.
+ * \param points brought into another order */
+std::vector<std::uint32_t>
+takePatch(const CloudView& cloud,
+          std::vector<std::uint32_t>& points,
+          std::size_t most,
+          std::uint64_t seed)
+{
+  auto first = points.begin(), last = points.end();
+  for (int depth = 0; last - first > static_cast<std::ptrdiff_t>(most); ++depth) {
+    const auto middle = first + (last - first) / 2;
+    const int axis = depth % 3;
+    std::nth_element(first, middle, last, [&](auto a, auto b) {
+      return cloud.xyz(a)[axis] < cloud.xyz(b)[axis];
+    });
+    const bool takes_lower = (mixBits(seed) >> depth & 1u) != 0;
+    (takes_lower ? last : first) = middle;
+  }
+  return {first, last};
+}
+
+/** Points in the middle of a patch, ascending. */
+std::vector<std::uint32_t>
+innerOf(const CloudView& cloud, std::vector<std::uint32_t> patch)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
+    return Eigen::Vector3f(cloud.xyz(i)).cast<double>();
+  };
+  for (const std::uint32_t point : patch)
+    sum += at(point);
+  const Eigen::Vector3d middle = sum / static_cast<double>(patch.size());
+  const auto end =
+      patch.begin() + static_cast<std::ptrdiff_t>(patch.size() / inner_part);
+  std::nth_element(patch.begin(), end, patch.end(), [&](auto a, auto b) {
+    return (at(a) - middle).squaredNorm() < (at(b) - middle).squaredNorm();
+  });
+  patch.erase(end, patch.end());
+  std::sort(patch.begin(), patch.end());
+  return patch;
+}
+
+} // namespace
+
+MemoryNeed
+surfaceNormalsNeed(double points, double k)
+{
+  // A normal in single precision, its curvature, and whether it is degenerate.
+  constexpr double fit_bytes = 5 * float_bytes;
+  MemoryForecast forecast(0.0);
+  forecast.run(sampleSetNeed(points));
+  forecast.run(nearestNeighborsNeed(points, k));
+  const double kept = sizeof(SurfaceNormal) * points;
+  forecast.hold((fit_bytes + index_bytes) * points + kept);
+  return {forecast.getPeak(), kept};
+}
+
+double
+estimateSplats(const CloudView& cloud, const SplatParameters& parameters)
+{
+  const std::size_t most =
+      std::min(patch_points, cloud.count / (patches * patches_part));
+  if (most < fewest_points)
+    return usual_splats;
+  Extent extent = extentOf(cloud);
+  SplatParameters of_patch = parameters;
+  if (!parameters.delta_is_length)
+    of_patch.delta = parameters.delta * extent.side;
+  of_patch.delta_is_length = true;
+  std::size_t points = 0, splats = 0;
+  for (std::uint64_t seed = 0; seed < patches; ++seed) {
+    const auto patch = takePatch(cloud, extent.finite, most, seed);
+    try {
+      Report ignored;
+      const auto grown = generateSplats(cloud, patch, of_patch, ignored);
+      const auto inner = innerOf(cloud, patch);
+      points += inner.size();
+      splats += static_cast<std::size_t>(std::count_if(
+          grown.sources.begin(), grown.sources.end(), [&](std::uint32_t source) {
+            return std::binary_search(inner.begin(), inner.end(), source);
+          }));
+    }
+    catch (const InvalidArgument&) {
+      // the splats of the whole cloud will tell what is wrong
+    }
+  }
+  return points > 0 ? static_cast<double>(splats) / static_cast<double>(points)
+                    : usual_splats;
+}
+
+MemoryNeed
+splatsNeed(double points, double splats, bool has_normals)
+{
+  MemoryForecast forecast(0.0);
+  // Finite points and those with a normal, and packed normals.
+  const double of_input = (2.0 * index_bytes + sizeof(PackedNormal)) * points;
+  forecast.hold(of_input);
+  constexpr double estimation_neighbors = 30.0; // default of SurfaceNormalParameters
+  if (!has_normals)
+    forecast.run({surfaceNormalsNeed(points, estimation_neighbors).peak, 0.0});
+  forecast.run(sampleSetNeed(points));
+  forecast.hold(sizeof(PackedNormal) * points);
+  forecast.release(of_input);
+  const double oriented = forecast.getHeld();
+  // Radii, fillers, rims and nearest points; what they are made of.
+  constexpr double footprint_bytes =
+      2.0 * float_bytes + sizeof(std::uint8_t) + sizeof(NearestPoints);
+  constexpr double reach_bytes = 3.0 * float_bytes;
+  forecast.hold(footprint_bytes * points);
+  forecast.run({reach_bytes * points, 0.0});
+  // The order, who is passed over, and the splats as they are grown.
+  forecast.hold((index_bytes + sizeof(std::uint8_t)) * points);
+  constexpr double accepted_bytes = sizeof(PointSplat) + alignof(PointSplat);
+  const double accepted = accepted_bytes * splats;
+  forecast.hold(accepted);
+  forecast.run({grown_part * (sizeof(GrownSplat) + passed_over_bytes) * splats, 0.0});
+  forecast.release(forecast.getHeld() - oriented - accepted);
+  const double kept = (sizeof(PointSplat) + index_bytes) * splats;
+  forecast.hold(index_bytes * points + kept); // which splat is that of a sample
+  return {forecast.getPeak(), kept};
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tools forecast their memory, and refuse what does not fit before they begin.
+#include "support/environment.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using uvol_test::runCommand;
+
+/** A run on "in.pcd" or "in.ply", with "out.ply". */
+struct ToolRun {
+  const char *name, *tool, *input, *options;
+};
+
+const ToolRun runs[] = {
+    {"Isosurface", "uvol_isosurface", "in.pcd", "-iso 0"},
+    {"LinearIsosurface",
+     "uvol_isosurface",
+     "in.pcd",
+     "-iso 0 -interpolation linear -threads 1"},
+    {"Isosurfaces", "uvol_isosurface", "in.pcd", "-iso -0.2,-0.1,0,0.1"},
+    {"SmoothIsosurface", "uvol_isosurface", "in.pcd", "-iso 0 -smooth"},
+    {"Picture", "uvol_isosurface", "in.pcd", "-iso 0 -png out.png -size 1500"},
+    {"LevelSet", "uvol_levelset", "in.pcd", "-iso 0"},
+    {"LinearLevelSet",
+     "uvol_levelset",
+     "in.pcd",
+     "-iso 0 -scheme linear -mu 0.9 -threads 1"},
+    {"Cluster", "uvol_cluster", "in.pcd", "-attributes torus,x -threads 1"},
+    {"PositionCluster", "uvol_cluster", "in.pcd", "-attributes torus -position -k 30"},
+    {"Normals", "uvol_normals", "in.ply", ""},
+    {"ManyNeighborNormals", "uvol_normals", "in.ply", "-k 60 -threads 1"},
+    {"Splats", "uvol_splats", "in.ply", ""},
+    {"FewSplats", "uvol_splats", "in.ply", "-delta 0.002 -threads 1"}};
+
+/** Megabytes of a tool that has not begun, which would hide what is wrong. */
+constexpr double started = 28.0;
+
+/** "memory: forecast 110 MB, peak 108 MB" in megabytes. */
+std::pair<double, double>
+readMemory(const std::string& report)
+{
+  const std::regex line("\nmemory: forecast ([0-9.]+) MB, peak ([0-9.]+) MB\n");
+  std::smatch match;
+  if (!std::regex_search(report, match, line))
+    return {0.0, 0.0};
+  return {std::stod(match[1]), std::stod(match[2])};
+}
+
+class MemoryForecast : public testing::TestWithParam<ToolRun> {
+protected:
+  void
+  SetUp() override
+  {
+    if (uvol_test::isSanitized())
+      GTEST_SKIP() << "Sanitizers take memory of their own.";
+  }
+
+  uvol_test::CommandResult
+  run(const std::string& before = "") const
+  {
+    const ToolRun& tool = GetParam();
+    return runCommand(before + "cd " + (folder_ / "") + " && " + tool.tool + ' ' +
+                      (folder_ / tool.input) + ' ' + (folder_ / "out.ply") + ' ' +
+                      tool.options);
+  }
+
+  bool
+  isVolume() const
+  {
+    return GetParam().input == std::string("in.pcd");
+  }
+
+  uvol_test::TemporaryFolder folder_;
+};
+
+TEST_P(MemoryForecast, IsWithinAFifthOfThePeak)
+{
+  const std::string in = folder_ / GetParam().input;
+  if (isVolume()) {
+    ASSERT_EQ(0,
+              runCommand("uvol_generate " + in + " -field torus -n 300000").exit_code);
+  }
+  else {
+    // isopoints of spheres, with all their fields
+    const std::string samples = folder_ / "samples.pcd";
+    const auto generated =
+        runCommand("uvol_generate " + samples + " -field sphere -n 1500000");
+    ASSERT_EQ(0, generated.exit_code) << generated.err;
+    const auto extracted = runCommand("uvol_isosurface " + samples + ' ' + in +
+                                      " -interpolation linear -iso 0.1,0.2,0.3,0.4");
+    ASSERT_EQ(0, extracted.exit_code) << extracted.err;
+    ASSERT_GT(pcl_uvol::loadDataset(in).cloud.width, 100000u);
+  }
+  const auto result = run();
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto [forecast, peak] = readMemory(result.out);
+  ASSERT_GT(peak, started + 10.0) << result.out;
+  EXPECT_NEAR(peak - started, forecast - started, 0.2 * (peak - started));
+}
+
+/** A header that promises four thousand million points, and a file as long, of which
+ * nothing is written. */
+TEST_P(MemoryForecast, RefusesWhatDoesNotFit)
+{
+  const char* const fields = isVolume() ? "x y z torus" : "x y z normal_x";
+  uvol_test::writeFile(folder_ / "in.pcd",
+                       std::string("FIELDS ") + fields +
+                           "\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 4000000000\n"
+                           "HEIGHT 1\nDATA binary\n");
+  uvol_test::writeFile(folder_ / "in.ply",
+                       "ply\nformat binary_little_endian 1.0\n"
+                       "element vertex 4000000000\nproperty float x\n"
+                       "property float y\nproperty float z\nend_header\n");
+  std::filesystem::resize_file(folder_ / GetParam().input, 64000001000u);
+  const auto result = run("ulimit -v 8000000; ");
+  EXPECT_EQ(1, result.exit_code) << result.err;
+  const std::regex sentence(std::string(GetParam().tool) +
+                            ": [A-Z][a-z -]+ of 4000000000 points needs ([0-9.]+) "
+                            "([GT]B) of memory, and only "
+                            "([0-9.]+) GB are available\\.\n");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_match(result.err, match, sentence)) << result.err;
+  EXPECT_LT(std::stod(match[3]), 8.2);
+  const std::string tool = GetParam().tool, options = GetParam().options;
+  const bool has_bound =
+      tool == "uvol_isosurface" && options.find("-smooth") == std::string::npos;
+  EXPECT_EQ(has_bound, result.err.find("Without -max-memory") != std::string::npos);
+  EXPECT_EQ((std::vector<std::string>{"in.pcd", "in.ply"}), folder_.list());
+}
+
+/** The header tells nothing of how many points are left. */
+TEST(MemoryOfSelectedRows, IsThatOfThoseLeft)
+{
+  if (uvol_test::isSanitized())
+    GTEST_SKIP() << "Sanitizers take memory of their own.";
+  const uvol_test::TemporaryFolder folder;
+  const std::string in = folder / "in.pcd";
+  ASSERT_EQ(0,
+            runCommand("uvol_generate " + in + " -field torus -n 2000000").exit_code);
+  for (const std::string tool :
+       {"uvol_isosurface -iso 0", "uvol_cluster -attributes torus"}) {
+    const std::string all =
+        "ulimit -d 110000; " + tool + " -threads 1 " + in + ' ' + (folder / "out.ply");
+    const auto refused = runCommand(all);
+    EXPECT_EQ(1, refused.exit_code) << refused.out;
+    EXPECT_NE(std::string::npos, refused.err.find("of memory")) << refused.err;
+    const auto result = runCommand(all + " -where 'x>0.8'");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Tools,
+                         MemoryForecast,
+                         testing::ValuesIn(runs),
+                         [](const auto& run) { return std::string(run.param.name); });
+
+} // namespace
