@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Forecasts of memory beside measured peaks, as rows of a table. usage: memory.sh BIN MESH.ply SIZE...
 set -euo pipefail
-bin=$1 mesh=$2
+bin=$(realpath "$1") mesh=$(realpath "$2")
 shift 2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
