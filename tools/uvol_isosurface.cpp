@@ -10,6 +10,7 @@
 #include "common/render_options.h"
 #include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
@@ -128,6 +129,18 @@ load(const Arguments& arguments, Report& report)
       arguments.input, report, arguments.makeLoadOptions(), arguments.where);
   report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
   return dataset;
+}
+
+/** As MemoryGuard::describe() for a run within a bound. */
+std::pair<std::string, std::string>
+describeBound(const Arguments& arguments)
+{
+  return {"memory",
+          "bound " +
+              pcl_uvol::formatBytes(static_cast<double>(
+                  uvol_tools::parseBytes("max-memory", arguments.max_memory))) +
+              ", peak " +
+              pcl_uvol::formatBytes(static_cast<double>(pcl_uvol::peakMemory()))};
 }
 
 /** Whether something asks for all samples at once. */
@@ -526,8 +539,8 @@ run(int argc, char** argv)
   if (!arguments.picture.empty())
     facts.emplace_back("backend", draw(options, arguments, output, report));
   total.reset();
-  if (!options.given("max-memory"))
-    facts.push_back(memory.describe());
+  facts.push_back(options.given("max-memory") ? describeBound(arguments)
+                                              : memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -203,17 +203,20 @@ private:
     store_.reset();
   }
 
-  /** All samples at one place are in one piece, however many. */
+  /** All samples at one place are in one piece, however many: levelsFor cannot know. */
   void
   checkPieces() const
   {
-    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
-      if (pieceBytes(static_cast<double>(store_->count(piece))) + fixed_bytes >
-          2.0 * static_cast<double>(out_of_core_.max_memory))
+    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
+      const std::uint64_t count = store_->count(piece);
+      if (count > decomposition_->getCount(piece) &&
+          fixed_bytes + pieceBytes(static_cast<double>(count)) >
+              static_cast<double>(out_of_core_.max_memory))
         throw InvalidArgument(
-            "Of the samples " + std::to_string(store_->count(piece)) +
-            " lie together because many are at one place: they do not fit into " +
+            std::to_string(count) +
+            " samples lie together, many of them at one place: they do not fit into " +
             formatBytes(static_cast<double>(out_of_core_.max_memory)) + " of memory.");
+    }
   }
 
   void

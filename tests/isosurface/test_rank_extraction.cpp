@@ -117,6 +117,19 @@ const auto in_turn = [](std::size_t ranks) {
   return [ranks](std::size_t point) { return point % ranks; };
 };
 
+/** Points dealt out in turn. */
+void
+expectRanksFind(const Alone& alone,
+                const Cloud& cloud,
+                const IsosurfaceSettings& settings,
+                std::initializer_list<std::size_t> numbers)
+{
+  for (const std::size_t ranks : numbers) {
+    SCOPED_TRACE(ranks);
+    expectEqual(alone, Together(cloud, settings, ranks, in_turn(ranks)), settings);
+  }
+}
+
 class RanksOnEveryShape : public testing::TestWithParam<std::string> {};
 
 TEST_P(RanksOnEveryShape, FindWhatOneFinds)
@@ -127,10 +140,7 @@ TEST_P(RanksOnEveryShape, FindWhatOneFinds)
   for (const auto interpolation : {Interpolation::Smooth, Interpolation::Linear}) {
     settings.interpolation = interpolation;
     const Alone alone(cloud, settings);
-    for (const std::size_t ranks : {1, 2, 3, 4, 8}) {
-      SCOPED_TRACE(ranks);
-      expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
-    }
+    expectRanksFind(alone, *cloud, settings, {1, 2, 3, 4, 8});
   }
 }
 
@@ -189,8 +199,7 @@ TEST(RankExtraction, AsksForWhatFitsReachBeyondNeighboringBricks)
   settings.isovalues = {0.3, 0.5};
   const Alone alone(cloud, settings);
   EXPECT_GT(alone.isopoints.size(), 300u);
-  for (const std::size_t ranks : {3, 8, 16})
-    expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
+  expectRanksFind(alone, *cloud, settings, {3, 8, 16});
 }
 
 /** Values in steps, the isovalue on one of them: edges meet in samples of all pieces.
@@ -207,8 +216,7 @@ TEST(RankExtraction, MergesIsopointsThatCoincideAcrossPieces)
       settings.interpolation = interpolation;
       const Alone alone(cloud, settings);
       EXPECT_GT(alone.report.getCount("coincident"), 300u);
-      for (const std::size_t ranks : {2, 3, 8})
-        expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
+      expectRanksFind(alone, *cloud, settings, {2, 3, 8});
     }
   }
 }
@@ -238,8 +246,7 @@ TEST(RankExtraction, MergesDuplicatesAcrossRanks)
   settings.isovalues = {0.4};
   const Alone alone(cloud, settings);
   EXPECT_EQ(1800u, alone.report.getCount("duplicates"));
-  for (const std::size_t ranks : {1, 4, 6})
-    expectEqual(alone, Together(*cloud, settings, ranks, in_turn(ranks)), settings);
+  expectRanksFind(alone, *cloud, settings, {1, 4, 6});
 }
 
 TEST(RankExtraction, TakesMoreRanksThanSamples)

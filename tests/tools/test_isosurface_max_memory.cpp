@@ -59,6 +59,35 @@ TEST_F(MaxMemory, WritesTheSameFile)
   }
 }
 
+/** Megabytes behind a word of the report's line on memory. */
+double
+megabytesBehind(const std::string& word, const std::string& report)
+{
+  std::smatch match;
+  EXPECT_TRUE(std::regex_search(
+      report, match, std::regex("memory: .*" + word + " ([0-9.]+) MB")))
+      << report;
+  return match.empty() ? 0.0 : std::stod(match[1]);
+}
+
+TEST_F(MaxMemory, IsABoundThatHolds)
+{
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "sanitizers take memory of their own";
+#endif
+  const std::string cloud = folder_ / "cloud.pcd";
+  for (const std::string samples : {"uniform", "clustered", "lattice"}) {
+    const auto made = uvol_test::runCommand("uvol_generate " + cloud +
+                                            " -n 1000000 -samples " + samples);
+    ASSERT_EQ(0, made.exit_code) << made.err;
+    const auto result = uvol_test::runCommand("uvol_isosurface " + cloud + " " + out_ +
+                                              " -iso 20 -max-memory 170M");
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    EXPECT_LE(megabytesBehind("peak", result.out),
+              megabytesBehind("bound", result.out));
+  }
+}
+
 TEST_F(MaxMemory, SaysWhatIsWrong)
 {
   for (const std::string size : {"x", "0", "1.5", "2X", "M", "nan", "1e30"})
