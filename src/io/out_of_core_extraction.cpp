@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,49 +19,40 @@ namespace {
 /** Bytes of points that are read at once. */
 constexpr std::size_t block_bytes = 16u << 20;
 
+/** Samples that isopoints are sought among at once: with four times as many, most of
+ * them would lie far from any surface; with fewer, halos would be larger. */
+constexpr std::uint64_t block_samples = 1u << 15;
+
 /** Bytes that a process takes besides samples: libraries and buffers. */
 constexpr double fixed_bytes = 120e6;
 
 /** Of all samples, whether they are in memory or not: tables of bricks. */
 constexpr double table_bytes = 0.5;
 
-/** Per sample of a piece while what it borrowed is joined to it: samples before and
- * after (24 each), planes (up to 16) and positions that planes rest on. */
+/** Per sample of a piece while its tree is built: as read (24), as sorted (16 and 12),
+ * and planes (up to 16). */
 constexpr double piece_bytes = 72.0;
 
-/** Per sample that it borrows: as it was lent, joined, and its planes. */
-constexpr double halo_bytes = 64.0;
-
-/** Sides of bricks, in spacings: a layer of them surrounds a piece. */
-constexpr double brick_side = 5.8;
-
 /** Isopoints of an isovalue as multiples of samples^(2/3): a surface that crosses the
- * cloud five times. */
-constexpr double expected_isopoints = 10.0;
+ * cloud twice. Whether there are more is checked as they are found. */
+constexpr double expected_isopoints = 4.0;
 
-/** While they are merged, and as points with the samples that they rest on. */
-constexpr double isopoint_bytes = 2.0 * sizeof(GlobalIsopoint);
+/** Of an isopoint while it is merged, or a point with the samples that it rests on. */
+constexpr double merging_copies = 2.0;
 
-/** Fewer samples in a piece would make three times as much halo as piece. */
+/** With fewer samples in a piece, other bytes outweigh its own. */
 constexpr std::uint64_t least_piece = 1u << 14;
 constexpr int most_levels = 12;
 
-/** Bytes of a piece with its halo. */
+/** Bytes of a process that takes samples through memory in pieces. */
 double
-pieceBytes(double samples)
+bytesFor(double samples, double piece, std::size_t isovalues)
 {
-  const double side = std::cbrt(samples);
-  return piece_bytes * samples +
-         halo_bytes * samples * (std::pow(1.0 + 2.0 * brick_side / side, 3.0) - 1.0);
-}
-
-/** Bytes besides pieces. */
-double
-besides(double samples, std::size_t isovalues)
-{
+  const double isopoints = expected_isopoints * static_cast<double>(isovalues) *
+                           std::pow(samples, 2.0 / 3.0);
   return fixed_bytes + table_bytes * samples +
-         isopoint_bytes * expected_isopoints * static_cast<double>(isovalues) *
-             std::pow(samples, 2.0 / 3.0);
+         std::max(piece_bytes * piece,
+                  merging_copies * sizeof(GlobalIsopoint) * isopoints);
 }
 
 /** Of pieces as small as they may be. */
@@ -77,10 +69,10 @@ int
 levelsFor(std::uint64_t samples, std::size_t isovalues, std::uint64_t max_memory)
 {
   const auto count = static_cast<double>(samples);
-  const double room = static_cast<double>(max_memory) - besides(count, isovalues);
   for (int levels = 0; levels <= mostLevelsFor(samples); ++levels) {
     const double piece = std::ldexp(count, -levels);
-    if (piece <= Piece::most_samples && pieceBytes(piece) <= room)
+    if (piece <= Piece::most_samples &&
+        bytesFor(count, piece, isovalues) <= static_cast<double>(max_memory))
       return levels;
   }
   throw InvalidArgument(
@@ -99,7 +91,8 @@ public:
       : settings_(settings)
       , out_of_core_(out_of_core)
       , report_(report)
-      , log_(std::make_unique<io::SampleLog>(out_of_core.scratch_folder))
+      , log_(std::make_unique<io::SampleLog>(out_of_core.scratch_folder,
+                                             out_of_core.threads))
   {
   }
 
@@ -107,22 +100,28 @@ public:
   extract(PointStream& points)
   {
     readPoints(points);
-    std::vector<std::vector<GlobalIsopoint>> found(settings_.isovalues.size());
     while (!makePieces())
       mergeInPieces();
     warnOfEmpty();
-    for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
-      if (isCrossed(piece)) {
-        const auto parts = findIsopoints(piece);
-        for (std::size_t i = 0; i < found.size(); ++i)
-          found[i].insert(found[i].end(), parts[i].begin(), parts[i].end());
-        checkSurface(found);
-      }
-    for (auto& isopoints : found) {
+    // They wait on disk while there are pieces in memory.
+    std::deque<io::ScratchFile> found;
+    for (std::size_t i = 0; i < settings_.isovalues.size(); ++i)
+      found.emplace_back(out_of_core_.scratch_folder);
+    const Decomposition blocks = makeBlocks();
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+      const auto parts = findIsopoints(blocks, block);
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        found[i].append(parts[i].data(), parts[i].size() * sizeof(GlobalIsopoint));
+      checkSurface(found);
+    }
+    std::vector<std::vector<GlobalIsopoint>> all;
+    for (const io::ScratchFile& file : found) {
+      auto& isopoints = all.emplace_back(file.size() / sizeof(GlobalIsopoint));
+      file.read(0, isopoints.data(), file.size());
       mergeIsopoints(isopoints, settings_.interpolation, out_of_core_.threads, report_);
       report_.count("isopoints", isopoints.size());
     }
-    return found;
+    return all;
   }
 
 private:
@@ -158,21 +157,23 @@ private:
       const StepTimer timer(report_, "decomposition");
       SingleRank alone;
       decomposition_.emplace(
-          [&](const auto& block) { log_->scan(block); },
+          log_->getPositions(),
           levelsFor(log_->size(), settings_.isovalues.size(), out_of_core_.max_memory),
           alone,
           out_of_core_.threads);
-      store_ = std::make_unique<io::PieceStore>(
-          *log_, *decomposition_, out_of_core_.scratch_folder, out_of_core_.threads);
+      store_ = std::make_unique<io::PieceStore>(std::move(*log_),
+                                                *decomposition_,
+                                                out_of_core_.scratch_folder,
+                                                out_of_core_.threads);
     }
+    log_.reset();
     checkPieces();
-    const std::uint64_t log_bytes = log_->bytes();
     bricks_.clear();
     ranges_.clear();
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
       const auto built = Piece::build(*decomposition_,
                                       piece,
-                                      store_->load(piece),
+                                      load(*decomposition_, piece),
                                       settings_.scale,
                                       out_of_core_.threads,
                                       report_);
@@ -182,21 +183,29 @@ private:
       const auto& values = built->getValues();
       const auto [min, max] = std::minmax_element(values.begin(), values.end());
       ranges_.push_back({*min, *max});
-      store_->save(piece, *built);
+      const StepTimer timer(report_, "scratch");
+      store_->save(decomposition_->getBegin(piece), built->getOwnSamples());
     }
-    report_.count("scratch_bytes", log_bytes + store_->bytes());
-    log_.reset();
+    report_.count("scratch_bytes", store_->bytes());
     report_.count("pieces", decomposition_->size());
     report_.count("samples", decomposition_->getSampleCount());
     return true;
   }
 
+  Samples
+  load(const Decomposition& decomposition, std::size_t piece)
+  {
+    const StepTimer timer(report_, "scratch");
+    return store_->load(decomposition.getBegin(piece), decomposition.getCount(piece));
+  }
+
   void
   mergeInPieces()
   {
-    log_ = std::make_unique<io::SampleLog>(out_of_core_.scratch_folder);
+    log_ = std::make_unique<io::SampleLog>(out_of_core_.scratch_folder,
+                                           out_of_core_.threads);
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
-      Samples samples = store_->load(piece);
+      Samples samples = load(*decomposition_, piece);
       mergeDuplicates(samples, out_of_core_.threads, report_);
       log_->append(samples);
     }
@@ -208,10 +217,9 @@ private:
   checkPieces() const
   {
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
-      const std::uint64_t count = store_->count(piece);
-      if (count > decomposition_->getCount(piece) &&
-          fixed_bytes + pieceBytes(static_cast<double>(count)) >
-              static_cast<double>(out_of_core_.max_memory))
+      const std::uint64_t count = decomposition_->getCount(piece);
+      if (fixed_bytes + piece_bytes * static_cast<double>(count) >
+          static_cast<double>(out_of_core_.max_memory))
         throw InvalidArgument(
             std::to_string(count) +
             " samples lie together, many of them at one place: they do not fit into " +
@@ -220,12 +228,11 @@ private:
   }
 
   void
-  checkSurface(const std::vector<std::vector<GlobalIsopoint>>& found) const
+  checkSurface(const std::deque<io::ScratchFile>& found) const
   {
-    std::size_t isopoints = 0;
-    for (const auto& part : found)
-      isopoints += part.size();
-    const double bytes = fixed_bytes + isopoint_bytes * static_cast<double>(isopoints);
+    double bytes = fixed_bytes;
+    for (const io::ScratchFile& file : found)
+      bytes += merging_copies * static_cast<double>(file.size());
     if (bytes > static_cast<double>(out_of_core_.max_memory))
       throw InvalidArgument("The isosurface alone takes more than " +
                             formatBytes(bytes) + " of memory, and " +
@@ -237,77 +244,137 @@ private:
   warnOfEmpty()
   {
     NodeRanges::Range range = ranges_.front();
-    for (const auto& [min, max] : ranges_)
-      range = {std::min(range.min, min), std::max(range.max, max)};
+    for (const NodeRanges::Range& other : ranges_)
+      range = range.joined(other);
     for (const double isovalue : settings_.isovalues)
       warnIfOutside(isovalue, settings_.field, range, report_);
   }
 
+  /** The pieces, parted further by their trees, so that those which the surface does
+   * not cross are not looked at again. */
+  Decomposition
+  makeBlocks() const
+  {
+    int levels = decomposition_->getLevels();
+    while (decomposition_->getSampleCount() >> levels > block_samples)
+      ++levels;
+    return {*decomposition_, levels, [&](std::size_t piece, std::size_t node) {
+              return bricks_[piece].getPlane(node);
+            }};
+  }
+
   /** True if an isovalue lies between two values of a range. */
   bool
-  isCrossed(float min, float max) const
+  isCrossed(const NodeRanges::Range& range) const
   {
     return std::any_of(
         settings_.isovalues.begin(), settings_.isovalues.end(), [&](double isovalue) {
           const auto rounded = static_cast<float>(isovalue);
-          return min < rounded && rounded <= max;
+          return range.min < rounded && rounded <= range.max;
         });
   }
 
-  /** True if an edge from a sample of the piece may be crossed. */
-  bool
-  isCrossed(std::size_t piece) const
+  /** The bricks of a block, and those around it that hold samples which an isopoint of
+   * the block may rest on. */
+  struct Bricks {
+    std::vector<Brick> own, around;
+  };
+
+  /** \return none if no edge from a sample of the block can be crossed */
+  Bricks
+  findBricks(const Decomposition& blocks, std::size_t block) const
   {
-    const auto& [min, max] = ranges_[piece];
-    bool crossed = isCrossed(min, max);
-    const CellKey cell = decomposition_->getCell(piece);
-    for (std::size_t other = 0; other < ranges_.size() && !crossed; ++other)
-      if (other != piece)
-        bricks_[other].find(
-            [&](const CellKey& around) { return !crossed && around.touches(cell); },
-            [&, low = min, high = max](const Brick& brick) {
-              crossed = crossed || isCrossed(std::min(low, brick.range.min),
-                                             std::max(high, brick.range.max));
-            });
-    return crossed;
+    const CellKey cell = blocks.getCell(block);
+    const std::uint64_t begin = blocks.getBegin(block),
+                        end = blocks.getBegin(block + 1);
+    Bricks bricks;
+    for (const BrickTable& table : bricks_)
+      table.find([&](const CellKey& around) { return around.touches(cell); },
+                 [&](const Brick& brick) {
+                   const bool is_own = begin <= brick.begin && brick.begin < end;
+                   (is_own ? bricks.own : bricks.around).push_back(brick);
+                 });
+    // Edges end in bricks that touch each other.
+    const auto range_around = [&](const Brick& brick) {
+      NodeRanges::Range range = brick.range;
+      for (const auto* others : {&bricks.own, &bricks.around})
+        for (const Brick& other : *others)
+          if (other.cell.touches(brick.cell))
+            range = range.joined(other.range);
+      return range;
+    };
+    NodeRanges::Range range = bricks.own.front().range;
+    for (const auto* all : {&bricks.own, &bricks.around})
+      for (const Brick& brick : *all)
+        range = range.joined(brick.range);
+    if (!isCrossed(range))
+      return {};
+    bricks.own.erase(
+        std::remove_if(bricks.own.begin(),
+                       bricks.own.end(),
+                       [&](const Brick& own) { return !isCrossed(range_around(own)); }),
+        bricks.own.end());
+    bricks.around.erase(std::remove_if(bricks.around.begin(),
+                                       bricks.around.end(),
+                                       [&](const Brick& around) {
+                                         return std::none_of(bricks.own.begin(),
+                                                             bricks.own.end(),
+                                                             [&](const Brick& own) {
+                                                               return own.cell.touches(
+                                                                   around.cell);
+                                                             });
+                                       }),
+                        bricks.around.end());
+    return bricks;
+  }
+
+  LentBrick
+  lend(const Brick& brick) const
+  {
+    return {brick, store_->load(brick.begin, brick.count)};
   }
 
   std::vector<std::vector<GlobalIsopoint>>
-  findIsopoints(std::size_t index)
+  findIsopoints(const Decomposition& blocks, std::size_t block)
   {
-    Piece piece = store_->restore(*decomposition_, index, settings_.scale);
-    std::vector<LentBrick> bricks;
-    const auto lend = [&](std::size_t other, const Brick& brick) {
-      bricks.push_back(store_->lend(other, decomposition_->getBegin(other), brick));
-    };
+    std::vector<LentBrick> lent;
     {
       const StepTimer timer(report_, "exchange");
-      const CellKey& cell = piece.getCell();
-      for (std::size_t other = 0; other < decomposition_->size(); ++other)
-        if (other != index)
-          bricks_[other].find(
-              [&](const CellKey& around) { return around.touches(cell); },
-              [&](const Brick& brick) { lend(other, brick); });
-      piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
+      const Bricks bricks = findBricks(blocks, block);
+      if (bricks.own.empty())
+        return {};
+      for (const Brick& brick : bricks.around)
+        lent.push_back(lend(brick));
     }
+    Piece piece = *Piece::build(blocks,
+                                block,
+                                load(blocks, block),
+                                settings_.scale,
+                                out_of_core_.threads,
+                                report_);
+    borrow(piece, std::move(lent));
     PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
     while (!isopoints.getOpenBalls().empty()) {
-      {
-        const StepTimer timer(report_, "exchange");
-        decomposition_->findPieces(
-            isopoints.getOpenBalls(),
-            [&](std::size_t other, const std::vector<Ball>& balls) {
-              if (other != index)
-                bricks_[other].find(balls, [&](const Brick& brick) {
-                  if (!piece.holds(brick))
-                    lend(other, brick);
-                });
+      lent.clear();
+      decomposition_->findPieces(
+          isopoints.getOpenBalls(),
+          [&](std::size_t other, const std::vector<Ball>& balls) {
+            bricks_[other].find(balls, [&](const Brick& brick) {
+              if (!piece.holds(brick))
+                lent.push_back(lend(brick));
             });
-        piece.borrow(std::exchange(bricks, {}), out_of_core_.threads);
-      }
+          });
+      borrow(piece, std::move(lent));
       isopoints.settle();
     }
     return std::move(isopoints).take();
+  }
+
+  void
+  borrow(Piece& piece, std::vector<LentBrick>&& bricks)
+  {
+    const StepTimer timer(report_, "exchange");
+    piece.borrow(std::move(bricks), out_of_core_.threads);
   }
 
   const IsosurfaceSettings& settings_;
@@ -352,9 +419,8 @@ std::uint64_t
 leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues)
 {
   const auto count = static_cast<double>(samples);
-  return static_cast<std::uint64_t>(
-      std::ceil(besides(count, isovalues) +
-                pieceBytes(std::ldexp(count, -mostLevelsFor(samples)))));
+  return static_cast<std::uint64_t>(std::ceil(
+      bytesFor(count, std::ldexp(count, -mostLevelsFor(samples)), isovalues)));
 }
 
 OutOfCoreIsosurface

@@ -11,196 +11,202 @@ namespace io {
 namespace {
 
 /** Samples that are read at once: some megabytes. */
-constexpr std::size_t block_samples = 1u << 18;
+constexpr std::size_t block_samples = 1u << 19;
 
 /** Samples that a thread takes at once. */
 constexpr std::size_t thread_samples = 1u << 14;
 
-/** Samples that wait to be written, of all pieces. */
-constexpr std::size_t buffered_samples = 1u << 20;
-
-/** What follows a position. */
-struct Rest {
-  float value;
-  std::uint32_t source[2]; // halves: eight bytes would not lie on an even address
-};
-
-Rest
-restOf(const Samples& samples, std::size_t i)
+void
+runAll(unsigned threads, const std::vector<std::function<void()>>& tasks)
 {
-  return {samples.values[i],
-          {static_cast<std::uint32_t>(samples.sources[i]),
-           static_cast<std::uint32_t>(samples.sources[i] >> 32)}};
+  parallelBlocks(
+      tasks.size(), 1, threads, [&](std::size_t task, std::size_t) { tasks[task](); });
 }
 
-std::uint64_t
-sourceOf(const Rest& rest)
-{
-  return rest.source[0] | static_cast<std::uint64_t>(rest.source[1]) << 32;
-}
+/** Runs of samples of one piece, in the order of the pieces. */
+class Parting {
+public:
+  Parting(const Decomposition& decomposition, unsigned threads)
+      : decomposition_(decomposition)
+      , threads_(threads)
+  {
+    for (std::size_t piece = 0; piece < decomposition.size(); ++piece)
+      next_.push_back(decomposition.getBegin(piece));
+  }
 
-struct Record {
-  Position position;
-  Rest rest;
+  /** Order samples by their piece. */
+  void
+  part(const Samples& samples)
+  {
+    const std::size_t pieces = next_.size();
+    const std::size_t blocks = (samples.size() + thread_samples - 1) / thread_samples;
+    piece_of_.resize(samples.size());
+    places_.assign(blocks * pieces, 0);
+    const auto forEach = [&](const auto& visit) {
+      parallelBlocks(
+          samples.size(), thread_samples, threads_, [&](auto begin, auto end) {
+            std::size_t* const places =
+                places_.data() + begin / thread_samples * pieces;
+            for (std::size_t i = begin; i < end; ++i)
+              visit(i, places);
+          });
+    };
+    forEach([&](std::size_t i, std::size_t* counts) {
+      piece_of_[i] =
+          static_cast<std::uint32_t>(decomposition_.pieceOf(samples.positions[i]));
+      ++counts[piece_of_[i]];
+    });
+    runs_.clear();
+    std::size_t first = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      const std::size_t begin = first;
+      for (std::size_t block = 0; block < blocks; ++block) {
+        std::size_t& place = places_[block * pieces + piece];
+        const std::size_t count = place;
+        place = first;
+        first += count;
+      }
+      if (first > begin)
+        runs_.push_back({next_[piece], begin, first - begin});
+      next_[piece] += first - begin;
+    }
+    parted_.resize(samples.size());
+    forEach([&](std::size_t i, std::size_t* places) {
+      const std::size_t place = places[piece_of_[i]]++;
+      parted_.positions[place] = samples.positions[i];
+      parted_.values[place] = samples.values[i];
+      parted_.sources[place] = samples.sources[i];
+    });
+  }
+
+  const Samples&
+  getSamples() const
+  {
+    return parted_;
+  }
+
+  const std::vector<SampleFile::Run>&
+  getRuns() const
+  {
+    return runs_;
+  }
+
+private:
+  const Decomposition& decomposition_;
+  unsigned threads_;
+  std::vector<std::uint64_t> next_; // sample in the file, by piece
+  std::vector<std::uint32_t> piece_of_;
+  std::vector<std::size_t> places_; // of the next sample, by block and piece
+  Samples parted_;
+  std::vector<SampleFile::Run> runs_;
 };
 
 } // namespace
 
-SampleLog::SampleLog(const std::string& folder)
-    : positions_(folder)
-    , rest_(folder)
+SampleFile::SampleFile(const std::string& folder, unsigned threads)
+    : threads_(threads)
+    , positions_(folder)
+    , values_(folder)
+    , sources_(folder)
+{
+}
+
+void
+SampleFile::write(const SampleSpan& samples, const std::vector<Run>& runs)
+{
+  const auto put = [&](ScratchFile& file, const auto* array) {
+    for (const Run& run : runs)
+      file.write(run.to * sizeof(*array), array + run.from, run.size * sizeof(*array));
+  };
+  runAll(threads_,
+         {[&] { put(positions_, samples.positions); },
+          [&] { put(sources_, samples.sources); },
+          [&] { put(values_, samples.values); }});
+}
+
+void
+SampleFile::read(std::uint64_t begin, std::size_t count, Samples& samples) const
+{
+  const auto get = [&](const ScratchFile& file, auto& array) {
+    array.resize(count);
+    file.read(begin * sizeof(array[0]), array.data(), count * sizeof(array[0]));
+  };
+  runAll(count > thread_samples ? threads_ : 1,
+         {[&] { get(positions_, samples.positions); },
+          [&] { get(sources_, samples.sources); },
+          [&] { get(values_, samples.values); }});
+}
+
+void
+SampleFile::release(std::uint64_t begin, std::size_t count)
+{
+  const auto drop = [&](ScratchFile& file, std::size_t bytes) {
+    file.release(begin * bytes, count * bytes);
+  };
+  runAll(threads_,
+         {[&] { drop(positions_, sizeof(Position)); },
+          [&] { drop(sources_, sizeof(std::uint64_t)); },
+          [&] { drop(values_, sizeof(float)); }});
+}
+
+SampleLog::SampleLog(const std::string& folder, unsigned threads)
+    : file_(folder, threads)
 {
 }
 
 void
 SampleLog::append(const Samples& samples)
 {
-  positions_.append(samples.positions.data(), samples.size() * sizeof(Position));
-  std::vector<Rest> rest;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    rest.push_back(restOf(samples, i));
-  rest_.append(rest.data(), rest.size() * sizeof(Rest));
+  file_.write(samples.span(0, samples.size()), {{size_, 0, samples.size()}});
+  size_ += samples.size();
+}
+
+PositionSource
+SampleLog::getPositions() const
+{
+  return {size_, [this](std::uint64_t begin, std::size_t count, Position* buffer) {
+            file_.readPositions(begin, count, buffer);
+            return buffer;
+          }};
 }
 
 void
-SampleLog::scan(const std::function<void(const Position*, std::size_t)>& block) const
+SampleLog::take(const std::function<void(const Samples&)>& block)
 {
-  std::vector<Position> positions(std::min<std::uint64_t>(size(), block_samples));
-  for (std::uint64_t begin = 0; begin < size(); begin += positions.size()) {
-    const std::size_t count = std::min<std::uint64_t>(size() - begin, positions.size());
-    positions_.read(
-        begin * sizeof(Position), positions.data(), count * sizeof(Position));
-    block(positions.data(), count);
+  Samples samples;
+  for (std::uint64_t begin = 0; begin < size(); begin += block_samples) {
+    const std::size_t count = std::min<std::uint64_t>(size() - begin, block_samples);
+    file_.read(begin, count, samples);
+    file_.release(begin, count);
+    block(samples);
   }
 }
 
-void
-SampleLog::scanSamples(const std::function<void(const Samples&)>& block) const
-{
-  std::uint64_t begin = 0;
-  std::vector<Rest> rest;
-  scan([&](const Position* positions, std::size_t count) {
-    rest.resize(count);
-    rest_.read(begin * sizeof(Rest), rest.data(), count * sizeof(Rest));
-    begin += count;
-    Samples samples;
-    samples.reserve(count);
-    for (std::size_t i = 0; i < count; ++i)
-      samples.push(positions[i], rest[i].value, sourceOf(rest[i]));
-    block(samples);
-  });
-}
-
-PieceStore::PieceStore(const SampleLog& log,
+PieceStore::PieceStore(SampleLog&& log,
                        const Decomposition& decomposition,
                        const std::string& folder,
                        unsigned threads)
-    : file_(folder)
-    , planes_(folder)
-    , begins_(decomposition.size() + 1)
-    , plane_begins_{0}
+    : file_(folder, threads)
 {
-  std::vector<std::uint32_t> pieces;
-  const auto find_pieces = [&](const Position* positions, std::size_t count) {
-    pieces.resize(count);
-    parallelBlocks(count, thread_samples, threads, [&](auto begin, auto end) {
-      for (std::size_t i = begin; i < end; ++i)
-        pieces[i] = static_cast<std::uint32_t>(decomposition.pieceOf(positions[i]));
-    });
-  };
-  // Counted, since of equal samples all go to one piece.
-  log.scan([&](const Position* positions, std::size_t count) {
-    find_pieces(positions, count);
-    for (const std::uint32_t piece : pieces)
-      ++begins_[piece + 1];
+  Parting parting(decomposition, threads);
+  log.take([&](const Samples& samples) {
+    parting.part(samples);
+    file_.write(parting.getSamples().span(0, samples.size()), parting.getRuns());
   });
-  for (std::size_t piece = 0; piece < decomposition.size(); ++piece)
-    begins_[piece + 1] += begins_[piece];
-
-  std::vector<std::uint64_t> next(begins_.begin(), begins_.end() - 1);
-  std::vector<Samples> buffers(decomposition.size());
-  const std::size_t most = std::max<std::size_t>(buffered_samples / buffers.size(), 1);
-  const auto flush = [&](std::size_t piece) {
-    write(next[piece], buffers[piece]);
-    next[piece] += buffers[piece].size();
-    buffers[piece] = {};
-  };
-  log.scanSamples([&](const Samples& samples) {
-    find_pieces(samples.positions.data(), samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      Samples& buffer = buffers[pieces[i]];
-      buffer.push(samples.positions[i], samples.values[i], samples.sources[i]);
-      if (buffer.size() == most)
-        flush(pieces[i]);
-    }
-  });
-  for (std::size_t piece = 0; piece < buffers.size(); ++piece)
-    flush(piece);
-}
-
-void
-PieceStore::read(std::uint64_t begin, std::size_t count, Samples& samples) const
-{
-  samples.reserve(samples.size() + count);
-  std::vector<Record> records(std::min(count, block_samples));
-  for (std::size_t done = 0; done < count; done += records.size()) {
-    const std::size_t now = std::min(count - done, records.size());
-    file_.read((begin + done) * sizeof(Record), records.data(), now * sizeof(Record));
-    for (std::size_t i = 0; i < now; ++i)
-      samples.push(
-          records[i].position, records[i].rest.value, sourceOf(records[i].rest));
-  }
-}
-
-void
-PieceStore::write(std::uint64_t begin, const Samples& samples)
-{
-  std::vector<Record> records;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    records.push_back({samples.positions[i], restOf(samples, i)});
-    if (records.size() == block_samples || i + 1 == samples.size()) {
-      file_.write((begin + i + 1 - records.size()) * sizeof(Record),
-                  records.data(),
-                  records.size() * sizeof(Record));
-      records.clear();
-    }
-  }
 }
 
 Samples
-PieceStore::load(std::size_t piece) const
+PieceStore::load(std::uint64_t begin, std::uint64_t count) const
 {
   Samples samples;
-  read(begins_[piece], count(piece), samples);
+  file_.read(begin, static_cast<std::size_t>(count), samples);
   return samples;
 }
 
 void
-PieceStore::save(std::size_t piece, const Piece& built)
+PieceStore::save(std::uint64_t begin, const SampleSpan& samples)
 {
-  write(begins_[piece], built.getOwnSamples());
-  const auto& planes = built.getPlanes();
-  planes_.append(planes.data(), planes.size() * sizeof(SplitPlane));
-  plane_begins_.push_back(planes_.size());
-}
-
-Piece
-PieceStore::restore(const Decomposition& decomposition,
-                    std::size_t piece,
-                    const Position& scale) const
-{
-  std::vector<SplitPlane> planes((plane_begins_[piece + 1] - plane_begins_[piece]) /
-                                 sizeof(SplitPlane));
-  planes_.read(plane_begins_[piece], planes.data(), planes.size() * sizeof(SplitPlane));
-  return Piece::restore(decomposition, piece, load(piece), std::move(planes), scale);
-}
-
-LentBrick
-PieceStore::lend(std::size_t piece, std::uint64_t begin, const Brick& brick) const
-{
-  LentBrick lent{brick, {}};
-  read(begins_[piece] + (brick.begin - begin), brick.count, lent.samples);
-  return lent;
+  file_.write(samples, {{begin, 0, samples.size}});
 }
 
 } // namespace io

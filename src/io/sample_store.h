@@ -11,10 +11,50 @@
 namespace pcl_uvol {
 namespace io {
 
-/** \brief Samples in the order in which they came; positions can be read alone. */
+/** \brief Samples by number, in files of one array each, which are read and written at
+ * the same time. */
+class SampleFile {
+public:
+  SampleFile(const std::string& folder, unsigned threads);
+
+  std::uint64_t
+  bytes() const
+  {
+    return positions_.size() + values_.size() + sources_.size();
+  }
+
+  /** \brief Samples that follow each other here and there. */
+  struct Run {
+    std::uint64_t to;       ///< number of the first one in the file
+    std::size_t from, size; ///< among those given
+  };
+
+  void
+  write(const SampleSpan& samples, const std::vector<Run>& runs);
+
+  /** \param samples get those from begin on, in place of what they were */
+  void
+  read(std::uint64_t begin, std::size_t count, Samples& samples) const;
+
+  void
+  readPositions(std::uint64_t begin, std::size_t count, Position* positions) const
+  {
+    positions_.read(begin * sizeof(Position), positions, count * sizeof(Position));
+  }
+
+  /** \brief Samples that are not read again. */
+  void
+  release(std::uint64_t begin, std::size_t count);
+
+private:
+  unsigned threads_;
+  ScratchFile positions_, values_, sources_;
+};
+
+/** \brief Samples in the order in which they came. */
 class SampleLog {
 public:
-  explicit SampleLog(const std::string& folder);
+  SampleLog(const std::string& folder, unsigned threads);
 
   void
   append(const Samples& samples);
@@ -22,32 +62,27 @@ public:
   std::uint64_t
   size() const
   {
-    return positions_.size() / sizeof(Position);
+    return size_;
   }
 
-  std::uint64_t
-  bytes() const
-  {
-    return positions_.size() + rest_.size();
-  }
+  /** \brief All positions; the log must outlive them. */
+  PositionSource
+  getPositions() const;
 
-  /** \brief Call block for all positions. */
+  /** \brief Call block for all samples, which then are gone. */
   void
-  scan(const std::function<void(const Position*, std::size_t)>& block) const;
-
-  /** \brief Call block for all samples. */
-  void
-  scanSamples(const std::function<void(const Samples&)>& block) const;
+  take(const std::function<void(const Samples&)>& block);
 
 private:
-  ScratchFile positions_, rest_;
+  SampleFile file_;
+  std::uint64_t size_ = 0;
 };
 
 /** \brief Samples by piece, one piece behind the other. */
 class PieceStore {
 public:
-  /** \brief Part the samples of a log. */
-  PieceStore(const SampleLog& log,
+  /** \brief Part the samples of a log, which then are gone from there. */
+  PieceStore(SampleLog&& log,
              const Decomposition& decomposition,
              const std::string& folder,
              unsigned threads);
@@ -55,44 +90,20 @@ public:
   std::uint64_t
   bytes() const
   {
-    return file_.size() + planes_.size();
+    return file_.bytes();
   }
 
-  std::uint64_t
-  count(std::size_t piece) const
-  {
-    return begins_[piece + 1] - begins_[piece];
-  }
-
+  /** \brief Consecutive samples, of one piece or, once all were put back in leaf order,
+   * of any. */
   Samples
-  load(std::size_t piece) const;
+  load(std::uint64_t begin, std::uint64_t count) const;
 
-  /** \brief Put a piece back, in leaf order; one after the other. */
+  /** \brief Put the samples of a piece back, in leaf order. */
   void
-  save(std::size_t piece, const Piece& built);
-
-  /** \brief That piece again. */
-  Piece
-  restore(const Decomposition& decomposition,
-          std::size_t piece,
-          const Position& scale) const;
-
-  /** \brief Samples of a piece here and there, once they were put back in leaf order.
-   * \param begin of the piece in the leaf order of all samples */
-  LentBrick
-  lend(std::size_t piece, std::uint64_t begin, const Brick& brick) const;
+  save(std::uint64_t begin, const SampleSpan& samples);
 
 private:
-  /** Sample begin + i of the file. */
-  void
-  read(std::uint64_t begin, std::size_t count, Samples& samples) const;
-
-  void
-  write(std::uint64_t begin, const Samples& samples);
-
-  ScratchFile file_, planes_;
-  std::vector<std::uint64_t> begins_;       // by piece, and the end
-  std::vector<std::uint64_t> plane_begins_; // by piece, and the end, of those saved
+  SampleFile file_;
 };
 
 } // namespace io

@@ -72,5 +72,15 @@ ScratchFile::read(std::uint64_t offset, void* data, std::size_t size) const
   }
 }
 
+void
+ScratchFile::release(std::uint64_t offset, std::uint64_t size)
+{
+  // What is not given back now is given back at the end.
+  static_cast<void>(::fallocate(descriptor_,
+                                FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+                                static_cast<off_t>(offset),
+                                static_cast<off_t>(size)));
+}
+
 } // namespace io
 } // namespace pcl_uvol

@@ -39,6 +39,10 @@ public:
   void
   read(std::uint64_t offset, void* data, std::size_t size) const;
 
+  /** \brief Give room back that is not read again, where the file system can. */
+  void
+  release(std::uint64_t offset, std::uint64_t size);
+
 private:
   std::string folder_;
   int descriptor_;

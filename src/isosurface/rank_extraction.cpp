@@ -81,7 +81,7 @@ public:
       // Equal samples lie in one piece: there they become one.
       for (auto& [piece, own] : samples_) {
         mergeDuplicates(own, threads_, report_);
-        samples.append(own, 0, own.size());
+        samples.append(own.span(0, own.size()));
       }
       samples_.clear();
       pieces_.clear();
@@ -118,11 +118,13 @@ private:
       throw InvalidArgument("No process has a sample with a position and a value.");
     {
       const StepTimer timer(report_, "decomposition");
-      decomposition_.emplace(
-          [&](const auto& block) { block(samples.positions.data(), samples.size()); },
-          levelsFor(ranks_.size(), total[0]),
-          ranks_,
-          threads_);
+      const auto positions = [&](std::uint64_t begin, std::size_t, Position*) {
+        return samples.positions.data() + begin;
+      };
+      decomposition_.emplace(PositionSource{samples.size(), positions},
+                             levelsFor(ranks_.size(), total[0]),
+                             ranks_,
+                             threads_);
     }
     sendSamples(samples);
     std::vector<std::uint64_t> coinciding{0};
@@ -139,8 +141,10 @@ private:
       samples_.clear();
       return true;
     }
-    for (const auto& [index, piece] : pieces_)
-      samples_[index] = piece.getOwnSamples();
+    for (const auto& [index, piece] : pieces_) {
+      samples_[index] = {};
+      samples_[index].append(piece.getOwnSamples());
+    }
     return false;
   }
 
@@ -241,7 +245,7 @@ private:
     constexpr float infinity = std::numeric_limits<float>::infinity();
     std::vector<NodeRanges::Range> ranges{{infinity, -infinity}};
     const auto extend = [&](float min, float max) {
-      ranges[0] = {std::min(ranges[0].min, min), std::max(ranges[0].max, max)};
+      ranges[0] = ranges[0].joined({min, max});
     };
     for (const auto& [index, piece] : pieces_) {
       report_.count("samples", piece.getValues().size());
@@ -392,22 +396,54 @@ readSamples(const CloudView& cloud,
 {
   const StepTimer timer(report, "scalar");
   const std::vector<float> values = readValues(cloud, field, threads);
-  Samples samples;
-  samples.reserve(cloud.count);
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    if (std::isnan(values[i])) {
-      report.count("no_value", 1);
-      continue;
-    }
+  const auto position_of = [&](std::size_t i) {
     const float* const xyz = cloud.xyz(i);
-    const Position position = stretched({{xyz[0], xyz[1], xyz[2]}}, scale);
-    if (!std::isfinite(position[0]) || !std::isfinite(position[1]) ||
-        !std::isfinite(position[2])) {
-      report.count("non_finite", 1);
-      continue;
-    }
-    samples.push(position, values[i], first_source + i);
+    return stretched({{xyz[0], xyz[1], xyz[2]}}, scale);
+  };
+  const auto is_sample = [&](std::size_t i, const Position& position) {
+    return !std::isnan(values[i]) && std::isfinite(position[0]) &&
+           std::isfinite(position[1]) && std::isfinite(position[2]);
+  };
+  struct Counts {
+    std::size_t samples, no_value, non_finite;
+  };
+  std::vector<Counts> counts((cloud.count + block_samples - 1) / block_samples);
+  const auto for_each_block = [&](const auto& visit) {
+    parallelBlocks(cloud.count, block_samples, threads, [&](auto begin, auto end) {
+      visit(begin, end, counts[begin / block_samples]);
+    });
+  };
+  for_each_block([&](std::size_t begin, std::size_t end, Counts& count) {
+    count = {};
+    for (std::size_t i = begin; i < end; ++i)
+      if (is_sample(i, position_of(i)))
+        ++count.samples;
+      else if (std::isnan(values[i]))
+        ++count.no_value;
+      else
+        ++count.non_finite;
+  });
+  std::size_t total = 0;
+  for (Counts& count : counts) {
+    if (count.no_value > 0)
+      report.count("no_value", count.no_value);
+    if (count.non_finite > 0)
+      report.count("non_finite", count.non_finite);
+    total += std::exchange(count.samples, total); // the first one of the block
   }
+  Samples samples;
+  samples.resize(total);
+  for_each_block([&](std::size_t begin, std::size_t end, const Counts& count) {
+    std::size_t next = count.samples;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Position position = position_of(i);
+      if (!is_sample(i, position))
+        continue;
+      samples.positions[next] = position;
+      samples.values[next] = values[i];
+      samples.sources[next++] = first_source + i;
+    }
+  });
   return samples;
 }
 

@@ -84,7 +84,7 @@ liesWithin(const Ball& ball, const CellKey& cell)
   return true;
 }
 
-Decomposition::Decomposition(const PositionScan& scan,
+Decomposition::Decomposition(const PositionSource& positions,
                              int levels,
                              RankGroup& ranks,
                              unsigned threads)
@@ -94,29 +94,44 @@ Decomposition::Decomposition(const PositionScan& scan,
     throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
                           std::to_string(most_levels) + " are.");
   planes_.resize(size());
-  MedianSearch search(scan, ranks, threads);
-  axes_ = KdTree::cycleOver(search.findExtent());
-  count_ = search.getSampleCount();
-  if (count_ < size())
-    throw InvalidArgument(std::to_string(count_) + " samples cannot be parted into " +
+  MedianSearch search(positions, ranks, threads);
+  axes_ = KdTree::cycleOver(search.getExtent());
+  const std::uint64_t total = search.getCounts()[1];
+  if (total < size())
+    throw InvalidArgument(std::to_string(total) + " samples cannot be parted into " +
                           std::to_string(size()) + " pieces.");
   for (int depth = 0; depth < levels; ++depth)
     search.findMedians(depth, axes_, planes_);
+  begins_.push_back(0);
+  for (std::size_t piece = 0; piece < size(); ++piece)
+    begins_.push_back(begins_.back() + search.getCounts()[size() + piece]);
 }
 
-std::uint64_t
-Decomposition::getBegin(std::size_t piece) const
+Decomposition::Decomposition(
+    const Decomposition& top,
+    int levels,
+    const std::function<PlaneKey(std::size_t piece, std::size_t node)>& plane_of)
+    : levels_(levels)
+    , axes_(top.axes_)
+    , planes_(top.planes_)
 {
-  if (piece == size())
-    return count_;
-  std::uint64_t begin = 0, count = count_;
-  for (int depth = 0; depth < levels_; ++depth) {
-    const std::uint64_t half = (count + 1) / 2; // the left half takes the odd sample
-    const bool is_right = (piece >> (levels_ - 1 - depth) & 1) != 0;
-    begin += is_right ? half : 0;
-    count = is_right ? count - half : half;
+  for (int depth = top.levels_; depth < levels; ++depth)
+    for (std::size_t piece = 0; piece < top.size(); ++piece) {
+      const std::size_t nodes = std::size_t(1) << (depth - top.levels_);
+      for (std::size_t node = nodes; node < 2 * nodes; ++node)
+        planes_.push_back(plane_of(piece, node));
+    }
+  begins_ = top.begins_;
+  for (int depth = top.levels_; depth < levels; ++depth) {
+    std::vector<std::uint64_t> halves;
+    for (std::size_t i = 0; i + 1 < begins_.size(); ++i) {
+      const std::uint64_t count = begins_[i + 1] - begins_[i];
+      halves.push_back(begins_[i]);
+      halves.push_back(begins_[i] + (count + 1) / 2); // the left half takes the odd one
+    }
+    halves.push_back(begins_.back());
+    begins_ = std::move(halves);
   }
-  return begin;
 }
 
 CellKey

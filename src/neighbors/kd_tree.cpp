@@ -267,8 +267,7 @@ fillRanges(NodeRanges& ranges, const KdNode& node)
   }
   else
     TaskGroup::fork(fill_left, fill_right);
-  return ranges.inner[node.number] = {std::min(left.min, right.min),
-                                      std::max(left.max, right.max)};
+  return ranges.inner[node.number] = left.joined(right);
 }
 
 } // namespace
@@ -331,17 +330,6 @@ KdTree::build(std::vector<SampleRecord>& records,
           planes_[i].below_sample = sample_of[planes_[i].below_sample];
       });
   return true;
-}
-
-void
-KdTree::restore(std::vector<SplitPlane>&& planes,
-                std::uint32_t count,
-                const AxisCycle& axes,
-                int depth)
-{
-  root_ = {1, 0, count, depth};
-  axis_at_depth_ = axes;
-  planes_ = std::move(planes);
 }
 
 void

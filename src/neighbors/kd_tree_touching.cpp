@@ -19,7 +19,8 @@ constexpr int max_depth = 64;
 bool
 crosses(const NodeRanges::Range& a, const NodeRanges::Range& b, float isovalue)
 {
-  return std::min(a.min, b.min) < isovalue && std::max(a.max, b.max) >= isovalue;
+  const NodeRanges::Range range = a.joined(b);
+  return range.min < isovalue && range.max >= isovalue;
 }
 
 /** Descends pairs of touching nodes whose common range of values holds the isovalue. */

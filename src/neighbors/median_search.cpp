@@ -3,9 +3,10 @@
 
 #include "../common/byte_stream.h"
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/common/random.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <limits>
 
 namespace pcl_uvol {
@@ -13,102 +14,125 @@ namespace pcl_uvol {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr Position below_all{{-infinity, -infinity, -infinity}};
+constexpr Position above_all{{infinity, infinity, infinity}};
 
-/** A coordinate has three digits, a position nine. */
-constexpr int digit_bits[3] = {11, 11, 10}, digit_shifts[3] = {21, 10, 0};
-constexpr int position_digits = 9;
-constexpr std::size_t digit_values = 1u << 11;
+/** Positions that are drawn, per n^(2/3) of n samples and at most: 32 MB. As many are
+ * left between the bounds of some ten medians, so that these take one pass. */
+constexpr double drawn_rate = 8.0;
+constexpr double most_drawn = 1u << 21;
 
-/** As few candidates of all processes are compared one by one, over all nodes of a
- * depth and for one of many. */
-constexpr std::uint64_t few_candidates = 1u << 16, fewest_candidates = 16;
-
-/** Of as many samples of a process their nodes are remembered, which takes 64 MB: walks
- * down the levels would be half of the work. */
-constexpr std::uint64_t most_remembered = 1u << 24;
+/** A median lies farther from that of s drawn positions, in sqrt(s) of these, once in
+ * 2000 nodes: 3.5 standard deviations. */
+constexpr double bound_distance = 1.75;
 
 /** Samples that a thread takes at once. */
 constexpr std::size_t block_samples = 1u << 14;
 
-/** Whole numbers that are ordered as coordinates. */
-std::uint32_t
-orderedBits(float coordinate)
+/** Call visit(thread, index, position) for all samples of this process. */
+template <typename Visit>
+void
+forEachSample(const PositionSource& source, std::size_t threads, const Visit& visit)
 {
-  std::uint32_t bits;
-  std::memcpy(&bits, &coordinate, sizeof(bits));
-  return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+  const auto work = [&](std::size_t thread, std::size_t) {
+    std::vector<Position> buffer(block_samples);
+    for (std::uint64_t begin = thread * block_samples; begin < source.count;
+         begin += threads * block_samples) {
+      const std::size_t count =
+          std::min<std::uint64_t>(source.count - begin, block_samples);
+      const Position* const positions = source.read(begin, count, buffer.data());
+      for (std::size_t i = 0; i < count; ++i)
+        visit(thread, begin + i, positions[i]);
+    }
+  };
+  parallelBlocks(threads, 1, static_cast<unsigned>(threads), work);
 }
 
-/** A position in the total order along an axis (lessAlong), as three numbers. */
-std::array<std::uint32_t, 3>
-keyOf(int axis, const Position& position)
-{
-  return {orderedBits(position[axis]),
-          orderedBits(position[(axis + 1) % 3]),
-          orderedBits(position[(axis + 2) % 3])};
-}
-
-std::uint32_t
-digitOf(const std::array<std::uint32_t, 3>& key, int digit)
-{
-  const int part = digit % 3;
-  return key[static_cast<std::size_t>(digit / 3)] >> digit_shifts[part] &
-         ((1u << digit_bits[part]) - 1u);
-}
-
-/** What is known of the median of a node. */
-struct Median {
-  std::uint64_t count = 0;                        ///< candidates left
-  std::uint64_t rank = 0;                         ///< of the median among them
-  int digits = 0;                                 ///< of it that are known
-  std::array<std::uint32_t, 3> prefix{};          ///< those digits, zeros behind them
-  Position below{{infinity, infinity, infinity}}; ///< the median
-  Position above = below;                         ///< the next one
+/** Chooses samples at random, by their index, and that of their process and pass: who
+ * never was chosen may be chosen in the next pass. */
+class Lot {
+public:
+  /** \param expected samples to choose from, of all processes */
+  Lot(double expected, std::uint64_t most, std::size_t rank, std::size_t pass)
+      : salt_(mixBits(rank << 32 | pass))
+  {
+    for (; expected > static_cast<double>(most); expected /= 2.0)
+      mask_ = mask_ << 1 | 1u;
+  }
 
   bool
-  isOpen(std::uint64_t few) const
+  falls(std::uint64_t index) const
   {
-    return count > few && digits < position_digits;
+    return (mixBits(salt_ + index) & mask_) == 0;
   }
 
-  /** Below, at or above the known digits: -1, 0, 1. */
-  int
-  compare(const std::array<std::uint32_t, 3>& key) const
+  bool
+  fallsAlways() const
   {
-    for (int part = 0; part < 3; ++part) {
-      const int known = std::clamp(digits - 3 * part, 0, 3);
-      if (known == 0)
-        return 0;
-      const int shift = digit_shifts[known - 1];
-      const auto i = static_cast<std::size_t>(part);
-      const std::uint32_t a = key[i] >> shift, b = prefix[i] >> shift;
-      if (a != b)
-        return a < b ? -1 : 1;
-    }
-    return 0;
+    return mask_ == 0;
   }
+
+private:
+  std::uint64_t salt_, mask_ = 0;
+};
+
+std::vector<NodePosition>
+gather(RankGroup& ranks, std::vector<std::vector<NodePosition>>&& parts)
+{
+  for (std::size_t thread = 1; thread < parts.size(); ++thread) {
+    parts[0].insert(parts[0].end(), parts[thread].begin(), parts[thread].end());
+    parts[thread] = {};
+  }
+  return gatherItems(ranks, parts[0]);
+}
+
+/** The position before another one in the order along an axis; none lies between them,
+ * other than with a coordinate of -0. */
+Position
+before(int axis, Position position)
+{
+  float& last = position[(axis + 2) % 3];
+  last = std::nextafter(last, -infinity);
+  return position;
+}
+
+bool
+isSame(const Position& a, const Position& b)
+{
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/** The median of a node: it lies above low and not above high. */
+struct Median {
+  std::uint64_t rank = 0; ///< among all samples of the node
+  bool is_found = false;
+  Position low = below_all, high = above_all;
+  std::uint64_t up_to_low = 0; ///< samples
+  std::uint64_t up_to_high = 0;
+
+  /** Bounds within, for the next pass; once it is found, nothing lies between them. */
+  Position lower = above_all, upper = above_all;
+  bool is_one = false; ///< position between them
+
+  Position below = above_all, above = above_all; ///< the median, and the next position
+  std::uint64_t up_to_median = 0;                ///< samples
 
   void
-  append(std::uint32_t digit)
+  find(Position median, Position next, std::uint64_t up_to)
   {
-    prefix[static_cast<std::size_t>(digits / 3)] |= digit << digit_shifts[digits % 3];
-    ++digits;
+    is_found = true;
+    lower = upper = above_all;
+    below = median;
+    above = next;
+    up_to_median = up_to;
   }
 };
 
-/** The position whose digits are all known. */
-Position
-positionOf(int axis, const std::array<std::uint32_t, 3>& key)
-{
-  Position position;
-  for (int i = 0; i < 3; ++i) {
-    const std::uint32_t ordered = key[static_cast<std::size_t>(i)];
-    const std::uint32_t bits =
-        (ordered & 0x80000000u) != 0 ? ordered & 0x7fffffffu : ~ordered;
-    std::memcpy(&position[(axis + i) % 3], &bits, sizeof(bits));
-  }
-  return position;
-}
+/** What a pass finds in a node. */
+struct Tally {
+  std::uint64_t up_to_lower = 0, between = 0; ///< samples
+  Position above_upper = above_all;           ///< the least
+};
 
 void
 take(Position& least, int axis, const Position& position)
@@ -117,235 +141,327 @@ take(Position& least, int axis, const Position& position)
     least = position;
 }
 
-/** A sample that may be the median of a node. */
-struct Candidate {
-  std::uint32_t node; // from the first one of the depth
-  Position position;
-};
-
 /** The medians of one depth. */
 class Level {
 public:
-  Level(const PositionScan& scan,
+  using Iterator = std::vector<NodePosition>::iterator;
+
+  /** \param counts of samples, by node from the first one of the depth */
+  Level(const PositionSource& source,
         RankGroup& ranks,
         unsigned threads,
+        std::uint64_t drawn_limit,
         int depth,
         const AxisCycle& axes,
         const std::vector<PlaneKey>& planes,
-        std::vector<std::uint32_t>& nodes)
-      : scan_(scan)
+        const std::uint64_t* counts)
+      : source_(source)
       , ranks_(ranks)
       , threads_(resolveThreads(threads))
+      , most_drawn_(drawn_limit)
       , depth_(depth)
       , axis_(static_cast<int>(axisAt(axes, depth)))
       , axes_(axes)
       , planes_(planes)
-      , nodes_(nodes)
-      , few_(std::max(few_candidates >> depth, fewest_candidates))
       , medians_(std::size_t(1) << depth)
   {
+    for (std::size_t node = 0; node < medians_.size(); ++node) {
+      Median& median = medians_[node];
+      median.rank = counts[node] == 0 ? 0 : (counts[node] + 1) / 2 - 1;
+      median.up_to_high = counts[node];
+      median.is_found = counts[node] == 0;
+    }
   }
 
+  /** \param drawn some positions of each node, or all */
   const std::vector<Median>&
-  find()
+  find(std::vector<NodePosition> drawn, bool all_drawn)
   {
-    do
-      narrow();
-    while (std::any_of(medians_.begin(), medians_.end(), [this](const Median& m) {
-      return m.isOpen(few_);
-    }));
-    select();
+    const auto is_found = [](const Median& median) { return median.is_found; };
+    if (all_drawn)
+      forEachNode(drawn, [&](Median& median, Iterator begin, Iterator end) {
+        choose(median, begin, end, 0, above_all);
+      });
+    while (!std::all_of(medians_.begin(), medians_.end(), is_found))
+      drawn = narrow(std::move(drawn));
     return medians_;
   }
 
 private:
-  /** One more digit of all medians that have many candidates. */
+  /** Order positions by node, and call visit for each node that is not found. */
+  template <typename Visit>
   void
-  narrow()
+  forEachNode(std::vector<NodePosition>& positions, const Visit& visit)
   {
-    std::vector<std::vector<std::uint64_t>> counts(
-        threads_, std::vector<std::uint64_t>(medians_.size() * digit_values));
-    scan([&](std::size_t thread, std::size_t node, const Position& position) {
-      const Median& median = medians_[node];
-      const auto key = keyOf(axis_, position);
-      if ((median.digits == 0 || median.isOpen(few_)) && median.compare(key) == 0)
-        ++counts[thread][node * digit_values + digitOf(key, median.digits)];
-    });
-    for (std::size_t thread = 1; thread < threads_; ++thread)
-      for (std::size_t i = 0; i < counts[0].size(); ++i)
-        counts[0][i] += counts[thread][i];
-    ranks_.sum(counts[0]);
-    for (std::size_t node = 0; node < medians_.size(); ++node)
-      narrow(medians_[node], &counts[0][node * digit_values]);
-  }
-
-  void
-  narrow(Median& median, const std::uint64_t* counts) const
-  {
-    if (median.digits == 0) {
-      for (std::size_t digit = 0; digit < digit_values; ++digit)
-        median.count += counts[digit];
-      median.rank = median.count == 0 ? 0 : (median.count + 1) / 2 - 1;
+    const auto by_node = [](const auto& a, const auto& b) { return a.node < b.node; };
+    if (!std::is_sorted(positions.begin(), positions.end(), by_node))
+      parallelSort(
+          positions.begin(), positions.end(), static_cast<unsigned>(threads_), by_node);
+    auto begin = positions.begin();
+    for (std::size_t node = 0; node < medians_.size(); ++node) {
+      auto end = std::find_if(
+          begin, positions.end(), [&](const auto& p) { return p.node != node; });
+      if (!medians_[node].is_found)
+        visit(medians_[node], begin, end);
+      begin = end;
     }
-    else if (!median.isOpen(few_))
-      return;
-    std::uint32_t digit = 0;
-    while (digit + 1 < digit_values && median.rank >= counts[digit])
-      median.rank -= counts[digit++];
-    median.count = counts[digit];
-    median.append(digit);
   }
 
-  /** Compare the candidates that are left. */
-  void
-  select()
+  /** One pass. \return positions that were drawn, for the next one */
+  std::vector<NodePosition>
+  narrow(std::vector<NodePosition>&& drawn)
   {
-    std::vector<std::vector<Candidate>> found(threads_);
-    std::vector<std::vector<Position>> above(
-        threads_, std::vector<Position>(medians_.size(), Median().above));
-    scan([&](std::size_t thread, std::size_t node, const Position& position) {
-      const int side = medians_[node].compare(keyOf(axis_, position));
-      if (side == 0 && medians_[node].digits < position_digits)
-        found[thread].push_back({static_cast<std::uint32_t>(node), position});
-      else if (side > 0)
-        take(above[thread][node], axis_, position);
+    double expected = 0.0;
+    forEachNode(drawn, [&](Median& median, Iterator begin, Iterator end) {
+      expected += setBounds(median, begin, end);
     });
-    std::vector<Candidate> mine;
-    for (auto& part : found)
-      mine.insert(mine.end(), part.begin(), part.end());
-    std::vector<Candidate> candidates = gatherItems(ranks_, mine);
-    for (std::size_t thread = 1; thread < threads_; ++thread)
-      for (std::size_t node = 0; node < medians_.size(); ++node)
-        take(above[0][node], axis_, above[thread][node]);
-    takeAbove(above[0]);
-    for (Median& median : medians_)
-      if (median.digits == position_digits)
-        median.below = positionOf(axis_, median.prefix);
-    choose(candidates);
+    const Lot lot(expected, most_drawn_, ranks_.rank(), ++pass_);
+    std::vector<NodePosition> between;
+    const std::vector<Tally> tallies = tally(lot, between);
+    // Of what lies beyond the bounds, those drawn before are known.
+    const auto is_beyond = [&](const NodePosition& p) {
+      const Median& median = medians_[p.node];
+      const Tally& found = tallies[p.node];
+      if (median.is_found)
+        return false;
+      return median.rank < found.up_to_lower
+                 ? !lessAlong(axis_, median.lower, p.position)
+                 : median.rank >= found.up_to_lower + found.between &&
+                       lessAlong(axis_, median.upper, p.position);
+    };
+    drawn.erase(std::remove_if(drawn.begin(),
+                               drawn.end(),
+                               [&](const auto& p) { return !is_beyond(p); }),
+                drawn.end());
+    forEachNode(between, [&](Median& median, Iterator begin, Iterator end) {
+      const Tally& found = tallies[static_cast<std::size_t>(&median - medians_.data())];
+      const std::uint64_t up_to_upper = found.up_to_lower + found.between;
+      if (median.rank < found.up_to_lower) {
+        median.high = median.lower;
+        median.up_to_high = found.up_to_lower;
+      }
+      else if (median.rank >= up_to_upper) {
+        median.low = median.upper;
+        median.up_to_low = up_to_upper;
+      }
+      else if (median.is_one)
+        median.find(median.upper, found.above_upper, up_to_upper);
+      else if (lot.fallsAlways())
+        choose(median, begin, end, found.up_to_lower, found.above_upper);
+      else {
+        median.low = median.lower;
+        median.up_to_low = found.up_to_lower;
+        median.high = median.upper;
+        median.up_to_high = up_to_upper;
+        drawn.insert(drawn.end(), begin, end);
+      }
+    });
+    return std::move(drawn);
   }
 
-  /** The least position of all processes above each median. Each process compares
-   * those of some nodes, so that nobody gets what all have of all nodes. */
-  void
-  takeAbove(const std::vector<Position>& mine)
+  /** Bounds between which the median lies, as the positions drawn have it.
+   * \return samples expected there */
+  double
+  setBounds(Median& median, Iterator begin, Iterator end)
+  {
+    const auto less = [this](const NodePosition& a, const NodePosition& b) {
+      return lessAlong(axis_, a.position, b.position);
+    };
+    const auto samples = static_cast<double>(median.up_to_high - median.up_to_low);
+    median.lower = median.low;
+    median.upper = median.high;
+    median.is_one = false;
+    if (begin == end)
+      return samples;
+    const auto drawn = static_cast<double>(end - begin);
+    const double middle =
+        static_cast<double>(median.rank - median.up_to_low) * (drawn - 1.0) / samples;
+    const double distance =
+        std::min(bound_distance * std::sqrt(drawn), (drawn - 1.0) / 4.0);
+    const double first = std::floor(middle - distance),
+                 last = std::ceil(middle + distance);
+    const auto drawn_at = [&](double rank) {
+      const auto at = begin + static_cast<std::ptrdiff_t>(rank);
+      std::nth_element(begin, at, end, less);
+      return at->position;
+    };
+    if (first >= 0.0)
+      median.lower = drawn_at(first);
+    Position last_drawn = median.high;
+    if (last < drawn) {
+      last_drawn = drawn_at(last);
+      median.upper = before(axis_, last_drawn);
+    }
+    if (!lessAlong(axis_, median.lower, median.upper)) {
+      // Many equal samples, say, which no bounds part.
+      median.is_one = true;
+      median.upper = last_drawn;
+      median.lower = before(axis_, last_drawn);
+      return 0.0;
+    }
+    return samples * std::min((last - first) / drawn, 1.0);
+  }
+
+  /** \param between gets positions that lie between the bounds, as a lot falls */
+  std::vector<Tally>
+  tally(const Lot& lot, std::vector<NodePosition>& between) const
   {
     const std::size_t nodes = medians_.size();
+    std::vector<std::vector<Tally>> tallies(threads_, std::vector<Tally>(nodes));
+    std::vector<std::vector<NodePosition>> chosen(threads_);
+    forEachSample(
+        source_, threads_, [&](auto thread, auto index, const Position& position) {
+          const std::size_t node = nodeOf(position, depth_, axes_, planes_) - nodes;
+          const Median& median = medians_[node];
+          Tally& found = tallies[thread][node];
+          // Nearly all samples are counted here, without a branch that depends on them.
+          const bool is_above = lessAlong(axis_, median.lower, position);
+          found.up_to_lower += static_cast<std::uint64_t>(!is_above);
+          if (!(is_above & lessAlong(axis_, position, found.above_upper)))
+            return;
+          if (lessAlong(axis_, median.upper, position))
+            found.above_upper = position;
+          else {
+            ++found.between;
+            if (!median.is_one && lot.falls(index))
+              chosen[thread].push_back({static_cast<std::uint32_t>(node), position});
+          }
+        });
+    between = gather(ranks_, std::move(chosen));
+    return add(tallies);
+  }
+
+  /** Of all threads and processes. */
+  std::vector<Tally>
+  add(std::vector<std::vector<Tally>>& tallies) const
+  {
+    std::vector<Tally>& all = tallies[0];
+    for (std::size_t thread = 1; thread < threads_; ++thread)
+      for (std::size_t node = 0; node < all.size(); ++node) {
+        all[node].up_to_lower += tallies[thread][node].up_to_lower;
+        all[node].between += tallies[thread][node].between;
+        take(all[node].above_upper, axis_, tallies[thread][node].above_upper);
+      }
+    std::vector<std::uint64_t> counts;
+    for (const Tally& tally : all) {
+      counts.push_back(tally.up_to_lower);
+      counts.push_back(tally.between);
+    }
+    ranks_.sum(counts);
+    for (std::size_t node = 0; node < all.size(); ++node) {
+      all[node].up_to_lower = counts[2 * node];
+      all[node].between = counts[2 * node + 1];
+    }
+    takeLeast(all);
+    return std::move(all);
+  }
+
+  /** The least positions of all processes. Each process compares those of some nodes,
+   * so that nobody gets what all have of all nodes. */
+  void
+  takeLeast(std::vector<Tally>& mine) const
+  {
+    const std::size_t nodes = mine.size();
     const auto share = [&](std::size_t rank) { return nodes * rank / ranks_.size(); };
     std::vector<Bytes> messages(ranks_.size());
     for (std::size_t rank = 0; rank < ranks_.size(); ++rank) {
       ByteWriter writer(messages[rank]);
       for (std::size_t node = share(rank); node < share(rank + 1); ++node)
-        if (mine[node][axis_] < infinity)
-          writer.put(Candidate{static_cast<std::uint32_t>(node), mine[node]});
+        if (mine[node].above_upper[axis_] < infinity)
+          writer.put(
+              NodePosition{static_cast<std::uint32_t>(node), mine[node].above_upper});
     }
     const std::size_t first = share(ranks_.rank());
-    std::vector<Position> least(share(ranks_.rank() + 1) - first, Median().above);
+    std::vector<Position> least(share(ranks_.rank() + 1) - first, above_all);
     for (const Bytes& bytes : ranks_.exchange(std::move(messages)))
       for (ByteReader reader(bytes); !reader.atEnd();) {
-        const auto found = reader.get<Candidate>();
+        const auto found = reader.get<NodePosition>();
         take(least[found.node - first], axis_, found.position);
       }
-    const std::vector<Position> next = gatherItems(ranks_, least);
+    const std::vector<Position> all = gatherItems(ranks_, least);
     for (std::size_t node = 0; node < nodes; ++node)
-      take(medians_[node].above, axis_, next[node]);
+      mine[node].above_upper = all[node];
   }
 
+  /** Find the median among all positions between its bounds.
+   * \param up_to_lower samples
+   * \param above_upper the least position there */
   void
-  choose(std::vector<Candidate>& candidates)
+  choose(Median& median,
+         Iterator begin,
+         Iterator end,
+         std::uint64_t up_to_lower,
+         const Position& above_upper) const
   {
-    std::sort(candidates.begin(),
-              candidates.end(),
-              [axis = axis_](const Candidate& a, const Candidate& b) {
-                if (a.node != b.node)
-                  return a.node < b.node;
-                return lessAlong(axis, a.position, b.position);
-              });
-    for (std::size_t begin = 0; begin < candidates.size();) {
-      const std::uint32_t node = candidates[begin].node;
-      std::size_t end = begin;
-      while (end < candidates.size() && candidates[end].node == node)
-        ++end;
-      Median& median = medians_[node];
-      median.below = candidates[begin + median.rank].position;
-      if (begin + median.rank + 1 < end)
-        median.above = candidates[begin + median.rank + 1].position;
-      begin = end;
-    }
-  }
-
-  /** The node of a sample, which is remembered from depth to depth. */
-  std::size_t
-  findNode(std::size_t sample, const Position& position) const
-  {
-    if (nodes_.empty())
-      return nodeOf(position, depth_, axes_, planes_);
-    std::uint32_t& node = nodes_[sample];
-    if (node < medians_.size()) // at the depth above
-      node = static_cast<std::uint32_t>(childOf(
-          node, position, axes_[static_cast<std::size_t>(depth_ - 1)], planes_));
-    return node;
-  }
-
-  /** Call visit(thread, node from the first of the depth, position) for all samples of
-   * this process. */
-  template <typename Visit>
-  void
-  scan(const Visit& visit) const
-  {
-    const std::size_t first = medians_.size();
-    std::size_t passed = 0;
-    scan_([&](const Position* positions, std::size_t count) {
-      parallelBlocks(threads_, 1, threads_, [&](std::size_t thread, std::size_t) {
-        for (std::size_t begin = thread * block_samples; begin < count;
-             begin += threads_ * block_samples)
-          for (std::size_t i = begin; i < std::min(begin + block_samples, count); ++i)
-            visit(thread, findNode(passed + i, positions[i]) - first, positions[i]);
-      });
-      passed += count;
+    const auto at = begin + static_cast<std::ptrdiff_t>(median.rank - up_to_lower);
+    std::nth_element(begin, at, end, [this](const auto& a, const auto& b) {
+      return lessAlong(axis_, a.position, b.position);
     });
+    Position next = above_upper;
+    std::uint64_t up_to_median =
+        up_to_lower + static_cast<std::uint64_t>(at - begin) + 1;
+    for (auto other = at + 1; other != end; ++other)
+      if (isSame(other->position, at->position))
+        ++up_to_median;
+      else
+        take(next, axis_, other->position);
+    median.find(at->position, next, up_to_median);
   }
 
-  const PositionScan& scan_;
+  const PositionSource& source_;
   RankGroup& ranks_;
   std::size_t threads_;
+  std::uint64_t most_drawn_;
   int depth_, axis_;
   const AxisCycle& axes_;
   const std::vector<PlaneKey>& planes_;
-  std::vector<std::uint32_t>& nodes_; // by sample, or empty
-  std::uint64_t few_;
   std::vector<Median> medians_;
+  std::size_t pass_ = 0;
 };
 
 } // namespace
 
-std::array<bool, 3>
-MedianSearch::findExtent()
+MedianSearch::MedianSearch(const PositionSource& positions,
+                           RankGroup& ranks,
+                           unsigned threads)
+    : positions_(positions)
+    , ranks_(ranks)
+    , threads_(resolveThreads(threads))
+    , counts_{0, positions.count}
 {
-  std::vector<Position> extent{{{infinity, infinity, infinity}},
-                               {{-infinity, -infinity, -infinity}}};
-  const auto extend = [&](const Position& low, const Position& high) {
-    for (int axis = 0; axis < 3; ++axis) {
-      extent[0][axis] = std::min(extent[0][axis], low[axis]);
-      extent[1][axis] = std::max(extent[1][axis], high[axis]);
+  ranks_.sum(counts_);
+  const auto total = static_cast<double>(counts_[1]);
+  most_drawn_ = static_cast<std::uint64_t>(
+      std::min(drawn_rate * std::pow(total, 2.0 / 3.0), most_drawn));
+  const Lot lot(total, most_drawn_, ranks_.rank(), 0);
+  all_drawn_ = lot.fallsAlways();
+
+  struct Extent {
+    Position low = above_all, high = below_all;
+
+    void
+    add(const Extent& other)
+    {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], other.low[axis]);
+        high[axis] = std::max(high[axis], other.high[axis]);
+      }
     }
   };
-  std::vector<std::uint64_t> count{0};
-  scan_([&](const Position* positions, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      extend(positions[i], positions[i]);
-    count[0] += size;
-  });
-  if (count[0] <= most_remembered)
-    nodes_.assign(static_cast<std::size_t>(count[0]), 1);
-  ranks_.sum(count);
-  count_ = count[0];
-  const std::vector<Position> extents = gatherItems(ranks_, extent);
-  for (std::size_t i = 0; i < extents.size(); i += 2)
-    extend(extents[i], extents[i + 1]);
-  std::array<bool, 3> differs;
+  std::vector<Extent> extents(threads_);
+  std::vector<std::vector<NodePosition>> chosen(threads_);
+  forEachSample(
+      positions_, threads_, [&](auto thread, auto index, const Position& position) {
+        extents[thread].add({position, position});
+        if (lot.falls(index))
+          chosen[thread].push_back({0, position});
+      });
+  drawn_ = gather(ranks_, std::move(chosen));
+  Extent all;
+  for (const Extent& extent : gatherItems(ranks_, extents))
+    all.add(extent);
   for (int axis = 0; axis < 3; ++axis)
-    differs[static_cast<std::size_t>(axis)] = extent[0][axis] < extent[1][axis];
-  return differs;
+    extent_[static_cast<std::size_t>(axis)] = all.low[axis] < all.high[axis];
 }
 
 void
@@ -353,13 +469,33 @@ MedianSearch::findMedians(int depth,
                           const AxisCycle& axes,
                           std::vector<PlaneKey>& planes)
 {
-  Level level(scan_, ranks_, threads_, depth, axes, planes, nodes_);
-  const auto& medians = level.find();
+  const std::size_t nodes = std::size_t(1) << depth;
+  Level level(positions_,
+              ranks_,
+              threads_,
+              most_drawn_,
+              depth,
+              axes,
+              planes,
+              counts_.data() + nodes);
   const auto axis = static_cast<int>(axisAt(axes, depth));
-  for (std::size_t node = 0; node < medians.size(); ++node) {
+  const auto& medians = level.find(drawn_, all_drawn_);
+  for (std::size_t node = 0; node < nodes; ++node) {
     const Position &below = medians[node].below, &above = medians[node].above;
     const double middle = 0.5 * (static_cast<double>(below[axis]) + above[axis]);
-    planes[medians.size() + node] = {static_cast<float>(middle), below};
+    planes[nodes + node] = {static_cast<float>(middle), below};
+    counts_.push_back(medians[node].up_to_median);
+    counts_.push_back(counts_[nodes + node] - medians[node].up_to_median);
+  }
+  for (auto begin = drawn_.begin(); begin != drawn_.end();) {
+    const std::uint32_t node = begin->node;
+    auto end = begin;
+    for (; end != drawn_.end() && end->node == node; ++end)
+      end->node = static_cast<std::uint32_t>(
+          childOf(nodes + node, end->position, axis, planes) - 2 * nodes);
+    std::partition(
+        begin, end, [&](const NodePosition& p) { return p.node == 2 * node; });
+    begin = end;
   }
 }
 

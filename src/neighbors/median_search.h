@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact medians of samples that several processes hold, by radix selection.
+// Exact medians of samples that several processes hold, by sampled selection.
 #pragma once
 
 #include <pcl_uvol/neighbors/decomposition.h>
@@ -33,26 +33,37 @@ nodeOf(const Position& position,
   return node;
 }
 
-/** \brief The medians of all nodes of one depth after another. */
+/** \brief A position of a node, from the first node of a depth. */
+struct NodePosition {
+  std::uint32_t node;
+  Position position;
+};
+
+/** \brief The medians of all nodes of one depth after another.
+ *
+ * Positions drawn at random tell between which two positions a median nearly certainly
+ * lies; one pass over all samples counts those below, and hands out those between them,
+ * among which the median is found (Floyd and Rivest 1975). A median that is not there
+ * is sought again on the side where it is: the result does not depend on what was
+ * drawn. */
 class MedianSearch {
 public:
-  /** \param scan, ranks must outlive the search */
-  MedianSearch(const PositionScan& scan, RankGroup& ranks, unsigned threads)
-      : scan_(scan)
-      , ranks_(ranks)
-      , threads_(threads)
+  /** \brief Count the samples, draw some of them.
+   * \param positions, ranks must outlive the search */
+  MedianSearch(const PositionSource& positions, RankGroup& ranks, unsigned threads);
+
+  /** \brief Axes along which the samples of all processes differ. */
+  const std::array<bool, 3>&
+  getExtent() const
   {
+    return extent_;
   }
 
-  /** \brief Count the samples. \return axes along which they differ */
-  std::array<bool, 3>
-  findExtent();
-
-  /** \brief Of all processes, once findExtent() was called. */
-  std::uint64_t
-  getSampleCount() const
+  /** \brief Samples of all processes, by node at the depths found so far. */
+  const std::vector<std::uint64_t>&
+  getCounts() const
   {
-    return count_;
+    return counts_;
   }
 
   /** \brief Set the planes of a depth, one after another from 0 on. A node with fewer
@@ -63,11 +74,14 @@ public:
   findMedians(int depth, const AxisCycle& axes, std::vector<PlaneKey>& planes);
 
 private:
-  const PositionScan& scan_;
+  const PositionSource& positions_;
   RankGroup& ranks_;
   unsigned threads_;
-  std::uint64_t count_ = 0;
-  std::vector<std::uint32_t> nodes_; // see Level::findNode
+  std::array<bool, 3> extent_;
+  std::vector<std::uint64_t> counts_; // by node number; node 0 is none
+  std::uint64_t most_drawn_;          // as expected
+  std::vector<NodePosition> drawn_;   // of all processes, of the depth sought last
+  bool all_drawn_;
 };
 
 } // namespace pcl_uvol

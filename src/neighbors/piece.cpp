@@ -124,11 +124,18 @@ Samples::reserve(std::size_t count)
 }
 
 void
-Samples::append(const Samples& others, std::size_t begin, std::size_t count)
+Samples::resize(std::size_t count)
 {
-  const auto copy = [&](const auto& from, auto& to) {
-    const auto first = from.begin() + static_cast<std::ptrdiff_t>(begin);
-    to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(count));
+  positions.resize(count);
+  values.resize(count);
+  sources.resize(count);
+}
+
+void
+Samples::append(const SampleSpan& others)
+{
+  const auto copy = [&](const auto* from, auto& to) {
+    to.insert(to.end(), from, from + others.size);
   };
   copy(others.positions, positions);
   copy(others.values, values);
@@ -238,8 +245,8 @@ Piece::build(const Decomposition& decomposition,
     throw InvalidArgument("A piece of " + std::to_string(samples.size()) +
                           " samples is too large: " + std::to_string(most_samples) +
                           " are allowed.");
-  if (samples.size() != decomposition.getCount(piece))
-    return std::nullopt;
+  if (samples.size() == 0)
+    return std::nullopt; // elsewhere equal ones lie together
   StepTimer step(report, "tree", samples.size());
   std::vector<SampleRecord> records = recordsOf(samples.positions, threads);
   samples.positions = {};
@@ -265,21 +272,6 @@ Piece::build(const Decomposition& decomposition,
   });
   ordered.positions = std::move(samples.positions);
   return Piece(decomposition, piece, std::move(ordered), std::move(tree), scale);
-}
-
-Piece
-Piece::restore(const Decomposition& decomposition,
-               std::size_t piece,
-               Samples&& samples,
-               std::vector<SplitPlane>&& planes,
-               const Position& scale)
-{
-  KdTree tree;
-  tree.restore(std::move(planes),
-               static_cast<std::uint32_t>(samples.size()),
-               decomposition.getAxes(),
-               decomposition.getLevels());
-  return Piece(decomposition, piece, std::move(samples), std::move(tree), scale);
 }
 
 BrickTable
@@ -309,46 +301,48 @@ Piece::toGlobal(std::uint32_t sample) const
   return run[-1].begin + (sample - firstOf(run[-1]));
 }
 
+std::vector<Piece::Run>::const_iterator
+Piece::runAt(std::uint64_t sample) const
+{
+  const auto next =
+      std::upper_bound(runs_.begin(), runs_.end(), sample, [](auto s, const Run& run) {
+        return s < run.begin;
+      });
+  return next == runs_.begin() ? runs_.end() : next - 1;
+}
+
 std::uint32_t
 Piece::toLocal(std::uint64_t sample) const
 {
-  const auto run =
-      std::upper_bound(runs_.begin(), runs_.end(), sample, [](auto s, const Run& r) {
-        return s < r.begin;
-      });
-  if (run == runs_.begin() || sample - run[-1].begin >= run[-1].count)
+  const auto run = runAt(sample);
+  if (run == runs_.end() || sample - run->begin >= run->count)
     throw InvalidArgument("The piece does not hold sample " + std::to_string(sample) +
                           ".");
-  return firstOf(run[-1]) + static_cast<std::uint32_t>(sample - run[-1].begin);
+  return firstOf(*run) + static_cast<std::uint32_t>(sample - run->begin);
 }
 
 LentBrick
 Piece::lend(const Brick& brick) const
 {
   LentBrick lent{brick, {}};
-  const auto copy = [first = toLocal(brick.begin), &brick](const auto& from, auto& to) {
-    to.assign(from.begin() + first, from.begin() + first + brick.count);
-  };
-  copy(samples_->getPositions(), lent.samples.positions);
-  copy(values_, lent.samples.values);
-  copy(sources_, lent.samples.sources);
+  lent.samples.append(spanOf(toLocal(brick.begin), brick.count));
   return lent;
 }
 
-Samples
-Piece::getOwnSamples() const
+SampleSpan
+Piece::spanOf(std::uint32_t first, std::uint32_t count) const
 {
-  return lend({runs_[own_].begin, runs_[own_].count, 0, {}, {}}).samples;
+  return {samples_->getPositions().data() + first,
+          values_.data() + first,
+          sources_.data() + first,
+          count};
 }
 
 bool
 Piece::holds(const Brick& brick) const
 {
-  const auto run = std::lower_bound(
-      runs_.begin(), runs_.end(), brick.begin, [](const Run& r, std::uint64_t begin) {
-        return r.begin < begin;
-      });
-  return run != runs_.end() && run->begin == brick.begin;
+  const auto run = runAt(brick.begin);
+  return run != runs_.end() && brick.begin - run->begin < run->count;
 }
 
 std::size_t
@@ -419,7 +413,7 @@ Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
   for (const Block& block : blocks) {
     if (block.run.begin == own_begin)
       own_ = parts.own = runs_.size();
-    joined.append(*block.samples, block.first, block.run.count);
+    joined.append(block.samples->span(block.first, block.run.count));
     parts.trees.push_back(std::move(*block.tree));
     runs_.push_back(block.run);
     cells.push_back(block.run.cell);
@@ -455,7 +449,7 @@ mergeDuplicates(Samples& samples, unsigned threads, Report& report)
                    order.begin() + static_cast<std::ptrdiff_t>(end));
     const std::uint32_t source = representativeOf(
         members, [&](auto member) { return samples.values[member]; }, conflicting);
-    merged.append(samples, source, 1);
+    merged.append(samples.span(source, 1));
     begin = end;
   }
   report.count("duplicates", samples.size() - merged.size());

@@ -34,11 +34,11 @@ decompose(benchmark::State& state)
   std::size_t passes = 0;
   for (auto _ : state) {
     passes = 0;
-    const pcl_uvol::PositionScan scan = [&](const auto& block) {
-      ++passes;
-      block(all.data(), all.size());
+    const auto read = [&](std::uint64_t begin, std::size_t, pcl_uvol::Position*) {
+      passes += static_cast<std::size_t>(begin == 0);
+      return all.data() + begin;
     };
-    const pcl_uvol::Decomposition decomposition(scan, levels, alone, 1);
+    const pcl_uvol::Decomposition decomposition({samples, read}, levels, alone, 1);
     benchmark::DoNotOptimize(decomposition.pieceOf(all[0]));
   }
   const auto seconds_per = [](double count) {
@@ -59,7 +59,10 @@ findPieces(benchmark::State& state)
   const auto& all = positions();
   pcl_uvol::SingleRank alone;
   const pcl_uvol::Decomposition decomposition(
-      [&](const auto& block) { block(all.data(), all.size()); },
+      {samples,
+       [&](std::uint64_t begin, std::size_t, pcl_uvol::Position*) {
+         return all.data() + begin;
+       }},
       static_cast<int>(state.range(0)),
       alone,
       1);

@@ -103,7 +103,7 @@ TEST_P(OutOfCoreOnEveryShape, GivesTheBytesOfMemory)
   settings.field = "intensity";
   settings.isovalues = {0.41234, 0.1, 7.0};
   expectAsInMemory(settings);
-  EXPECT_GT(40000 * report_.getCount("pieces"), report_.getCount("samples"));
+  EXPECT_EQ(report_.getCount("samples") > 40000, report_.getCount("pieces") > 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Clouds,
@@ -217,9 +217,9 @@ TEST_F(OutOfCore, SaysThatTheDiskIsFull)
   rlimit before;
   ASSERT_EQ(0, getrlimit(RLIMIT_FSIZE, &before));
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit tight{600000, before.rlim_max};
+  const rlimit tight{500000, before.rlim_max};
   ASSERT_EQ(0, setrlimit(RLIMIT_FSIZE, &tight));
-  expectSentence<pcl_uvol::IOError>([&] { extract(settings); }, "600 kB");
+  expectSentence<pcl_uvol::IOError>([&] { extract(settings); }, "500 kB");
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());

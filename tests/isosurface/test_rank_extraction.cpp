@@ -68,7 +68,7 @@ struct Together {
           readSamples(view, {view.fields, "intensity"}, settings.scale, 0, 1, own);
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner(all.sources[i]) == group.rank())
-          samples.append(all, i, 1);
+          samples.append(all.span(i, 1));
       const auto found = extractFromRanks(std::move(samples), settings, group, 1, own);
       const std::lock_guard lock(mutex);
       report.merge(own);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The top of the tree, found by counting digits over ranks, is the top of the tree.
+// The top of the tree, found over ranks, is the top of the tree.
+#include "support/clouds.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/random.h>
@@ -59,17 +60,15 @@ decompose(const Positions& positions,
                             : group.rank() + 1 == ranks
                                 ? positions.size()
                                 : group.rank() * positions.size() / ranks;
-    int scans = 0;
+    std::atomic<int> scans{0};
+    const auto read = [&](std::uint64_t first, std::size_t count, Position* buffer) {
+      scans += first == 0;
+      const auto from = positions.begin() + static_cast<std::ptrdiff_t>(begin + first);
+      std::copy_n(from, count, buffer);
+      return buffer;
+    };
     const Decomposition decomposition(
-        [&](const auto& block) {
-          ++scans;
-          const std::size_t middle = (begin + end) / 2;
-          block(positions.data() + begin, middle - begin);
-          block(positions.data() + middle, end - middle);
-        },
-        levels,
-        group,
-        1);
+        {end - begin, read}, levels, group, ranks == 1 ? 3 : 1);
     most = std::max<int>(most, scans);
     if (group.rank() == 0)
       examine(decomposition);
@@ -123,7 +122,7 @@ expectTopOfTree(const Decomposition& decomposition, const pcl_uvol::SampleSet& s
   }
 }
 
-/** Where medians take many digits of a coordinate, or of several. */
+/** Whether the positions drawn first tell where medians lie, or not. */
 TEST(Decompositions, AreTheTopOfTheTree)
 {
   const auto scaled = [](float factor) {
@@ -133,10 +132,14 @@ TEST(Decompositions, AreTheTopOfTheTree)
                        factor * (at(i, 2) - 0.5f) + 0.0f}};
     };
   };
+  // 100000 positions: every eighth, by this number, is drawn in the first pass.
+  const auto is_drawn = [](std::uint64_t i) {
+    return (pcl_uvol::mixBits(pcl_uvol::mixBits(0) + i) & 7) == 0;
+  };
   const struct {
     const char* name;
     Positions positions;
-    int least_passes;
+    bool one_pass_each;
   } cases[] = {
       {"in one binade",
        makePositions(
@@ -144,14 +147,14 @@ TEST(Decompositions, AreTheTopOfTheTree)
            [](std::uint64_t i) {
              return Position{{1.0f + at(i, 0), 1.0f + at(i, 1), 1.0f + at(i, 2)}};
            }),
-       1 + 4 * 2},
+       true},
       {"of one x for most",
        makePositions(
            200000,
            [](std::uint64_t i) {
              return Position{{i % 10 == 0 ? at(i, 0) : 0.5f, at(i, 1), at(i, 2)}};
            }),
-       1 + 4 * 2},
+       true},
       {"of one x and y for most",
        makePositions(300000,
                      [](std::uint64_t i) {
@@ -161,10 +164,24 @@ TEST(Decompositions, AreTheTopOfTheTree)
                                                       1e-5f * static_cast<float>(
                                                                   i * 7919 % 300007)}};
                      }),
-       1 + 8},
-      {"around the origin", makePositions(100000, scaled(3.0f)), 1 + 4},
-      {"smaller than normal numbers", makePositions(100000, scaled(1e-39f)), 1 + 4},
-      {"few", makePositions(16, scaled(1.0f)), 1 + 4},
+       true},
+      {"around the origin", makePositions(100000, scaled(3.0f)), true},
+      {"smaller than normal numbers", makePositions(100000, scaled(1e-39f)), true},
+      {"drawn on one side only",
+       makePositions(100000,
+                     [&](std::uint64_t i) {
+                       return Position{{is_drawn(i) ? 0.1f * at(i, 0) : 0.5f + at(i, 0),
+                                        at(i, 1),
+                                        at(i, 2)}};
+                     }),
+       false},
+      {"drawn from few places only",
+       makePositions(100000,
+                     [&](std::uint64_t i) {
+                       const float x = is_drawn(i) ? static_cast<float>(i % 3) : 1.5f;
+                       return Position{{x + 1e-3f * at(i, 0), at(i, 1), at(i, 2)}};
+                     }),
+       false},
   };
   for (const auto& one : cases) {
     SCOPED_TRACE(one.name);
@@ -178,30 +195,89 @@ TEST(Decompositions, AreTheTopOfTheTree)
           ranks,
           [&](const Decomposition& found) { expectTopOfTree(found, *samples); },
           passes);
-      EXPECT_GE(passes, one.least_passes);
+      if (one.one_pass_each) {
+        EXPECT_EQ(1 + 4, passes);
+      }
+      else if (ranks == 1) {
+        EXPECT_LT(1 + 4, passes);
+      }
     }
   }
 }
 
-TEST(Decompositions, KeepEqualPositionsTogether)
+TEST(Decompositions, TakeOnePassOverFew)
 {
-  const Position place{{0.3f, 0.6f, 0.9f}};
-  const Positions positions = makePositions(200000, [&](std::uint64_t i) {
-    return i % 2 == 0 ? place : Position{{at(i, 0), at(i, 1), at(i, 2)}};
+  const Positions positions = makePositions(500, [](std::uint64_t i) {
+    return Position{{at(i, 0), at(i, 1), at(i, 2)}};
   });
+  const auto samples = samplesOf(positions);
   int passes = 0;
   decompose(
       positions,
-      5,
+      4,
       3,
-      [&](const Decomposition& found) {
-        std::vector<std::size_t> counts(found.size());
-        for (const Position& position : positions)
-          ++counts[found.pieceOf(position)];
-        EXPECT_EQ(positions.size(), found.getSampleCount());
-        EXPECT_GE(counts[found.pieceOf(place)], positions.size() / 2);
-      },
+      [&](const Decomposition& found) { expectTopOfTree(found, *samples); },
       passes);
+  EXPECT_EQ(1, passes);
+}
+
+class DecompositionOfEveryShape : public testing::TestWithParam<std::string> {};
+
+TEST_P(DecompositionOfEveryShape, IsTheTopOfTheTree)
+{
+  Positions positions;
+  const auto cloud = uvol_test::makeCloud(GetParam(), 40000, 9);
+  for (const auto& point : *cloud)
+    if (std::isfinite(point.x + point.y + point.z))
+      positions.push_back({{point.x + 0.0f, point.y + 0.0f, point.z + 0.0f}});
+  const auto samples = samplesOf(positions);
+  positions.assign(samples->getPositions().begin(),
+                   samples->getPositions().begin() +
+                       static_cast<std::ptrdiff_t>(samples->size()));
+  int passes = 0;
+  const int most = positions.size() < 4096 ? 5 : 11; // levels
+  for (const int levels : {0, 3, most})
+    for (const std::size_t ranks : {1, 3})
+      decompose(
+          positions,
+          levels,
+          ranks,
+          [&](const Decomposition& found) { expectTopOfTree(found, *samples); },
+          passes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Clouds,
+                         DecompositionOfEveryShape,
+                         testing::ValuesIn(uvol_test::cloudShapes()),
+                         [](const auto& shape) {
+                           return uvol_test::testNameOf(shape.param);
+                         });
+
+TEST(Decompositions, KeepEqualPositionsTogether)
+{
+  const Position place{{0.3f, 0.6f, 0.9f}};
+  for (const std::size_t size : {500, 200000})
+    for (const std::size_t share : {2, 3, 50}) {
+      SCOPED_TRACE(testing::Message() << size << " samples, 1 of " << share);
+      const Positions positions = makePositions(size, [&](std::uint64_t i) {
+        return i % share == 0 ? place : Position{{at(i, 0), at(i, 1), at(i, 2)}};
+      });
+      int passes = 0;
+      decompose(
+          positions,
+          5,
+          3,
+          [&](const Decomposition& found) {
+            std::vector<std::size_t> counts(found.size());
+            for (const Position& position : positions)
+              ++counts[found.pieceOf(position)];
+            EXPECT_EQ(positions.size(), found.getSampleCount());
+            for (std::size_t piece = 0; piece < found.size(); ++piece)
+              EXPECT_EQ(counts[piece], found.getCount(piece)) << piece;
+            EXPECT_GE(counts[found.pieceOf(place)], positions.size() / share);
+          },
+          passes);
+    }
 }
 
 TEST(Decompositions, FindThePiecesThatBallsMeet)

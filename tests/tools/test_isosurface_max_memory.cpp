@@ -39,7 +39,7 @@ protected:
 
   const std::string iso_ = "-field distance -iso 0.3,0.4,2 ";
   /** For several pieces. */
-  const std::string bound_ = "-max-memory 136M ";
+  const std::string bound_ = "-max-memory 124M ";
 };
 
 TEST_F(MaxMemory, WritesTheSameFile)

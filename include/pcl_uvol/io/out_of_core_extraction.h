@@ -19,7 +19,7 @@ namespace pcl_uvol {
 /** \brief Where samples go that memory does not hold. */
 struct OutOfCoreSettings {
   std::uint64_t max_memory = 0;     ///< bytes that the process may take
-  std::string scratch_folder = "."; ///< about 60 bytes per sample go there
+  std::string scratch_folder = "."; ///< 24 bytes per sample lie there at a time
   unsigned threads = 0;             ///< 0 = all cores
 };
 
@@ -39,11 +39,13 @@ leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues);
  * memory.
  *
  * The points go to scratch files, are parted into pieces by the first levels of the
- * kd-tree and taken through memory piece by piece, as in extractFromRanks(): the
- * isopoints are those of IsosurfaceExtraction, byte for byte and in that order. Scratch
- * files have no names, so that none is left behind. The bound holds for the whole
- * process as long as the isosurface itself is small beside it; pieces are made that
- * small.
+ * kd-tree (see Decomposition) and taken through memory piece by piece, to be ordered;
+ * isopoints are then found in those blocks of the pieces that the surface crosses, with
+ * what they need of the samples around them. They are those of IsosurfaceExtraction,
+ * byte for byte and in that order. Scratch files have no names, so that none is left
+ * behind; on a file system that cannot shorten files at their beginning they take twice
+ * the room. The bound holds for the whole process as long as the isosurface itself is
+ * small beside it; pieces are made that small.
  * \param report gets the counts and times of IsosurfaceExtraction, the counts "pieces"
  * and "scratch_bytes", and the times of "scratch" and "decomposition"
  * \throws InvalidArgument for an unknown field, a bound that is too small, and without

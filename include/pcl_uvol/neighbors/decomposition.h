@@ -61,10 +61,15 @@ ballsIn(const CellKey& cell, const std::vector<Ball>& balls);
 PCL_UVOL_EXPORTS bool
 liesWithin(const Ball& ball, const CellKey& cell);
 
-/** \brief Hands out the positions of a process's samples, block by block, as often as
- * asked and always in the same order: position i of a block is positions[i]. */
-using PositionScan =
-    std::function<void(const std::function<void(const Position*, std::size_t)>& block)>;
+/** \brief The positions of a process's samples. Threads read them at the same time. */
+struct PositionSource {
+  std::uint64_t count = 0;
+  /** \brief Positions from begin on, at most 2^14 of them. \param buffer of as many,
+   * where they may be put \return where they are */
+  std::function<const Position*(
+      std::uint64_t begin, std::size_t count, Position* buffer)>
+      read;
+};
 
 /** \brief The top of the kd-tree of thesis 2.2.1, exactly as over all samples at once,
  * if these are distinct. */
@@ -73,16 +78,24 @@ public:
   static constexpr int most_levels = 20;
 
   /** \brief Find the medians of all nodes of the first levels, level by level, by
-   * counting digits of the coordinates (radix selection): about three passes over the
-   * samples per level, and per node and pass 16 KiB of counts summed over the
-   * processes.
-   * \param scan finite positions of this process's samples, none of them -0
+   * sampled selection (Floyd and Rivest 1975): as a rule one pass over the samples per
+   * level and one more; up to some ten thousand samples, one pass in all. Each process
+   * gets up to 32 MB of positions per level.
+   * \param positions finite, none of them -0
    * \param levels 0 to 20: 2^levels pieces
    * \throws InvalidArgument unless there are as many samples as pieces */
-  Decomposition(const PositionScan& scan,
+  Decomposition(const PositionSource& positions,
                 int levels,
                 RankGroup& ranks,
                 unsigned threads);
+
+  /** \brief The same with more levels, which trees over the pieces have found.
+   * \param levels at least those of the top
+   * \param plane_of a node of a piece's tree; no two samples coincide */
+  Decomposition(
+      const Decomposition& top,
+      int levels,
+      const std::function<PlaneKey(std::size_t piece, std::size_t node)>& plane_of);
 
   /** \brief Pieces: they are numbered from left to right. */
   std::size_t
@@ -107,13 +120,16 @@ public:
   std::uint64_t
   getSampleCount() const
   {
-    return count_;
+    return begins_.back();
   }
 
-  /** \brief Of a piece: its first sample in leaf order, and how many it has, if all
-   * samples are distinct; of equal ones all lie in one piece. @{ */
+  /** \brief Of a piece: its first sample in leaf order, and how many it has, equal ones
+   * counted each; of these all lie in one piece. @{ */
   std::uint64_t
-  getBegin(std::size_t piece) const;
+  getBegin(std::size_t piece) const
+  {
+    return begins_[piece];
+  }
   std::uint64_t
   getCount(std::size_t piece) const
   {
@@ -138,8 +154,8 @@ public:
 private:
   int levels_;
   AxisCycle axes_{};
-  std::uint64_t count_ = 0;
-  std::vector<PlaneKey> planes_; // by node number
+  std::vector<std::uint64_t> begins_; // by piece, and the end
+  std::vector<PlaneKey> planes_;      // by node number
 };
 
 } // namespace pcl_uvol

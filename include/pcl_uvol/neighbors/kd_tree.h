@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +53,7 @@ struct SampleRecord {
 inline bool
 lessAlong(int axis, const Position& a, const Position& b)
 {
-  constexpr int next[3] = {1, 2, 0};
+  static constexpr int next[3] = {1, 2, 0};
   if (a[axis] != b[axis])
     return a[axis] < b[axis];
   const int second = next[axis];
@@ -109,6 +110,13 @@ using AxisCycle = std::array<std::int8_t, 64>;
 struct PCL_UVOL_EXPORTS NodeRanges {
   struct Range {
     float min, max;
+
+    /** \brief The range that holds both. */
+    Range
+    joined(const Range& other) const
+    {
+      return {std::min(min, other.min), std::max(max, other.max)};
+    }
   };
   std::vector<Range> inner;      ///< by node number
   const float* values = nullptr; ///< by sample, kept by the caller
@@ -143,19 +151,6 @@ public:
         int depth,
         unsigned threads,
         StepTimer& step);
-
-  /** \brief What build() finds out, to be kept elsewhere and restored. @{ */
-  const std::vector<SplitPlane>&
-  getPlanes() const
-  {
-    return planes_;
-  }
-  void
-  restore(std::vector<SplitPlane>&& planes,
-          std::uint32_t count,
-          const AxisCycle& axes,
-          int depth);
-  /** @} */
 
   /** \brief A cycle over some axes; over none, all zeros. */
   static AxisCycle

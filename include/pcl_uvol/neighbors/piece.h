@@ -16,6 +16,14 @@
 
 namespace pcl_uvol {
 
+/** \brief Samples as plain arrays of others. */
+struct SampleSpan {
+  const Position* positions;
+  const float* values;
+  const std::uint64_t* sources;
+  std::size_t size;
+};
+
 /** \brief Samples as plain arrays, in leaf order once they are part of a piece. */
 struct PCL_UVOL_EXPORTS Samples {
   std::vector<Position> positions; ///< stretched by the scale; finite, none of them -0
@@ -40,9 +48,19 @@ struct PCL_UVOL_EXPORTS Samples {
   void
   reserve(std::size_t count);
 
-  /** \brief Append consecutive samples of others. */
   void
-  append(const Samples& others, std::size_t begin, std::size_t count);
+  resize(std::size_t count);
+
+  /** \brief Consecutive samples. */
+  SampleSpan
+  span(std::size_t begin, std::size_t count) const
+  {
+    return {
+        positions.data() + begin, values.data() + begin, sources.data() + begin, count};
+  }
+
+  void
+  append(const SampleSpan& others);
 };
 
 /** \brief A subtree of some hundred samples, the unit in which pieces lend samples to
@@ -71,6 +89,14 @@ public:
              const std::vector<float>& values,
              std::uint64_t begin,
              const CellKey& cell);
+
+  /** \brief The plane of a node with more samples than a brick, by its number below
+   * the piece. */
+  const PlaneKey&
+  getPlane(std::size_t node) const
+  {
+    return planes_[node];
+  }
 
   /** \brief Call found for each brick whose cell is accepted, ascending; cells around
    * bricks are asked first. */
@@ -117,7 +143,8 @@ public:
   /** \brief Build the subtree of a piece.
    * \param samples all of the piece, in any order
    * \param scale by which the positions are stretched
-   * \return nothing, and the samples stay, if some coincide: mergeDuplicates settles it
+   * \return nothing, and the samples stay, if some coincide, or if there are none
+   * because some coincide in other pieces: mergeDuplicates settles it
    * \throws InvalidArgument for more than most_samples */
   static std::optional<Piece>
   build(const Decomposition& decomposition,
@@ -126,23 +153,6 @@ public:
         const Position& scale,
         unsigned threads,
         Report& report);
-
-  /** \brief A piece that was built before.
-   * \param samples, planes in leaf order, as getOwnSamples() and getPlanes() gave them
-   */
-  static Piece
-  restore(const Decomposition& decomposition,
-          std::size_t piece,
-          Samples&& samples,
-          std::vector<SplitPlane>&& planes,
-          const Position& scale);
-
-  /** \brief Planes of the tree over the own samples, before anything was borrowed. */
-  const std::vector<SplitPlane>&
-  getPlanes() const
-  {
-    return samples_->getTree().getPlanes();
-  }
 
   /** \brief Own samples and those borrowed, in one leaf order. */
   const SampleSet&
@@ -187,10 +197,13 @@ public:
   lend(const Brick& brick) const;
 
   /** \brief All own samples, in leaf order. */
-  Samples
-  getOwnSamples() const;
+  SampleSpan
+  getOwnSamples() const
+  {
+    return spanOf(firstOf(runs_[own_]), runs_[own_].count);
+  }
 
-  /** \brief True for a brick of another piece that was borrowed. */
+  /** \brief True for a brick of the piece and one that was borrowed. */
   bool
   holds(const Brick& brick) const;
 
@@ -215,8 +228,15 @@ private:
         KdTree&& tree,
         const Position& scale);
 
+  /** The last one that begins with or before a sample in the leaf order of all. */
+  std::vector<Run>::const_iterator
+  runAt(std::uint64_t sample) const;
+
   std::uint32_t
   firstOf(const Run& run) const;
+
+  SampleSpan
+  spanOf(std::uint32_t first, std::uint32_t count) const;
 
   void
   join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees);
