@@ -94,7 +94,7 @@ Decomposition::Decomposition(const PositionSource& positions,
     throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
                           std::to_string(most_levels) + " are.");
   planes_.resize(size());
-  MedianSearch search(positions, ranks, threads);
+  MedianSearch search(positions, levels, ranks, threads);
   axes_ = KdTree::cycleOver(search.getExtent());
   const std::uint64_t total = search.getCounts()[1];
   if (total < size())

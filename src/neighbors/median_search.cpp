@@ -17,10 +17,12 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr Position below_all{{-infinity, -infinity, -infinity}};
 constexpr Position above_all{{infinity, infinity, infinity}};
 
-/** Positions that are drawn, per n^(2/3) of n samples and at most: 32 MB. As many are
- * left between the bounds of some ten medians, so that these take one pass. */
+/** Positions that are drawn: per n^(2/3) of n samples, at most 32 MB of them or as many
+ * per node. As many are left between the bounds of some ten medians, so that these take
+ * one pass. */
 constexpr double drawn_rate = 8.0;
 constexpr double most_drawn = 1u << 21;
+constexpr double most_drawn_per_node = 256.0;
 
 /** A median lies farther from that of s drawn positions, in sqrt(s) of these, once in
  * 2000 nodes: 3.5 standard deviations. */
@@ -422,6 +424,7 @@ private:
 } // namespace
 
 MedianSearch::MedianSearch(const PositionSource& positions,
+                           int levels,
                            RankGroup& ranks,
                            unsigned threads)
     : positions_(positions)
@@ -432,7 +435,8 @@ MedianSearch::MedianSearch(const PositionSource& positions,
   ranks_.sum(counts_);
   const auto total = static_cast<double>(counts_[1]);
   most_drawn_ = static_cast<std::uint64_t>(
-      std::min(drawn_rate * std::pow(total, 2.0 / 3.0), most_drawn));
+      std::min(drawn_rate * std::pow(total, 2.0 / 3.0),
+               std::max(most_drawn, most_drawn_per_node * std::ldexp(1.0, levels))));
   const Lot lot(total, most_drawn_, ranks_.rank(), 0);
   all_drawn_ = lot.fallsAlways();
 

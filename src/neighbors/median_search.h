@@ -49,8 +49,12 @@ struct NodePosition {
 class MedianSearch {
 public:
   /** \brief Count the samples, draw some of them.
+   * \param levels that are going to be sought
    * \param positions, ranks must outlive the search */
-  MedianSearch(const PositionSource& positions, RankGroup& ranks, unsigned threads);
+  MedianSearch(const PositionSource& positions,
+               int levels,
+               RankGroup& ranks,
+               unsigned threads);
 
   /** \brief Axes along which the samples of all processes differ. */
   const std::array<bool, 3>&

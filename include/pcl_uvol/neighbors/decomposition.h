@@ -79,8 +79,8 @@ public:
 
   /** \brief Find the medians of all nodes of the first levels, level by level, by
    * sampled selection (Floyd and Rivest 1975): as a rule one pass over the samples per
-   * level and one more; up to some ten thousand samples, one pass in all. Each process
-   * gets up to 32 MB of positions per level.
+   * level and one more; up to 512 samples, one pass in all. Each process
+   * gets up to 32 MB of positions per pass, or 4 KiB per piece where that is more.
    * \param positions finite, none of them -0
    * \param levels 0 to 20: 2^levels pieces
    * \throws InvalidArgument unless there are as many samples as pieces */
