@@ -112,7 +112,7 @@ declare(Options& options, Arguments& arguments)
   options.text("scratch",
                "folder",
                arguments.scratch,
-               "with -max-memory: where they wait, 60 bytes each (default: beside the "
+               "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   options.text("png",

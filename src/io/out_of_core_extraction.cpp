@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -22,6 +21,10 @@ constexpr std::size_t block_bytes = 16u << 20;
 /** Samples that isopoints are sought among at once: with four times as many, most of
  * them would lie far from any surface; with fewer, halos would be larger. */
 constexpr std::uint64_t block_samples = 1u << 15;
+
+/** As many with their surroundings, elsewhere than in the sparse parts beside a
+ * cluster; they count among the fixed bytes. */
+constexpr std::uint64_t most_around_block = 4 * block_samples;
 
 /** Bytes that a process takes besides samples: libraries and buffers. */
 constexpr double fixed_bytes = 120e6;
@@ -44,13 +47,21 @@ constexpr double merging_copies = 2.0;
 constexpr std::uint64_t least_piece = 1u << 14;
 constexpr int most_levels = 12;
 
-/** Bytes of a process that takes samples through memory in pieces. */
+/** Bytes but those of pieces and isopoints. */
+double
+besides(double samples)
+{
+  return fixed_bytes + table_bytes * samples;
+}
+
+/** Bytes of a process that takes samples through memory in pieces; what is drawn for
+ * the decomposition is less. */
 double
 bytesFor(double samples, double piece, std::size_t isovalues)
 {
   const double isopoints = expected_isopoints * static_cast<double>(isovalues) *
                            std::pow(samples, 2.0 / 3.0);
-  return fixed_bytes + table_bytes * samples +
+  return besides(samples) +
          std::max(piece_bytes * piece,
                   merging_copies * sizeof(GlobalIsopoint) * isopoints);
 }
@@ -104,20 +115,30 @@ public:
       mergeInPieces();
     warnOfEmpty();
     // They wait on disk while there are pieces in memory.
-    std::deque<io::ScratchFile> found;
-    for (std::size_t i = 0; i < settings_.isovalues.size(); ++i)
-      found.emplace_back(out_of_core_.scratch_folder);
+    io::ScratchFile found(out_of_core_.scratch_folder);
+    struct Run {
+      std::uint64_t begin, count;
+    };
+    std::vector<std::vector<Run>> runs(settings_.isovalues.size());
     const Decomposition blocks = makeBlocks();
     for (std::size_t block = 0; block < blocks.size(); ++block) {
       const auto parts = findIsopoints(blocks, block);
       for (std::size_t i = 0; i < parts.size(); ++i)
-        found[i].append(parts[i].data(), parts[i].size() * sizeof(GlobalIsopoint));
-      checkSurface(found);
+        if (!parts[i].empty()) {
+          runs[i].push_back({found.size(), parts[i].size()});
+          found.append(parts[i].data(), parts[i].size() * sizeof(GlobalIsopoint));
+        }
+      checkSurface(found.size());
     }
     std::vector<std::vector<GlobalIsopoint>> all;
-    for (const io::ScratchFile& file : found) {
-      auto& isopoints = all.emplace_back(file.size() / sizeof(GlobalIsopoint));
-      file.read(0, isopoints.data(), file.size());
+    for (const auto& runs_of_value : runs) {
+      auto& isopoints = all.emplace_back();
+      for (const Run& run : runs_of_value) {
+        const std::size_t old = isopoints.size();
+        isopoints.resize(old + run.count);
+        found.read(
+            run.begin, isopoints.data() + old, run.count * sizeof(GlobalIsopoint));
+      }
       mergeIsopoints(isopoints, settings_.interpolation, out_of_core_.threads, report_);
       report_.count("isopoints", isopoints.size());
     }
@@ -206,10 +227,26 @@ private:
                                            out_of_core_.threads);
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
       Samples samples = load(*decomposition_, piece);
+      store_->release(decomposition_->getBegin(piece), samples.size());
       mergeDuplicates(samples, out_of_core_.threads, report_);
       log_->append(samples);
     }
     store_.reset();
+  }
+
+  /** Bytes but those of pieces and isopoints. */
+  double
+  bytesBesides() const
+  {
+    return besides(static_cast<double>(decomposition_->getSampleCount()));
+  }
+
+  /** True if there is room for as many samples and their trees at a time. */
+  bool
+  fits(std::uint64_t samples) const
+  {
+    return bytesBesides() + piece_bytes * static_cast<double>(samples) <=
+           static_cast<double>(out_of_core_.max_memory);
   }
 
   /** All samples at one place are in one piece, however many: levelsFor cannot know. */
@@ -218,8 +255,7 @@ private:
   {
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
       const std::uint64_t count = decomposition_->getCount(piece);
-      if (fixed_bytes + piece_bytes * static_cast<double>(count) >
-          static_cast<double>(out_of_core_.max_memory))
+      if (!fits(count))
         throw InvalidArgument(
             std::to_string(count) +
             " samples lie together, many of them at one place: they do not fit into " +
@@ -228,11 +264,9 @@ private:
   }
 
   void
-  checkSurface(const std::deque<io::ScratchFile>& found) const
+  checkSurface(std::uint64_t found) const
   {
-    double bytes = fixed_bytes;
-    for (const io::ScratchFile& file : found)
-      bytes += merging_copies * static_cast<double>(file.size());
+    const double bytes = bytesBesides() + merging_copies * static_cast<double>(found);
     if (bytes > static_cast<double>(out_of_core_.max_memory))
       throw InvalidArgument("The isosurface alone takes more than " +
                             formatBytes(bytes) + " of memory, and " +
@@ -328,23 +362,35 @@ private:
     return bricks;
   }
 
-  LentBrick
-  lend(const Brick& brick) const
+  /** Bricks on their way to a block. */
+  struct Loan {
+    std::uint64_t samples; ///< of the block with these
+    std::vector<LentBrick> bricks;
+  };
+
+  void
+  lend(const Brick& brick, Loan& loan) const
   {
-    return {brick, store_->load(brick.begin, brick.count)};
+    loan.samples += brick.count;
+    if (loan.samples > most_around_block && !fits(loan.samples))
+      throw InvalidArgument(
+          std::to_string(loan.samples) +
+          " samples around one place of the isosurface do not fit into " +
+          formatBytes(static_cast<double>(out_of_core_.max_memory)) + " of memory.");
+    loan.bricks.push_back({brick, store_->load(brick.begin, brick.count)});
   }
 
   std::vector<std::vector<GlobalIsopoint>>
   findIsopoints(const Decomposition& blocks, std::size_t block)
   {
-    std::vector<LentBrick> lent;
+    Loan loan{blocks.getCount(block), {}};
     {
       const StepTimer timer(report_, "exchange");
       const Bricks bricks = findBricks(blocks, block);
       if (bricks.own.empty())
         return {};
       for (const Brick& brick : bricks.around)
-        lent.push_back(lend(brick));
+        lend(brick, loan);
     }
     Piece piece = *Piece::build(blocks,
                                 block,
@@ -352,19 +398,22 @@ private:
                                 settings_.scale,
                                 out_of_core_.threads,
                                 report_);
-    borrow(piece, std::move(lent));
+    borrow(piece, std::move(loan.bricks));
     PieceIsopoints isopoints(piece, settings_, out_of_core_.threads, report_);
     while (!isopoints.getOpenBalls().empty()) {
-      lent.clear();
-      decomposition_->findPieces(
-          isopoints.getOpenBalls(),
-          [&](std::size_t other, const std::vector<Ball>& balls) {
-            bricks_[other].find(balls, [&](const Brick& brick) {
-              if (!piece.holds(brick))
-                lent.push_back(lend(brick));
+      loan = {piece.getSamples().size(), {}};
+      {
+        const StepTimer timer(report_, "exchange");
+        decomposition_->findPieces(
+            isopoints.getOpenBalls(),
+            [&](std::size_t other, const std::vector<Ball>& balls) {
+              bricks_[other].find(balls, [&](const Brick& brick) {
+                if (!piece.holds(brick))
+                  lend(brick, loan);
+              });
             });
-          });
-      borrow(piece, std::move(lent));
+      }
+      borrow(piece, std::move(loan.bricks));
       isopoints.settle();
     }
     return std::move(isopoints).take();

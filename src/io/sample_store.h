@@ -98,6 +98,13 @@ public:
   Samples
   load(std::uint64_t begin, std::uint64_t count) const;
 
+  /** \brief Samples that are not read again. */
+  void
+  release(std::uint64_t begin, std::size_t count)
+  {
+    file_.release(begin, count);
+  }
+
   /** \brief Put the samples of a piece back, in leaf order. */
   void
   save(std::uint64_t begin, const SampleSpan& samples);

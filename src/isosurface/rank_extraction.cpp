@@ -10,9 +10,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -31,7 +33,7 @@ levelsFor(std::size_t ranks, std::uint64_t samples)
   while ((std::size_t(1) << levels) < (is_power ? ranks : pieces_per_rank * ranks) ||
          samples >> levels > Piece::most_samples)
     ++levels;
-  while ((std::uint64_t(1) << levels) > samples)
+  while (levels > 0 && (std::uint64_t(1) << levels) > samples)
     --levels;
   return levels;
 }

@@ -4,7 +4,6 @@
 #include <pcl_uvol/neighbors/decomposition.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -58,8 +60,10 @@ public:
   Lot(double expected, std::uint64_t most, std::size_t rank, std::size_t pass)
       : salt_(mixBits(rank << 32 | pass))
   {
-    for (; expected > static_cast<double>(most); expected /= 2.0)
+    while (expected > static_cast<double>(most)) {
+      expected /= 2.0;
       mask_ = mask_ << 1 | 1u;
+    }
   }
 
   bool
@@ -88,8 +92,8 @@ gather(RankGroup& ranks, std::vector<std::vector<NodePosition>>&& parts)
   return gatherItems(ranks, parts[0]);
 }
 
-/** The position before another one in the order along an axis; none lies between them,
- * other than with a coordinate of -0. */
+/** The position before another one in the order along an axis; none lies between them.
+ */
 Position
 before(int axis, Position position)
 {
@@ -130,8 +134,8 @@ struct Median {
   }
 };
 
-/** What a pass finds in a node. */
-struct Tally {
+/** What a pass finds in a node; threads write their own at each sample. */
+struct alignas(64) Tally {
   std::uint64_t up_to_lower = 0, between = 0; ///< samples
   Position above_upper = above_all;           ///< the least
 };
@@ -160,7 +164,7 @@ public:
       : source_(source)
       , ranks_(ranks)
       , threads_(resolveThreads(threads))
-      , most_drawn_(drawn_limit)
+      , drawn_limit_(drawn_limit)
       , depth_(depth)
       , axis_(static_cast<int>(axisAt(axes, depth)))
       , axes_(axes)
@@ -195,6 +199,7 @@ private:
   void
   forEachNode(std::vector<NodePosition>& positions, const Visit& visit)
   {
+    // No total order, but of those of a node only ranks matter.
     const auto by_node = [](const auto& a, const auto& b) { return a.node < b.node; };
     if (!std::is_sorted(positions.begin(), positions.end(), by_node))
       parallelSort(
@@ -217,7 +222,7 @@ private:
     forEachNode(drawn, [&](Median& median, Iterator begin, Iterator end) {
       expected += setBounds(median, begin, end);
     });
-    const Lot lot(expected, most_drawn_, ranks_.rank(), ++pass_);
+    const Lot lot(expected, drawn_limit_, ranks_.rank(), ++pass_);
     std::vector<NodePosition> between;
     const std::vector<Tally> tallies = tally(lot, between);
     // Of what lies beyond the bounds, those drawn before are known.
@@ -238,7 +243,10 @@ private:
     forEachNode(between, [&](Median& median, Iterator begin, Iterator end) {
       const Tally& found = tallies[static_cast<std::size_t>(&median - medians_.data())];
       const std::uint64_t up_to_upper = found.up_to_lower + found.between;
-      if (median.rank < found.up_to_lower) {
+      if (median.is_one && found.up_to_lower == median.up_to_high)
+        // Only where denormal numbers count as 0: nothing lies before the position.
+        median.find(median.upper, found.above_upper, found.up_to_lower);
+      else if (median.rank < found.up_to_lower) {
         median.high = median.lower;
         median.up_to_high = found.up_to_lower;
       }
@@ -413,7 +421,7 @@ private:
   const PositionSource& source_;
   RankGroup& ranks_;
   std::size_t threads_;
-  std::uint64_t most_drawn_;
+  std::uint64_t drawn_limit_;
   int depth_, axis_;
   const AxisCycle& axes_;
   const std::vector<PlaneKey>& planes_;
@@ -434,13 +442,14 @@ MedianSearch::MedianSearch(const PositionSource& positions,
 {
   ranks_.sum(counts_);
   const auto total = static_cast<double>(counts_[1]);
-  most_drawn_ = static_cast<std::uint64_t>(
-      std::min(drawn_rate * std::pow(total, 2.0 / 3.0),
+  const double side = std::cbrt(total);
+  drawn_limit_ = static_cast<std::uint64_t>(
+      std::min(drawn_rate * side * side,
                std::max(most_drawn, most_drawn_per_node * std::ldexp(1.0, levels))));
-  const Lot lot(total, most_drawn_, ranks_.rank(), 0);
+  const Lot lot(total, drawn_limit_, ranks_.rank(), 0);
   all_drawn_ = lot.fallsAlways();
 
-  struct Extent {
+  struct alignas(64) Extent {
     Position low = above_all, high = below_all;
 
     void
@@ -477,7 +486,7 @@ MedianSearch::findMedians(int depth,
   Level level(positions_,
               ranks_,
               threads_,
-              most_drawn_,
+              drawn_limit_,
               depth,
               axes,
               planes,

@@ -70,10 +70,8 @@ public:
     return counts_;
   }
 
-  /** \brief Set the planes of a depth, one after another from 0 on. A node with fewer
-   * than two samples, which only equal ones leave behind, has a plane above all of
-   * them.
-   */
+  /** \brief Set the planes of a depth, one after another from 0 on. A node without two
+   * different samples, which only equal ones leave behind, has a plane above all. */
   void
   findMedians(int depth, const AxisCycle& axes, std::vector<PlaneKey>& planes);
 
@@ -83,7 +81,7 @@ private:
   unsigned threads_;
   std::array<bool, 3> extent_;
   std::vector<std::uint64_t> counts_; // by node number; node 0 is none
-  std::uint64_t most_drawn_;          // as expected
+  std::uint64_t drawn_limit_;         // as expected
   std::vector<NodePosition> drawn_;   // of all processes, of the depth sought last
   bool all_drawn_;
 };

@@ -51,7 +51,8 @@ protected:
     PointStream points(path_);
     OutOfCoreSettings out_of_core;
     out_of_core.max_memory =
-        pcl_uvol::leastOutOfCoreMemory(points.size(), settings.isovalues.size());
+        pcl_uvol::leastOutOfCoreMemory(points.size(), settings.isovalues.size()) +
+        more_memory_;
     out_of_core.scratch_folder = folder_ / "";
     out_of_core.threads = threads;
     report_ = Report();
@@ -90,6 +91,7 @@ protected:
 
   uvol_test::TemporaryFolder folder_;
   std::string path_ = folder_ / "in.pcd";
+  std::uint64_t more_memory_ = 0; // than the least bound
   Report report_;
 };
 
@@ -112,6 +114,18 @@ INSTANTIATE_TEST_SUITE_P(Clouds,
                          [](const auto& shape) {
                            return uvol_test::testNameOf(shape.param);
                          });
+
+/** Blocks are found three levels below pieces. */
+TEST_F(OutOfCore, GivesTheBytesOfMemoryWithLargePieces)
+{
+  save(*uvol_test::makeCloud("clustered", 300000, 6));
+  IsosurfaceSettings settings;
+  settings.field = "intensity";
+  settings.isovalues = {0.3};
+  more_memory_ = 8000000;
+  expectAsInMemory(settings);
+  EXPECT_EQ(2u, report_.getCount("pieces"));
+}
 
 TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
 {

@@ -14,7 +14,11 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <vector>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 namespace {
 
@@ -41,8 +45,7 @@ at(std::uint64_t i, int axis)
   return static_cast<float>(uniformAt(11, i, static_cast<std::uint64_t>(axis)));
 }
 
-/** \param shares per rank, the first and the last position
- * \param passes gets how often each position was asked for at most */
+/** \param passes gets how often each position was asked for at most */
 void
 decompose(const Positions& positions,
           int levels,
@@ -207,7 +210,7 @@ TEST(Decompositions, AreTheTopOfTheTree)
 
 TEST(Decompositions, TakeOnePassOverFew)
 {
-  const Positions positions = makePositions(500, [](std::uint64_t i) {
+  const Positions positions = makePositions(512, [](std::uint64_t i) {
     return Position{{at(i, 0), at(i, 1), at(i, 2)}};
   });
   const auto samples = samplesOf(positions);
@@ -279,6 +282,30 @@ TEST(Decompositions, KeepEqualPositionsTogether)
           passes);
     }
 }
+
+#if defined(__SSE__)
+/** As a library linked with -ffast-math makes them count. */
+TEST(Decompositions, EndWhereDenormalNumbersCountAsZero)
+{
+  const Positions positions = makePositions(200000, [&](std::uint64_t i) {
+    return i % 2 == 0 ? Position{{0.5f, 0.5f, 0.0f}}
+                      : Position{{at(i, 0), at(i, 1), at(i, 2)}};
+  });
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | 0x8040u); // flush them, take them for 0
+  int passes = 0;
+  decompose(
+      positions,
+      3,
+      1,
+      [&](const Decomposition& found) {
+        const std::size_t piece = found.pieceOf(positions[0]);
+        EXPECT_GE(found.getCount(piece), positions.size() / 2);
+      },
+      passes);
+  _mm_setcsr(before);
+}
+#endif
 
 TEST(Decompositions, FindThePiecesThatBallsMeet)
 {

@@ -47,7 +47,8 @@ leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues);
  * the room. The bound holds for the whole process as long as the isosurface itself is
  * small beside it; pieces are made that small.
  * \param report gets the counts and times of IsosurfaceExtraction, the counts "pieces"
- * and "scratch_bytes", and the times of "scratch" and "decomposition"
+ * and "scratch_bytes" (isopoints apart), and the times of "scratch", "decomposition"
+ * and "exchange"
  * \throws InvalidArgument for an unknown field, a bound that is too small, and without
  * a usable sample \throws IOError for a stream that breaks off and a scratch folder
  * that is full or takes no files */

@@ -69,7 +69,8 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue);
  * found there as well. */
 class PCL_UVOL_EXPORTS PieceIsopoints {
 public:
-  /** \param piece with all bricks that touch its cell; must outlive this object
+  /** \param piece with all bricks that touch one of its own which an edge that is
+   * crossed may begin in: all that touch its cell are enough; must outlive this object
    * \param settings must outlive it; its scale is that of the piece
    * \param report gets the times of IsosurfaceExtraction */
   PieceIsopoints(const Piece& piece,

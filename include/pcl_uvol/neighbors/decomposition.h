@@ -78,19 +78,19 @@ public:
   static constexpr int most_levels = 20;
 
   /** \brief Find the medians of all nodes of the first levels, level by level, by
-   * sampled selection (Floyd and Rivest 1975): as a rule one pass over the samples per
-   * level and one more; up to 512 samples, one pass in all. Each process
-   * gets up to 32 MB of positions per pass, or 4 KiB per piece where that is more.
-   * \param positions finite, none of them -0
-   * \param levels 0 to 20: 2^levels pieces
-   * \throws InvalidArgument unless there are as many samples as pieces */
+   * sampled selection (Floyd and Rivest 1975): one pass over the samples and one more
+   * for each of the first levels, two or three for those below; one in all for up to
+   * 512 samples. Each process gets up to 32 MB of positions per pass, or 4 KiB per
+   * piece where that is more. \param positions finite, none of them -0 \param levels 0
+   * to 20: 2^levels pieces \throws InvalidArgument unless there are as many samples as
+   * pieces */
   Decomposition(const PositionSource& positions,
                 int levels,
                 RankGroup& ranks,
                 unsigned threads);
 
   /** \brief The same with more levels, which trees over the pieces have found.
-   * \param levels at least those of the top
+   * \param levels at least those of the top; they may be more than most_levels
    * \param plane_of a node of a piece's tree; no two samples coincide */
   Decomposition(
       const Decomposition& top,

@@ -11,12 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief Samples as plain arrays of others. */
+/** \brief Samples that belong to others. */
 struct SampleSpan {
   const Position* positions;
   const float* values;
@@ -133,7 +134,7 @@ struct LentBrick {
 };
 
 /** \brief The samples of one piece with their tree and, as far as it was borrowed,
- * their halo. Memory: 32 to 40 bytes per sample, 44 more while it is built, 24 more
+ * their halo. Memory: 32 to 40 bytes per sample, 28 more while it is built, 24 more
  * while it borrows. */
 class PCL_UVOL_EXPORTS Piece {
 public:
