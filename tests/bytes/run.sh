@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Runs the commands of a list and prints the SHA-256 of every file that they write, and
+# of their reports, which go without times, bytes of memory and the name of the processor's
+# instruction set.
+# usage: run.sh FOLDER_OF_TOOLS [LIST]
+# The lists of two builds are compared by diff; that of the default commands has to be
+# expected.txt, and a change of results shows there.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+tools=$(cd "$1" && pwd)
+list=$(realpath "${2:-$here/commands.txt}")
+
+# The mathematical functions of the C library round differently with fused
+# multiply-adds: without them all processors give the same digits.
+export GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+while read -r tool arguments; do
+  [[ -z $tool || $tool == \#* ]] && continue
+  files=${arguments%% -*}
+  report=report_of_${files##* }.json
+  # shellcheck disable=SC2086 # arguments are words
+  "$tools/$tool" $arguments -json >"$report.raw" 2>>"$report.raw" ||
+    { echo "failed: $tool $arguments" >&2; cat "$report.raw" >&2; exit 1; }
+  sed -e '/"milliseconds"/,/}/d' -e '/"memory"/d' -e '/"backend"/d' "$report.raw" >"$report"
+  rm "$report.raw"
+done <"$list"
+find . -type f | LC_ALL=C sort | xargs -d '\n' sha256sum
