@@ -96,7 +96,7 @@ levelsFor(std::uint64_t samples, std::size_t isovalues, std::uint64_t max_memory
 /** One extraction. */
 class OutOfCoreExtraction {
 public:
-  OutOfCoreExtraction(const IsosurfaceSettings& settings,
+  OutOfCoreExtraction(const IsosurfaceParameters& settings,
                       const OutOfCoreSettings& out_of_core,
                       Report& report)
       : settings_(settings)
@@ -158,7 +158,7 @@ private:
       const CloudView view = viewOf(block);
       log_->append(readSamples(view,
                                ScalarField(view.fields, settings_.field),
-                               settings_.scale,
+                               toPosition(settings_.scale),
                                begin,
                                out_of_core_.threads,
                                report_));
@@ -195,7 +195,7 @@ private:
       const auto built = Piece::build(*decomposition_,
                                       piece,
                                       load(*decomposition_, piece),
-                                      settings_.scale,
+                                      toPosition(settings_.scale),
                                       out_of_core_.threads,
                                       report_);
       if (!built)
@@ -395,7 +395,7 @@ private:
     Piece piece = *Piece::build(blocks,
                                 block,
                                 load(blocks, block),
-                                settings_.scale,
+                                toPosition(settings_.scale),
                                 out_of_core_.threads,
                                 report_);
     borrow(piece, std::move(loan.bricks));
@@ -426,7 +426,7 @@ private:
     piece.borrow(std::move(bricks), out_of_core_.threads);
   }
 
-  const IsosurfaceSettings& settings_;
+  const IsosurfaceParameters& settings_;
   const OutOfCoreSettings& out_of_core_;
   Report& report_;
   std::unique_ptr<io::SampleLog> log_;
@@ -474,7 +474,7 @@ leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues)
 
 OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report)
 {

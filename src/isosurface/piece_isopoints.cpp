@@ -62,7 +62,7 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue)
 }
 
 PieceIsopoints::PieceIsopoints(const Piece& piece,
-                               const IsosurfaceSettings& settings,
+                               const IsosurfaceParameters& settings,
                                unsigned threads,
                                Report& report)
     : piece_(piece)
@@ -90,7 +90,7 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
     find(input, i);
     std::vector<std::size_t> all(found_[i].size());
     std::iota(all.begin(), all.end(), std::size_t(0));
-    if (settings.interpolation == Interpolation::Smooth)
+    if (settings.interpolation == Interpolation::Fit)
       fit(input, i, all, std::vector<float>(all.size(), 0.0f));
   }
 }
@@ -144,7 +144,8 @@ PieceIsopoints::fit(const IsopointInput& input,
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
     setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
-    Ball ball{stretched(isopoint.linear, settings_.scale), fits[i].radius * slack};
+    Ball ball{stretched(isopoint.linear, toPosition(settings_.scale)),
+              fits[i].radius * slack};
     if (ball.radius <= known[i] || liesWithin(ball, piece_.getCell()))
       continue;
     ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
@@ -208,7 +209,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
     normals.push_back(isopoint.outside);
   }
   const auto stays = mergeCoincident(positions, normals, threads);
-  const bool smooth = interpolation == Interpolation::Smooth;
+  const bool smooth = interpolation == Interpolation::Fit;
   std::vector<RootOutcome> outcomes;
   std::vector<std::uint8_t> supports;
   std::size_t kept = 0;

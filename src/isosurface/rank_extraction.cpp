@@ -65,7 +65,7 @@ get(ByteReader& reader, Samples& samples)
 /** One extraction, as one of the processes sees it. */
 class RankExtraction {
 public:
-  RankExtraction(const IsosurfaceSettings& settings,
+  RankExtraction(const IsosurfaceParameters& settings,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report)
@@ -131,8 +131,12 @@ private:
     sendSamples(samples);
     std::vector<std::uint64_t> coinciding{0};
     for (auto& [index, own] : samples_) {
-      auto piece = Piece::build(
-          *decomposition_, index, std::move(own), settings_.scale, threads_, report_);
+      auto piece = Piece::build(*decomposition_,
+                                index,
+                                std::move(own),
+                                toPosition(settings_.scale),
+                                threads_,
+                                report_);
       if (piece)
         pieces_.emplace(index, std::move(*piece));
       else
@@ -352,7 +356,8 @@ private:
       const auto found = std::move(isopoints).take();
       for (std::size_t i = 0; i < found.size(); ++i)
         for (const GlobalIsopoint& isopoint : found[i]) {
-          const Position place = stretched(isopoint.linear, settings_.scale);
+          const Position place =
+              stretched(isopoint.linear, toPosition(settings_.scale));
           homes[rankOf(decomposition_->pieceOf(place))][i].push_back(isopoint);
         }
     }
@@ -374,7 +379,7 @@ private:
     return own;
   }
 
-  const IsosurfaceSettings& settings_;
+  const IsosurfaceParameters& settings_;
   RankGroup& ranks_;
   unsigned threads_;
   Report& report_;
@@ -451,12 +456,12 @@ readSamples(const CloudView& cloud,
 
 std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report)
 {
-  checkSettings(settings);
+  checkParameters(settings);
   return RankExtraction(settings, ranks, threads, report).extract(std::move(samples));
 }
 

@@ -19,21 +19,6 @@ namespace pcl_uvol {
 
 struct IsopointInput;
 
-/** \brief What IsosurfaceExtraction is told by its setters. */
-struct IsosurfaceSettings {
-  std::string field; ///< see ScalarField
-  std::vector<double> isovalues;
-  Outside outside = Outside::Lower;
-  Interpolation interpolation = Interpolation::Smooth;
-  AngleCriterion criterion = AngleCriterion::Kept;
-  Position scale{{1.0f, 1.0f, 1.0f}};
-};
-
-/** \throws InvalidArgument without an isovalue, for one that is not finite in float and
- * for factors that are not finite and positive */
-PCL_UVOL_EXPORTS void
-checkSettings(const IsosurfaceSettings& settings);
-
 /** \brief Warn of an isovalue that no edge can cross, with the values there are. */
 PCL_UVOL_EXPORTS void
 warnIfOutside(double isovalue,
@@ -74,7 +59,7 @@ public:
    * \param settings must outlive it; its scale is that of the piece
    * \param report gets the times of IsosurfaceExtraction */
   PieceIsopoints(const Piece& piece,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  unsigned threads,
                  Report& report);
 
@@ -117,7 +102,7 @@ private:
       const std::vector<float>& known);
 
   const Piece& piece_;
-  const IsosurfaceSettings& settings_;
+  const IsosurfaceParameters& settings_;
   unsigned threads_;
   Report& report_;
   std::vector<std::vector<GlobalIsopoint>> found_;

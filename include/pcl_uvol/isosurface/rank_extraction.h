@@ -43,7 +43,7 @@ readSamples(const CloudView& cloud,
  * no sample at all. Memory: about 130 bytes per sample. */
 PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report);
