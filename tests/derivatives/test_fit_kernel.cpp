@@ -9,8 +9,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <random>
 #include <vector>
 
@@ -321,7 +319,26 @@ TEST(FitKernel, FailsWhereItMust)
   });
 }
 
-TEST(FitKernel, AllInstructionSetsGiveTheSameBytes)
+/** All numbers of a result, lane by lane. */
+std::vector<double>
+numbersOf(const FitResult& result)
+{
+  std::vector<double> numbers;
+  for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
+    for (const auto& offset : result.offset)
+      numbers.push_back(offset[lane]);
+    for (const auto& gradient : result.gradient)
+      numbers.push_back(gradient[lane]);
+    for (const auto& hessian : result.hessian)
+      numbers.push_back(hessian[lane]);
+    numbers.push_back(result.error[lane]);
+    numbers.push_back(result.residual[lane]);
+    numbers.push_back(result.order[lane]);
+  }
+  return numbers;
+}
+
+TEST(FitKernel, AllInstructionSetsGiveTheSameNumbers)
 {
   Places places;
   Samples s(40);
@@ -330,12 +347,12 @@ TEST(FitKernel, AllInstructionSetsGiveTheSameBytes)
       const Vector3 x = places.next();
       s.add(lane, x, x[0] + 0.3L * std::sin(3 * x[1]) - 0.2L * x[2] * x[2]);
     }
-  FitResult first{};
+  FitResult first;
   baseline::fitZeroLevel(s.samples.data(), s.samples.size(), s.weighted, first);
   uvol_test::forLevels(kernels, [&](FitKernel kernel) {
-    FitResult result{};
+    FitResult result;
     kernel(s.samples.data(), s.samples.size(), s.weighted, result);
-    EXPECT_EQ(0, std::memcmp(&first, &result, sizeof result));
+    EXPECT_EQ(numbersOf(first), numbersOf(result));
   });
 }
 
