@@ -70,27 +70,35 @@ normalOf(const PointIso& point)
   return point.getNormalVector3fMap().cast<double>();
 }
 
-/** Floats hold the squared distance of 64ths exactly: a sphere, whatever the stretch.
- */
-TEST(SmoothRoots, OfASphereAreASphere)
+/** x^T A x has the value 1 on an ellipsoid whose axes lie askew; of 64ths floats hold
+ * the values exactly. */
+TEST(SmoothRoots, OfAnEllipsoidAreAnEllipsoidWhateverTheStretch)
 {
+  Eigen::Matrix3d half_hessian;
+  half_hessian << 1.0, 0.25, 0.0, 0.25, 1.5, -0.25, 0.0, -0.25, 0.75;
+  const Eigen::Matrix3d hessian = 2.0 * half_hessian;
   const auto places = randomPlaces(4000, Vector3d::Constant(-1.5), 1.0 / 64, 193);
-  const auto sq_distance = [](const Vector3d& x) { return x.squaredNorm(); };
+  const auto value = [&](const Vector3d& x) { return x.dot(half_hessian * x); };
   for (const Position scale :
        {Position{{1.0f, 1.0f, 1.0f}}, Position{{1.0f, 1.5f, 0.75f}}})
     for (const Outside outside : {Outside::Lower, Outside::Higher}) {
-      const Roots roots(FieldSamples(places, sq_distance, scale), 1.0f, outside);
+      const Roots roots(FieldSamples(places, value, scale), 1.0f, outside);
       const double side = outside == Outside::Lower ? -1.0 : 1.0;
       ASSERT_GT(roots.points.size(), 500u);
       for (std::size_t i = 0; i < roots.points.size(); ++i) {
         const PointIso& point = roots.points[i];
         ASSERT_LE(roots.fits[i].outcome, RootOutcome::Quadratic);
-        const Vector3d x = positionOf(point);
-        EXPECT_NEAR(1.0, x.norm(), 2e-7);
-        EXPECT_NEAR(0.0, (side * x.normalized() - normalOf(point)).norm(), 2e-6);
-        EXPECT_NEAR(side, point.mean_curvature, 1e-5);
+        const Vector3d x = positionOf(point), gradient = hessian * x;
+        const double slope = gradient.norm(),
+                     deviation = std::abs(value(x) - 1.0) / slope;
+        EXPECT_LE(deviation, 2e-7);
+        EXPECT_NEAR(0.0, (side * gradient / slope - normalOf(point)).norm(), 2e-6);
+        const Vector3d normal = gradient / slope;
+        const double curvature =
+            (hessian.trace() - normal.dot(hessian * normal)) / (2.0 * slope);
+        EXPECT_NEAR(side * curvature, point.mean_curvature, 1e-5);
         // An estimate, but never less than what floats round.
-        EXPECT_GE(point.error, std::abs(x.norm() - 1.0));
+        EXPECT_GE(point.error, deviation);
         EXPECT_LE(point.error, 1e-6);
       }
     }
