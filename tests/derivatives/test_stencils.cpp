@@ -157,6 +157,7 @@ TEST(Stencils, WeightsAreThoseOfTheFitToHalfAStep)
     if (!block.isInside(i))
       continue;
     std::vector<std::uint32_t> others;
+    others.reserve(neighbors);
     for (std::size_t j = 0; j < neighbors; ++j)
       others.push_back(block.neighbor(i, j));
     ASSERT_EQ(FitOutcome::Full,

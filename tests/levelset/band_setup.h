@@ -70,6 +70,7 @@ struct PlaneBand {
   bySample(const Function& function) const
   {
     std::vector<float> values;
+    values.reserve(samples->size());
     for (std::uint32_t i = 0; i < samples->size(); ++i)
       values.push_back(static_cast<float>(unit * function(place(i))));
     return values;

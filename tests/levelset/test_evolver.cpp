@@ -186,13 +186,14 @@ TEST(Evolver, RelativeFlowLeavesWhatIsCurvedLikeItsSurroundings)
 /** Where all move at one speed, steps of many lengths come to the same. */
 TEST(Evolver, AsynchronousStepsArriveTogether)
 {
+  constexpr double mu = 0.2; // so that stiffness, which differs, makes the steps
   Motion motion(makeParameters(Integration::Asynchronous),
-                0.9,
+                mu,
                 height,
                 [](const Vector3d& x) { return x[2] + 30.0; });
-  EXPECT_GT(motion.evolver.getUpdates(), block().band.centers.size());
+  EXPECT_GT(2 * motion.evolver.getUpdates(), 3 * block().band.centers.size());
   motion.evolver.advance();
-  const double way = 0.9 * motion.evolver.getStep() * block().spacing / block().unit;
+  const double way = mu * motion.evolver.getStep() * block().spacing / block().unit;
   std::size_t inside = 0, exact = 0;
   for (std::size_t i = 0; i < block().band.centers.size(); ++i)
     if (isInside(i)) {
