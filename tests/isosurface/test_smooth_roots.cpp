@@ -44,7 +44,7 @@ struct Roots {
 
   Roots(const FieldSamples& field, float isovalue, Outside outside = Outside::Lower)
   {
-    const IsopointInput input = field.input(outside, Interpolation::Smooth);
+    const IsopointInput input = field.input(outside, Interpolation::Fit);
     Report report;
     const auto crossing = input.candidates.findCrossing(input.ranges, isovalue, 1);
     for (const EdgeKey key : findEdges(input, crossing, isovalue, report)) {

@@ -31,7 +31,6 @@ makeParameters(Integration integration, CurvatureFlow flow = CurvatureFlow::Mean
   parameters.integration = integration;
   parameters.flow = flow;
   parameters.reinitialization = Reinitialization::None;
-  parameters.threads = 1;
   return parameters;
 }
 
@@ -50,7 +49,7 @@ struct Motion {
       : parameters(of)
       , term(makeTerm(target))
       , phi(block().byPlace(function))
-      , evolver(block().band, parameters, block().spacing, mu, phi, term)
+      , evolver(block().band, parameters, 1, block().spacing, mu, phi, term)
   {
   }
 
