@@ -233,6 +233,7 @@ TEST(TileFinisher, TilesAreTheWholeImage)
                                                : SmoothingFilter::None;
     settings.smoothing_iterations = passes.smoothings;
     settings.silhouettes = passes.thickness > 0;
+    settings.silhouette_threshold = 1.0; // so that lines are faint among such depths
     settings.silhouette_thickness = std::max(passes.thickness, 1);
     settings.feature_lines = passes.has_features;
     settings.anti_aliasing = passes.anti_aliases;
