@@ -130,7 +130,7 @@ public:
       warnOfStepLimit();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    return {phiOfCloud(), summary_};
+    return {phiOfCloud(), std::move(sources_), summary_};
   }
 
 private:
@@ -170,7 +170,9 @@ private:
                             " distinct samples: a stencil of " +
                             std::to_string(parameters_.k) +
                             " neighbours needs at least one more than that.");
-    f_ = gatherValues(*samples_, values, threads_, report_).values;
+    SampleValues scalar = gatherValues(*samples_, values, threads_, report_);
+    f_ = std::move(scalar.values);
+    sources_ = std::move(scalar.sources);
     const auto [low, high] = std::minmax_element(f_.begin(), f_.end());
     if (!(*low < isovalue && isovalue <= *high)) {
       std::ostringstream text;
@@ -245,7 +247,7 @@ private:
     if (initial.kind == InitialKind::Field) {
       const ScalarField field(cloud.fields, initial.field_name);
       for (std::size_t i = 0; i < samples_->size(); ++i) {
-        const double value = field.read(cloud.point(samples_->getInputIndex(i)));
+        const double value = field.read(cloud.point(sources_[i]));
         if (!std::isfinite(value))
           throw InvalidArgument("The field " + field.getName() +
                                 " that the level set starts from is not finite "
@@ -431,7 +433,8 @@ private:
   std::size_t cloud_size_ = 0;
   double largest_phi_ = 0.0;
   SampleSet::ConstPtr samples_;
-  std::vector<float> f_;   ///< minus the isovalue, by sample
+  std::vector<float> f_;               ///< minus the isovalue, by sample
+  std::vector<std::uint32_t> sources_; ///< by sample, the points that they are of
   std::vector<float> phi_; ///< by sample; in the band as it was when that was made
   std::optional<Band> band_;
   DataTerm term_;

@@ -73,8 +73,9 @@ gatherValues(const SampleSet& samples,
         }
       });
   std::uint64_t conflicting = 0;
+  std::vector<std::uint32_t> members;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
-    std::vector<std::uint32_t> members = merged.members;
+    members.assign(merged.members.begin(), merged.members.end());
     const std::uint32_t source = representativeOf(
         members, [&](auto member) { return input_values[member]; }, conflicting);
     scalar.values[merged.sample] = input_values[source];

@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/neighbors/kd_tree.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace pcl_uvol {
 /** \brief Finite, distinct samples in leaf order with the tree over them.
  *
  * "Sample index" means leaf order, which depends on coordinates alone; getInputIndex
- * gives the index in the input cloud. Memory: 24 bytes per sample.
+ * gives the index in the input cloud. Memory: 26 to 36 bytes per sample.
  *
  * A set may be a piece of a larger one: it then holds, besides its own samples, some of
  * other pieces around them, its halo, each block of which has a tree of its own.
@@ -35,6 +36,10 @@ public:
     std::size_t own = 0;             ///< the tree of the piece; the others are its halo
     Position scale{{1.0f, 1.0f, 1.0f}};
   };
+
+  SampleSet(const SampleSet&) = delete;
+  SampleSet&
+  operator=(const SampleSet&) = delete;
 
   /** \brief A piece; it knows no input indices. */
   explicit SampleSet(Parts&& parts)
@@ -110,7 +115,7 @@ public:
   /** \brief A sample that stands for several input points. */
   struct Merged {
     std::uint32_t sample;
-    std::vector<std::uint32_t> members; ///< input indices, ascending
+    NeighborGraph::Row members; ///< input indices, ascending; they live in the set
   };
 
   /** \brief All samples that stand for several input points, by sample index. */
@@ -126,6 +131,7 @@ private:
   Parts parts_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<Merged> merged_;
+  std::vector<std::uint32_t> members_; ///< of all merged samples
 };
 
 } // namespace pcl_uvol
