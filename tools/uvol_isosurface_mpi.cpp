@@ -166,14 +166,12 @@ extract(const Arguments& arguments,
     pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
   const std::uint64_t first_row = pcl_uvol::findFirstRow(part.cloud.width, ranks);
   const auto view = pcl_uvol::viewOf(part.cloud);
+  const pcl_uvol::ScalarField scalar(view.fields, field);
+  const auto frame = pcl_uvol::findValueFrame(view, scalar, ranks, threads);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
-      pcl_uvol::readSamples(view,
-                            {view.fields, field},
-                            pcl_uvol::toPosition(parameters.scale),
-                            first_row,
-                            threads,
-                            report),
+      pcl_uvol::readSamples(view, scalar, frame, first_row, threads, report),
       parameters,
+      frame,
       ranks,
       threads,
       report);

@@ -100,10 +100,10 @@ public:
                       const OutOfCoreSettings& out_of_core,
                       Report& report)
       : settings_(settings)
+      , isovalues_(settings.isovalues)
       , out_of_core_(out_of_core)
       , report_(report)
-      , log_(std::make_unique<io::SampleLog>(out_of_core.scratch_folder,
-                                             out_of_core.threads))
+      , log_(makeLog())
   {
   }
 
@@ -150,23 +150,82 @@ private:
   readPoints(PointStream& points)
   {
     StepTimer step(report_, "scratch", points.size());
+    Report read;
+    ReadRanges ranges = logPoints(points, step, read);
+    // Nearly always float holds the values as they are.
+    if (const ValueFrame frame = ranges.values.findFrame(); !(frame == frame_)) {
+      frame_ = frame;
+      for (double& isovalue : settings_.isovalues)
+        isovalue = frame.apply(isovalue);
+      log_ = makeLog();
+      points.seek(0);
+      read = Report();
+      ranges = logPoints(points, step, read);
+    }
+    report_.merge(read);
+    if (log_->size() == 0)
+      throw InvalidArgument("No sample has a position and a finite value of " +
+                            settings_.field + ".");
+    const LengthUnit unit = ranges.positions.findUnit(toPosition(settings_.scale));
+    settings_.scale = {unit.scale[0], unit.scale[1], unit.scale[2]};
+    if (ranges.positions.reachesBeyond(unit))
+      dropStrays(unit);
+    else
+      log_->setUnit(unit);
+  }
+
+  std::unique_ptr<io::SampleLog>
+  makeLog() const
+  {
+    return std::make_unique<io::SampleLog>(out_of_core_.scratch_folder,
+                                           out_of_core_.threads);
+  }
+
+  /** What there is among the points. */
+  struct ReadRanges {
+    MagnitudeCounts positions;
+    ValueRange values;
+  };
+
+  ReadRanges
+  logPoints(PointStream& points, StepTimer& step, Report& read)
+  {
+    ReadRanges ranges;
     pcl::PCLPointCloud2 block;
     const std::size_t count =
         std::max<std::size_t>(block_bytes / points.getHeader().cloud.point_step, 1);
     for (std::uint64_t begin = points.tell(); points.read(count, block) > 0;
          begin = points.tell()) {
       const CloudView view = viewOf(block);
-      log_->append(readSamples(view,
-                               ScalarField(view.fields, settings_.field),
-                               toPosition(settings_.scale),
-                               begin,
-                               out_of_core_.threads,
-                               report_));
+      const ScalarField field(view.fields, settings_.field);
+      const Samples samples =
+          readSamples(view, field, frame_, begin, out_of_core_.threads, read);
+      ranges.values.add(findValueRange(view, field, out_of_core_.threads));
+      ranges.positions.add(countMagnitudes(
+          samples.size(),
+          [&](std::size_t i) { return samples.positions[i]; },
+          toPosition(settings_.scale),
+          out_of_core_.threads));
+      log_->append(samples);
       step.advance(view.count);
     }
-    if (log_->size() == 0)
-      throw InvalidArgument("No sample has a position and a finite value of " +
-                            settings_.field + ".");
+    return ranges;
+  }
+
+  /** Bring the log into a unit in which some samples are no samples. */
+  void
+  dropStrays(const LengthUnit& unit)
+  {
+    auto kept = makeLog();
+    Strays strays;
+    log_->take([&](Samples& samples) {
+      strays.add(samples.normalize(unit));
+      kept->append(samples);
+    });
+    log_ = std::move(kept);
+    if (strays.count > 0)
+      report_.count("strays", strays.count);
+    strays.warn(report_);
   }
 
   /** Part the samples, order those of each piece. \return false if some coincide: the
@@ -223,8 +282,7 @@ private:
   void
   mergeInPieces()
   {
-    log_ = std::make_unique<io::SampleLog>(out_of_core_.scratch_folder,
-                                           out_of_core_.threads);
+    log_ = makeLog();
     for (std::size_t piece = 0; piece < decomposition_->size(); ++piece) {
       Samples samples = load(*decomposition_, piece);
       store_->release(decomposition_->getBegin(piece), samples.size());
@@ -280,8 +338,8 @@ private:
     NodeRanges::Range range = ranges_.front();
     for (const NodeRanges::Range& other : ranges_)
       range = range.joined(other);
-    for (const double isovalue : settings_.isovalues)
-      warnIfOutside(isovalue, settings_.field, range, report_);
+    for (const double isovalue : isovalues_)
+      warnIfOutside(isovalue, settings_.field, range, frame_, report_);
   }
 
   /** The pieces, parted further by their trees, so that those which the surface does
@@ -426,7 +484,9 @@ private:
     piece.borrow(std::move(bricks), out_of_core_.threads);
   }
 
-  const IsosurfaceParameters& settings_;
+  IsosurfaceParameters settings_;       // as the samples are: in their unit and frame
+  const std::vector<double> isovalues_; // of the field
+  ValueFrame frame_;
   const OutOfCoreSettings& out_of_core_;
   Report& report_;
   std::unique_ptr<io::SampleLog> log_;

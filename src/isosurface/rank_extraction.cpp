@@ -65,11 +65,17 @@ get(ByteReader& reader, Samples& samples)
 /** One extraction, as one of the processes sees it. */
 class RankExtraction {
 public:
+  /** \param settings with the scale and the isovalues of the samples
+   * \param isovalues those of the field */
   RankExtraction(const IsosurfaceParameters& settings,
+                 const std::vector<double>& isovalues,
+                 const ValueFrame& frame,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report)
       : settings_(settings)
+      , isovalues_(isovalues)
+      , frame_(frame)
       , ranks_(ranks)
       , threads_(threads)
       , report_(report)
@@ -260,8 +266,8 @@ private:
     }
     for (const NodeRanges::Range& range : gatherItems(ranks_, ranges))
       extend(range.min, range.max);
-    for (const double isovalue : settings_.isovalues)
-      warnIfOutside(isovalue, settings_.field, ranges[0], report_);
+    for (const double isovalue : isovalues_)
+      warnIfOutside(isovalue, settings_.field, ranges[0], frame_, report_);
   }
 
   void
@@ -379,7 +385,9 @@ private:
     return own;
   }
 
-  const IsosurfaceParameters& settings_;
+  const IsosurfaceParameters& settings_; // in the samples' unit and frame
+  const std::vector<double>& isovalues_; // of the field
+  ValueFrame frame_;
   RankGroup& ranks_;
   unsigned threads_;
   Report& report_;
@@ -391,25 +399,59 @@ private:
   std::set<std::pair<std::size_t, std::uint64_t>> lent_; // to balls: borrower, brick
 };
 
+/** Bring the samples of all processes into one unit. \return the scale with it */
+Position
+normalizeTogether(Samples& samples,
+                  const Position& scale,
+                  RankGroup& ranks,
+                  unsigned threads,
+                  Report& report)
+{
+  const auto position_at = [&](std::size_t i) { return samples.positions[i]; };
+  MagnitudeCounts counts = countMagnitudes(samples.size(), position_at, scale, threads);
+  ranks.sum(counts.getCounts());
+  const LengthUnit unit = counts.findUnit(scale);
+  const std::vector<Strays> own{samples.normalize(unit)};
+  if (own[0].count > 0)
+    report.count("strays", own[0].count);
+  Strays all;
+  for (const Strays& strays : gatherItems(ranks, own))
+    all.add(strays);
+  all.warn(report);
+  return unit.scale;
+}
+
 } // namespace
+
+ValueFrame
+findValueFrame(const CloudView& cloud,
+               const ScalarField& field,
+               RankGroup& ranks,
+               unsigned threads)
+{
+  const std::vector<ValueRange> own{findValueRange(cloud, field, threads)};
+  ValueRange all;
+  for (const ValueRange& other : gatherItems(ranks, own))
+    all.add(other);
+  return all.findFrame();
+}
 
 Samples
 readSamples(const CloudView& cloud,
             const ScalarField& field,
-            const Position& scale,
+            const ValueFrame& frame,
             std::uint64_t first_source,
             unsigned threads,
             Report& report)
 {
   const StepTimer timer(report, "scalar");
-  const std::vector<float> values = readValues(cloud, field, threads);
-  const auto position_of = [&](std::size_t i) {
+  const std::vector<float> values = readValues(cloud, field, frame, threads);
+  const auto position_of = [&](std::size_t i) -> Position {
     const float* const xyz = cloud.xyz(i);
-    return stretched({{xyz[0], xyz[1], xyz[2]}}, scale);
+    return {{xyz[0], xyz[1], xyz[2]}};
   };
   const auto is_sample = [&](std::size_t i, const Position& position) {
-    return !std::isnan(values[i]) && std::isfinite(position[0]) &&
-           std::isfinite(position[1]) && std::isfinite(position[2]);
+    return !std::isnan(values[i]) && isFinite(position);
   };
   struct Counts {
     std::size_t samples, no_value, non_finite;
@@ -457,12 +499,20 @@ readSamples(const CloudView& cloud,
 std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
                  const IsosurfaceParameters& settings,
+                 const ValueFrame& frame,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report)
 {
   checkParameters(settings);
-  return RankExtraction(settings, ranks, threads, report).extract(std::move(samples));
+  IsosurfaceParameters normalized = settings;
+  const Position scale =
+      normalizeTogether(samples, toPosition(settings.scale), ranks, threads, report);
+  normalized.scale = {scale[0], scale[1], scale[2]};
+  for (double& isovalue : normalized.isovalues)
+    isovalue = frame.apply(isovalue);
+  return RankExtraction(normalized, settings.isovalues, frame, ranks, threads, report)
+      .extract(std::move(samples));
 }
 
 std::vector<std::vector<GlobalIsopoint>>

@@ -115,6 +115,25 @@ struct MeetingBalls {
 
 } // namespace
 
+Strays
+Samples::normalize(const LengthUnit& unit)
+{
+  Strays strays;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Position position = unit.apply(positions[i]);
+    if (!LengthUnit::isWithin(position)) {
+      strays.add(sources[i], positions[i]);
+      continue;
+    }
+    positions[kept] = position;
+    values[kept] = values[i];
+    sources[kept++] = sources[i];
+  }
+  resize(kept);
+  return strays;
+}
+
 void
 Samples::reserve(std::size_t count)
 {
@@ -226,7 +245,7 @@ Piece::Piece(const Decomposition& decomposition,
     , axes_(decomposition.getAxes())
 {
   SampleSet::Parts parts;
-  parts.scale = scale;
+  parts.unit.scale = scale;
   parts.positions = std::move(samples.positions);
   parts.trees.push_back(std::move(tree));
   placeTrees(parts, {runs_[0].cell});
@@ -404,7 +423,7 @@ Piece::join(const std::vector<LentBrick>& bricks, std::vector<KdTree>&& trees)
   });
 
   SampleSet::Parts parts;
-  parts.scale = old.scale;
+  parts.unit = old.unit;
   Samples joined;
   joined.reserve(total);
   joined.positions.reserve(total + anchors_per_cell * blocks.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/length_unit.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
@@ -13,33 +14,45 @@ namespace {
 
 constexpr std::size_t block_samples = 1u << 14;
 
+/** What became of points of a block. */
+struct Gathered {
+  std::size_t records = 0, non_finite = 0;
+  Strays strays;
+};
+
+/** Records of the points that are samples. \param all gets what became of the others */
 std::vector<SampleRecord>
 gatherRecords(const float* xyz,
               std::size_t stride,
               const std::vector<std::uint32_t>& use,
-              const Position& scale,
-              unsigned threads)
+              const LengthUnit& unit,
+              unsigned threads,
+              Gathered& all)
 {
   std::vector<SampleRecord> records(use.size());
-  std::vector<std::size_t> finite((use.size() + block_samples - 1) / block_samples);
+  std::vector<Gathered> blocks((use.size() + block_samples - 1) / block_samples);
   parallelBlocks(
       use.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        std::size_t next = begin;
+        Gathered& block = blocks[begin / block_samples];
         for (std::size_t i = begin; i < end; ++i) {
           const float* const point = xyz + use[i] * stride;
-          const Position position = stretched({{point[0], point[1], point[2]}}, scale);
-          if (std::isfinite(position[0]) && std::isfinite(position[1]) &&
-              std::isfinite(position[2]))
-            records[next++] = {position, use[i]};
+          const Position raw{{point[0], point[1], point[2]}};
+          const Position position = unit.apply(raw);
+          if (unit.isWithin(position))
+            records[begin + block.records++] = {position, use[i]};
+          else if (isFinite(raw))
+            block.strays.add(use[i], raw);
+          else
+            ++block.non_finite;
         }
-        finite[begin / block_samples] = next - begin;
       });
   auto end = records.begin();
-  for (std::size_t block = 0; block < finite.size(); ++block) {
-    const auto begin =
-        records.begin() + static_cast<std::ptrdiff_t>(block * block_samples);
-    const auto last = begin + static_cast<std::ptrdiff_t>(finite[block]);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto begin = records.begin() + static_cast<std::ptrdiff_t>(i * block_samples);
+    const auto last = begin + static_cast<std::ptrdiff_t>(blocks[i].records);
     end = begin == end ? last : std::move(begin, last, end);
+    all.non_finite += blocks[i].non_finite;
+    all.strays.add(blocks[i].strays);
   }
   records.erase(end, records.end());
   return records;
@@ -124,9 +137,31 @@ SampleSet::build(const float* xyz,
                  unsigned threads,
                  Report& report)
 {
+  const auto position_at = [&](std::size_t i) -> Position {
+    const float* const point = xyz + use[i] * stride;
+    return {{point[0], point[1], point[2]}};
+  };
+  const LengthUnit unit =
+      countMagnitudes(use.size(), position_at, scale, threads).findUnit(scale);
+  return buildInUnit(xyz, stride, use, unit, threads, report);
+}
+
+SampleSet::ConstPtr
+SampleSet::buildInUnit(const float* xyz,
+                       std::size_t stride,
+                       const std::vector<std::uint32_t>& use,
+                       const LengthUnit& unit,
+                       unsigned threads,
+                       Report& report)
+{
   StepTimer step(report, "tree", use.size());
-  std::vector<SampleRecord> records = gatherRecords(xyz, stride, use, scale, threads);
-  report.count("non_finite", use.size() - records.size());
+  Gathered gathered;
+  std::vector<SampleRecord> records =
+      gatherRecords(xyz, stride, use, unit, threads, gathered);
+  report.count("non_finite", gathered.non_finite);
+  if (gathered.strays.count > 0)
+    report.count("strays", gathered.strays.count);
+  gathered.strays.warn(report);
   if (records.empty())
     throw InvalidArgument("The cloud has no usable sample: all " +
                           std::to_string(use.size()) +
@@ -135,7 +170,7 @@ SampleSet::build(const float* xyz,
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);
   Parts& parts = set->parts_;
-  parts.scale = scale;
+  parts.unit = unit;
   KdTree& tree = parts.trees.emplace_back();
   const std::size_t finite = records.size();
   if (!tree.build(records, threads, step)) {

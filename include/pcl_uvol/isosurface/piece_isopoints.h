@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/value_frame.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/neighbors/piece.h>
 
@@ -19,11 +20,13 @@ namespace pcl_uvol {
 
 struct IsopointInput;
 
-/** \brief Warn of an isovalue that no edge can cross, with the values there are. */
+/** \brief Warn of an isovalue that no edge can cross, with the values there are.
+ * \param range in the frame */
 PCL_UVOL_EXPORTS void
 warnIfOutside(double isovalue,
               const std::string& field,
               const NodeRanges::Range& range,
+              const ValueFrame& frame,
               Report& report);
 
 /** \brief An isopoint, and what it takes to tell it from those of other pieces. */

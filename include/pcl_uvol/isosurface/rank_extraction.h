@@ -15,14 +15,23 @@
 
 namespace pcl_uvol {
 
-/** \brief The samples of a cloud that have a value and a position.
- * \param scale factors per axis
+/** \brief Where float holds the values of the clouds of all processes well: what
+ * samples and an extraction from them need. */
+PCL_UVOL_EXPORTS ValueFrame
+findValueFrame(const CloudView& cloud,
+               const ScalarField& field,
+               RankGroup& ranks,
+               unsigned threads);
+
+/** \brief The samples of a cloud that have a value and a position, as it is in the
+ * cloud.
+ * \param frame of the values
  * \param first_source source of point 0; point i has i more
  * \param report gets the counts "no_value" and "non_finite" and the time of "scalar" */
 PCL_UVOL_EXPORTS Samples
 readSamples(const CloudView& cloud,
             const ScalarField& field,
-            const Position& scale,
+            const ValueFrame& frame,
             std::uint64_t first_source,
             unsigned threads,
             Report& report);
@@ -35,15 +44,17 @@ readSamples(const CloudView& cloud,
  * samples, along the cuts and around isopoints close to them: what is sent after the
  * samples were dealt out grows with the cuts, not with the samples. The isopoints of
  * all processes together are those of IsosurfaceExtraction with the same settings, byte
- * for byte. \param samples of this process; there may be none \return per isovalue the
- * isopoints that lie in this process's pieces, ordered by their edges \param report
- * gets the counts, times and warnings of IsosurfaceExtraction for this process, the
- * counts "pieces", "bytes_dealt_out" and "bytes_exchanged", and the times of
- * "decomposition" and "exchange" \throws InvalidArgument on all processes if there is
- * no sample at all. Memory: about 130 bytes per sample. */
+ * for byte. \param samples of this process, values in the frame of the settings; there
+ * may be none \return per isovalue the isopoints that lie in this process's pieces,
+ * ordered by their edges \param report gets the counts, times and warnings of
+ * IsosurfaceExtraction for this process, the counts "pieces", "bytes_dealt_out" and
+ * "bytes_exchanged", and the times of "decomposition" and "exchange" \throws
+ * InvalidArgument on all processes if there is no sample at all. Memory: about 130
+ * bytes per sample. */
 PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
                  const IsosurfaceParameters& settings,
+                 const ValueFrame& frame,
                  RankGroup& ranks,
                  unsigned threads,
                  Report& report);

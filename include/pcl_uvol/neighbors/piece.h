@@ -27,7 +27,7 @@ struct SampleSpan {
 
 /** \brief Samples as plain arrays, in leaf order once they are part of a piece. */
 struct PCL_UVOL_EXPORTS Samples {
-  std::vector<Position> positions; ///< stretched by the scale; finite, none of them -0
+  std::vector<Position> positions; ///< finite; once normalised, none of them -0
   std::vector<float> values;       ///< finite
   std::vector<std::uint64_t>
       sources; ///< where each comes from: an index of the caller's
@@ -62,6 +62,10 @@ struct PCL_UVOL_EXPORTS Samples {
 
   void
   append(const SampleSpan& others);
+
+  /** \brief Bring positions as they were read into a unit. \return what is left out */
+  Strays
+  normalize(const LengthUnit& unit);
 };
 
 /** \brief A subtree of some hundred samples, the unit in which pieces lend samples to
