@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "metric_finder.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Room for rounding: a box must not seem farther than a sample in it. */
+constexpr double slack = 1.0 + 1e-9;
+
+} // namespace
+
+double
+MetricFinder::sqBound(const Corner& low, const Corner& high) const
+{
+  // Across the faces of the box: where samples of the same distance begin.
+  double bound = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double offset = std::max({0.0, low[axis], -high[axis]});
+    bound =
+        std::max(bound, offset * offset / sq_extent_[static_cast<Eigen::Index>(axis)]);
+  }
+  // Across the axes of the metric: the image of the box lies between two planes.
+  double image = 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    double least = 0.0, most = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double factor = metric_(i, static_cast<Eigen::Index>(axis));
+      if (factor == 0.0) // the box may be infinite
+        continue;
+      const double a = factor * low[axis], b = factor * high[axis];
+      least += std::min(a, b);
+      most += std::max(a, b);
+    }
+    const double offset = std::max({0.0, least, -most});
+    image += offset * offset;
+  }
+  return std::max(bound, image);
+}
+
+bool
+MetricFinder::isTooFar(const Corner& low, const Corner& high) const
+{
+  return nearest_.size() == k_ && sqBound(low, high) > slack * nearest_.front().first;
+}
+
+void
+MetricFinder::descend(const KdTree& tree, const KdNode& node, Corner& low, Corner& high)
+{
+  if (node.isLeaf()) {
+    const Position& x = samples_.getPositions()[node.begin];
+    Eigen::Vector3d offset;
+    for (int axis = 0; axis < 3; ++axis)
+      offset[axis] = static_cast<double>(x[axis]) - point_[axis];
+    const std::pair<double, std::uint32_t> found((metric_ * offset).squaredNorm(),
+                                                 node.begin);
+    if (nearest_.size() == k_) {
+      if (!(found < nearest_.front()))
+        return;
+      std::pop_heap(nearest_.begin(), nearest_.end());
+      nearest_.pop_back();
+    }
+    nearest_.push_back(found);
+    std::push_heap(nearest_.begin(), nearest_.end());
+    return;
+  }
+  const int axis = tree.getAxis(node.depth);
+  const auto a = static_cast<std::size_t>(axis);
+  const double plane =
+      static_cast<double>(tree.getPlane(node).coordinate) - point_[axis];
+  for (const bool below : {plane >= 0.0, plane < 0.0}) {
+    double& face = below ? high[a] : low[a];
+    const double old_face = std::exchange(face, plane);
+    if (!isTooFar(low, high))
+      descend(tree, below ? node.left() : node.right(), low, high);
+    face = old_face;
+  }
+}
+
+const std::vector<std::uint32_t>&
+MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
+{
+  point_ = point;
+  metric_ = metric;
+  sq_extent_ = metric.inverse().rowwise().squaredNorm();
+  nearest_.clear();
+  const KdTree& own = samples_.getTree();
+  const auto search = [&](const KdTree& tree) {
+    Corner low, high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = point[static_cast<int>(axis)];
+      low[axis] = tree.getCell().low[axis].coordinate - place;
+      high[axis] = tree.getCell().high[axis].coordinate - place;
+    }
+    if (!isTooFar(low, high))
+      descend(tree, tree.getRoot(), low, high);
+  };
+  search(own);
+  for (const KdTree& tree : samples_.getTrees())
+    if (&tree != &own)
+      search(tree);
+  reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first);
+  found_.clear();
+  for (const auto& neighbor : nearest_)
+    found_.push_back(neighbor.second);
+  std::sort(found_.begin(), found_.end());
+  return found_;
+}
+
+} // namespace pcl_uvol

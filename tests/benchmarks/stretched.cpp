@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isosurfaces of samples that lie denser along one direction than along others: how far
+// isopoints lie from the true surface, and how many know that they rest on samples.
+#include "support/stretched_samples.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+using Surface = pcl::PointCloud<PointIso>;
+
+void
+printRow(const std::string& shape, double ratio, int side)
+{
+  const auto n = static_cast<std::size_t>(side) * side * side;
+  const auto field = uvol_test::makeSmoothField("radial", n);
+  const auto samples = uvol_test::makeStretchedSamples(shape, ratio, side);
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(samples.sample(field, side, 1));
+  extraction.setIsoValue(field.isovalue);
+  Surface surface;
+  extraction.extract(surface); // builds the tree
+  const auto start = std::chrono::steady_clock::now();
+  extraction.extract(surface);
+  const std::chrono::duration<double, std::micro> spent =
+      std::chrono::steady_clock::now() - start;
+  const auto found = uvol_test::deviations(field, samples.inIndexSpace(surface));
+  const auto points = static_cast<double>(surface.size());
+  const auto part = [&](const char* name) {
+    return 100.0 * static_cast<double>(extraction.getReport().getCount(name)) / points;
+  };
+  std::printf("%-9s %5.3g %7zu %9.2g %9.2g %6.1f %6.1f %6.1f %7.2f\n",
+              shape.c_str(),
+              ratio,
+              surface.size(),
+              uvol_test::mean(found),
+              uvol_test::quantile(found, 0.999),
+              part("linear_singular") + part("linear_step") + part("linear_far"),
+              part("bridged"),
+              part("rim"),
+              spent.count() / points);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+/** stretched SIDE SHAPE... : one row per shape and ratio. */
+int
+main(int argc, char** argv)
+{
+  if (argc < 3) {
+    std::fputs("usage: stretched SIDE lattice|rotated|wall|curved|jittered|shaken...\n",
+               stderr);
+    return 2;
+  }
+  std::puts("# shape    ratio  points      mean    99.9_% linear_% bridged_% rim_% "
+            "us/point");
+  for (int i = 2; i < argc; ++i)
+    for (const double ratio : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0, 30.0})
+      printRow(argv[i], ratio, std::atoi(argv[1]));
+  return 0;
+}
