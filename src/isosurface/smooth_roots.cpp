@@ -118,7 +118,8 @@ public:
   RootSmoother(const IsopointInput& input, float isovalue)
       : input_(input)
       , finder_(input.samples, fitted_samples + 1)
-      , metrics_(input.samples, fitted_samples + 1)
+      , nearest_(input.samples, fitted_samples + 1)
+      , metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , cone_(cone_kernels.get())
@@ -205,19 +206,19 @@ private:
       if (lane >= count)
         continue;
       const auto& [i, center, pivot] = doubtful[lane];
-      const auto nearest = finder_.find(center, fits[i].radius);
-      const auto outcome = metrics_.find(
-          center,
-          nearest.samples,
-          nearest.size,
+      const Position& end = input_.samples.getPositions()[edges[i].first];
+      const bool is_stretched = metrics_.find(
+          edges[i].first,
           pivot < worthless_pivot ? little_stretching : LocalMetricFinder::even_ratio);
-      fits[i].radius =
-          std::max(fits[i].radius, static_cast<float>(metrics_.getReach()));
-      if (outcome == LocalMetricFinder::Outcome::Stretched) {
+      double reach = metrics_.getReach() + distance(end, center);
+      if (is_stretched) {
         metrics[lane] = metrics_.getMetric();
         ratios[lane] = metrics_.getRatio();
-        weighted[lane] = gatherStretched(center, edges[i], lane, surroundings[lane]);
+        weighted[lane] =
+            gatherStretched(metrics[lane], center, edges[i], lane, surroundings[lane]);
+        reach = std::max(reach, nearest_.getReach());
       }
+      fits[i].radius = std::max(fits[i].radius, static_cast<float>(reach));
     }
     FitResult result;
     fit_(samples_.data(), samples_.size(), weighted, result);
@@ -287,9 +288,10 @@ private:
                 surroundings);
   }
 
-  /** The same with the neighbours and in the metric just found. */
+  /** The same in another metric. */
   int
-  gatherStretched(const Position& center,
+  gatherStretched(const Eigen::Matrix3d& metric,
+                  const Position& center,
                   const IsoEdge& edge,
                   std::size_t lane,
                   Surroundings& surroundings)
@@ -299,12 +301,12 @@ private:
       Eigen::Vector3d offset;
       for (int axis = 0; axis < 3; ++axis)
         offset[axis] = static_cast<double>(x[axis]) - origin[axis];
-      return Eigen::Vector3d(metrics_.getMetric() * offset);
+      return Eigen::Vector3d(metric * offset);
     };
     surroundings.center = center;
     surroundings.edge_length =
         image(edge.second, input_.samples.getPositions()[edge.first]).norm();
-    const std::vector<std::uint32_t>& neighbors = metrics_.getNearest();
+    const std::vector<std::uint32_t>& neighbors = nearest_.find(center, metric);
     double sq_nearest = std::numeric_limits<double>::infinity(), sq_farthest = 0.0;
     for (std::size_t j = 0; j < neighbors.size(); ++j) {
       const Eigen::Vector3d u = image(neighbors[j], center);
@@ -475,6 +477,7 @@ private:
   alignas(64) float direction_[3][direction_room]; // to the neighbours
   const IsopointInput& input_;
   NearestFinder finder_;
+  MetricFinder nearest_;
   LocalMetricFinder metrics_;
   std::vector<DoubtfulFit> doubtful_;
   std::vector<FitSample> samples_;

@@ -2,6 +2,7 @@
 #include "local_metric.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,144 +18,149 @@ using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
  * neighbours beyond the others. */
 constexpr std::size_t central_samples = 12;
 
-/** Of the standard deviations of samples across and along: below it they lie on a
- * surface or a line. Of samples in a ball it is 1, on two layers more than 0.3. */
-constexpr double flat_ratio = 0.2;
+/** Lines per sample that a direction must have, as a mean, to count as seen. Of random
+ * samples it has one, of layers with nothing beside them none but for what they are
+ * curved or scattered. */
+constexpr double least_lines = 0.5;
 
 /** How much farther a next search looks across such samples, and how often: up to
- * spacings of 1 : 2000. */
-constexpr double stretching = 3.0;
-constexpr int most_rounds = 10;
+ * spacings of 1 : 3000. */
+constexpr double stretching = 5.0;
+constexpr int most_rounds = 8;
 
 /** cos^2 of the angle between lines, 63 degrees: wider than the angle criterion's 55
  * (thesis Table 2.4), which diagonals of cubes just pass. */
-constexpr double sq_cosine = 0.2;
+constexpr float sq_cosine = 0.2f;
 
-/** Of the longest and the shortest axis. */
+/** Of the longest and the shortest of some lengths. */
 double
-ratioOf(const Solver& moment)
+ratioOf(const Eigen::Vector3d& squares)
 {
-  return std::sqrt(moment.eigenvalues()[2] / moment.eigenvalues()[0]);
+  return std::sqrt(squares.maxCoeff() / squares.minCoeff());
 }
 
 } // namespace
 
-Eigen::Matrix3d
-momentOfLines(const std::vector<Eigen::Vector3d>& offsets, std::size_t central)
+LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t central)
 {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Vector3d> lines;
-  std::vector<double> sq_lengths;
+  constexpr float gone = std::numeric_limits<float>::infinity();
+  const std::size_t count = offsets[0].size();
+  std::vector<float> lines[3], sq_lengths(count);
+  for (auto& coordinate : lines)
+    coordinate.resize(count);
+  float* const x = lines[0].data();
+  float* const y = lines[1].data();
+  float* const z = lines[2].data();
+  float* const sq = sq_lengths.data();
   for (std::size_t i = 0; i < central; ++i) {
-    lines.clear();
-    sq_lengths.clear();
-    for (std::size_t j = 0; j < offsets.size(); ++j)
-      if (j != i) {
-        lines.push_back(offsets[j] - offsets[i]);
-        sq_lengths.push_back(lines.back().squaredNorm());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t j = 0; j < count; ++j)
+        lines[axis][j] = offsets[axis][j] - offsets[axis][i];
+    for (std::size_t j = 0; j < count; ++j)
+      sq[j] = x[j] * x[j] + y[j] * y[j] + z[j] * z[j];
+    sq[i] = gone;
+    for (;;) {
+      const auto nearest =
+          static_cast<std::size_t>(std::min_element(sq, sq + count) - sq);
+      const float sq_length = sq[nearest];
+      if (sq_length == gone)
+        break;
+      const float a = x[nearest], b = y[nearest], c = z[nearest];
+      const Eigen::Vector3d line(a, b, c);
+      const Eigen::Matrix3d square = line * line.transpose();
+      lengths += square;
+      directions += square / static_cast<double>(sq_length);
+      const float bound = sq_cosine * sq_length;
+      for (std::size_t j = 0; j < count; ++j) {
+        const float product = a * x[j] + b * y[j] + c * z[j];
+        sq[j] = product * product > bound * sq[j] ? gone : sq[j];
       }
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-    double kept = 0.0;
-    while (!lines.empty()) {
-      const auto nearest = static_cast<std::size_t>(
-          std::min_element(sq_lengths.begin(), sq_lengths.end()) - sq_lengths.begin());
-      const Eigen::Vector3d line = lines[nearest];
-      const double sq_length = sq_lengths[nearest];
-      own += line * line.transpose();
-      kept += 1.0;
-      std::size_t left = 0;
-      for (std::size_t j = 0; j < lines.size(); ++j) {
-        const double product = line.dot(lines[j]);
-        if (product * product > sq_cosine * sq_length * sq_lengths[j])
-          continue;
-        lines[left] = lines[j];
-        sq_lengths[left++] = sq_lengths[j];
-      }
-      lines.resize(left);
-      sq_lengths.resize(left);
+      sq[nearest] = gone;
     }
-    sum += own / kept;
   }
-  return sum / static_cast<double>(central);
 }
 
 void
-LocalMetricFinder::sortOffsets(const Position& point)
+LocalMetricFinder::gather(std::uint32_t sample)
 {
-  offsets_.clear();
-  order_.clear();
-  for (const std::uint32_t sample : nearest_) {
-    const Position& x = samples_.getPositions()[sample];
+  const std::vector<Position>& positions = samples_.getPositions();
+  nearest_.clear();
+  for (const std::uint32_t neighbor : finder_.find(positions[sample], metric_)) {
     Eigen::Vector3d offset;
     for (int axis = 0; axis < 3; ++axis)
-      offset[axis] = static_cast<double>(x[axis]) - point[axis];
-    order_.emplace_back((metric_ * offset).squaredNorm(),
-                        static_cast<std::uint32_t>(offsets_.size()));
-    offsets_.push_back(offset);
+      offset[axis] =
+          static_cast<double>(positions[neighbor][axis]) - positions[sample][axis];
+    nearest_.emplace_back((metric_ * offset).squaredNorm(), offset);
   }
-  std::sort(order_.begin(), order_.end());
-  std::vector<Eigen::Vector3d> sorted;
-  for (const auto& entry : order_)
-    sorted.push_back(offsets_[entry.second]);
-  offsets_.swap(sorted);
+  std::stable_sort(nearest_.begin(), nearest_.end(), [](const auto& a, const auto& b) {
+    return a.first < b.first;
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    offsets_[axis].clear();
+    for (const auto& neighbor : nearest_)
+      offsets_[axis].push_back(
+          static_cast<float>(neighbor.second[static_cast<Eigen::Index>(axis)]));
+  }
+  reach_ = std::max(reach_, finder_.getReach());
 }
 
 bool
-LocalMetricFinder::stretchAcross()
+LocalMetricFinder::stretchAcross(const LineMoments& lines)
 {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& offset : offsets_)
-    mean += metric_ * offset;
-  mean /= static_cast<double>(offsets_.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& offset : offsets_) {
-    const Eigen::Vector3d u = metric_ * offset - mean;
-    scatter += u * u.transpose();
-  }
-  const Solver eigen(scatter);
-  const double largest = eigen.eigenvalues()[2];
-  bool is_flat = false;
+  const Solver eigen(lines.directions);
   Eigen::Matrix3d shrink = Eigen::Matrix3d::Identity();
-  for (int i = 0; i < 2; ++i)
-    if (!(eigen.eigenvalues()[i] > flat_ratio * flat_ratio * largest)) {
-      const Eigen::Vector3d axis = eigen.eigenvectors().col(i);
-      shrink -= (1.0 - 1.0 / stretching) * axis * axis.transpose();
-      is_flat = true;
-    }
-  if (is_flat)
-    metric_ = shrink * metric_;
-  return is_flat;
+  int unseen = 0;
+  for (; unseen < 3 && eigen.eigenvalues()[unseen] < least_lines * central_samples;
+       ++unseen) {
+    const Eigen::Vector3d axis = eigen.eigenvectors().col(unseen);
+    shrink -= (1.0 - 1.0 / stretching) * axis * axis.transpose();
+  }
+  metric_ *= shrink;
+  return unseen > 0;
 }
 
-LocalMetricFinder::Outcome
-LocalMetricFinder::find(const Position& point,
-                        const std::uint32_t* nearest,
-                        std::size_t count,
-                        double most_even)
+bool
+LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
+{
+  if (!has_last_ || sample != last_ || least_ratio != last_ratio_) {
+    last_found_ = search(sample, least_ratio);
+    last_ = sample;
+    last_ratio_ = least_ratio;
+    has_last_ = true;
+  }
+  return last_found_;
+}
+
+bool
+LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
 {
   metric_.setIdentity();
-  nearest_.assign(nearest, nearest + count);
+  spacings_.setIdentity();
+  ratio_ = 1.0;
+  reach_ = 0.0;
   for (int round = 0; round < most_rounds; ++round) {
-    if (round > 0)
-      nearest_ = finder_.find(point, metric_);
-    sortOffsets(point);
-    reach_ = round == 0 ? offsets_.back().norm()
-                        : std::max(reach_,
-                                   finder_.getReach() *
-                                       std::sqrt(metric_.inverse().operatorNorm()));
-    if (stretchAcross())
+    gather(sample);
+    const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
+    if (stretchAcross(lines))
       continue;
-    moment_ = momentOfLines(offsets_, std::min(central_samples, offsets_.size()));
-    const Solver eigen(moment_);
-    if (!(eigen.eigenvalues()[0] > 0.0))
-      break;
-    ratio_ = ratioOf(eigen);
-    const Solver seen(metric_ * moment_ * metric_.transpose());
-    if (ratioOf(seen) < (round == 0 ? most_even : even_ratio))
-      return round == 0 ? Outcome::Even : Outcome::Stretched;
-    metric_ = std::sqrt(eigen.eigenvalues()[0]) * eigen.operatorInverseSqrt();
+    const Solver eigen(lines.lengths);
+    const Eigen::Matrix3d& axes = eigen.eigenvectors();
+    Eigen::Vector3d squares;
+    for (int i = 0; i < 3; ++i)
+      squares[i] =
+          eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
+    spacings_ = axes * squares.asDiagonal() * axes.transpose();
+    ratio_ = ratioOf(squares);
+    const Solver seen(metric_ * spacings_ * metric_.transpose());
+    if (round == 0 && ratio_ < least_ratio)
+      return false;
+    const Eigen::Vector3d factors =
+        (squares.minCoeff() * squares.cwiseInverse()).cwiseSqrt();
+    metric_ = axes * factors.asDiagonal() * axes.transpose();
+    if (round > 0 && ratioOf(seen.eigenvalues()) < even_ratio)
+      return true;
   }
-  return Outcome::None;
+  return false;
 }
 
 } // namespace pcl_uvol

@@ -13,61 +13,58 @@
 
 namespace pcl_uvol {
 
-/** \brief Second moment of the lines from samples to their natural neighbours, the mean
- * over the samples in the middle of some: its eigenvectors are the directions, the
- * roots of its eigenvalues the spacings.
+/** \brief Lines from samples to their natural neighbours: the sums of their second
+ * moments, and of those of their directions. Their quotient along a direction is the
+ * squared spacing there.
  *
  * Natural neighbours as the angle criterion has them (thesis 2.3), but lines, without a
  * head: an axis counts by the nearer of its two sides, so that neither the border of a
- * gap nor that of the cloud looks like a stretched sampling.
- * \param offsets of samples, from the point \param central how many of the first ones
- * are in the middle; two at least */
-Eigen::Matrix3d
-momentOfLines(const std::vector<Eigen::Vector3d>& offsets, std::size_t central);
+ * gap nor that of the cloud looks like a stretched sampling. */
+struct LineMoments {
+  Eigen::Matrix3d lengths = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
 
-/** \brief Local metrics of one point after another; one object per thread. */
+  /** \param offsets of samples, from anywhere: all x, all y, all z
+   * \param central how many of the first ones lines start from; the others are there to
+   * be found */
+  LineMoments(const std::vector<float> (&offsets)[3], std::size_t central);
+};
+
+/** \brief Local metrics of one sample after another; one object per thread. */
 class LocalMetricFinder {
 public:
-  enum class Outcome {
-    Even,      ///< the spacings hardly differ
-    Stretched, ///< they differ, and a metric was found in which they do not
-    None       ///< no metric shows samples on all sides, as on a plane or a line
-  };
-
-  /** \param samples must outlive the finder \param k neighbours that a metric is made
-   * from */
-  LocalMetricFinder(const SampleSet& samples, std::size_t k)
-      : finder_(samples, k)
-      , samples_(samples)
-  {
-  }
-
   /** \brief Between the longest and the shortest spacing: a metric is as good as
    * another one up to here. Of uniform random samples, whose spacings scatter, nine in
    * ten estimates stay below. */
   static constexpr double even_ratio = 1.5;
 
-  /** \brief Find the metric at a point. \param nearest the k nearest samples there
-   * \param most_even a ratio below it is Even */
-  Outcome
-  find(const Position& point,
-       const std::uint32_t* nearest,
-       std::size_t count,
-       double most_even = even_ratio);
+  /** \param samples must outlive the finder */
+  explicit LocalMetricFinder(const SampleSet& samples)
+      : samples_(samples)
+      , finder_(samples, pool)
+  {
+  }
 
-  /** \brief Of the last point: x -> metric * x makes spacings equal. Symmetric, and 1
-   * where samples lie densest. */
+  /** \brief Find the metric around a sample.
+   * \return false, and no metric, if spacings differ by less than a ratio, or if no
+   * metric shows samples on all sides, as on a plane or a line */
+  bool
+  find(std::uint32_t sample, double least_ratio = even_ratio);
+
+  /** \brief Of the last sample: x -> metric * x makes spacings equal. 1 where samples
+   * lie densest. */
   const Eigen::Matrix3d&
   getMetric() const
   {
     return metric_;
   }
 
-  /** \brief The moment of lines that it was made from, in squared lengths. */
+  /** \brief Its eigenvectors are the directions, its eigenvalues the squared spacings
+   * along them; those of the closest look, if no metric was found. */
   const Eigen::Matrix3d&
-  getMoment() const
+  getSpacings() const
   {
-    return moment_;
+    return spacings_;
   }
 
   /** \brief Of the longest and the shortest spacing. */
@@ -77,14 +74,7 @@ public:
     return ratio_;
   }
 
-  /** \brief The k nearest in that metric, in leaf order. */
-  const std::vector<std::uint32_t>&
-  getNearest() const
-  {
-    return nearest_;
-  }
-
-  /** \brief The result depends on no sample outside of this ball. */
+  /** \brief The result depends on no sample farther from this one. */
   double
   getReach() const
   {
@@ -92,21 +82,33 @@ public:
   }
 
 private:
-  /** Offsets of the nearest, by distance in the metric. */
-  void
-  sortOffsets(const Position& point);
+  /** Samples that a metric is made from: those in the middle have their neighbours
+   * among them. */
+  static constexpr std::size_t pool = 41;
 
-  /** Lengthen the reach across samples that lie on a surface or a line. */
   bool
-  stretchAcross();
+  search(std::uint32_t sample, double least_ratio);
 
-  MetricFinder finder_;
+  /** The nearest in the metric, by distance, as seen from a sample. */
+  void
+  gather(std::uint32_t sample);
+
+  /** Let the metric look farther where no line leads, as across layers. \return false
+   * if lines lead everywhere */
+  bool
+  stretchAcross(const LineMoments& lines);
+
   const SampleSet& samples_;
-  Eigen::Matrix3d metric_, moment_;
-  std::vector<std::uint32_t> nearest_;
-  std::vector<Eigen::Vector3d> offsets_;
-  std::vector<std::pair<double, std::uint32_t>> order_;
+  MetricFinder finder_;
+  Eigen::Matrix3d metric_, spacings_;
+  std::vector<std::pair<double, Eigen::Vector3d>> nearest_;
+  std::vector<float> offsets_[3];
   double reach_ = 0.0, ratio_ = 1.0;
+
+  // Edges of a sample follow one another.
+  bool has_last_ = false, last_found_ = false;
+  std::uint32_t last_ = 0;
+  double last_ratio_ = 0.0;
 };
 
 } // namespace pcl_uvol

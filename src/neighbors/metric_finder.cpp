@@ -88,7 +88,8 @@ MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
 {
   point_ = point;
   metric_ = metric;
-  sq_extent_ = metric.inverse().rowwise().squaredNorm();
+  const Eigen::Matrix3d inverse = metric.inverse();
+  sq_extent_ = inverse.rowwise().squaredNorm();
   nearest_.clear();
   const KdTree& own = samples_.getTree();
   const auto search = [&](const KdTree& tree) {
@@ -105,7 +106,9 @@ MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
   for (const KdTree& tree : samples_.getTrees())
     if (&tree != &own)
       search(tree);
-  reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first);
+  // No direction is longer in the metric by more than this norm of its inverse.
+  reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first) *
+           inverse.norm();
   found_.clear();
   for (const auto& neighbor : nearest_)
     found_.push_back(neighbor.second);

@@ -34,7 +34,8 @@ public:
   const std::vector<std::uint32_t>&
   find(const Position& point, const Eigen::Matrix3d& metric);
 
-  /** \brief Distance of the farthest one found, in the metric. */
+  /** \brief The result depends on no sample farther than this, as distances are in
+   * space. */
   double
   getReach() const
   {
