@@ -81,11 +81,14 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
 }
 
 void
-LocalMetricFinder::gather(std::uint32_t sample)
+LocalMetricFinder::gather(std::uint32_t sample,
+                          const std::uint32_t* neighbors,
+                          std::size_t count)
 {
   const std::vector<Position>& positions = samples_.getPositions();
   nearest_.clear();
-  for (const std::uint32_t neighbor : finder_.find(positions[sample], metric_)) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t neighbor = neighbors[i];
     Eigen::Vector3d offset;
     for (int axis = 0; axis < 3; ++axis)
       offset[axis] =
@@ -101,7 +104,6 @@ LocalMetricFinder::gather(std::uint32_t sample)
       offsets_[axis].push_back(
           static_cast<float>(neighbor.second[static_cast<Eigen::Index>(axis)]));
   }
-  reach_ = std::max(reach_, finder_.getReach());
 }
 
 bool
@@ -134,12 +136,21 @@ LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
 bool
 LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
 {
+  const Position& place = samples_.getPositions()[sample];
   metric_.setIdentity();
   spacings_.setIdentity();
   ratio_ = 1.0;
-  reach_ = 0.0;
   for (int round = 0; round < most_rounds; ++round) {
-    gather(sample);
+    if (round == 0) {
+      const auto row = first_finder_.find(place, static_cast<float>(typical_reach_));
+      gather(sample, row.samples, row.size);
+      reach_ = typical_reach_ = std::sqrt(nearest_.back().first);
+    }
+    else {
+      const auto& row = finder_.find(place, metric_);
+      gather(sample, row.data(), row.size());
+      reach_ = std::max(reach_, finder_.getReach());
+    }
     const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
     if (stretchAcross(lines))
       continue;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "metric_finder.h"
+#include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <Eigen/Core>
 
@@ -41,6 +42,7 @@ public:
   /** \param samples must outlive the finder */
   explicit LocalMetricFinder(const SampleSet& samples)
       : samples_(samples)
+      , first_finder_(samples, pool)
       , finder_(samples, pool)
   {
   }
@@ -89,9 +91,9 @@ private:
   bool
   search(std::uint32_t sample, double least_ratio);
 
-  /** The nearest in the metric, by distance, as seen from a sample. */
+  /** Look at some samples, by distance in the metric, from one of them. */
   void
-  gather(std::uint32_t sample);
+  gather(std::uint32_t sample, const std::uint32_t* neighbors, std::size_t count);
 
   /** Let the metric look farther where no line leads, as across layers. \return false
    * if lines lead everywhere */
@@ -99,11 +101,13 @@ private:
   stretchAcross(const LineMoments& lines);
 
   const SampleSet& samples_;
+  NearestFinder first_finder_;
   MetricFinder finder_;
   Eigen::Matrix3d metric_, spacings_;
   std::vector<std::pair<double, Eigen::Vector3d>> nearest_;
   std::vector<float> offsets_[3];
   double reach_ = 0.0, ratio_ = 1.0;
+  double typical_reach_ = 1.0; ///< of the sample before: where a search starts
 
   // Edges of a sample follow one another.
   bool has_last_ = false, last_found_ = false;

@@ -14,73 +14,79 @@ namespace {
 /** Room for rounding: a box must not seem farther than a sample in it. */
 constexpr double slack = 1.0 + 1e-9;
 
+/** Subtrees this small are taken whole: distances cost less than planes. */
+constexpr std::uint32_t whole_subtree = 8;
+
 } // namespace
 
-double
-MetricFinder::sqBound(const Corner& low, const Corner& high) const
+bool
+MetricFinder::isTooFar(std::size_t axis, const Corner& low, const Corner& high) const
 {
-  // Across the faces of the box: where samples of the same distance begin.
-  double bound = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double offset = std::max({0.0, low[axis], -high[axis]});
-    bound =
-        std::max(bound, offset * offset / sq_extent_[static_cast<Eigen::Index>(axis)]);
-  }
+  if (nearest_.size() < k_)
+    return false;
+  const double sq_limit = slack * nearest_.front().first;
+  // Across the faces of the box along an axis.
+  const double offset = std::max({0.0, low[axis], -high[axis]});
+  if (offset * offset > sq_limit * sq_extent_[static_cast<Eigen::Index>(axis)])
+    return true;
   // Across the axes of the metric: the image of the box lies between two planes.
-  double image = 0.0;
+  double sq_dist = 0.0;
   for (Eigen::Index i = 0; i < 3; ++i) {
     double least = 0.0, most = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double factor = metric_(i, static_cast<Eigen::Index>(axis));
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double factor = metric_(i, static_cast<Eigen::Index>(j));
       if (factor == 0.0) // the box may be infinite
         continue;
-      const double a = factor * low[axis], b = factor * high[axis];
+      const double a = factor * low[j], b = factor * high[j];
       least += std::min(a, b);
       most += std::max(a, b);
     }
-    const double offset = std::max({0.0, least, -most});
-    image += offset * offset;
+    const double gap = std::max({0.0, least, -most});
+    sq_dist += gap * gap;
   }
-  return std::max(bound, image);
+  return sq_dist > sq_limit;
 }
 
-bool
-MetricFinder::isTooFar(const Corner& low, const Corner& high) const
+void
+MetricFinder::consider(std::uint32_t sample)
 {
-  return nearest_.size() == k_ && sqBound(low, high) > slack * nearest_.front().first;
+  const Position& x = samples_.getPositions()[sample];
+  Eigen::Vector3d offset;
+  for (int axis = 0; axis < 3; ++axis)
+    offset[axis] = static_cast<double>(x[axis]) - point_[axis];
+  const std::pair<double, std::uint32_t> found((metric_ * offset).squaredNorm(),
+                                               sample);
+  if (nearest_.size() == k_) {
+    if (!(found < nearest_.front()))
+      return;
+    std::pop_heap(nearest_.begin(), nearest_.end());
+    nearest_.pop_back();
+  }
+  nearest_.push_back(found);
+  std::push_heap(nearest_.begin(), nearest_.end());
 }
 
 void
 MetricFinder::descend(const KdTree& tree, const KdNode& node, Corner& low, Corner& high)
 {
-  if (node.isLeaf()) {
-    const Position& x = samples_.getPositions()[node.begin];
-    Eigen::Vector3d offset;
-    for (int axis = 0; axis < 3; ++axis)
-      offset[axis] = static_cast<double>(x[axis]) - point_[axis];
-    const std::pair<double, std::uint32_t> found((metric_ * offset).squaredNorm(),
-                                                 node.begin);
-    if (nearest_.size() == k_) {
-      if (!(found < nearest_.front()))
-        return;
-      std::pop_heap(nearest_.begin(), nearest_.end());
-      nearest_.pop_back();
-    }
-    nearest_.push_back(found);
-    std::push_heap(nearest_.begin(), nearest_.end());
+  if (node.count <= whole_subtree) {
+    for (std::uint32_t i = 0; i < node.count; ++i)
+      consider(node.begin + i);
     return;
   }
   const int axis = tree.getAxis(node.depth);
   const auto a = static_cast<std::size_t>(axis);
   const double plane =
       static_cast<double>(tree.getPlane(node).coordinate) - point_[axis];
-  for (const bool below : {plane >= 0.0, plane < 0.0}) {
+  const auto descendTo = [&](bool below, bool is_near) {
     double& face = below ? high[a] : low[a];
     const double old_face = std::exchange(face, plane);
-    if (!isTooFar(low, high))
+    if (is_near || !isTooFar(a, low, high))
       descend(tree, below ? node.left() : node.right(), low, high);
     face = old_face;
-  }
+  };
+  descendTo(plane >= 0.0, true);
+  descendTo(plane < 0.0, false);
 }
 
 const std::vector<std::uint32_t>&
@@ -99,7 +105,7 @@ MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
       low[axis] = tree.getCell().low[axis].coordinate - place;
       high[axis] = tree.getCell().high[axis].coordinate - place;
     }
-    if (!isTooFar(low, high))
+    if (!isTooFar(0, low, high))
       descend(tree, tree.getRoot(), low, high);
   };
   search(own);

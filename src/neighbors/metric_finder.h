@@ -48,12 +48,13 @@ private:
   void
   descend(const KdTree& tree, const KdNode& node, Corner& low, Corner& high);
 
-  /** Squared distance in the metric that no point of a box falls below. */
-  double
-  sqBound(const Corner& low, const Corner& high) const;
-
+  /** Whether no point of a box, the faces of which along an axis are new, can be one of
+   * the nearest. */
   bool
-  isTooFar(const Corner& low, const Corner& high) const;
+  isTooFar(std::size_t axis, const Corner& low, const Corner& high) const;
+
+  void
+  consider(std::uint32_t sample);
 
   const SampleSet& samples_;
   std::size_t k_;
