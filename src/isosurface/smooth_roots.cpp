@@ -41,6 +41,11 @@ constexpr double step_residual = 0.06, step_span = 0.6;
  * own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
+/** Different whole numbers among the fitted samples that are labels. Quantised data on
+ * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
+ * little. */
+constexpr std::size_t most_labels = 4;
+
 /** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
  * Uniform samples leave no such cone at 99.8 % of the isopoints. */
 constexpr float empty_cone = 0.5446f;
@@ -59,8 +64,8 @@ constexpr double good_pivot = 0.02;
 /** A fit of less is worth nothing, and a little stretching matters: curved lattices. */
 constexpr double worthless_pivot = 1e-3, little_stretching = 1.1;
 
-/** Spacings that differ by less may be those of random samples beside a gap: they do
- * not make it smaller. */
+/** Spacings that differ by less may be those of random samples: they are no reason to
+ * doubt a good fit, or that a gap is one. */
 constexpr double sure_stretching = 2.0;
 
 const KernelTable<FitKernel> fit_kernels{
@@ -101,6 +106,7 @@ struct Surroundings {
   double radius;      ///< of the support
   double value_range; ///< of the fitted samples
   double edge_span;   ///< part of the range between the values at the ends of the edge
+  bool has_steps;     ///< the values are labels
   Position center;    ///< the linear root
   IsoSupport support;
 };
@@ -207,9 +213,11 @@ private:
         continue;
       const auto& [i, center, pivot] = doubtful[lane];
       const Position& end = input_.samples.getPositions()[edges[i].first];
-      const bool is_stretched = metrics_.find(
-          edges[i].first,
-          pivot < worthless_pivot ? little_stretching : LocalMetricFinder::even_ratio);
+      const bool is_stretched =
+          metrics_.find(edges[i].first,
+                        pivot < worthless_pivot ? little_stretching
+                        : pivot < good_pivot    ? LocalMetricFinder::even_ratio
+                                                : sure_stretching);
       double reach = metrics_.getReach() + distance(end, center);
       if (is_stretched) {
         metrics[lane] = metrics_.getMetric();
@@ -358,9 +366,29 @@ private:
     surroundings.edge_span =
         std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
         surroundings.value_range;
+    surroundings.has_steps = areLabels(neighbors, count);
     surroundings.support =
         supportOf(surroundings, std::sqrt(static_cast<double>(sq_nearest)), directions);
     return static_cast<int>(count) - 1;
+  }
+
+  /** Whether samples have two values only, or few that are whole numbers. */
+  bool
+  areLabels(const std::uint32_t* neighbors, std::size_t count) const
+  {
+    float seen[most_labels];
+    std::size_t different = 0;
+    bool are_whole = true;
+    for (std::size_t j = 0; j < count; ++j) {
+      const float value = input_.values[neighbors[j]];
+      if (std::find(seen, seen + different, value) != seen + different)
+        continue;
+      are_whole = are_whole && value == std::floor(value);
+      if (different == most_labels || (different == 2 && !are_whole))
+        return false;
+      seen[different++] = value;
+    }
+    return true;
   }
 
   IsoSupport
@@ -381,6 +409,8 @@ private:
   {
     if (result.order[lane] == fit_failed)
       return RootOutcome::Singular;
+    if (surroundings.has_steps)
+      return RootOutcome::Step;
     const double residual = result.residual[lane] / surroundings.value_range;
     if (!(residual <=
           (surroundings.edge_span > step_span ? step_residual : largest_residual)))

@@ -24,9 +24,9 @@ constexpr std::size_t central_samples = 12;
 constexpr double least_lines = 0.5;
 
 /** How much farther a next search looks across such samples, and how often: up to
- * spacings of 1 : 3000. */
+ * spacings of 1 : 600. */
 constexpr double stretching = 5.0;
-constexpr int most_rounds = 8;
+constexpr int most_rounds = 6;
 
 /** cos^2 of the angle between lines, 63 degrees: wider than the angle criterion's 55
  * (thesis Table 2.4), which diagonals of cubes just pass. */
@@ -139,7 +139,6 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
   const Position& place = samples_.getPositions()[sample];
   metric_.setIdentity();
   spacings_.setIdentity();
-  ratio_ = 1.0;
   for (int round = 0; round < most_rounds; ++round) {
     if (round == 0) {
       const auto row = first_finder_.find(place, static_cast<float>(typical_reach_));
@@ -171,6 +170,7 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
     if (round > 0 && ratioOf(seen.eigenvalues()) < even_ratio)
       return true;
   }
+  ratio_ = std::numeric_limits<double>::infinity();
   return false;
 }
 

@@ -62,14 +62,15 @@ public:
   }
 
   /** \brief Its eigenvectors are the directions, its eigenvalues the squared spacings
-   * along them; those of the closest look, if no metric was found. */
+   * along them. Undefined where the ratio is infinite. */
   const Eigen::Matrix3d&
   getSpacings() const
   {
     return spacings_;
   }
 
-  /** \brief Of the longest and the shortest spacing. */
+  /** \brief Of the longest and the shortest spacing; infinite where no metric shows
+   * samples on all sides. */
   double
   getRatio() const
   {
