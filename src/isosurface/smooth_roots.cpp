@@ -239,6 +239,7 @@ private:
       points[i].support = static_cast<std::uint8_t>(surroundings[lane].support);
       const RootOutcome outcome = judge(result, lane, surroundings[lane]);
       if (outcome > RootOutcome::Quadratic ||
+          surroundings[lane].support == IsoSupport::Bridged ||
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
       fits[i].outcome = outcome;

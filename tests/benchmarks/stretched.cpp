@@ -4,10 +4,12 @@
 #include "support/stretched_samples.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -29,11 +31,22 @@ printRow(const std::string& shape, double ratio, int side)
   const std::chrono::duration<double, std::micro> spent =
       std::chrono::steady_clock::now() - start;
   const auto found = uvol_test::deviations(field, samples.inIndexSpace(surface));
+  // Where the errors are, which are lengths in space.
+  auto moved = field;
+  moved.value = [&](const Eigen::Vector3d& x) {
+    return field.value(samples.to_index(x));
+  };
+  const auto in_space = uvol_test::deviations(moved, surface);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    ratios.push_back(surface[i].error / in_space[i]);
   const auto points = static_cast<double>(surface.size());
+  const auto covered =
+      std::count_if(ratios.begin(), ratios.end(), [](double r) { return r >= 1.0; });
   const auto part = [&](const char* name) {
     return 100.0 * static_cast<double>(extraction.getReport().getCount(name)) / points;
   };
-  std::printf("%-9s %5.3g %7zu %9.2g %9.2g %6.1f %6.1f %6.1f %7.2f\n",
+  std::printf("%-9s %5.3g %7zu %9.2g %9.2g %6.1f %6.1f %6.1f %6.1f %6.2g %7.2f\n",
               shape.c_str(),
               ratio,
               surface.size(),
@@ -42,6 +55,8 @@ printRow(const std::string& shape, double ratio, int side)
               part("linear_singular") + part("linear_step") + part("linear_far"),
               part("bridged"),
               part("rim"),
+              100.0 * static_cast<double>(covered) / points,
+              uvol_test::quantile(ratios, 0.5),
               spent.count() / points);
   std::fflush(stdout);
 }
@@ -58,7 +73,7 @@ main(int argc, char** argv)
     return 2;
   }
   std::puts("# shape    ratio  points      mean    99.9_% linear_% bridged_% rim_% "
-            "us/point");
+            "covered_% error/deviation us/point");
   for (int i = 2; i < argc; ++i)
     for (const double ratio : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0, 30.0})
       printRow(argv[i], ratio, std::atoi(argv[1]));
