@@ -180,9 +180,9 @@ private:
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::size_t i = first + lane;
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
-      fits[i] = {judge(result, lane, surroundings[lane]),
-                 has_all ? std::numeric_limits<float>::infinity()
-                         : static_cast<float>(surroundings[lane].radius)};
+      const float radius = has_all ? std::numeric_limits<float>::infinity()
+                                   : static_cast<float>(surroundings[lane].radius);
+      fits[i] = {judge(result, lane, surroundings[lane]), radius, radius};
       if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
                        surroundings[lane].support != IsoSupport::Measured))
         doubtful_.push_back({i, centers[lane], result.pivot[lane]});

@@ -21,7 +21,7 @@ constexpr std::size_t central_samples = 12;
 /** Lines per sample that a direction must have, as a mean, to count as seen. Of random
  * samples it has one, of layers with nothing beside them none but for what they are
  * curved or scattered. */
-constexpr double least_lines = 0.5;
+constexpr double least_lines = 0.3;
 
 /** How much farther a next search looks across such samples, and how often: up to
  * spacings of 1 : 600. */
@@ -139,6 +139,7 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
   const Position& place = samples_.getPositions()[sample];
   metric_.setIdentity();
   spacings_.setIdentity();
+  bool was_seen = false;
   for (int round = 0; round < most_rounds; ++round) {
     if (round == 0) {
       const auto row = first_finder_.find(place, static_cast<float>(typical_reach_));
@@ -151,8 +152,12 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
       reach_ = std::max(reach_, finder_.getReach());
     }
     const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-    if (stretchAcross(lines))
+    if (stretchAcross(lines)) {
+      if (was_seen) // what is seen from here is not what is there
+        break;
       continue;
+    }
+    was_seen = true;
     const Solver eigen(lines.lengths);
     const Eigen::Matrix3d& axes = eigen.eigenvectors();
     Eigen::Vector3d squares;
