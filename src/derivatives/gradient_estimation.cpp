@@ -59,6 +59,11 @@ public:
     sweep(report, "gradients", [&](std::size_t i, const LocalFit& fit, auto outcome) {
       reduced += outcome == FitOutcome::Reduced;
       singular += outcome == FitOutcome::Singular;
+      if (neighbors_[i].size() == 0) { // the only sample
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        found[i] = {Eigen::Vector3d::Constant(none), none};
+        return;
+      }
       double d[9] = {};
       for (std::size_t j = 0; j < neighbors_[i].size(); ++j) {
         const double difference =

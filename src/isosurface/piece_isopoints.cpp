@@ -149,7 +149,7 @@ PieceIsopoints::fit(const IsopointInput& input,
     if (ball.radius <= known[i] || liesWithin(ball, piece_.getCell()))
       continue;
     ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
-                                  : first_part * ball.radius;
+                                  : first_part * fits[i].nearest_radius;
     open_.push_back({isovalue, indices[i], ball});
   }
 }
