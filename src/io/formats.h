@@ -33,6 +33,11 @@ readPcd(const std::string& path);
 Dataset
 readPly(const std::string& path);
 
+/** \brief The faces of a PLY as fans of triangles. \throws IOError for one that names
+ * a vertex that is not there */
+std::vector<Triangle>
+readPlyTriangles(const std::string& path, std::uint64_t vertices);
+
 /** \brief Text with a header line; the separator is found in it. */
 Dataset
 readText(const std::string& path, const LoadOptions& options);

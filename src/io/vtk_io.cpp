@@ -1,96 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points with their point data by VTK's readers and writers.
+// Points with their point data in VTK's files.
 #include "files.h"
 #include "formats.h"
 #include "vtk_messages.h"
+#include "vtk_readers.h"
+#include "xml_scanner.h"
 #include <pcl_uvol/filters/point_data.h>
 
-#include <vtkDataReader.h>
-#include <vtkDataSet.h>
-#include <vtkGenericDataObjectReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLDataElement.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLStructuredGridReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
-#include <vtkXMLUtilities.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
-#include <type_traits>
 
 namespace pcl_uvol {
 namespace io {
 namespace {
-
-template <typename Reader>
-vtkSmartPointer<vtkDataObject>
-readBy(const std::string& path)
-{
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  if constexpr (std::is_base_of_v<vtkDataReader, Reader>) {
-    // Legacy files: without these the reader takes the first array of each kind only.
-    reader->ReadAllScalarsOn();
-    reader->ReadAllVectorsOn();
-    reader->ReadAllNormalsOn();
-    reader->ReadAllTensorsOn();
-    reader->ReadAllTCoordsOn();
-    reader->ReadAllColorScalarsOn();
-    reader->ReadAllFieldsOn();
-  }
-  reader->Update();
-  if (reader->GetErrorCode() != 0)
-    return nullptr;
-  return reader->GetOutputDataObject(0);
-}
-
-/** VTK does not miss the end of a truncated file if it had found the points before. */
-void
-checkEnd(const InputFile& file, const std::string& path)
-{
-  const std::uint64_t size = std::min<std::uint64_t>(file.getSize(), 256);
-  std::string end(size, '\0');
-  file.read(file.getSize() - size, end.data(), end.size());
-  if (end.find("</VTKFile>") == std::string::npos)
-    throwUnreadable(path,
-                    "it is truncated or no VTK file: it does not end with </VTKFile>");
-}
-
-vtkSmartPointer<vtkDataSet>
-readPoints(const std::string& path, const std::string& ending)
-{
-  const InputFile file(path);
-  if (ending != ".vtk")
-    checkEnd(file, path);
-  vtkSmartPointer<vtkDataObject> object;
-  std::string error;
-  {
-    const VtkMessages messages;
-    if (ending == ".vtp")
-      object = readBy<vtkXMLPolyDataReader>(path);
-    else if (ending == ".vtu")
-      object = readBy<vtkXMLUnstructuredGridReader>(path);
-    else if (ending == ".vts")
-      object = readBy<vtkXMLStructuredGridReader>(path);
-    else
-      object = readBy<vtkGenericDataObjectReader>(path);
-    error = messages.getError();
-  }
-  if (!error.empty())
-    throwUnreadable(path, "VTK says: " + error);
-  if (!object)
-    throwUnreadable(path, "VTK cannot make sense of it");
-  auto* const points = vtkDataSet::SafeDownCast(object);
-  if (!points)
-    throwUnreadable(path,
-                    "it holds no points but " + std::string(object->GetClassName()));
-  return points;
-}
 
 /** "Float32", as VTK's XML files call it. */
 std::string
@@ -131,30 +58,21 @@ addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
 std::vector<std::string>
 readPieceList(const std::string& path)
 {
-  const InputFile file(path);
-  const auto throwNoList = [&] {
-    throwUnreadable(path, "it is truncated or no list of pieces of polygonal data");
-  };
-  vtkSmartPointer<vtkXMLDataElement> root;
-  {
-    const VtkMessages messages;
-    std::istringstream text(file.head(file.getSize()));
-    root.TakeReference(vtkXMLUtilities::ReadElementFromStream(text));
-  }
-  vtkXMLDataElement* const list =
-      root ? root->FindNestedElementWithName("PPolyData") : nullptr;
-  if (list == nullptr)
-    throwNoList();
+  XmlScanner scanner(path);
+  XmlTag tag;
   std::vector<std::string> pieces;
-  for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
-    vtkXMLDataElement* const element = list->GetNestedElement(i);
-    if (std::string(element->GetName()) != "Piece")
+  bool is_list = false;
+  while (scanner.next(tag)) {
+    is_list = is_list || tag.name == "PPolyData";
+    if (!is_list || tag.closes || tag.name != "Piece")
       continue;
-    const char* const source = element->GetAttribute("Source");
-    if (source == nullptr)
-      throwNoList();
-    pieces.push_back((std::filesystem::path(path).parent_path() / source).string());
+    const std::string* const source = tag.find("Source");
+    if (!source)
+      throwUnreadable(path, "it is no list of pieces: one of them has no Source");
+    pieces.push_back((std::filesystem::path(path).parent_path() / *source).string());
   }
+  if (!is_list || !scanner.getOpen().empty())
+    throwUnreadable(path, "it is truncated or no list of pieces of polygonal data");
   if (pieces.empty())
     throwUnreadable(path, "it lists no pieces");
   return pieces;
@@ -193,8 +111,11 @@ writePieceList(const std::string& file,
 Dataset
 readVtk(const std::string& path)
 {
-  const auto points = readPoints(path, endingOf(path));
-  return toPointCloud(points);
+  const auto content =
+      endingOf(path) == ".vtk" ? readVtkLegacy(path) : readVtkXml(path);
+  Dataset dataset = toPointCloud(content.data);
+  dataset.notes.insert(dataset.notes.end(), content.notes.begin(), content.notes.end());
+  return dataset;
 }
 
 void
