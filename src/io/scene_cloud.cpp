@@ -138,11 +138,11 @@ placeSplats(const CloudItem& item,
     splat.getTangentVector3fMap() = turned(splat.getTangentVector3fMap());
     splat.radius = static_cast<float>(scale * splat.radius);
     splat.error = static_cast<float>(scale * splat.error);
-    if (!splat.getVector3fMap().allFinite() || !std::isfinite(splat.radius) ||
-        !(splat.radius > 0.0f))
-      throwAt(item.place,
-              "a splat of " + shown(item.name) +
-                  " becomes larger or smaller than float can hold");
+    if (!isDrawable(splat))
+      throwAt(
+          item.place,
+          "a splat of " + shown(item.name) +
+              " becomes larger or smaller than float can hold, or goes beyond 1e18");
   }
 }
 
