@@ -5,6 +5,8 @@
 #include "vtk_messages.h"
 #include "vtk_readers.h"
 #include "xml_scanner.h"
+#include <pcl_uvol/common/printable.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/filters/point_data.h>
 
 #include <vtkPointData.h>
@@ -53,6 +55,57 @@ addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
   element->SetIntAttribute("NumberOfComponents", array.GetNumberOfComponents());
 }
 
+/** A text as the value of an attribute, which VTK writes as it is. Bytes that are no
+ * UTF-8 are taken for Latin-1; control characters, which XML cannot hold, become '_'.
+ */
+std::string
+attributeOf(const std::string& text)
+{
+  std::string value;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t bytes = 1;
+    while (bytes < 4 && !isPrintable(std::string_view(text).substr(at, bytes)))
+      ++bytes;
+    const char c = text[at];
+    const auto byte = static_cast<unsigned char>(c);
+    if (!isPrintable(std::string_view(text).substr(at, bytes))) {
+      bytes = 1;
+      if (byte >= 0xa0)
+        value += {static_cast<char>(0xc0 | byte >> 6),
+                  static_cast<char>(0x80 | (byte & 0x3f))};
+      else
+        value += '_';
+    }
+    else if (c == '&')
+      value += "&amp;";
+    else if (c == '<')
+      value += "&lt;";
+    else if (c == '>')
+      value += "&gt;";
+    else if (c == '"')
+      value += "&quot;";
+    else
+      value += text.substr(at, bytes);
+    at += bytes;
+  }
+  return value;
+}
+
+/** A cloud as VTK data with names as XML has them, each of them once. */
+vtkSmartPointer<vtkPolyData>
+makeWritable(const Dataset& dataset)
+{
+  auto data = fromPointCloud(dataset);
+  auto* const arrays = data->GetPointData();
+  std::vector<std::string> names;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    names.push_back(attributeOf(arrays->GetArrayName(i)));
+  makeUnique(names);
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    arrays->GetArray(i)->SetName(names[static_cast<std::size_t>(i)].c_str());
+  return data;
+}
+
 } // namespace
 
 std::vector<std::string>
@@ -84,7 +137,7 @@ writePieceList(const std::string& file,
                const Dataset& dataset,
                const std::vector<std::string>& pieces)
 {
-  const auto data = fromPointCloud(dataset);
+  const auto data = makeWritable(dataset);
   const auto root = addElement("VTKFile", nullptr);
   root->SetAttribute("type", "PPolyData");
   root->SetAttribute("version", "1.0");
@@ -100,8 +153,9 @@ writePieceList(const std::string& file,
   addArray(*data->GetPoints()->GetData(), "Points", addElement("PPoints", list));
   for (const std::string& piece : pieces)
     addElement("Piece", list)
-        ->SetAttribute("Source",
-                       std::filesystem::path(piece).filename().string().c_str());
+        ->SetAttribute(
+            "Source",
+            attributeOf(std::filesystem::path(piece).filename().string()).c_str());
   std::ofstream out(file);
   root->PrintXML(out, vtkIndent());
   if (!out.flush())
@@ -121,7 +175,7 @@ readVtk(const std::string& path)
 void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset)
 {
-  const auto data = fromPointCloud(dataset);
+  const auto data = makeWritable(dataset);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writeXml(*writer, file, path);

@@ -149,6 +149,16 @@ Options::text(const std::string& name,
 }
 
 void
+Options::output(const std::string& name,
+                const std::string& placeholder,
+                std::string& target,
+                const std::string& help)
+{
+  text(name, placeholder, target, help);
+  options_.back().written = &target;
+}
+
+void
 Options::choice(const std::string& name,
                 const std::vector<std::string>& words,
                 std::string& target,
@@ -319,7 +329,23 @@ Options::parse(int argc, const char* const* argv)
     option.assign(arguments[++i]);
   }
   assignFiles(files);
+  checkFiles(files);
   return true;
+}
+
+void
+Options::checkFiles(const std::vector<std::string>& files) const
+{
+  std::vector<std::string> inputs = files, outputs;
+  const std::size_t last = std::min(files.size(), positionals_.size());
+  if (last > 0 && positionals_[last - 1].name == "out") {
+    outputs.push_back(files.back());
+    inputs.pop_back();
+  }
+  for (const Option& option : options_)
+    if (option.given && option.written)
+      outputs.push_back(*option.written);
+  checkDistinct(inputs, outputs);
 }
 
 void
