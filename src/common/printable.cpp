@@ -68,10 +68,16 @@ printable(std::string_view text)
 }
 
 std::string
-quoteText(std::string_view text)
+shortenText(std::string_view text)
 {
   constexpr std::size_t most_characters = 40;
-  return "'" + escaped(text, most_characters) + "'";
+  return escaped(text, most_characters);
+}
+
+std::string
+quoteText(std::string_view text)
+{
+  return "'" + shortenText(text) + "'";
 }
 
 bool

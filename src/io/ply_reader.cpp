@@ -484,8 +484,8 @@ infoOf(const std::string& path, const Element& vertex)
     if (property.length_type == 0)
       appendField(info.fields, property.name, property.datatype);
     else
-      info.notes.push_back("The list property '" + property.name +
-                           "' of the vertices is left out.");
+      info.notes.push_back("The list property " + quoteText(property.name) +
+                           " of the vertices is left out.");
   if (info.fields.empty())
     throwUnreadable(path, "its vertices have no coordinates");
   renameFields(info.fields, ply_normals, cloud_normals);

@@ -12,6 +12,8 @@ namespace uvol_tools {
 
 namespace {
 
+std::string named_file; // a tool has one command line
+
 /** The whole text as a number; false for anything else, such as 1.5m or nothing. */
 template <typename T>
 bool
@@ -329,6 +331,7 @@ Options::parse(int argc, const char* const* argv)
     option.assign(arguments[++i]);
   }
   assignFiles(files);
+  named_file = files.empty() ? std::string() : files.front();
   checkFiles(files);
   return true;
 }
@@ -387,6 +390,12 @@ Options::printHelp() const
   }
   print("-h", "print this");
   print("-version", "print the version");
+}
+
+const std::string&
+namedFile()
+{
+  return named_file;
 }
 
 std::uint64_t

@@ -194,6 +194,11 @@ printReport(const Options& options,
             const std::vector<std::pair<std::string, std::string>>& facts = {},
             bool plain = false);
 
+/** \brief The first file of the command line that was parsed, for sentences that name
+ * none. */
+const std::string&
+namedFile();
+
 /** \brief How a tool's body ended. */
 struct Outcome {
   int exit_code = 0;

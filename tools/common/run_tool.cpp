@@ -24,6 +24,16 @@ endBySignal(int signal)
   std::raise(signal);
 }
 
+/** A sentence that says which file it is about. */
+std::string
+withFile(const std::string& sentence)
+{
+  const std::string& file = namedFile();
+  return file.empty() || sentence.find(file) != std::string::npos
+             ? sentence
+             : file + ": " + sentence;
+}
+
 } // namespace
 
 Outcome
@@ -44,17 +54,20 @@ outcomeOf(const char* tool, const std::function<int()>& body)
   catch (const UsageError& error) {
     return {2, std::string(error.what()) + " (" + tool + " -h lists the options)"};
   }
-  catch (const pcl_uvol::Exception& error) {
+  catch (const pcl_uvol::IOError& error) { // which names its file
     return {1, error.message()};
   }
+  catch (const pcl_uvol::Exception& error) {
+    return {1, withFile(error.message())};
+  }
   catch (const std::bad_alloc&) {
-    return {1, "There is not enough memory."};
+    return {1, withFile("There is not enough memory.")};
   }
   catch (const std::length_error&) { // of a vector longer than any memory
-    return {1, "There is not enough memory."};
+    return {1, withFile("There is not enough memory.")};
   }
   catch (const std::system_error&) { // of threads that the system does not give
-    return {1, "There is not enough memory, or too many threads are asked for."};
+    return {1, withFile("There are not enough memory or threads for it.")};
   }
   catch (const std::exception& error) {
     return {1, error.what()};

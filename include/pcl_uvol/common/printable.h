@@ -18,7 +18,11 @@ isPrintable(std::string_view text);
 PCL_UVOL_EXPORTS std::string
 printable(std::string_view text);
 
-/** \brief The same between quotes: 'text', its first 40 characters if it is longer. */
+/** \brief The same, its first 40 characters if it is longer. */
+PCL_UVOL_EXPORTS std::string
+shortenText(std::string_view text);
+
+/** \brief The same between quotes: 'text'. */
 PCL_UVOL_EXPORTS std::string
 quoteText(std::string_view text);
 
