@@ -27,20 +27,23 @@ eighths(std::size_t count, std::uint64_t seed)
   return values;
 }
 
-TEST(NearestKernel, KeepsWhatLiesInAClosedBox)
+TEST(NearestKernel, KeepsWhatLiesNearAClosedBox)
 {
   constexpr std::uint32_t count = 103;
   const auto positions = eighths(3 * count, 1);
   const float low[3] = {0.125f, 0.25f, 0.0f}, high[3] = {0.75f, 0.875f, 0.625f};
+  const float sq_limit = 0.03125f; // that of two eighths: many lie just on it
   for (const std::uint32_t begin : {0u, 5u, 90u})
     for (const std::uint32_t end : {begin, begin + 1, begin + 13, count}) {
       std::vector<std::uint32_t> expected;
       for (std::uint32_t i = begin; i < end; ++i) {
-        bool is_inside = true;
-        for (std::uint32_t axis = 0; axis < 3; ++axis)
-          is_inside = is_inside && positions[3 * i + axis] >= low[axis] &&
-                      positions[3 * i + axis] <= high[axis];
-        if (is_inside)
+        double sq_dist = 0.0; // eighths: nothing is rounded
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+          const double x = positions[3 * i + axis];
+          const double beyond = std::max({low[axis] - x, x - high[axis], 0.0});
+          sq_dist += beyond * beyond;
+        }
+        if (sq_dist <= sq_limit)
           expected.push_back(i);
       }
       uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
@@ -49,12 +52,13 @@ TEST(NearestKernel, KeepsWhatLiesInAClosedBox)
           coordinate.resize(count + kernel_room);
         std::vector<std::uint32_t> indices(count + kernel_room);
         const std::size_t kept =
-            kernel->keepInside(positions.data(),
-                               begin,
-                               end,
-                               low,
-                               high,
-                               {x[0].data(), x[1].data(), x[2].data(), indices.data()});
+            kernel->keepNear(positions.data(),
+                             begin,
+                             end,
+                             low,
+                             high,
+                             sq_limit,
+                             {x[0].data(), x[1].data(), x[2].data(), indices.data()});
         ASSERT_EQ(expected.size(), kept);
         for (std::size_t i = 0; i < kept; ++i) {
           EXPECT_EQ(expected[i], indices[i]);
@@ -78,6 +82,22 @@ TEST(NearestKernel, MeasuresSquaredDistances)
       EXPECT_EQ(dx * dx + dy * dy + dz * dz, sq_dist[i]);
     }
   });
+}
+
+TEST(NearestKernel, MeasuresARunOfPositions)
+{
+  const auto positions = eighths(3 * 50, 6);
+  const float point[3] = {0.25f, -1.0f, 3.5f};
+  for (const std::uint32_t begin : {0u, 3u, 49u})
+    uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
+      std::vector<float> sq_dist(50 + kernel_room);
+      kernel->measureRun(positions.data(), begin, 50, point, sq_dist.data());
+      for (std::uint32_t i = begin; i < 50; ++i) {
+        const double dx = positions[3 * i] - 0.25, dy = positions[3 * i + 1] + 1.0,
+                     dz = positions[3 * i + 2] - 3.5;
+        EXPECT_EQ(dx * dx + dy * dy + dz * dz, sq_dist[i - begin]);
+      }
+    });
 }
 
 TEST(NearestKernel, CountsAndKeepsValuesUpToALimit)
