@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +16,9 @@
 namespace pcl_uvol {
 
 namespace {
+
+constexpr NodeRanges::Range no_range{std::numeric_limits<float>::infinity(),
+                                     -std::numeric_limits<float>::infinity()};
 
 /** Bytes of points that are read at once. */
 constexpr std::size_t block_bytes = 16u << 20;
@@ -133,6 +138,10 @@ public:
     std::vector<std::vector<GlobalIsopoint>> all;
     for (const auto& runs_of_value : runs) {
       auto& isopoints = all.emplace_back();
+      std::size_t count = 0;
+      for (const Run& run : runs_of_value)
+        count += run.count;
+      isopoints.reserve(count); // growing would take more than the bound counts
       for (const Run& run : runs_of_value) {
         const std::size_t old = isopoints.size();
         isopoints.resize(old + run.count);
@@ -277,7 +286,7 @@ private:
   void
   warnOfEmpty()
   {
-    NodeRanges::Range range = ranges_.front();
+    NodeRanges::Range range = no_range;
     for (const NodeRanges::Range& other : ranges_)
       range = range.joined(other);
     for (const double isovalue : settings_.isovalues)
@@ -308,15 +317,13 @@ private:
         });
   }
 
-  /** The bricks of a block, and those around it that hold samples which an isopoint of
-   * the block may rest on. */
+  /** The bricks of a block and those that touch it. */
   struct Bricks {
     std::vector<Brick> own, around;
   };
 
-  /** \return none if no edge from a sample of the block can be crossed */
   Bricks
-  findBricks(const Decomposition& blocks, std::size_t block) const
+  touchingBricks(const Decomposition& blocks, std::size_t block) const
   {
     const CellKey cell = blocks.getCell(block);
     const std::uint64_t begin = blocks.getBegin(block),
@@ -328,38 +335,49 @@ private:
                    const bool is_own = begin <= brick.begin && brick.begin < end;
                    (is_own ? bricks.own : bricks.around).push_back(brick);
                  });
-    // Edges end in bricks that touch each other.
-    const auto range_around = [&](const Brick& brick) {
-      NodeRanges::Range range = brick.range;
-      for (const auto* others : {&bricks.own, &bricks.around})
-        for (const Brick& other : *others)
-          if (other.cell.touches(brick.cell))
-            range = range.joined(other.range);
+    return bricks;
+  }
+
+  /** Of bricks of a block those that hold an end of an edge that may be crossed: its
+   * ends lie in bricks that touch each other. */
+  std::vector<Brick>
+  crossedBricks(const Bricks& bricks) const
+  {
+    std::vector<Brick> all = bricks.own;
+    all.insert(all.end(), bricks.around.begin(), bricks.around.end());
+    const auto range_of = [&](const auto& accepts) {
+      NodeRanges::Range range = no_range;
+      for (const Brick& brick : all)
+        if (accepts(brick))
+          range = range.joined(brick.range);
       return range;
     };
-    NodeRanges::Range range = bricks.own.front().range;
-    for (const auto* all : {&bricks.own, &bricks.around})
-      for (const Brick& brick : *all)
-        range = range.joined(brick.range);
-    if (!isCrossed(range))
-      return {};
-    bricks.own.erase(
-        std::remove_if(bricks.own.begin(),
-                       bricks.own.end(),
-                       [&](const Brick& own) { return !isCrossed(range_around(own)); }),
-        bricks.own.end());
-    bricks.around.erase(std::remove_if(bricks.around.begin(),
-                                       bricks.around.end(),
-                                       [&](const Brick& around) {
-                                         return std::none_of(bricks.own.begin(),
-                                                             bricks.own.end(),
-                                                             [&](const Brick& own) {
-                                                               return own.cell.touches(
-                                                                   around.cell);
-                                                             });
-                                       }),
-                        bricks.around.end());
-    return bricks;
+    std::vector<Brick> crossed;
+    if (isCrossed(range_of([](const Brick&) { return true; })))
+      for (const Brick& own : bricks.own)
+        if (isCrossed(range_of(
+                [&](const Brick& other) { return other.cell.touches(own.cell); })))
+          crossed.push_back(own);
+    return crossed;
+  }
+
+  /** The bricks around a block that its isopoints may rest on.
+   * \param crossed bricks of it
+   * \param around bricks that touch it */
+  static std::vector<Brick>
+  neededBricks(const std::vector<Brick>& crossed, const std::vector<Brick>& around)
+  {
+    std::vector<Brick> needed;
+    std::copy_if(around.begin(),
+                 around.end(),
+                 std::back_inserter(needed),
+                 [&](const auto& other) {
+                   return std::any_of(
+                       crossed.begin(), crossed.end(), [&](const Brick& own) {
+                         return own.cell.touches(other.cell);
+                       });
+                 });
+    return needed;
   }
 
   /** Bricks on their way to a block. */
@@ -386,10 +404,11 @@ private:
     Loan loan{blocks.getCount(block), {}};
     {
       const StepTimer timer(report_, "exchange");
-      const Bricks bricks = findBricks(blocks, block);
-      if (bricks.own.empty())
+      const Bricks bricks = touchingBricks(blocks, block);
+      const std::vector<Brick> crossed = crossedBricks(bricks);
+      if (crossed.empty())
         return {};
-      for (const Brick& brick : bricks.around)
+      for (const Brick& brick : neededBricks(crossed, bricks.around))
         lend(brick, loan);
     }
     Piece piece = *Piece::build(blocks,

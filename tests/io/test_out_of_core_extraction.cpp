@@ -9,13 +9,21 @@
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fcntl.h>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <stdexcept>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
 
 namespace {
 
@@ -219,6 +227,65 @@ TEST_F(OutOfCore, HasScratchFilesThatNobodySees)
   EXPECT_EQ(1u, steps.count("scratch"));
   EXPECT_EQ(1u, steps.count("tree"));
   EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+}
+
+/** Room on disk of this process's files without a name. */
+std::uint64_t
+namelessBytes()
+{
+  std::uint64_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    struct stat status;
+    const int descriptor = std::stoi(entry.path().filename().string());
+    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+        status.st_nlink == 0)
+      bytes += static_cast<std::uint64_t>(status.st_blocks) * 512;
+  }
+  return bytes;
+}
+
+bool
+canShortenFiles(const std::string& path)
+{
+  const int file = open(path.c_str(), O_RDWR | O_CREAT, 0600);
+  const bool can =
+      ftruncate(file, 1 << 16) == 0 &&
+      fallocate(file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0, 1 << 12) == 0;
+  close(file);
+  unlink(path.c_str());
+  return can;
+}
+
+/** While they are parted, and while duplicates are merged, samples leave one file for
+ * another one. */
+TEST_F(OutOfCore, KeepsEachSampleOnDiskOnce)
+{
+  if (!canShortenFiles(folder_ / "hole"))
+    GTEST_SKIP() << "this file system cannot shorten files at their beginning";
+  const std::size_t size = 2000000;
+  for (const bool duplicates : {false, true}) {
+    auto cloud = uvol_test::makeCloud("lattice", size, 1);
+    if (duplicates)
+      (*cloud)[0] = (*cloud)[1];
+    save(*cloud);
+    IsosurfaceSettings settings;
+    settings.field = "intensity";
+    settings.isovalues = {7.0}; // no value comes near: isopoints are none of this test
+    std::atomic<bool> ends{false};
+    std::uint64_t most = 0;
+    std::thread watch([&] {
+      while (!ends) {
+        most = std::max(most, namelessBytes());
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+      }
+    });
+    extract(settings);
+    ends = true;
+    watch.join();
+    const double samples = 24.0 * static_cast<double>(report_.getCount("samples"));
+    EXPECT_GT(static_cast<double>(most), 0.9 * samples);
+    EXPECT_LT(static_cast<double>(most), 1.4 * samples);
+  }
 }
 
 TEST_F(OutOfCore, SaysThatTheDiskIsFull)
