@@ -14,9 +14,9 @@
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/io/out_of_core_extraction.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/extract_out_of_core.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>

@@ -5,12 +5,13 @@
 #include "common/progress_bar.h"
 #include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/rank_report.h>
 #include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/distributed/fetch_points.h>
+#include <pcl_uvol/distributed/merge_reports.h>
 #include <pcl_uvol/io/rank_files.h>
-#include <pcl_uvol/isosurface/rank_extraction.h>
-#include <pcl_uvol/isosurface/rank_rows.h>
-#include <pcl_uvol/mpi/mpi_ranks.h>
+#include <pcl_uvol/isosurface/edge_ends.h>
+#include <pcl_uvol/mpi/mpi_communicator.h>
+#include <pcl_uvol/pipeline/extract_from_ranks.h>
 
 #include <pcl/conversions.h>
 #include <vtkMPIController.h>
@@ -85,17 +86,18 @@ check(const Arguments& arguments)
 }
 
 pcl_uvol::Dataset
-load(const Arguments& arguments, pcl_uvol::RankGroup& ranks, Report& report)
+load(const Arguments& arguments, pcl_uvol::Communicator& communicator, Report& report)
 {
   const StepTimer timer(report, "read");
-  pcl_uvol::Dataset part = pcl_uvol::loadPart(
-      pcl_uvol::findPieces(arguments.inputs), arguments.makeLoadOptions(), ranks);
+  pcl_uvol::Dataset part = pcl_uvol::loadPart(pcl_uvol::findPieces(arguments.inputs),
+                                              arguments.makeLoadOptions(),
+                                              communicator);
   report.warnings = part.notes;
   report.count("points", part.cloud.width);
   if (!arguments.where.empty())
     report.count("removed_by_where", pcl_uvol::selectRows(part, arguments.where));
   std::vector<std::uint64_t> left{part.cloud.width};
-  ranks.sum(left);
+  communicator.allReduce(left);
   if (left[0] == 0)
     throw pcl_uvol::InvalidArgument(
         joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
@@ -106,15 +108,16 @@ load(const Arguments& arguments, pcl_uvol::RankGroup& ranks, Report& report)
 pcl_uvol::Dataset
 makeOutput(const Arguments& arguments,
            const pcl_uvol::Dataset& part,
-           std::uint64_t first_row,
+           std::uint64_t first_index,
            const Isopoints& isopoints,
            unsigned threads,
-           pcl_uvol::RankGroup& ranks,
+           pcl_uvol::Communicator& communicator,
            Report& report)
 {
   const StepTimer timer(report, "fields");
-  const auto rows =
-      pcl_uvol::fetchRows(part.cloud, first_row, isopoints, ranks, report);
+  const pcl_uvol::EdgeEnds ends = pcl_uvol::findEdgeEnds(isopoints);
+  const auto samples =
+      pcl_uvol::fetchPoints(part.cloud, first_index, ends.points, communicator, report);
   pcl::PointCloud<PointIso> points;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     for (const pcl_uvol::GlobalIsopoint& isopoint : isopoints[i])
@@ -124,7 +127,7 @@ makeOutput(const Arguments& arguments,
   output.double_coordinates = part.double_coordinates;
   pcl::toPCLPointCloud2(points, output.cloud);
   pcl_uvol::warnOfReplacedFields(part.cloud, output.cloud, report);
-  pcl_uvol::interpolateFields(rows.cloud, rows.edges, output.cloud, threads);
+  pcl_uvol::interpolateFields(samples, ends.edges, output.cloud, threads);
   return output;
 }
 
@@ -132,20 +135,20 @@ void
 save(const Arguments& arguments,
      const std::string& field,
      const pcl_uvol::Dataset& output,
-     pcl_uvol::RankGroup& ranks,
+     pcl_uvol::Communicator& communicator,
      Report& report)
 {
   const StepTimer timer(report, "write");
   if (arguments.inPieces())
-    return pcl_uvol::savePieces(arguments.output, output, ranks);
-  if (ranks.rank() == 0) {
+    return pcl_uvol::savePieces(arguments.output, output, communicator);
+  if (communicator.rank() == 0) {
     pcl_uvol::SaveOptions options;
     options.ascii = arguments.ascii;
     options.comments = {"isosurface of " + field + " at " +
                         joined(arguments.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, options);
   }
-  ranks.meet();
+  communicator.barrier();
 }
 
 /** \return the field that was taken */
@@ -153,40 +156,42 @@ std::string
 extract(const Arguments& arguments,
         const pcl_uvol::Position& scale,
         unsigned threads,
-        pcl_uvol::RankGroup& ranks,
+        pcl_uvol::Communicator& communicator,
         Report& report)
 {
   const StepTimer timer(report, "total");
-  const pcl_uvol::Dataset part = load(arguments, ranks, report);
+  const pcl_uvol::Dataset part = load(arguments, communicator, report);
   const std::string field = arguments.field.empty()
                                 ? pcl_uvol::ScalarField::defaultName(part.cloud.fields)
                                 : arguments.field;
   if (!arguments.inPieces())
     pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
-  const std::uint64_t first_row = pcl_uvol::findFirstRow(part.cloud.width, ranks);
+  const std::uint64_t first_index =
+      pcl_uvol::findFirstIndex(part.cloud.width, communicator);
   pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
   settings.field = field;
   settings.scale = scale;
   const auto view = pcl_uvol::viewOf(part.cloud);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
       pcl_uvol::readSamples(
-          view, {view.fields, field}, scale, first_row, threads, report),
+          view, {view.fields, field}, scale, first_index, threads, report),
       settings,
-      ranks,
+      communicator,
       threads,
       report);
   if (!arguments.inPieces())
-    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), ranks, threads);
+    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), communicator, threads);
   save(arguments,
        field,
-       makeOutput(arguments, part, first_row, isopoints, threads, ranks, report),
-       ranks,
+       makeOutput(
+           arguments, part, first_index, isopoints, threads, communicator, report),
+       communicator,
        report);
   return field;
 }
 
 int
-run(int argc, char** argv, pcl_uvol::RankGroup& ranks)
+run(int argc, char** argv, pcl_uvol::Communicator& communicator)
 {
   Arguments arguments;
   Options options(
@@ -205,19 +210,19 @@ run(int argc, char** argv, pcl_uvol::RankGroup& ranks)
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;
-  if (ranks.rank() == 0)
+  if (communicator.rank() == 0)
     report.progress = std::ref(bar.emplace(arguments.progress));
   const std::string field =
-      extract(arguments, scale, arguments.threads(options), ranks, report);
+      extract(arguments, scale, arguments.threads(options), communicator, report);
   bar.reset();
   const Report together = mergeReports(
-      report, ranks, {"bytes_dealt_out", "bytes_exchanged", "bytes_of_fields"});
-  if (ranks.rank() == 0)
+      report, communicator, {"bytes_dealt_out", "bytes_exchanged", "bytes_of_fields"});
+  if (communicator.rank() == 0)
     uvol_tools::printReport(options,
                             together,
                             {{"input", joined(arguments.inputs)},
                              {"output", arguments.output},
-                             {"processes", std::to_string(ranks.size())},
+                             {"processes", std::to_string(communicator.size())},
                              {"field", field},
                              {"isovalues", joined(arguments.isovalues)},
                              {"scale", joined(scale.x)},
@@ -235,19 +240,19 @@ main(int argc, char** argv)
   controller->Initialize(&argc, &argv);
   int exit_code = 0;
   {
-    pcl_uvol::MpiRanks ranks(*controller);
+    pcl_uvol::MpiCommunicator communicator(*controller);
     // Only the first process has anything to say, if all goes well.
     std::ostringstream silence;
     std::streambuf* const out = std::cout.rdbuf();
-    if (ranks.rank() != 0)
+    if (communicator.rank() != 0)
       std::cout.rdbuf(silence.rdbuf());
     const uvol_tools::Outcome outcome =
-        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, ranks); });
+        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, communicator); });
     std::cout.rdbuf(out);
-    const std::size_t failed = ranks.agree(outcome.exit_code != 0);
-    if (failed == ranks.rank())
+    const std::size_t failed = communicator.agree(outcome.exit_code != 0);
+    if (failed == communicator.rank())
       std::cerr << tool << ": " << outcome.sentence << '\n';
-    exit_code = failed == ranks.size() ? 0 : std::max(outcome.exit_code, 1);
+    exit_code = failed == communicator.size() ? 0 : std::max(outcome.exit_code, 1);
   }
   controller->Finalize();
   return exit_code;

@@ -154,7 +154,7 @@ PieceIsopoints::fit(const IsopointInput& input,
 }
 
 std::vector<Ball>
-PieceIsopoints::getOpenBalls() const
+PieceIsopoints::getPendingBalls() const
 {
   std::vector<Ball> balls;
   for (const Open& open : open_)
@@ -163,7 +163,7 @@ PieceIsopoints::getOpenBalls() const
 }
 
 void
-PieceIsopoints::settle()
+PieceIsopoints::resolvePending()
 {
   const std::vector<Open> open = std::exchange(open_, {});
   const NodeRanges none{};

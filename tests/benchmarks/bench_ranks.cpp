@@ -2,7 +2,7 @@
 // What a process does with its share of the samples, by itself: the levels of the
 // decomposition, which every process works through for all of its samples. One thread.
 #include "radial_cloud.h"
-#include <pcl_uvol/neighbors/decomposition.h>
+#include <pcl_uvol/distributed/decomposition.h>
 
 #include <benchmark/benchmark.h>
 
@@ -30,7 +30,7 @@ decompose(benchmark::State& state)
 {
   const auto& all = positions();
   const int levels = static_cast<int>(state.range(0));
-  pcl_uvol::SingleRank alone;
+  pcl_uvol::SelfCommunicator alone;
   std::size_t passes = 0;
   for (auto _ : state) {
     passes = 0;
@@ -57,7 +57,7 @@ void
 findPieces(benchmark::State& state)
 {
   const auto& all = positions();
-  pcl_uvol::SingleRank alone;
+  pcl_uvol::SelfCommunicator alone;
   const pcl_uvol::Decomposition decomposition(
       {samples,
        [&](std::uint64_t begin, std::size_t, pcl_uvol::Position*) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes that exchange messages whose bytes each can foretell; run by mpirun from
-// test_mpi_ranks. usage: talk PARTS [LOSER FUNCTION]: the largest part of a message;
-// the process that fails while the others call sum, gather or exchange.
-#include <pcl_uvol/mpi/mpi_ranks.h>
+// test_mpi_communicator. usage: talk PARTS [LOSER FUNCTION]: the largest part of a
+// message; the process that fails while the others call sum, gather or exchange.
+#include <pcl_uvol/mpi/mpi_communicator.h>
 
 #include <vtkMPIController.h>
 #include <vtkNew.h>
@@ -14,7 +14,7 @@
 namespace {
 
 using pcl_uvol::Bytes;
-using pcl_uvol::MpiRanks;
+using pcl_uvol::MpiCommunicator;
 
 /** Some are empty, some have many parts. */
 Bytes
@@ -28,47 +28,49 @@ messageOf(std::size_t from, std::size_t to, std::size_t round)
 
 /** \return what is wrong */
 std::string
-talk(MpiRanks& ranks)
+talk(MpiCommunicator& communicator)
 {
   for (std::size_t round = 0; round < 5; ++round) {
     std::vector<Bytes> messages;
-    for (std::size_t to = 0; to < ranks.size(); ++to)
-      messages.push_back(messageOf(ranks.rank(), to, round));
-    const auto received = ranks.exchange(std::move(messages));
-    for (std::size_t from = 0; from < ranks.size(); ++from)
-      if (received.at(from) != messageOf(from, ranks.rank(), round))
+    for (std::size_t to = 0; to < communicator.size(); ++to)
+      messages.push_back(messageOf(communicator.rank(), to, round));
+    const auto received = communicator.allToAll(std::move(messages));
+    for (std::size_t from = 0; from < communicator.size(); ++from)
+      if (received.at(from) != messageOf(from, communicator.rank(), round))
         return "a message differs";
-    const auto gathered = ranks.gatherAll(messageOf(ranks.rank(), 0, round));
-    for (std::size_t from = 0; from < ranks.size(); ++from)
+    const auto gathered =
+        communicator.allGather(messageOf(communicator.rank(), 0, round));
+    for (std::size_t from = 0; from < communicator.size(); ++from)
       if (gathered.at(from) != messageOf(from, 0, round))
         return "a gathered message differs";
-    std::vector<std::uint64_t> numbers{ranks.rank(), std::uint64_t(1) << 40, round};
-    ranks.sum(numbers);
-    const std::uint64_t n = ranks.size();
+    std::vector<std::uint64_t> numbers{
+        communicator.rank(), std::uint64_t(1) << 40, round};
+    communicator.allReduce(numbers);
+    const std::uint64_t n = communicator.size();
     if (numbers != std::vector<std::uint64_t>{n * (n - 1) / 2, n << 40, n * round})
       return "a sum differs";
   }
-  ranks.meet();
+  communicator.barrier();
   return "";
 }
 
 /** \return what is wrong */
 std::string
-fail(MpiRanks& ranks, std::size_t loser, const std::string& function)
+fail(MpiCommunicator& communicator, std::size_t loser, const std::string& function)
 {
-  if (ranks.rank() >= loser) // the first one counts
-    return ranks.agree(true) == loser ? "" : "the loser is another one";
+  if (communicator.rank() >= loser) // the first one counts
+    return communicator.agree(true) == loser ? "" : "the loser is another one";
   try {
     std::vector<std::uint64_t> numbers{1};
     if (function == "sum")
-      ranks.sum(numbers);
+      communicator.allReduce(numbers);
     else if (function == "gather")
-      ranks.gatherAll(Bytes(10));
+      communicator.allGather(Bytes(10));
     else
-      ranks.exchange(std::vector<Bytes>(ranks.size(), Bytes(10)));
+      communicator.allToAll(std::vector<Bytes>(communicator.size(), Bytes(10)));
   }
   catch (const pcl_uvol::OtherRankFailed&) {
-    return ranks.agree(false) == loser ? "" : "the loser is forgotten";
+    return communicator.agree(false) == loser ? "" : "the loser is forgotten";
   }
   return "nobody failed";
 }
@@ -82,11 +84,12 @@ main(int argc, char** argv)
   controller->Initialize(&argc, &argv);
   std::string complaint;
   {
-    MpiRanks ranks(*controller, std::stoul(argv[1]));
-    complaint = talk(ranks);
+    MpiCommunicator communicator(*controller, std::stoul(argv[1]));
+    complaint = talk(communicator);
     if (complaint.empty() && argc == 4)
-      complaint = fail(ranks, std::stoul(argv[2]), argv[3]);
-    std::cout << "process " << ranks.rank() << " of " << ranks.size() << '\n';
+      complaint = fail(communicator, std::stoul(argv[2]), argv[3]);
+    std::cout << "process " << communicator.rank() << " of " << communicator.size()
+              << '\n';
   }
   controller->Finalize();
   if (!complaint.empty())

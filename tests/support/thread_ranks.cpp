@@ -24,14 +24,14 @@ public:
   }
 
   std::vector<Bytes>
-  exchange(std::size_t rank, std::vector<Bytes>&& messages)
+  allToAll(std::size_t rank, std::vector<Bytes>&& messages)
   {
     messages_[rank] = std::move(messages);
-    meet();
+    barrier();
     std::vector<Bytes> received;
     for (const auto& sent : messages_)
       received.push_back(sent.at(rank));
-    meet();
+    barrier();
     return received;
   }
 
@@ -45,7 +45,7 @@ public:
 
 private:
   void
-  meet()
+  barrier()
   {
     std::unique_lock lock(mutex_);
     const std::size_t round = round_;
@@ -67,9 +67,9 @@ private:
   bool is_left_ = false;
 };
 
-class ThreadRank : public pcl_uvol::RankGroup {
+class ThreadCommunicator : public pcl_uvol::Communicator {
 public:
-  ThreadRank(Board& board, std::size_t rank, std::size_t count)
+  ThreadCommunicator(Board& board, std::size_t rank, std::size_t count)
       : board_(board)
       , rank_(rank)
       , count_(count)
@@ -88,12 +88,12 @@ public:
   }
 
   void
-  sum(std::vector<std::uint64_t>& numbers) override
+  allReduce(std::vector<std::uint64_t>& numbers) override
   {
     const auto* const first = reinterpret_cast<const std::uint8_t*>(numbers.data());
     const Bytes mine(first, first + numbers.size() * sizeof(std::uint64_t));
     std::fill(numbers.begin(), numbers.end(), 0u);
-    for (const Bytes& bytes : gatherAll(mine)) {
+    for (const Bytes& bytes : allGather(mine)) {
       const auto* const other = reinterpret_cast<const std::uint64_t*>(bytes.data());
       for (std::size_t i = 0; i < numbers.size(); ++i)
         numbers[i] += other[i];
@@ -101,9 +101,9 @@ public:
   }
 
   std::vector<Bytes>
-  exchange(std::vector<Bytes>&& messages) override
+  allToAll(std::vector<Bytes>&& messages) override
   {
-    return board_.exchange(rank_, std::move(messages));
+    return board_.allToAll(rank_, std::move(messages));
   }
 
 private:
@@ -114,7 +114,7 @@ private:
 } // namespace
 
 void
-runRanks(std::size_t count, const std::function<void(pcl_uvol::RankGroup&)>& body)
+runRanks(std::size_t count, const std::function<void(pcl_uvol::Communicator&)>& body)
 {
   Board board(count);
   std::exception_ptr first;
@@ -123,7 +123,7 @@ runRanks(std::size_t count, const std::function<void(pcl_uvol::RankGroup&)>& bod
   for (std::size_t rank = 0; rank < count; ++rank)
     threads.emplace_back([&, rank] {
       try {
-        ThreadRank group(board, rank, count);
+        ThreadCommunicator group(board, rank, count);
         body(group);
       }
       catch (...) {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/rank_group.h>
+#include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <string>
@@ -31,13 +31,13 @@ findPieces(const std::vector<std::string>& paths);
 PCL_UVOL_EXPORTS Dataset
 loadPart(const std::vector<std::string>& paths,
          const LoadOptions& options,
-         RankGroup& ranks);
+         Communicator& communicator);
 
 /** \brief Write a .pvtp, and beside it the points of each process as name_<rank>.vtp.
  * All files appear or, if a process fails, none. Fields are those of all processes.
  * \throws IOError */
 PCL_UVOL_EXPORTS void
-savePieces(const std::string& path, const Dataset& part, RankGroup& ranks);
+savePieces(const std::string& path, const Dataset& part, Communicator& communicator);
 
 /** \brief Throw IOError unless savePieces can write there: to be called before work
  * whose result would be lost. */

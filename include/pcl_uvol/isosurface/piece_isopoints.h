@@ -6,8 +6,8 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/distributed/piece.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/piece.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -83,12 +83,12 @@ public:
    * stretched space. They are small at first, and grow as long as the nearest samples
    * may lie beyond them: a far one may turn out not to matter. */
   std::vector<Ball>
-  getOpenBalls() const;
+  getPendingBalls() const;
 
   /** \brief Fit again, now that the piece has these bricks; to be repeated until no
    * ball is open. */
   void
-  settle();
+  resolvePending();
 
   /** \brief Per isovalue. */
   std::vector<std::vector<GlobalIsopoint>>&&

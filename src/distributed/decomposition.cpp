@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "median_search.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/distributed/decomposition.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+bool
+isBelow(int axis, const PlaneKey& a, const PlaneKey& b)
+{
+  if (a.coordinate != b.coordinate)
+    return a.coordinate < b.coordinate;
+  return lessAlong(axis, a.below, b.below);
+}
+
+} // namespace
+
+CellKey
+CellKey::unbounded()
+{
+  CellKey cell;
+  cell.low.fill({-infinity, {}});
+  cell.high.fill({infinity, {}});
+  return cell;
+}
+
+bool
+CellKey::touches(const CellKey& other) const
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    if (isBelow(axis, high[i], other.low[i]) || isBelow(axis, other.high[i], low[i]))
+      return false;
+  }
+  return true;
+}
+
+bool
+meets(const Ball& ball, const CellKey& cell)
+{
+  double sq_dist = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double x = ball.center[axis];
+    const double offset =
+        std::max({cell.low[i].coordinate - x, x - cell.high[i].coordinate, 0.0});
+    sq_dist += offset * offset;
+  }
+  const double radius = ball.radius;
+  return sq_dist <= radius * radius;
+}
+
+std::vector<Ball>
+ballsIn(const CellKey& cell, const std::vector<Ball>& balls)
+{
+  std::vector<Ball> meeting;
+  std::copy_if(balls.begin(),
+               balls.end(),
+               std::back_inserter(meeting),
+               [&](const Ball& ball) { return meets(ball, cell); });
+  return meeting;
+}
+
+bool
+liesWithin(const Ball& ball, const CellKey& cell)
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double x = ball.center[axis];
+    if (!(x - ball.radius > cell.low[i].coordinate &&
+          x + ball.radius < cell.high[i].coordinate))
+      return false;
+  }
+  return true;
+}
+
+Decomposition::Decomposition(const PositionSource& positions,
+                             int levels,
+                             Communicator& communicator,
+                             unsigned threads)
+    : levels_(levels)
+{
+  if (levels < 0 || levels > most_levels)
+    throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
+                          std::to_string(most_levels) + " are.");
+  planes_.resize(size());
+  MedianSearch search(positions, levels, communicator, threads);
+  axes_ = KdTree::cycleOver(search.getExtent());
+  const std::uint64_t total = search.getCounts()[1];
+  if (total < size())
+    throw InvalidArgument(std::to_string(total) + " samples cannot be parted into " +
+                          std::to_string(size()) + " pieces.");
+  for (int depth = 0; depth < levels; ++depth)
+    search.findMedians(depth, axes_, planes_);
+  begins_.push_back(0);
+  for (std::size_t piece = 0; piece < size(); ++piece)
+    begins_.push_back(begins_.back() + search.getCounts()[size() + piece]);
+}
+
+Decomposition::Decomposition(
+    const Decomposition& top,
+    int levels,
+    const std::function<PlaneKey(std::size_t piece, std::size_t node)>& plane_of)
+    : levels_(levels)
+    , axes_(top.axes_)
+    , planes_(top.planes_)
+{
+  for (int depth = top.levels_; depth < levels; ++depth)
+    for (std::size_t piece = 0; piece < top.size(); ++piece) {
+      const std::size_t nodes = std::size_t(1) << (depth - top.levels_);
+      for (std::size_t node = nodes; node < 2 * nodes; ++node)
+        planes_.push_back(plane_of(piece, node));
+    }
+  begins_ = top.begins_;
+  for (int depth = top.levels_; depth < levels; ++depth) {
+    std::vector<std::uint64_t> halves;
+    for (std::size_t i = 0; i + 1 < begins_.size(); ++i) {
+      const std::uint64_t count = begins_[i + 1] - begins_[i];
+      halves.push_back(begins_[i]);
+      halves.push_back(begins_[i] + (count + 1) / 2); // the left half takes the odd one
+    }
+    halves.push_back(begins_.back());
+    begins_ = std::move(halves);
+  }
+}
+
+CellKey
+Decomposition::getCell(std::size_t piece) const
+{
+  CellKey cell = CellKey::unbounded();
+  for (int depth = 0; depth < levels_; ++depth) {
+    const std::size_t node = (size() + piece) >> (levels_ - depth);
+    const std::size_t axis = axisAt(axes_, depth);
+    const bool is_right = (piece >> (levels_ - 1 - depth) & 1) != 0;
+    (is_right ? cell.low : cell.high)[axis] = planes_[node];
+  }
+  return cell;
+}
+
+void
+Decomposition::findPieces(
+    const std::vector<Ball>& balls,
+    const std::function<void(std::size_t piece, const std::vector<Ball>&)>& found) const
+{
+  const std::function<void(std::size_t, int, CellKey&, const std::vector<Ball>&)>
+      visit = [&](std::size_t node,
+                  int depth,
+                  CellKey& cell,
+                  const std::vector<Ball>& above) {
+        const std::vector<Ball> meeting = ballsIn(cell, above);
+        if (meeting.empty())
+          return;
+        if (depth == levels_) {
+          found(node - size(), meeting);
+          return;
+        }
+        const std::size_t axis = axisAt(axes_, depth);
+        const PlaneKey low = cell.low[axis], high = cell.high[axis];
+        cell.high[axis] = planes_[node];
+        visit(2 * node, depth + 1, cell, meeting);
+        cell.high[axis] = high;
+        cell.low[axis] = planes_[node];
+        visit(2 * node + 1, depth + 1, cell, meeting);
+        cell.low[axis] = low;
+      };
+  CellKey cell = CellKey::unbounded();
+  visit(1, 0, cell, balls);
+}
+
+std::size_t
+Decomposition::pieceOf(const Position& position) const
+{
+  return nodeOf(position, levels_, axes_, planes_) - size();
+}
+
+} // namespace pcl_uvol
