@@ -216,7 +216,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
       extract(arguments, scale, arguments.threads(options), communicator, report);
   bar.reset();
   const Report together = mergeReports(
-      report, communicator, {"bytes_dealt_out", "bytes_exchanged", "bytes_of_fields"});
+      report, communicator, {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
   if (communicator.rank() == 0)
     uvol_tools::printReport(options,
                             together,

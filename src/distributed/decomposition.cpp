@@ -45,14 +45,14 @@ CellKey::touches(const CellKey& other) const
 }
 
 bool
-meets(const Ball& ball, const CellKey& cell)
+CellKey::meets(const Ball& ball) const
 {
   double sq_dist = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     const double x = ball.center[axis];
     const double offset =
-        std::max({cell.low[i].coordinate - x, x - cell.high[i].coordinate, 0.0});
+        std::max({low[i].coordinate - x, x - high[i].coordinate, 0.0});
     sq_dist += offset * offset;
   }
   const double radius = ball.radius;
@@ -60,24 +60,23 @@ meets(const Ball& ball, const CellKey& cell)
 }
 
 std::vector<Ball>
-ballsIn(const CellKey& cell, const std::vector<Ball>& balls)
+CellKey::selectMeeting(const std::vector<Ball>& balls) const
 {
   std::vector<Ball> meeting;
   std::copy_if(balls.begin(),
                balls.end(),
                std::back_inserter(meeting),
-               [&](const Ball& ball) { return meets(ball, cell); });
+               [this](const Ball& ball) { return meets(ball); });
   return meeting;
 }
 
 bool
-liesWithin(const Ball& ball, const CellKey& cell)
+CellKey::contains(const Ball& ball) const
 {
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     const double x = ball.center[axis];
-    if (!(x - ball.radius > cell.low[i].coordinate &&
-          x + ball.radius < cell.high[i].coordinate))
+    if (!(x - ball.radius > low[i].coordinate && x + ball.radius < high[i].coordinate))
       return false;
   }
   return true;
@@ -156,7 +155,7 @@ Decomposition::findPieces(
                   int depth,
                   CellKey& cell,
                   const std::vector<Ball>& above) {
-        const std::vector<Ball> meeting = ballsIn(cell, above);
+        const std::vector<Ball> meeting = cell.selectMeeting(above);
         if (meeting.empty())
           return;
         if (depth == levels_) {
@@ -177,9 +176,9 @@ Decomposition::findPieces(
 }
 
 std::size_t
-Decomposition::pieceOf(const Position& position) const
+Decomposition::findPiece(const Position& position) const
 {
-  return nodeOf(position, levels_, axes_, planes_) - size();
+  return findNode(position, levels_, axes_, planes_) - size();
 }
 
 } // namespace pcl_uvol

@@ -321,7 +321,7 @@ private:
     std::vector<std::vector<NodePosition>> chosen(threads_);
     forEachSample(
         source_, threads_, [&](auto thread, auto index, const Position& position) {
-          const std::size_t node = nodeOf(position, depth_, axes_, planes_) - nodes;
+          const std::size_t node = findNode(position, depth_, axes_, planes_) - nodes;
           const Median& median = medians_[node];
           Tally& found = tallies[thread][node];
           // Nearly all samples are counted here, without a branch that depends on them.
@@ -507,7 +507,7 @@ MedianSearch::findMedians(int depth,
     auto end = begin;
     for (; end != drawn_.end() && end->node == node; ++end)
       end->node = static_cast<std::uint32_t>(
-          childOf(nodes + node, end->position, axis, planes) - 2 * nodes);
+          findChild(nodes + node, end->position, axis, planes) - 2 * nodes);
     std::partition(
         begin, end, [&](const NodePosition& p) { return p.node == 2 * node; });
     begin = end;

@@ -10,10 +10,10 @@ namespace pcl_uvol {
  * plane
  */
 inline std::size_t
-childOf(std::size_t node,
-        const Position& position,
-        int axis,
-        const std::vector<PlaneKey>& planes)
+findChild(std::size_t node,
+          const Position& position,
+          int axis,
+          const std::vector<PlaneKey>& planes)
 {
   return node << 1 |
          static_cast<std::size_t>(lessAlong(axis, planes[node].below, position));
@@ -22,14 +22,14 @@ childOf(std::size_t node,
 /** \brief The node at a depth that a position lies below. \param planes by node number
  */
 inline std::size_t
-nodeOf(const Position& position,
-       int depth,
-       const AxisCycle& axes,
-       const std::vector<PlaneKey>& planes)
+findNode(const Position& position,
+         int depth,
+         const AxisCycle& axes,
+         const std::vector<PlaneKey>& planes)
 {
   std::size_t node = 1;
   for (std::size_t d = 0; d < static_cast<std::size_t>(depth); ++d)
-    node = childOf(node, position, axes[d], planes);
+    node = findChild(node, position, axes[d], planes);
   return node;
 }
 

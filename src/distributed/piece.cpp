@@ -22,7 +22,7 @@ constexpr std::size_t anchors_per_cell = 6;
 constexpr std::size_t block_bricks = 16;
 
 std::vector<SampleRecord>
-recordsOf(const std::vector<Position>& positions, unsigned threads)
+makeRecords(const std::vector<Position>& positions, unsigned threads)
 {
   std::vector<SampleRecord> records(positions.size());
   parallelBlocks(records.size(), block_samples, threads, [&](auto begin, auto end) {
@@ -51,14 +51,16 @@ anchored(const CellKey& key, std::vector<Position>& positions)
 }
 
 std::vector<KdTree>
-treesOf(const std::vector<GhostBrick>& bricks, const AxisCycle& axes, unsigned threads)
+buildTrees(const std::vector<GhostBrick>& bricks,
+           const AxisCycle& axes,
+           unsigned threads)
 {
   std::vector<KdTree> trees(bricks.size());
   parallelBlocks(bricks.size(), block_bricks, threads, [&](auto begin, auto end) {
     Report none;
-    StepTimer step(none, "halo");
+    StepTimer step(none, "ghosts");
     for (std::size_t i = begin; i < end; ++i) {
-      auto records = recordsOf(bricks[i].samples.positions, 1);
+      auto records = makeRecords(bricks[i].samples.positions, 1);
       trees[i].build(records, axes, bricks[i].brick.depth, 1, step);
     }
   });
@@ -103,7 +105,7 @@ struct MeetingBalls {
   MeetingBalls
   within(const CellKey& cell) const
   {
-    return {ballsIn(cell, balls)};
+    return {cell.selectMeeting(balls)};
   }
   bool
   isEmpty() const
@@ -220,7 +222,7 @@ Piece::build(const Decomposition& decomposition,
   if (samples.size() == 0)
     return std::nullopt; // elsewhere equal ones lie together
   StepTimer step(report, "tree", samples.size());
-  std::vector<SampleRecord> records = recordsOf(samples.positions, threads);
+  std::vector<SampleRecord> records = makeRecords(samples.positions, threads);
   samples.positions = {};
   KdTree tree;
   const bool distinct = tree.build(
@@ -257,7 +259,7 @@ Piece::makeBricks() const
 }
 
 std::uint32_t
-Piece::firstOf(const Run& run) const
+Piece::getFirst(const Run& run) const
 {
   const auto index = static_cast<std::size_t>(&run - runs_.data());
   return samples_->getTrees()[index].getRoot().begin;
@@ -268,13 +270,13 @@ Piece::toGlobal(std::uint32_t sample) const
 {
   const auto run =
       std::upper_bound(runs_.begin(), runs_.end(), sample, [&](auto s, const Run& r) {
-        return s < firstOf(r);
+        return s < getFirst(r);
       });
-  return run[-1].begin + (sample - firstOf(run[-1]));
+  return run[-1].begin + (sample - getFirst(run[-1]));
 }
 
 std::vector<Piece::Run>::const_iterator
-Piece::runAt(std::uint64_t sample) const
+Piece::findRun(std::uint64_t sample) const
 {
   const auto next =
       std::upper_bound(runs_.begin(), runs_.end(), sample, [](auto s, const Run& run) {
@@ -286,23 +288,23 @@ Piece::runAt(std::uint64_t sample) const
 std::uint32_t
 Piece::toLocal(std::uint64_t sample) const
 {
-  const auto run = runAt(sample);
+  const auto run = findRun(sample);
   if (run == runs_.end() || sample - run->begin >= run->count)
     throw InvalidArgument("The piece does not hold sample " + std::to_string(sample) +
                           ".");
-  return firstOf(*run) + static_cast<std::uint32_t>(sample - run->begin);
+  return getFirst(*run) + static_cast<std::uint32_t>(sample - run->begin);
 }
 
 GhostBrick
-Piece::lend(const Brick& brick) const
+Piece::makeGhost(const Brick& brick) const
 {
-  GhostBrick lent{brick, {}};
-  lent.samples.append(spanOf(toLocal(brick.begin), brick.count));
-  return lent;
+  GhostBrick ghost{brick, {}};
+  ghost.samples.append(getSpan(toLocal(brick.begin), brick.count));
+  return ghost;
 }
 
 SampleSpan
-Piece::spanOf(std::uint32_t first, std::uint32_t count) const
+Piece::getSpan(std::uint32_t first, std::uint32_t count) const
 {
   return {samples_->getPositions().data() + first,
           values_.data() + first,
@@ -313,14 +315,14 @@ Piece::spanOf(std::uint32_t first, std::uint32_t count) const
 bool
 Piece::holds(const Brick& brick) const
 {
-  const auto run = runAt(brick.begin);
+  const auto run = findRun(brick.begin);
   return run != runs_.end() && brick.begin - run->begin < run->count;
 }
 
 std::size_t
-Piece::borrow(std::vector<GhostBrick>&& bricks, unsigned threads)
+Piece::addGhosts(std::vector<GhostBrick>&& bricks, unsigned threads)
 {
-  const auto begin_of = [](const GhostBrick& lent) { return lent.brick.begin; };
+  const auto begin_of = [](const GhostBrick& ghost) { return ghost.brick.begin; };
   std::sort(bricks.begin(), bricks.end(), [&](const auto& a, const auto& b) {
     return begin_of(a) < begin_of(b);
   });
@@ -332,10 +334,10 @@ Piece::borrow(std::vector<GhostBrick>&& bricks, unsigned threads)
                bricks.end());
   bricks.erase(std::remove_if(bricks.begin(),
                               bricks.end(),
-                              [&](const auto& lent) { return holds(lent.brick); }),
+                              [&](const auto& ghost) { return holds(ghost.brick); }),
                bricks.end());
   if (!bricks.empty())
-    join(bricks, treesOf(bricks, axes_, threads));
+    join(bricks, buildTrees(bricks, axes_, threads));
   return bricks.size();
 }
 
@@ -343,8 +345,8 @@ void
 Piece::join(const std::vector<GhostBrick>& bricks, std::vector<KdTree>&& trees)
 {
   std::size_t total = samples_->size();
-  for (const GhostBrick& lent : bricks)
-    total += lent.samples.size();
+  for (const GhostBrick& ghost : bricks)
+    total += ghost.samples.size();
   if (total >
       std::size_t(2) * most_samples - anchors_per_cell * (runs_.size() + bricks.size()))
     throw InvalidArgument("A piece cannot hold " + std::to_string(total) +

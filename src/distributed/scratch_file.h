@@ -2,8 +2,6 @@
 // A file without a name: it is gone with the process, however that ends.
 #pragma once
 
-#include <pcl_uvol/common/export.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,7 +9,7 @@
 namespace pcl_uvol {
 
 /** \brief Bytes on disk for the time of a run. */
-class PCL_UVOL_EXPORTS ScratchFile {
+class ScratchFile {
 public:
   /** \throws IOError if the folder takes no files */
   explicit ScratchFile(const std::string& folder);

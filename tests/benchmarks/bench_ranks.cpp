@@ -39,7 +39,7 @@ decompose(benchmark::State& state)
       return all.data() + begin;
     };
     const pcl_uvol::Decomposition decomposition({samples, read}, levels, alone, 1);
-    benchmark::DoNotOptimize(decomposition.pieceOf(all[0]));
+    benchmark::DoNotOptimize(decomposition.findPiece(all[0]));
   }
   const auto seconds_per = [](double count) {
     return benchmark::Counter(count,
@@ -68,7 +68,7 @@ findPieces(benchmark::State& state)
       1);
   for (auto _ : state)
     for (const pcl_uvol::Position& position : all)
-      benchmark::DoNotOptimize(decomposition.pieceOf(position));
+      benchmark::DoNotOptimize(decomposition.findPiece(position));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
 

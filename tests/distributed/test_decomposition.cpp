@@ -122,7 +122,7 @@ expectTopOfTree(const Decomposition& decomposition, const pcl_uvol::SampleSet& s
       expectSamePlane(found.high[axis], cell.high[axis], samples);
     }
     for (const std::uint32_t sample : {node.begin, node.begin + node.count - 1})
-      EXPECT_EQ(piece, decomposition.pieceOf(samples.getPositions()[sample]));
+      EXPECT_EQ(piece, decomposition.findPiece(samples.getPositions()[sample]));
   }
 }
 
@@ -274,11 +274,11 @@ TEST(Decompositions, KeepEqualPositionsTogether)
           [&](const Decomposition& found) {
             std::vector<std::size_t> counts(found.size());
             for (const Position& position : positions)
-              ++counts[found.pieceOf(position)];
+              ++counts[found.findPiece(position)];
             EXPECT_EQ(positions.size(), found.getSampleCount());
             for (std::size_t piece = 0; piece < found.size(); ++piece)
               EXPECT_EQ(counts[piece], found.getCount(piece)) << piece;
-            EXPECT_GE(counts[found.pieceOf(place)], positions.size() / share);
+            EXPECT_GE(counts[found.findPiece(place)], positions.size() / share);
           },
           passes);
     }
@@ -300,7 +300,7 @@ TEST(Decompositions, EndWhereDenormalNumbersCountAsZero)
       3,
       1,
       [&](const Decomposition& found) {
-        const std::size_t piece = found.pieceOf(positions[0]);
+        const std::size_t piece = found.findPiece(positions[0]);
         EXPECT_GE(found.getCount(piece), positions.size() / 2);
       },
       passes);
@@ -325,7 +325,7 @@ TEST(Decompositions, FindThePiecesThatBallsMeet)
         std::vector<std::size_t> expected(decomposition.size()), found(expected);
         for (std::size_t piece = 0; piece < expected.size(); ++piece)
           for (const Ball& ball : balls)
-            expected[piece] += meets(ball, decomposition.getCell(piece));
+            expected[piece] += decomposition.getCell(piece).meets(ball);
         decomposition.findPieces(
             balls, [&](std::size_t piece, const std::vector<Ball>& meeting) {
               found[piece] += meeting.size();

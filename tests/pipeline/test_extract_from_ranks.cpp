@@ -165,7 +165,8 @@ TEST(RankExtraction, LendsAlongTheCutsOnly)
       expectEqual(Alone(radial.cloud, settings), together, settings);
     bytes = together.report.getCount("bytes_exchanged");
     // All but an eighth of the samples change hands.
-    EXPECT_NEAR(1.0, together.report.getCount("bytes_dealt_out") / (21.0 * n), 0.05);
+    EXPECT_NEAR(
+        1.0, together.report.getCount("bytes_redistributed") / (21.0 * n), 0.05);
     n *= 8;
   }
   EXPECT_LT(exchanged[1], 4.5 * exchanged[0]);

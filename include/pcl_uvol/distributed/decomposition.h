@@ -29,6 +29,12 @@ struct PlaneKey {
   Position below;
 };
 
+/** \brief A ball, around an isopoint, say. */
+struct Ball {
+  Position center;
+  float radius;
+};
+
 /** \brief A cell between such planes; infinite coordinates at the border of the domain.
  */
 struct PCL_UVOL_EXPORTS CellKey {
@@ -41,25 +47,19 @@ struct PCL_UVOL_EXPORTS CellKey {
   /** \brief True if the closed cells share a point, see KdTree::touch. */
   bool
   touches(const CellKey& other) const;
+
+  /** \brief True if the cell and a ball share a point. */
+  bool
+  meets(const Ball& ball) const;
+
+  /** \brief The balls that it meets. */
+  std::vector<Ball>
+  selectMeeting(const std::vector<Ball>& balls) const;
+
+  /** \brief True if a ball lies in the inside of the cell. */
+  bool
+  contains(const Ball& ball) const;
 };
-
-/** \brief A ball, around an isopoint, say. */
-struct Ball {
-  Position center;
-  float radius;
-};
-
-/** \brief True if a ball and a cell share a point. */
-PCL_UVOL_EXPORTS bool
-meets(const Ball& ball, const CellKey& cell);
-
-/** \brief The balls that do. */
-PCL_UVOL_EXPORTS std::vector<Ball>
-ballsIn(const CellKey& cell, const std::vector<Ball>& balls);
-
-/** \brief True if a ball lies in the inside of a cell. */
-PCL_UVOL_EXPORTS bool
-liesWithin(const Ball& ball, const CellKey& cell);
 
 /** \brief The positions of a process's samples. Threads read them at the same time. */
 struct PositionSource {
@@ -142,7 +142,7 @@ public:
 
   /** \brief The piece that a sample belongs to, or in whose cell another point lies. */
   std::size_t
-  pieceOf(const Position& position) const;
+  findPiece(const Position& position) const;
 
   /** \brief Call found for each piece whose cell meets some balls, with these,
    * ascending. */

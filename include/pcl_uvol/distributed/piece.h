@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A piece of a decomposed data set: a subtree of the kd-tree over all samples, and what
-// it borrows from the pieces around it.
+// A piece of a decomposed data set: a subtree of the kd-tree over all samples, and its
+// ghosts, copies of samples of the pieces around it.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
@@ -18,7 +18,7 @@
 
 namespace pcl_uvol {
 
-/** \brief A subtree of some hundred samples, the unit in which pieces lend samples to
+/** \brief A subtree of some hundred samples, the unit in which pieces get ghosts from
  * each other. */
 struct Brick {
   std::uint64_t begin; ///< its first sample in the leaf order of all samples
@@ -81,18 +81,19 @@ private:
   std::vector<NodeRanges::Range> ranges_; // by number, of bricks
 };
 
-/** \brief A brick and its samples. */
+/** \brief A copy of a brick with its samples, for another piece. */
 struct GhostBrick {
   Brick brick;
   Samples samples;
 };
 
-/** \brief The samples of one piece with their tree and, as far as it was borrowed,
- * their halo. Memory: 32 to 40 bytes per sample, 28 more while it is built, 24 more
- * while it borrows. */
+/** \brief The samples of one piece with their tree, and the ghosts that it was given.
+ * Memory: 32 to 40 bytes per sample, 28 more while it is built, 24 more while it gets
+ * ghosts. */
 class PCL_UVOL_EXPORTS Piece {
 public:
-  /** \brief Samples that a piece may have; with its halo it may hold twice as many. */
+  /** \brief Samples that a piece may have; with its ghosts it may hold twice as many.
+   */
   static constexpr std::uint32_t most_samples = 1u << 31;
 
   /** \brief Build the subtree of a piece.
@@ -109,7 +110,7 @@ public:
         unsigned threads,
         Report& report);
 
-  /** \brief Own samples and those borrowed, in one leaf order. */
+  /** \brief Own samples and ghosts, in one leaf order. */
   const SampleSet&
   getSamples() const
   {
@@ -143,30 +144,30 @@ public:
   toLocal(std::uint64_t sample) const;
   /** @} */
 
-  /** \brief Bricks of the own samples, before anything was borrowed. */
+  /** \brief Bricks of the own samples, before there are ghosts. */
   BrickTable
   makeBricks() const;
 
-  /** \brief The own samples of a brick of this piece. */
+  /** \brief A copy of a brick of this piece. */
   GhostBrick
-  lend(const Brick& brick) const;
+  makeGhost(const Brick& brick) const;
 
   /** \brief All own samples, in leaf order. */
   SampleSpan
   getOwnSamples() const
   {
-    return spanOf(firstOf(runs_[own_]), runs_[own_].count);
+    return getSpan(getFirst(runs_[own_]), runs_[own_].count);
   }
 
-  /** \brief True for a brick of the piece and one that was borrowed. */
+  /** \brief True for a brick of the piece and a ghost of it. */
   bool
   holds(const Brick& brick) const;
 
-  /** \brief Add to the halo; bricks that are there already are left out. If it throws,
-   * the piece is lost. \throws InvalidArgument if own and borrowed samples are too many
+  /** \brief Add ghosts; those that are there already are left out. If it throws,
+   * the piece is lost. \throws InvalidArgument if own samples and ghosts are too many
    * \return how many are new */
   std::size_t
-  borrow(std::vector<GhostBrick>&& bricks, unsigned threads);
+  addGhosts(std::vector<GhostBrick>&& bricks, unsigned threads);
 
 private:
   /** Consecutive samples: the own ones, or those of a brick. */
@@ -185,13 +186,13 @@ private:
 
   /** The last one that begins with or before a sample in the leaf order of all. */
   std::vector<Run>::const_iterator
-  runAt(std::uint64_t sample) const;
+  findRun(std::uint64_t sample) const;
 
   std::uint32_t
-  firstOf(const Run& run) const;
+  getFirst(const Run& run) const;
 
   SampleSpan
-  spanOf(std::uint32_t first, std::uint32_t count) const;
+  getSpan(std::uint32_t first, std::uint32_t count) const;
 
   void
   join(const std::vector<GhostBrick>& bricks, std::vector<KdTree>&& trees);

@@ -12,7 +12,7 @@ namespace pcl_uvol {
 
 /** \brief Samples by number, in files of one array each, which are read and written at
  * the same time. */
-class PCL_UVOL_EXPORTS SampleFile {
+class SampleFile {
 public:
   SampleFile(const std::string& folder, unsigned threads);
 
@@ -51,7 +51,7 @@ private:
 };
 
 /** \brief Samples in the order in which they came. */
-class PCL_UVOL_EXPORTS SampleLog {
+class SampleLog {
 public:
   SampleLog(const std::string& folder, unsigned threads);
 
@@ -78,13 +78,13 @@ private:
 };
 
 /** \brief Samples by piece, one piece behind the other. */
-class PCL_UVOL_EXPORTS PieceStore {
+class PieceFile {
 public:
   /** \brief Part the samples of a log, which then are gone from there. */
-  PieceStore(SampleLog&& log,
-             const Decomposition& decomposition,
-             const std::string& folder,
-             unsigned threads);
+  PieceFile(SampleLog&& log,
+            const Decomposition& decomposition,
+            const std::string& folder,
+            unsigned threads);
 
   std::uint64_t
   bytes() const

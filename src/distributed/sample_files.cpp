@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_store.h"
+#include "sample_files.h"
 
 #include <pcl_uvol/common/parallel.h>
 
@@ -52,7 +52,7 @@ public:
     };
     forEach([&](std::size_t i, std::size_t* counts) {
       piece_of_[i] =
-          static_cast<std::uint32_t>(decomposition_.pieceOf(samples.positions[i]));
+          static_cast<std::uint32_t>(decomposition_.findPiece(samples.positions[i]));
       ++counts[piece_of_[i]];
     });
     runs_.clear();
@@ -181,10 +181,10 @@ SampleLog::take(const std::function<void(const Samples&)>& block)
   }
 }
 
-PieceStore::PieceStore(SampleLog&& log,
-                       const Decomposition& decomposition,
-                       const std::string& folder,
-                       unsigned threads)
+PieceFile::PieceFile(SampleLog&& log,
+                     const Decomposition& decomposition,
+                     const std::string& folder,
+                     unsigned threads)
     : file_(folder, threads)
 {
   Parting parting(decomposition, threads);
@@ -195,7 +195,7 @@ PieceStore::PieceStore(SampleLog&& log,
 }
 
 Samples
-PieceStore::load(std::uint64_t begin, std::uint64_t count) const
+PieceFile::load(std::uint64_t begin, std::uint64_t count) const
 {
   Samples samples;
   file_.read(begin, static_cast<std::size_t>(count), samples);
@@ -203,7 +203,7 @@ PieceStore::load(std::uint64_t begin, std::uint64_t count) const
 }
 
 void
-PieceStore::save(std::uint64_t begin, const SampleSpan& samples)
+PieceFile::save(std::uint64_t begin, const SampleSpan& samples)
 {
   file_.write(samples, {{begin, 0, samples.size}});
 }
