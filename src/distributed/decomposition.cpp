@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "median_search.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/distributed/byte_stream.h>
 #include <pcl_uvol/distributed/decomposition.h>
 
 #include <algorithm>
@@ -82,27 +83,88 @@ CellKey::contains(const Ball& ball) const
   return true;
 }
 
-Decomposition::Decomposition(const PositionSource& positions,
-                             int levels,
-                             Communicator& communicator,
-                             unsigned threads)
+Decomposition::Decomposition(int levels)
     : levels_(levels)
 {
   if (levels < 0 || levels > most_levels)
     throw InvalidArgument(std::to_string(levels) + " levels are not allowed: 0 to " +
                           std::to_string(most_levels) + " are.");
   planes_.resize(size());
+}
+
+void
+Decomposition::findPlanes(MedianSearch& search)
+{
+  for (int depth = 0; depth < levels_; ++depth)
+    search.findMedians(depth, axes_, planes_);
+  begins_.push_back(0);
+  for (std::size_t piece = 0; piece < size(); ++piece)
+    begins_.push_back(begins_.back() + search.getCounts()[size() + piece]);
+}
+
+Decomposition::Decomposition(const PositionSource& positions,
+                             int levels,
+                             Communicator& communicator,
+                             unsigned threads)
+    : Decomposition(levels)
+{
   MedianSearch search(positions, levels, communicator, threads);
   axes_ = KdTree::cycleOver(search.getExtent());
   const std::uint64_t total = search.getCounts()[1];
   if (total < size())
     throw InvalidArgument(std::to_string(total) + " samples cannot be parted into " +
                           std::to_string(size()) + " pieces.");
-  for (int depth = 0; depth < levels; ++depth)
-    search.findMedians(depth, axes_, planes_);
-  begins_.push_back(0);
-  for (std::size_t piece = 0; piece < size(); ++piece)
-    begins_.push_back(begins_.back() + search.getCounts()[size() + piece]);
+  findPlanes(search);
+}
+
+Decomposition::Decomposition(const Decomposition& top,
+                             std::size_t piece,
+                             const PositionSource& positions,
+                             int levels,
+                             Communicator& communicator,
+                             unsigned threads)
+    : Decomposition(levels)
+{
+  std::copy(top.axes_.begin() + top.levels_, top.axes_.end(), axes_.begin());
+  MedianSearch search(positions, levels, communicator, threads);
+  const std::uint64_t total = search.getCounts()[1];
+  if (total != top.getCount(piece))
+    throw InvalidArgument("A piece of " + std::to_string(top.getCount(piece)) +
+                          " samples cannot be parted by processes that have " +
+                          std::to_string(total) + ".");
+  findPlanes(search);
+}
+
+Decomposition::Decomposition(const Decomposition& top,
+                             const Decomposition& subtree,
+                             bool tells,
+                             Communicator& communicator)
+    : Decomposition(top.levels_ + subtree.levels_)
+{
+  axes_ = top.axes_;
+  std::copy(top.planes_.begin(), top.planes_.end(), planes_.begin());
+  Bytes message;
+  if (tells) {
+    ByteWriter writer(message);
+    writer.put(subtree.planes_);
+    writer.put(subtree.begins_);
+  }
+  std::size_t piece = 0;
+  for (const Bytes& bytes : communicator.allGather(message))
+    for (ByteReader reader(bytes); !reader.atEnd(); ++piece) {
+      std::vector<PlaneKey> planes;
+      std::vector<std::uint64_t> begins;
+      reader.get(planes);
+      reader.get(begins);
+      for (std::size_t first = 1; first < subtree.size(); first *= 2)
+        std::copy_n(planes.begin() + static_cast<std::ptrdiff_t>(first),
+                    first,
+                    planes_.begin() +
+                        static_cast<std::ptrdiff_t>((top.size() + piece) * first));
+      for (std::size_t i = 0; i < subtree.size(); ++i)
+        begins_.push_back(top.getBegin(piece) + begins[i]);
+    }
+  begins_.push_back(top.getSampleCount());
 }
 
 Decomposition::Decomposition(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rank_store.h"
 
+#include "messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -39,10 +40,10 @@ public:
   void
   add(std::size_t piece, const GhostBrick& ghost)
   {
-    ByteWriter writer(messages_[store_.owners_->getOwner(piece)]);
+    ByteWriter writer(messages_[store_.parted_->owners.getOwner(piece)]);
     writer.put(piece);
     writer.put(ghost.brick);
-    putSamples(writer, ghost.samples);
+    putSamples(writer, ghost.samples.span(0, ghost.samples.size()));
   }
 
   /** By all processes. */
@@ -86,27 +87,22 @@ RankStore::redistribute()
   communicator_.allReduce(total);
   if (total[0] == 0)
     throw InvalidArgument("No process has a sample with a position and a value.");
-  {
-    const StepTimer timer(report_, "decomposition");
-    const auto positions = [&](std::uint64_t begin, std::size_t, Position*) {
-      return samples_.positions.data() + begin;
-    };
-    decomposition_.emplace(PositionSource{samples_.size(), positions},
-                           chooseLevels(communicator_.size(), total[0]),
-                           communicator_,
-                           threads_);
-  }
-  owners_.emplace(decomposition_->size(), communicator_.size());
-  parted_ = sendToOwners(
-      samples_, *decomposition_, *owners_, communicator_, threads_, report_);
+  const int levels = chooseLevels(communicator_.size(), total[0]);
+  parted_.emplace(pcl_uvol::redistribute(std::move(samples_),
+                                         levels,
+                                         chooseGroups(communicator_.size(), levels),
+                                         communicator_,
+                                         threads_,
+                                         report_));
+  samples_ = {};
 }
 
 std::vector<std::size_t>
 RankStore::getOwnPieces() const
 {
   std::vector<std::size_t> own;
-  for (std::size_t piece = 0; piece < decomposition_->size(); ++piece)
-    if (owners_->getOwner(piece) == communicator_.rank())
+  for (std::size_t piece = 0; piece < parted_->decomposition.size(); ++piece)
+    if (parted_->owners.getOwner(piece) == communicator_.rank())
       own.push_back(piece);
   return own;
 }
@@ -115,19 +111,19 @@ Samples
 RankStore::takeSamples(std::size_t piece)
 {
   if (const auto built = pieces_.find(piece); built != pieces_.end()) {
-    parted_[piece].append(built->second.getOwnSamples());
+    parted_->samples[piece].append(built->second.getOwnSamples());
     pieces_.erase(built);
     bricks_.erase(piece);
   }
-  Samples samples = std::move(parted_.at(piece));
-  parted_.erase(piece);
+  Samples samples = std::move(parted_->samples.at(piece));
+  parted_->samples.erase(piece);
   return samples;
 }
 
 void
 RankStore::putBack(std::size_t piece, Samples&& samples)
 {
-  parted_.emplace(piece, std::move(samples));
+  parted_->samples.emplace(piece, std::move(samples));
 }
 
 void
@@ -155,8 +151,8 @@ RankStore::openBatch(std::size_t, const PieceStage&)
   const StepTimer timer(report_, "exchange");
   GhostMessages messages(*this);
   for (const auto& [own, piece] : pieces_)
-    for (std::size_t other = 0; other < decomposition_->size(); ++other) {
-      const CellKey cell = decomposition_->getCell(other);
+    for (std::size_t other = 0; other < parted_->decomposition.size(); ++other) {
+      const CellKey cell = parted_->decomposition.getCell(other);
       if (other != own && cell.touches(piece.getCell()))
         bricks_.at(own).find(
             [&](const CellKey& around) { return around.touches(cell); },
@@ -174,12 +170,12 @@ RankStore::fetchGhosts(const std::map<std::size_t, std::vector<Ball>>& balls)
   const StepTimer timer(report_, "exchange");
   std::vector<Bytes> questions(communicator_.size());
   for (const auto& [own, own_balls] : balls)
-    decomposition_->findPieces(
+    parted_->decomposition.findPieces(
         own_balls,
         [&, asking = own](std::size_t other, const std::vector<Ball>& meeting) {
           if (other == asking)
             return;
-          ByteWriter writer(questions[owners_->getOwner(other)]);
+          ByteWriter writer(questions[parted_->owners.getOwner(other)]);
           writer.put(asking);
           writer.put(other);
           writer.put(meeting);
@@ -193,7 +189,7 @@ RankStore::fetchGhosts(const std::map<std::size_t, std::vector<Ball>>& balls)
       const Piece& piece = pieces_.at(asked);
       std::vector<Ball> meeting;
       reader.get(meeting);
-      const CellKey border = decomposition_->getCell(asking);
+      const CellKey border = parted_->decomposition.getCell(asking);
       bricks_.at(asked).find(meeting, [&](const Brick& brick) {
         // Those at the border were sent before.
         if (!brick.cell.touches(border) && sent_.emplace(asking, brick.begin).second)
@@ -213,8 +209,8 @@ RankStore::keepRecords(const PieceStage& stage,
   records_.resize(communicator_.size());
   const auto* record = static_cast<const std::uint8_t*>(records);
   for (std::size_t i = 0; i < count; ++i, record += size) {
-    const std::size_t piece = decomposition_->findPiece(stage.findPlace(record));
-    auto& lists = records_[owners_->getOwner(piece)];
+    const std::size_t piece = parted_->decomposition.findPiece(stage.findPlace(record));
+    auto& lists = records_[parted_->owners.getOwner(piece)];
     lists.resize(stage.countLists());
     lists[list].insert(lists[list].end(), record, record + size);
   }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "block_store.h"
-#include "redistribute.h"
+#include <pcl_uvol/distributed/redistribute.h>
 
 #include <optional>
 #include <set>
@@ -33,7 +33,7 @@ public:
   const Decomposition&
   getDecomposition() const override
   {
-    return *decomposition_;
+    return parted_->decomposition;
   }
 
   std::vector<std::size_t>
@@ -81,10 +81,8 @@ private:
   Communicator& communicator_;
   unsigned threads_;
   Report& report_;
-  Samples samples_; // those without a piece
-  std::optional<Decomposition> decomposition_;
-  std::optional<PieceOwners> owners_;
-  SamplesOfPieces parted_; // of the pieces that are not built
+  Samples samples_;                      // those without a piece
+  std::optional<Redistribution> parted_; // samples of the pieces that are not built
   std::map<std::size_t, Piece> pieces_;
   std::map<std::size_t, BrickTable> bricks_;             // of these
   std::set<std::pair<std::size_t, std::uint64_t>> sent_; // ghosts: piece, brick

@@ -2,8 +2,10 @@
 #include <pcl_uvol/mpi/mpi_communicator.h>
 
 #include <vtkMPIController.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <exception>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -69,6 +71,44 @@ public:
 private:
   vtkMPIController& controller_;
   std::vector<Request> requests_;
+};
+
+/** Keeps the controller of a group for as long as the group. */
+struct GroupController {
+  vtkSmartPointer<vtkMPIController> controller;
+};
+
+class MpiGroup : private GroupController, public MpiCommunicator {
+public:
+  MpiGroup(vtkSmartPointer<vtkMPIController> group_controller,
+           std::size_t largest_part,
+           MpiCommunicator& parent)
+      : GroupController{std::move(group_controller)}
+      , MpiCommunicator(*controller, largest_part)
+      , parent_(parent)
+      , exceptions_(std::uncaught_exceptions())
+  {
+  }
+  MpiGroup(const MpiGroup&) = delete;
+  MpiGroup&
+  operator=(const MpiGroup&) = delete;
+
+  ~MpiGroup() override
+  {
+    if (std::uncaught_exceptions() == exceptions_)
+      return;
+    try {
+      // One of the group speaks for it.
+      parent_.agree(agree(true) == rank());
+    }
+    catch (const pcl::PCLException&) {
+      // The connection is lost: nobody can be told.
+    }
+  }
+
+private:
+  MpiCommunicator& parent_;
+  int exceptions_;
 };
 
 } // namespace
@@ -187,6 +227,18 @@ MpiCommunicator::allGather(const Bytes& message)
     received[rank].assign(first, first + lengths[rank]);
   }
   return received;
+}
+
+std::unique_ptr<Communicator>
+MpiCommunicator::split(std::size_t color)
+{
+  proceed();
+  const auto group =
+      vtkSmartPointer<vtkMPIController>::Take(controller_.PartitionController(
+          static_cast<int>(color), static_cast<int>(rank())));
+  if (!group)
+    throw Exception("MPI could not form a group of processes.");
+  return std::make_unique<MpiGroup>(group, largest_part_, *this);
 }
 
 } // namespace pcl_uvol

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes that exchange messages whose bytes each can foretell; run by mpirun from
 // test_mpi_communicator. usage: talk PARTS [LOSER FUNCTION]: the largest part of a
-// message; the process that fails while the others call sum, gather or exchange.
+// message; the process that fails while the others call sum, gather or
+// exchange, or in a group.
 #include <pcl_uvol/mpi/mpi_communicator.h>
 
 #include <vtkMPIController.h>
@@ -9,6 +10,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -24,6 +26,35 @@ messageOf(std::size_t from, std::size_t to, std::size_t round)
   for (std::size_t i = 0; i < message.size(); ++i)
     message[i] = static_cast<std::uint8_t>(i * i + from * 31 + to * 17 + round);
   return message;
+}
+
+/** In groups by the remainder of the rank, all at once. \return what is wrong */
+std::string
+talkInGroups(MpiCommunicator& communicator, std::size_t groups)
+{
+  const std::size_t color = communicator.rank() % groups;
+  const auto group = communicator.split(color);
+  std::vector<std::size_t> members;
+  for (std::size_t rank = color; rank < communicator.size(); rank += groups)
+    members.push_back(rank);
+  if (group->size() != members.size() ||
+      members.at(group->rank()) != communicator.rank())
+    return "a group has other processes";
+  // Groups do not talk equally often.
+  for (std::size_t round = 0; round <= color; ++round) {
+    std::vector<Bytes> messages;
+    for (const std::size_t to : members)
+      messages.push_back(messageOf(communicator.rank(), to, round));
+    const auto received = group->allToAll(std::move(messages));
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (received.at(i) != messageOf(members[i], communicator.rank(), round))
+        return "a message in a group differs";
+    std::vector<std::uint64_t> number{1};
+    group->allReduce(number);
+    if (number[0] != members.size())
+      return "a sum in a group differs";
+  }
+  return "";
 }
 
 /** \return what is wrong */
@@ -51,13 +82,38 @@ talk(MpiCommunicator& communicator)
       return "a sum differs";
   }
   communicator.barrier();
+  for (const std::size_t groups : {1, 2, 3})
+    if (const std::string complaint = talkInGroups(communicator, groups);
+        !complaint.empty())
+      return complaint;
   return "";
+}
+
+/** One process fails within its group. \return what is wrong */
+std::string
+failInGroup(MpiCommunicator& communicator, std::size_t loser)
+{
+  try {
+    const auto group = communicator.split(communicator.rank() % 2);
+    if (communicator.rank() == loser)
+      throw std::runtime_error("lost");
+    group->barrier();
+    if (communicator.rank() % 2 == loser % 2)
+      return "nobody failed in the group";
+    communicator.barrier();
+    return "nobody failed";
+  }
+  catch (const std::exception&) {
+    return communicator.agree(false) == loser ? "" : "the loser is another one";
+  }
 }
 
 /** \return what is wrong */
 std::string
 fail(MpiCommunicator& communicator, std::size_t loser, const std::string& function)
 {
+  if (function == "group")
+    return failInGroup(communicator, loser);
   if (communicator.rank() >= loser) // the first one counts
     return communicator.agree(true) == loser ? "" : "the loser is another one";
   try {

@@ -54,6 +54,9 @@ TEST_F(MpiProcesses, DoNotWaitForOneThatFailed)
   expectSuccess(3, "1000 1 gather");
   expectSuccess(4, "1000 1 exchange"); // three of them at once
   expectSuccess(2, "1000 0 sum");
+  expectSuccess(5, "1000 3 group");
+  expectSuccess(4, "1000 0 group");
+  expectSuccess(3, "1000 1 group"); // alone in it
 }
 
 } // namespace

@@ -263,6 +263,17 @@ TEST(RankExtraction, TakesMoreRanksThanSamples)
   }
 }
 
+/** Two steps are taken to redistribute samples. */
+TEST(RankExtraction, TakesManyRanks)
+{
+  const auto cloud = uvol_test::makeCloud("clustered", 12000, 6);
+  IsosurfaceSettings settings;
+  settings.isovalues = {0.3};
+  const Alone alone(cloud, settings);
+  EXPECT_GT(alone.isopoints.size(), 300u);
+  expectRanksFind(alone, *cloud, settings, {64, 70});
+}
+
 TEST(RankExtraction, RefusesNothingAtAll)
 {
   IsosurfaceSettings settings;

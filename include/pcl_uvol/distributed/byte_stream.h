@@ -26,15 +26,22 @@ public:
     append(&value, sizeof(T));
   }
 
-  /** \brief Their number, then the values. */
+  /** \brief Their number, then the values. @{ */
+  template <typename T>
+  void
+  put(const T* values, std::size_t count)
+  {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(count);
+    append(values, count * sizeof(T));
+  }
   template <typename T>
   void
   put(const std::vector<T>& values)
   {
-    static_assert(std::is_trivially_copyable_v<T>);
-    put(values.size());
-    append(values.data(), values.size() * sizeof(T));
+    put(values.data(), values.size());
   }
+  /** @} */
 
 private:
   void

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What processes that each hold a part of one data set tell each other. The core talks
-// through this interface; vtk implements it by VTK's controllers.
+// What processes that each hold a part of one data set tell each other, in the words of
+// MPI. The core talks through this interface; mpi implements it by VTK's controllers.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,13 @@ public:
   /** \brief The message of every process. */
   virtual std::vector<Bytes>
   allGather(const Bytes& message);
+
+  /** \brief Form groups of processes, which then communicate by themselves until they
+   * all have come back to this communicator. It must outlive the groups.
+   * \param color of this process's group
+   * \return the processes of that color, in the order of their ranks */
+  virtual std::unique_ptr<Communicator>
+  split(std::size_t color) = 0;
 };
 
 /** \brief A process alone. */
@@ -71,6 +79,11 @@ public:
   allToAll(std::vector<Bytes>&& messages) override
   {
     return std::move(messages);
+  }
+  std::unique_ptr<Communicator>
+  split(std::size_t) override
+  {
+    return std::make_unique<SelfCommunicator>();
   }
 };
 

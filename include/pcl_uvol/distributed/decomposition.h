@@ -71,6 +71,8 @@ struct PositionSource {
       read;
 };
 
+class MedianSearch;
+
 /** \brief The top of the kd-tree of thesis 2.2.1, exactly as over all samples at once,
  * if these are distinct. */
 class PCL_UVOL_EXPORTS Decomposition {
@@ -88,6 +90,24 @@ public:
                 int levels,
                 Communicator& communicator,
                 unsigned threads);
+
+  /** \brief The tree below a piece of another decomposition, as a whole of its own: by
+   * the processes that together have all samples of that piece, in whatever parts.
+   * \param positions of this process \param levels below the piece */
+  Decomposition(const Decomposition& top,
+                std::size_t piece,
+                const PositionSource& positions,
+                int levels,
+                Communicator& communicator,
+                unsigned threads);
+
+  /** \brief The whole tree, which all processes get from those that found a part.
+   * \param top that all have \param subtree below one of its pieces
+   * \param tells for one process of each piece's, in the order of the pieces */
+  Decomposition(const Decomposition& top,
+                const Decomposition& subtree,
+                bool tells,
+                Communicator& communicator);
 
   /** \brief The same with more levels, which trees over the pieces have found.
    * \param levels at least those of the top; they may be more than most_levels
@@ -152,8 +172,14 @@ public:
                  found) const;
 
 private:
+  /** Check the number of levels, and make room for their planes. */
+  explicit Decomposition(int levels);
+
+  void
+  findPlanes(MedianSearch& search);
+
   int levels_;
-  AxisCycle axes_{};
+  AxisCycle axes_{};                  // from the root on
   std::vector<std::uint64_t> begins_; // by piece, and the end
   std::vector<PlaneKey> planes_;      // by node number
 };

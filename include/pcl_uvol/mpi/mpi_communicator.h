@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 class vtkMPIController;
@@ -44,6 +45,11 @@ public:
 
   std::vector<Bytes>
   allGather(const Bytes& message) override;
+
+  /** A process that leaves its group by an exception has failed: the others of the
+   * group learn it at their next exchange, and all others at that after the groups. */
+  std::unique_ptr<Communicator>
+  split(std::size_t color) override;
   /** @} */
 
   /** \brief Tell the others how this process fares, where they call this function or
