@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "median_search.h"
 
+#include "bernoulli_sampler.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/random.h>
 #include <pcl_uvol/distributed/byte_stream.h>
@@ -51,36 +52,6 @@ forEachSample(const PositionSource& source, std::size_t threads, const Visit& vi
   };
   parallelBlocks(threads, 1, static_cast<unsigned>(threads), work);
 }
-
-/** Chooses samples at random, by their index, and that of their process and pass: who
- * never was chosen may be chosen in the next pass. */
-class Lot {
-public:
-  /** \param expected samples to choose from, of all processes */
-  Lot(double expected, std::uint64_t most, std::size_t rank, std::size_t pass)
-      : salt_(mixBits(rank << 32 | pass))
-  {
-    while (expected > static_cast<double>(most)) {
-      expected /= 2.0;
-      mask_ = mask_ << 1 | 1u;
-    }
-  }
-
-  bool
-  falls(std::uint64_t index) const
-  {
-    return (mixBits(salt_ + index) & mask_) == 0;
-  }
-
-  bool
-  fallsAlways() const
-  {
-    return mask_ == 0;
-  }
-
-private:
-  std::uint64_t salt_, mask_ = 0;
-};
 
 std::vector<NodePosition>
 gather(Communicator& communicator, std::vector<std::vector<NodePosition>>&& parts)
@@ -222,9 +193,10 @@ private:
     forEachNode(drawn, [&](Median& median, Iterator begin, Iterator end) {
       expected += setBounds(median, begin, end);
     });
-    const Lot lot(expected, drawn_limit_, communicator_.rank(), ++pass_);
+    const BernoulliSampler sampler(
+        expected, drawn_limit_, communicator_.rank(), ++pass_);
     std::vector<NodePosition> between;
-    const std::vector<Tally> tallies = tally(lot, between);
+    const std::vector<Tally> tallies = tally(sampler, between);
     // Of what lies beyond the bounds, those drawn before are known.
     const auto is_beyond = [&](const NodePosition& p) {
       const Median& median = medians_[p.node];
@@ -240,6 +212,7 @@ private:
                                drawn.end(),
                                [&](const auto& p) { return !is_beyond(p); }),
                 drawn.end());
+    bool is_missed = false;
     forEachNode(between, [&](Median& median, Iterator begin, Iterator end) {
       const Tally& found = tallies[static_cast<std::size_t>(&median - medians_.data())];
       const std::uint64_t up_to_upper = found.up_to_lower + found.between;
@@ -249,14 +222,16 @@ private:
       else if (median.rank < found.up_to_lower) {
         median.high = median.lower;
         median.up_to_high = found.up_to_lower;
+        is_missed = true;
       }
       else if (median.rank >= up_to_upper) {
         median.low = median.upper;
         median.up_to_low = up_to_upper;
+        is_missed = true;
       }
       else if (median.is_one)
         median.find(median.upper, found.above_upper, up_to_upper);
-      else if (lot.fallsAlways())
+      else if (sampler.takesAll())
         choose(median, begin, end, found.up_to_lower, found.above_upper);
       else {
         median.low = median.lower;
@@ -266,6 +241,7 @@ private:
         drawn.insert(drawn.end(), begin, end);
       }
     });
+    are_kept_ = are_kept_ && !is_missed;
     return std::move(drawn);
   }
 
@@ -312,38 +288,60 @@ private:
     return samples * std::min((last - first) / drawn, 1.0);
   }
 
-  /** \param between gets positions that lie between the bounds, as a lot falls */
+  /** Count the samples below and between the bounds: all of this process, or, where
+   * they were kept, those that lie between the bounds of the pass before.
+   * \param between gets positions that lie between the bounds, as they are sampled */
   std::vector<Tally>
-  tally(const Lot& lot, std::vector<NodePosition>& between) const
+  tally(const BernoulliSampler& sampler, std::vector<NodePosition>& between)
   {
     const std::size_t nodes = medians_.size();
     std::vector<std::vector<Tally>> tallies(threads_, std::vector<Tally>(nodes));
+    if (are_kept_)
+      tallies[0] = beyond_;
     std::vector<std::vector<NodePosition>> chosen(threads_);
-    forEachSample(
-        source_, threads_, [&](auto thread, auto index, const Position& position) {
-          const std::size_t node = findNode(position, depth_, axes_, planes_) - nodes;
-          const Median& median = medians_[node];
-          Tally& found = tallies[thread][node];
-          // Nearly all samples are counted here, without a branch that depends on them.
-          const bool is_above = lessAlong(axis_, median.lower, position);
-          found.up_to_lower += static_cast<std::uint64_t>(!is_above);
-          if (!(is_above & lessAlong(axis_, position, found.above_upper)))
-            return;
-          if (lessAlong(axis_, median.upper, position))
-            found.above_upper = position;
-          else {
-            ++found.between;
-            if (!median.is_one && lot.falls(index))
-              chosen[thread].push_back({static_cast<std::uint32_t>(node), position});
-          }
-        });
+    std::vector<std::vector<Position>> kept(threads_);
+    const std::size_t most_kept = drawn_limit_ / threads_;
+    const auto count = [&](auto thread, auto index, const Position& position) {
+      const std::size_t node = findNode(position, depth_, axes_, planes_) - nodes;
+      const Median& median = medians_[node];
+      Tally& found = tallies[thread][node];
+      // Nearly all samples are counted here, without a branch that depends on them.
+      const bool is_above = lessAlong(axis_, median.lower, position);
+      found.up_to_lower += static_cast<std::uint64_t>(!is_above);
+      if (!(is_above & lessAlong(axis_, position, found.above_upper)))
+        return;
+      if (lessAlong(axis_, median.upper, position)) {
+        found.above_upper = position;
+        return;
+      }
+      ++found.between;
+      if (median.is_one)
+        return;
+      if (kept[thread].size() <= most_kept)
+        kept[thread].push_back(position);
+      if (sampler.takes(index))
+        chosen[thread].push_back({static_cast<std::uint32_t>(node), position});
+    };
+    const auto read_kept = [this](std::uint64_t begin, std::size_t, Position*) {
+      return kept_.data() + begin;
+    };
+    if (are_kept_)
+      forEachSample({kept_.size(), read_kept}, threads_, count);
+    else
+      forEachSample(source_, threads_, count);
+    are_kept_ = true;
+    kept_.clear();
+    for (const auto& part : kept) {
+      are_kept_ = are_kept_ && part.size() <= most_kept;
+      kept_.insert(kept_.end(), part.begin(), part.end());
+    }
     between = gather(communicator_, std::move(chosen));
     return add(tallies);
   }
 
   /** Of all threads and processes. */
   std::vector<Tally>
-  add(std::vector<std::vector<Tally>>& tallies) const
+  add(std::vector<std::vector<Tally>>& tallies)
   {
     std::vector<Tally>& all = tallies[0];
     for (std::size_t thread = 1; thread < threads_; ++thread)
@@ -352,6 +350,9 @@ private:
         all[node].between += tallies[thread][node].between;
         take(all[node].above_upper, axis_, tallies[thread][node].above_upper);
       }
+    beyond_ = all;
+    for (Tally& tally : beyond_)
+      tally.between = 0;
     std::vector<std::uint64_t> counts;
     for (const Tally& tally : all) {
       counts.push_back(tally.up_to_lower);
@@ -429,6 +430,13 @@ private:
   const std::vector<PlaneKey>& planes_;
   std::vector<Median> medians_;
   std::size_t pass_ = 0;
+
+  /** Positions of this process between the bounds of the last pass, if they are few,
+   * and what that pass found beyond: the next pass needs no more, unless a median lies
+   * elsewhere. */
+  std::vector<Position> kept_;
+  std::vector<Tally> beyond_;
+  bool are_kept_ = false;
 };
 
 } // namespace
@@ -448,8 +456,8 @@ MedianSearch::MedianSearch(const PositionSource& positions,
   drawn_limit_ = static_cast<std::uint64_t>(
       std::min(drawn_rate * side * side,
                std::max(most_drawn, most_drawn_per_node * std::ldexp(1.0, levels))));
-  const Lot lot(total, drawn_limit_, communicator_.rank(), 0);
-  all_drawn_ = lot.fallsAlways();
+  const BernoulliSampler sampler(total, drawn_limit_, communicator_.rank(), 0);
+  all_drawn_ = sampler.takesAll();
 
   struct alignas(64) Extent {
     Position low = above_all, high = below_all;
@@ -468,7 +476,7 @@ MedianSearch::MedianSearch(const PositionSource& positions,
   forEachSample(
       positions_, threads_, [&](auto thread, auto index, const Position& position) {
         extents[thread].add({position, position});
-        if (lot.falls(index))
+        if (sampler.takes(index))
           chosen[thread].push_back({0, position});
       });
   drawn_ = gather(communicator_, std::move(chosen));

@@ -72,7 +72,7 @@ findPieces(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
 
-BENCHMARK(decompose)->DenseRange(2, 14, 3)->Unit(benchmark::kMillisecond);
+BENCHMARK(decompose)->DenseRange(2, 14, 3)->Arg(7)->Unit(benchmark::kMillisecond);
 BENCHMARK(findPieces)->DenseRange(2, 14, 6)->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -209,6 +209,27 @@ TEST(Decompositions, AreTheTopOfTheTree)
   }
 }
 
+/** At the last two of eight levels more samples lie between the bounds than may be
+ * drawn: they are kept, not looked for again, which would take eleven passes. */
+TEST(Decompositions, KeepWhatIsLeftOfAPass)
+{
+  const Positions positions = makePositions(300000, [](std::uint64_t i) {
+    return Position{{at(i, 0), at(i, 1), at(i, 2)}};
+  });
+  const auto samples = samplesOf(positions);
+  for (const std::size_t ranks : {1, 3}) {
+    int passes = 0;
+    decompose(
+        positions,
+        8,
+        ranks,
+        [&](const Decomposition& found) { expectTopOfTree(found, *samples); },
+        passes);
+    EXPECT_LE(1 + 8, passes);
+    EXPECT_LT(passes, 11);
+  }
+}
+
 TEST(Decompositions, TakeOnePassOverFew)
 {
   const Positions positions = makePositions(512, [](std::uint64_t i) {

@@ -81,11 +81,11 @@ public:
 
   /** \brief Find the medians of all nodes of the first levels, level by level, by
    * sampled selection (Floyd and Rivest 1975): one pass over the samples and one more
-   * for each of the first levels, two or three for those below; one in all for up to
-   * 512 samples. Each process gets up to 32 MB of positions per pass, or 4 KiB per
-   * piece where that is more. \param positions finite, none of them -0 \param levels 0
-   * to 20: 2^levels pieces \throws InvalidArgument unless there are as many samples as
-   * pieces */
+   * for each level, or two where a median lies elsewhere than expected; one in all for
+   * up to 512 samples. Each process gets up to 32 MB of positions per pass, or 4 KiB
+   * per piece where that is more. \param positions finite, none of them -0 \param
+   * levels 0 to 20: 2^levels pieces \throws InvalidArgument unless there are as many
+   * samples as pieces */
   Decomposition(const PositionSource& positions,
                 int levels,
                 Communicator& communicator,
