@@ -12,14 +12,12 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/table_file.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/isosurface/memory_need.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/multivariate/membership.h>
 #include <pcl_uvol/multivariate/memory_need.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
-
-#include <pcl/conversions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -243,26 +241,33 @@ membershipSurface(const Options& options,
                                          readField(cloud, arguments.smoothing),
                                          options.threads(),
                                          report);
-  Dataset field = dataset;
-  pcl_uvol::setField(field, "membership", members);
+  Dataset with_field = dataset;
+  pcl_uvol::setField(with_field, "membership", members);
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "membership";
+  parameters.isosurface.isovalues = {0.5};
+  parameters.isosurface.scale = arguments.stretch->scaleOf(cloud);
+  parameters.isosurface.interpolation =
+      is_smooth ? pcl_uvol::Interpolation::Fit : pcl_uvol::Interpolation::Linear;
+  parameters.normals = pcl_uvol::NormalMethod::Edge;
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&field.cloud, [](const void*) {}));
-  extraction.setScalarField("membership");
-  extraction.setIsoValue(0.5);
-  extraction.setScale(arguments.stretch->scaleOf(cloud));
-  extraction.setInterpolation(is_smooth ? pcl_uvol::Interpolation::Smooth
-                                        : pcl_uvol::Interpolation::Linear);
+      pcl::PCLPointCloud2::ConstPtr(&with_field.cloud, [](const void*) {}));
+  extraction.setParameters(parameters.isosurface);
   extraction.setNumberOfThreads(options.threads());
   extraction.setProgressCallback(report.progress);
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
-  Dataset surface = uvol_tools::withoutCloud(dataset);
-  pcl::toPCLPointCloud2(isopoints, surface.cloud);
-  pcl_uvol::interpolateFields(
-      dataset.cloud, extraction.getEdges(), surface.cloud, options.threads());
-  return surface;
+  // Without the field, whose value is the same everywhere.
+  auto result = pcl_uvol::finishIsosurface(dataset,
+                                           std::move(isopoints),
+                                           pcl_uvol::IsoEdges(extraction.getEdges()),
+                                           parameters,
+                                           options.threads(),
+                                           std::move(report));
+  report = std::move(result.report);
+  return std::move(result.surface);
 }
 
 pcl_uvol::ClusterSurface

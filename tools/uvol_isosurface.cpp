@@ -1,76 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
-#include "common/isosurface_memory.h"
 #include "common/isosurface_options.h"
 #include "common/level_set.h"
+#include "common/memory_guard.h"
 #include "common/options.h"
 #include "common/point_files.h"
 #include "common/progress_bar.h"
-#include "common/ray_options.h"
-#include "common/render_options.h"
-#include "common/scale_option.h"
+#include "common/surface_picture.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/extract_out_of_core.h>
-#include <pcl_uvol/surface/surface_normals.h>
+#include <pcl_uvol/io/extract_out_of_core.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
-#include <pcl/conversions.h>
-
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <sstream>
 
 namespace {
 
+using pcl_uvol::IsosurfacePipelineParameters;
+using pcl_uvol::IsosurfaceResult;
+using pcl_uvol::NeighborSource;
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
 using uvol_tools::joined;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
+using Facts = std::vector<std::pair<std::string, std::string>>;
 
 struct Arguments : uvol_tools::IsosurfaceOptions {
-  std::string input, output, picture;
-  bool raytrace = false;
-  uvol_tools::RenderOptions look;
-  uvol_tools::RayOptions rays;
-  std::string neighbors = "kdtree";
-  std::uint64_t grid = 0;
-  std::string normals = "auto";
+  std::string input, output, mu = "auto", max_memory, scratch;
+  std::uint64_t grid = 0, k = parameters.normal_neighbors,
+                steps = parameters.level_set.max_steps;
   double max_error = std::numeric_limits<double>::infinity();
-  std::uint64_t k = 30;
-  std::string mu = "auto";
-  std::string max_memory, scratch;
-  bool smooth = false, drop_bridged = false, ascii = false;
-};
-
-/** Isopoints, and what they rest on. */
-struct Extraction {
-  pcl_uvol::Dataset input; ///< all samples, or those at the ends of edges
-  std::string field;
-  Eigen::Array3f scale;
-  pcl::PointCloud<PointIso> isopoints;
-  pcl_uvol::IsoEdges edges;
-  std::vector<std::pair<std::string, std::string>> facts;
+  bool ascii = false;
+  uvol_tools::SurfacePicture picture;
 };
 
 void
 declare(Options& options, Arguments& arguments)
 {
+  IsosurfacePipelineParameters& parameters = arguments.parameters;
   options.file("in", arguments.input);
   options.file("out", arguments.output);
   arguments.declareSamples(options);
   options.choice("neighbors",
-                 {"kdtree", "voronoi"},
-                 arguments.neighbors,
+                 parameters.isosurface.neighbors,
                  "candidates from touching cells of the tree, or from adjacent regions "
                  "of a discrete Voronoi diagram: slower");
   options.integer(
@@ -82,18 +60,19 @@ declare(Options& options, Arguments& arguments)
       "to a cell)");
   arguments.declareMethod(options);
   options.flag("smooth",
-               arguments.smooth,
+               parameters.smooth,
                "smooth noisy or uneven samples by a level set first");
   options.text("mu",
                "m|auto",
                arguments.mu,
                "with -smooth: weight of the data against smoothness, 0 to 1; auto: by "
                "the noise");
+  options.integer(
+      "steps", arguments.steps, 1, 1000000, "with -smooth: time steps at most");
   options.choice("normals",
-                 {"auto", "fit", "pca", "edge"},
-                 arguments.normals,
+                 parameters.normals,
                  "of the fits, by principal components of the isopoints, or along the "
-                 "edges; auto: fit with smooth, pca with linear interpolation");
+                 "edges; auto: fit with fits, pca with linear interpolation");
   options.integer(
       "k", arguments.k, 2, 1000, "isopoints that a normal by pca is fitted to");
   options.number("max-error",
@@ -102,7 +81,7 @@ declare(Options& options, Arguments& arguments)
                  std::numeric_limits<double>::max(),
                  "leave out isopoints of a larger estimated error, in units of length");
   options.flag("drop-bridged",
-               arguments.drop_bridged,
+               parameters.drop_bridged,
                "leave out isopoints in gaps of the sampling");
   options.text("max-memory",
                "bytes",
@@ -115,20 +94,72 @@ declare(Options& options, Arguments& arguments)
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
-  options.text("png",
-               "out.png",
-               arguments.picture,
-               "draw the isosurface as well; the options below are for the picture");
-  options.flag("raytrace", arguments.raytrace, "by ray tracing of splats");
+  arguments.picture.declare(options);
 }
 
-pcl_uvol::Dataset
-load(const Arguments& arguments, Report& report)
+/** Whether something asks for all samples at once. */
+bool
+needsAllSamples(const Arguments& arguments)
 {
-  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(
-      arguments.input, report, arguments.makeLoadOptions(), arguments.where);
-  report.count("points", dataset.cloud.width + report.getCount("removed_by_where"));
-  return dataset;
+  const IsosurfacePipelineParameters& parameters = arguments.parameters;
+  return parameters.smooth || parameters.automatic_scale || !arguments.where.empty() ||
+         parameters.isosurface.neighbors == NeighborSource::Voronoi;
+}
+
+/** What only some combinations of options allow. */
+void
+checkCombinations(const Options& options, const Arguments& arguments)
+{
+  using pcl_uvol::NormalMethod;
+  const IsosurfacePipelineParameters& parameters = arguments.parameters;
+  const bool fits = parameters.isosurface.interpolation == pcl_uvol::Interpolation::Fit;
+  if (parameters.normals == NormalMethod::Fit && !fits)
+    throw UsageError("-normals fit needs -interpolation fit.");
+  if (parameters.normals == NormalMethod::Edge && fits)
+    throw UsageError("-normals edge needs -interpolation linear.");
+  if (options.given("grid") &&
+      parameters.isosurface.neighbors != NeighborSource::Voronoi)
+    throw UsageError("-grid needs -neighbors voronoi.");
+  for (const char* const name : {"mu", "steps"})
+    if (options.given(name) && !parameters.smooth)
+      throw UsageError(std::string("-") + name + " needs -smooth.");
+  if (options.given("scratch") && !options.given("max-memory"))
+    throw UsageError("-scratch needs -max-memory.");
+  if (options.given("max-memory") && needsAllSamples(arguments))
+    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
+                     "-neighbors voronoi, which need all samples in memory.");
+  if ((options.given("max-error") || parameters.drop_bridged) && !fits)
+    throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
+}
+
+/** The parameters that the options ask for. \throws UsageError */
+void
+finishParameters(const Options& options, Arguments& arguments)
+{
+  IsosurfacePipelineParameters& parameters = arguments.parameters;
+  arguments.finish();
+  parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(arguments.grid);
+  parameters.normal_neighbors = arguments.k;
+  parameters.level_set.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.level_set.max_steps = arguments.steps;
+  if (options.given("max-error"))
+    parameters.max_error = arguments.max_error;
+  checkCombinations(options, arguments);
+  pcl_uvol::checkSavePath(arguments.output);
+  arguments.picture.check(options);
+}
+
+/** Median, 95 % and maximum of the estimated errors. */
+std::string
+describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
+{
+  if (!errors)
+    return "not estimated";
+  std::ostringstream text;
+  text.precision(3);
+  text << "median " << errors->median << ", 95 % within " << errors->percentile_95
+       << ", largest " << errors->largest;
+  return text.str();
 }
 
 /** As MemoryGuard::describe() for a run within a bound. */
@@ -143,252 +174,56 @@ describeBound(const Arguments& arguments)
               pcl_uvol::formatBytes(static_cast<double>(pcl_uvol::peakMemory()))};
 }
 
-/** Whether something asks for all samples at once. */
-bool
-needsAllSamples(const Arguments& arguments)
+IsosurfaceResult
+runInMemory(const Options& options,
+            const Arguments& arguments,
+            uvol_tools::MemoryGuard& memory,
+            Report& report)
 {
-  return arguments.smooth || !arguments.where.empty() || arguments.scale == "auto" ||
-         arguments.neighbors == "voronoi";
-}
-
-/** What only some combinations of options allow. */
-void
-checkCombinations(const Options& options, Arguments& arguments)
-{
-  arguments.check();
-  const bool smooth = arguments.interpolation == "smooth";
-  if (arguments.normals == "auto")
-    arguments.normals = smooth ? "fit" : "pca";
-  if (arguments.normals == "fit" && !smooth)
-    throw UsageError("-normals fit needs -interpolation smooth.");
-  if (arguments.normals == "edge" && smooth)
-    throw UsageError("-normals edge needs -interpolation linear.");
-  if (arguments.raytrace && arguments.picture.empty())
-    throw UsageError("-raytrace needs -png.");
-  uvol_tools::parseMu(arguments.mu);
-  if (options.given("grid") && arguments.neighbors != "voronoi")
-    throw UsageError("-grid needs -neighbors voronoi.");
-  if (options.given("mu") && !arguments.smooth)
-    throw UsageError("-mu needs -smooth.");
-  if (options.given("scratch") && !options.given("max-memory"))
-    throw UsageError("-scratch needs -max-memory.");
-  if (options.given("max-memory") && needsAllSamples(arguments))
-    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
-                     "-neighbors voronoi, which need all samples in memory.");
-  if ((options.given("max-error") || arguments.drop_bridged) && !smooth)
-    throw UsageError("-max-error and -drop-bridged need -interpolation smooth.");
-}
-
-void
-replaceNormals(const Options& options,
-               const Arguments& arguments,
-               const Eigen::Array3f& scale,
-               pcl::PointCloud<PointIso>& isopoints,
-               Report& report)
-{
-  if (arguments.normals == "edge" || isopoints.empty())
-    return;
-  const StepTimer timer(report, "normals");
-  pcl_uvol::SurfaceNormalParameters parameters;
-  parameters.k = arguments.k;
-  parameters.scale = scale;
-  parameters.threads = options.threads();
-  if (arguments.normals == "pca")
-    pcl_uvol::replaceNormals(isopoints, parameters, report);
+  const IsosurfacePipelineParameters& parameters = arguments.parameters;
+  const auto work =
+      [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        pcl_uvol::addMemoryNeed(parameters, points, step, {}, forecast);
+      };
+  if (arguments.where.empty())
+    memory.checkFile(arguments.input, work);
   else
-    pcl_uvol::replaceMissingNormals(isopoints, parameters, report);
+    memory.checkFile(arguments.input, nullptr);
+  const auto samples = std::make_shared<pcl_uvol::Dataset>(uvol_tools::loadPoints(
+      arguments.input, report, arguments.makeLoadOptions(), arguments.where));
+  report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
+  pcl_uvol::checkSavePath(arguments.output, samples->cloud.fields);
+
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  pipeline.setNumberOfThreads(options.threads());
+  pipeline.setProgressCallback(report.progress);
+  const auto sizes = pipeline.estimateSurfaces();
+  memory.checkCloud(
+      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        pcl_uvol::addMemoryNeed(parameters, points, step, sizes, forecast);
+        double isopoints = 0.0;
+        for (const pcl_uvol::SurfaceSize& size : sizes)
+          isopoints += size.isopoints;
+        arguments.picture.addMemoryNeed(isopoints, forecast);
+      });
+  return pipeline.run();
 }
 
-/** Median, 95 % and maximum of the estimated errors. */
-std::string
-describeErrors(const pcl::PointCloud<PointIso>& isopoints)
-{
-  std::vector<float> errors;
-  for (const PointIso& point : isopoints)
-    if (!std::isnan(point.error))
-      errors.push_back(point.error);
-  if (errors.empty())
-    return "not estimated";
-  std::sort(errors.begin(), errors.end());
-  std::ostringstream text;
-  text.precision(3);
-  text << "median " << errors[errors.size() / 2] << ", 95 % within "
-       << errors[errors.size() * 95 / 100] << ", largest " << errors.back();
-  return text.str();
-}
-
-/** The isopoints of one field of a cloud. */
-pcl::PointCloud<PointIso>
-extract(const Options& options,
-        const Arguments& arguments,
-        const pcl::PCLPointCloud2& cloud,
-        const std::string& field,
-        const std::vector<double>& isovalues,
-        const Eigen::Array3f& scale,
-        pcl_uvol::IsoEdges& edges,
-        Report& report)
-{
-  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-  extraction.setScalarField(field);
-  extraction.setIsoValues(isovalues);
-  extraction.setScale(scale);
-  const pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
-  extraction.setOutside(settings.outside);
-  extraction.setInterpolation(settings.interpolation);
-  extraction.setAngleCriterion(settings.criterion);
-  if (arguments.neighbors == "voronoi") {
-    pcl_uvol::VoronoiCandidateSettings voronoi;
-    voronoi.cells = static_cast<std::uint32_t>(arguments.grid);
-    extraction.setVoronoiGrid(voronoi);
-  }
-  extraction.setNumberOfThreads(options.threads());
-  extraction.setProgressCallback(report.progress);
-  pcl::PointCloud<PointIso> isopoints;
-  extraction.extract(isopoints);
-  report.merge(extraction.getReport());
-  edges = extraction.getEdges();
-  return isopoints;
-}
-
-/** \return without the scale */
-pcl_uvol::LevelSetParameters
-levelSetOf(const Options& options, const Arguments& arguments)
-{
-  pcl_uvol::LevelSetParameters parameters;
-  parameters.mu = uvol_tools::parseMu(arguments.mu);
-  parameters.threads = options.threads();
-  return parameters;
-}
-
-/** The isopoints of the level sets that start from the isosurfaces. */
-pcl::PointCloud<PointIso>
-extractLevelSets(const Options& options,
-                 const Arguments& arguments,
-                 const pcl::PCLPointCloud2& cloud,
-                 const std::string& field,
-                 const Eigen::Array3f& scale,
-                 pcl_uvol::IsoEdges& edges,
-                 std::vector<std::pair<std::string, std::string>>& facts,
-                 Report& report)
-{
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-  std::vector<int> all(view.count);
-  std::iota(all.begin(), all.end(), 0);
-  pcl_uvol::LevelSetParameters parameters = levelSetOf(options, arguments);
-  parameters.scale = scale;
-  pcl::PointCloud<PointIso> isopoints;
-  for (const double isovalue : arguments.isovalues) {
-    const auto [phi, summary] =
-        pcl_uvol::evolveLevelSet(view, all, field, isovalue, parameters, report);
-    pcl_uvol::IsoEdges found;
-    auto surface = extract(options,
-                           arguments,
-                           pcl_uvol::cloudOfPhi(view, phi),
-                           "phi",
-                           {0.0},
-                           scale,
-                           found,
-                           report);
-    for (PointIso& point : surface)
-      point.isovalue = static_cast<float>(isovalue);
-    isopoints += surface;
-    edges.insert(edges.end(), found.begin(), found.end());
-    for (const auto& fact : uvol_tools::describe(summary, arguments.mu == "auto"))
-      facts.push_back(fact);
-  }
-  return isopoints;
-}
-
-std::string
-fieldOf(const Arguments& arguments, const pcl_uvol::Dataset& input)
-{
-  return arguments.field.empty()
-             ? pcl_uvol::ScalarField::defaultName(input.cloud.fields)
-             : arguments.field;
-}
-
-/** \param surfaces one per isovalue; none where their sizes are not known */
-uvol_tools::MemoryGuard::Work
-memoryOf(const Options& options,
-         const Arguments& arguments,
-         std::vector<pcl_uvol::SurfaceSize> surfaces)
-{
-  uvol_tools::IsosurfaceTask task;
-  task.surfaces = std::move(surfaces);
-  task.surfaces.resize(arguments.isovalues.size());
-  task.normal_neighbors = static_cast<double>(arguments.k);
-  if (arguments.smooth)
-    task.level_set = levelSetOf(options, arguments);
-  task.is_ray_traced = arguments.raytrace;
-  const double scale = arguments.look.getSupersampling();
-  if (!arguments.picture.empty())
-    task.pixels =
-        scale * arguments.look.getWidth() * scale * arguments.look.getHeight();
-  return uvol_tools::memoryOf(task);
-}
-
-Extraction
-extractInMemory(const Options& options,
-                const Arguments& arguments,
-                const uvol_tools::ScaleOption& scale_option,
-                uvol_tools::MemoryGuard& memory,
-                Report& report)
-{
-  memory.checkFile(arguments.input,
-                   arguments.where.empty() ? memoryOf(options, arguments, {})
-                                           : nullptr);
-  Extraction result;
-  result.input = load(arguments, report);
-  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
-  result.field = fieldOf(arguments, result.input);
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(result.input.cloud);
-  result.scale = scale_option.scaleOf(view);
-  memory.checkCloud(result.input,
-                    memoryOf(options,
-                             arguments,
-                             pcl_uvol::estimateSurfaces(view,
-                                                        result.field,
-                                                        arguments.isovalues,
-                                                        result.scale,
-                                                        options.threads())));
-  result.isopoints = arguments.smooth ? extractLevelSets(options,
-                                                         arguments,
-                                                         result.input.cloud,
-                                                         result.field,
-                                                         result.scale,
-                                                         result.edges,
-                                                         result.facts,
-                                                         report)
-                                      : extract(options,
-                                                arguments,
-                                                result.input.cloud,
-                                                result.field,
-                                                arguments.isovalues,
-                                                result.scale,
-                                                result.edges,
-                                                report);
-  return result;
-}
-
-Extraction
-extractFromDisk(const Options& options,
-                const Arguments& arguments,
-                const uvol_tools::ScaleOption& scale_option,
-                Report& report)
+IsosurfaceResult
+runFromDisk(const Options& options, const Arguments& arguments, Report& report)
 {
   pcl_uvol::PointStream points(arguments.input, arguments.makeLoadOptions());
-  Extraction result;
-  result.input = points.getHeader();
-  pcl_uvol::checkSavePath(arguments.output, result.input.cloud.fields);
-  result.field = fieldOf(arguments, result.input);
-  result.scale = scale_option.scaleOf({});
-  report.warnings = result.input.notes;
+  pcl_uvol::Dataset samples = points.getHeader();
+  pcl_uvol::checkSavePath(arguments.output, samples.cloud.fields);
+  IsosurfacePipelineParameters parameters = arguments.parameters;
+  if (parameters.isosurface.field.empty())
+    parameters.isosurface.field =
+        pcl_uvol::ScalarField::defaultName(samples.cloud.fields);
+  report.warnings = samples.notes;
   report.count("points", points.size());
 
-  pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
-  settings.field = result.field;
-  settings.scale = {{result.scale[0], result.scale[1], result.scale[2]}};
   pcl_uvol::OutOfCoreSettings out_of_core;
   out_of_core.max_memory = uvol_tools::parseBytes("max-memory", arguments.max_memory);
   out_of_core.scratch_folder =
@@ -396,86 +231,17 @@ extractFromDisk(const Options& options,
           ? std::filesystem::absolute(arguments.output).parent_path().string()
           : arguments.scratch;
   out_of_core.threads = options.threads();
-  auto surface = pcl_uvol::extractOutOfCore(points, settings, out_of_core, report);
-  result.isopoints = std::move(surface.isopoints);
-  result.edges = std::move(surface.edges);
-  result.input.cloud = std::move(surface.samples);
-  return result;
-}
-
-/** Leave out what -max-error and -drop-bridged do not want. */
-void
-filter(const Options& options,
-       const Arguments& arguments,
-       pcl::PointCloud<PointIso>& isopoints,
-       pcl_uvol::IsoEdges& edges,
-       Report& report)
-{
-  if (options.given("max-error"))
-    report.count(
-        "removed_by_error",
-        pcl_uvol::filterIsopoints(isopoints, edges, [&](const PointIso& point) {
-          return point.error <= arguments.max_error;
-        }));
-  if (arguments.drop_bridged)
-    report.count("removed_bridged",
-                 pcl_uvol::filterIsopoints(isopoints, edges, [](const PointIso& point) {
-                   return point.support !=
-                          static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
-                 }));
-}
-
-/** The surface in image space. \return what it was drawn on */
-std::string
-project(const Options& options,
-        const Arguments& arguments,
-        const pcl_uvol::Dataset& surface,
-        Report& report)
-{
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
-  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
-  renderer.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
-  arguments.look.configure(options, cloud, renderer);
-  renderer.setCamera(arguments.look.makeCamera(renderer.getBounds(), surface.origin));
-  pcl_uvol::Image image;
-  renderer.render(image);
-  arguments.look.decorate(cloud, renderer.getColorRange(), image);
-  pcl_uvol::savePng(arguments.picture, image);
-  report = renderer.getReport();
-  return renderer.describeBackend();
-}
-
-/** The picture that -png asks for. \return what it was drawn on; "" for none */
-std::string
-draw(const Options& options,
-     const Arguments& arguments,
-     const pcl_uvol::Dataset& surface,
-     Report& report)
-{
-  if (surface.cloud.width == 0) {
-    report.warnings.push_back("There is nothing to draw: " + arguments.picture +
-                              " was not written.");
-    return "";
-  }
-  const StepTimer timer(report, "picture");
-  Report drawing;
-  drawing.progress = report.progress;
-  std::string backend = "ray tracing";
-  if (arguments.raytrace)
-    arguments.rays.traceCloud(options,
-                              arguments.look,
-                              pcl_uvol::viewOf(surface.cloud),
-                              surface.origin,
-                              arguments.picture,
-                              drawing);
-  else
-    backend = project(options, arguments, surface, drawing);
-  for (const auto& [pass, milliseconds] : drawing.milliseconds)
-    report.time("picture_" + pass, milliseconds);
-  if (arguments.raytrace)
-    report.count("splats", drawing.getCount("splats"));
-  return backend;
+  Report of_surface;
+  of_surface.progress = report.progress;
+  auto surface = pcl_uvol::extractOutOfCore(
+      points, parameters.isosurface, out_of_core, of_surface);
+  samples.cloud = std::move(surface.samples);
+  return pcl_uvol::finishIsosurface(samples,
+                                    std::move(surface.isopoints),
+                                    std::move(surface.edges),
+                                    parameters,
+                                    options.threads(),
+                                    std::move(of_surface));
 }
 
 int
@@ -489,19 +255,10 @@ run(int argc, char** argv)
       "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
       "pcd ply vtp csv.");
   declare(options, arguments);
-  arguments.look.declareView(options);
-  arguments.rays.declareRays(options);
-  arguments.rays.declareSurface(options);
   if (!options.parse(argc, argv))
     return 0;
-  checkCombinations(options, arguments);
-  const uvol_tools::ScaleOption scale_option(arguments.scale);
-  pcl_uvol::checkSavePath(arguments.output);
-  arguments.look.check(options);
-  arguments.rays.check(options);
-  if (!arguments.picture.empty())
-    pcl_uvol::checkPngPath(arguments.picture);
-
+  finishParameters(options, arguments);
+  const bool is_bounded = options.given("max-memory");
   uvol_tools::MemoryGuard memory(needsAllSamples(arguments)
                                      ? "An isosurface"
                                      : "Without -max-memory an isosurface");
@@ -509,38 +266,33 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  auto [input, field, scale, isopoints, edges, level_set_facts] =
-      options.given("max-memory")
-          ? extractFromDisk(options, arguments, scale_option, report)
-          : extractInMemory(options, arguments, scale_option, memory, report);
-  replaceNormals(options, arguments, scale, isopoints, report);
-  filter(options, arguments, isopoints, edges, report);
+  const IsosurfaceResult result = is_bounded
+                                      ? runFromDisk(options, arguments, report)
+                                      : runInMemory(options, arguments, memory, report);
+  report.merge(result.report);
 
-  pcl_uvol::Dataset output = uvol_tools::withoutCloud(input);
-  {
-    const StepTimer timer(report, "fields");
-    pcl::toPCLPointCloud2(isopoints, output.cloud);
-    pcl_uvol::warnOfReplacedFields(input.cloud, output.cloud, report);
-    pcl_uvol::interpolateFields(input.cloud, edges, output.cloud, options.threads());
-  }
+  const auto& isovalues = arguments.parameters.isosurface.isovalues;
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
-  save.comments = {"isosurface of " + field + " at " + joined(arguments.isovalues)};
-  uvol_tools::savePoints(arguments.output, output, save, report);
-  std::vector<std::pair<std::string, std::string>> facts = {
+  save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
+  uvol_tools::savePoints(arguments.output, result.surface, save, report);
+  Facts facts = {
       {"input", arguments.input},
       {"output", arguments.output},
-      {"field", field},
-      {"isovalues", joined(arguments.isovalues)},
-      {"scale", joined(scale)},
-      {"interpolation", arguments.interpolation},
-      {"estimated error", describeErrors(isopoints)}};
-  facts.insert(facts.end(), level_set_facts.begin(), level_set_facts.end());
-  if (!arguments.picture.empty())
-    facts.emplace_back("backend", draw(options, arguments, output, report));
+      {"field", result.field},
+      {"isovalues", joined(isovalues)},
+      {"scale", joined(result.scale)},
+      {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
+      {"estimated error", describeErrors(result.errors)}};
+  for (const pcl_uvol::LevelSetSummary& summary : result.level_sets)
+    for (const auto& fact :
+         uvol_tools::describe(summary, !arguments.parameters.level_set.mu))
+      facts.push_back(fact);
+  if (arguments.picture.isAskedFor())
+    facts.emplace_back("backend",
+                       arguments.picture.draw(options, result.surface, report));
   total.reset();
-  facts.push_back(options.given("max-memory") ? describeBound(arguments)
-                                              : memory.describe());
+  facts.push_back(is_bounded ? describeBound(arguments) : memory.describe());
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

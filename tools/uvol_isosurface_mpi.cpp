@@ -2,8 +2,8 @@
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
 #include "common/isosurface_options.h"
+#include "common/point_files.h"
 #include "common/progress_bar.h"
-#include "common/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/distributed/fetch_points.h>
@@ -12,8 +12,8 @@
 #include <pcl_uvol/isosurface/edge_ends.h>
 #include <pcl_uvol/mpi/mpi_communicator.h>
 #include <pcl_uvol/pipeline/extract_from_ranks.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
-#include <pcl/conversions.h>
 #include <vtkMPIController.h>
 #include <vtkNew.h>
 
@@ -66,23 +66,22 @@ declare(Options& options, Arguments& arguments)
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
-/** What can be said before any file is read. \return the scale */
-pcl_uvol::Position
-check(const Arguments& arguments)
+/** What can be said before any file is read. */
+void
+finishParameters(Arguments& arguments)
 {
-  arguments.check();
-  if (arguments.scale == "auto")
+  arguments.finish();
+  if (arguments.parameters.automatic_scale)
     throw UsageError("-scale auto is not offered, as no process sees all samples: give "
                      "three factors.");
-  const uvol_tools::ScaleOption option(arguments.scale);
-  const Eigen::Array3f scale = option.scaleOf({});
+  const Eigen::Array3f& scale = arguments.parameters.isosurface.scale;
   if (!(scale > 0.0f).all() || !scale.isFinite().all())
     throw UsageError("-scale takes three positive factors.");
+  arguments.parameters.normals = pcl_uvol::NormalMethod::Edge;
   if (arguments.inPieces())
     pcl_uvol::checkSavePieces(arguments.output);
   else
     pcl_uvol::checkSavePath(arguments.output);
-  return {{scale[0], scale[1], scale[2]}};
 }
 
 pcl_uvol::Dataset
@@ -114,21 +113,23 @@ makeOutput(const Arguments& arguments,
            pcl_uvol::Communicator& communicator,
            Report& report)
 {
-  const StepTimer timer(report, "fields");
-  const pcl_uvol::EdgeEnds ends = pcl_uvol::findEdgeEnds(isopoints);
-  const auto samples =
-      pcl_uvol::fetchPoints(part.cloud, first_index, ends.points, communicator, report);
-  pcl::PointCloud<PointIso> points;
+  pcl_uvol::EdgeEnds ends = pcl_uvol::findEdgeEnds(isopoints);
+  pcl::PointCloud<pcl_uvol::PointIso> points;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     for (const pcl_uvol::GlobalIsopoint& isopoint : isopoints[i])
-      points.push_back(toPointIso(isopoint, arguments.isovalues[i]));
-  pcl_uvol::Dataset output;
-  output.origin = part.origin;
-  output.double_coordinates = part.double_coordinates;
-  pcl::toPCLPointCloud2(points, output.cloud);
-  pcl_uvol::warnOfReplacedFields(part.cloud, output.cloud, report);
-  pcl_uvol::interpolateFields(samples, ends.edges, output.cloud, threads);
-  return output;
+      points.push_back(
+          toPointIso(isopoint, arguments.parameters.isosurface.isovalues[i]));
+  pcl_uvol::Dataset samples = uvol_tools::withoutCloud(part);
+  samples.cloud =
+      pcl_uvol::fetchPoints(part.cloud, first_index, ends.points, communicator, report);
+  auto result = pcl_uvol::finishIsosurface(samples,
+                                           std::move(points),
+                                           std::move(ends.edges),
+                                           arguments.parameters,
+                                           threads,
+                                           std::move(report));
+  report = std::move(result.report);
+  return std::move(result.surface);
 }
 
 void
@@ -145,7 +146,7 @@ save(const Arguments& arguments,
     pcl_uvol::SaveOptions options;
     options.ascii = arguments.ascii;
     options.comments = {"isosurface of " + field + " at " +
-                        joined(arguments.isovalues)};
+                        joined(arguments.parameters.isosurface.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, options);
   }
   communicator.barrier();
@@ -154,28 +155,28 @@ save(const Arguments& arguments,
 /** \return the field that was taken */
 std::string
 extract(const Arguments& arguments,
-        const pcl_uvol::Position& scale,
         unsigned threads,
         pcl_uvol::Communicator& communicator,
         Report& report)
 {
   const StepTimer timer(report, "total");
   const pcl_uvol::Dataset part = load(arguments, communicator, report);
-  const std::string field = arguments.field.empty()
-                                ? pcl_uvol::ScalarField::defaultName(part.cloud.fields)
-                                : arguments.field;
+  pcl_uvol::IsosurfaceParameters parameters = arguments.parameters.isosurface;
+  if (parameters.field.empty())
+    parameters.field = pcl_uvol::ScalarField::defaultName(part.cloud.fields);
+  const std::string& field = parameters.field;
   if (!arguments.inPieces())
     pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
-  const std::uint64_t first_index =
-      pcl_uvol::findFirstIndex(part.cloud.width, communicator);
-  pcl_uvol::IsosurfaceSettings settings = arguments.makeSettings();
-  settings.field = field;
-  settings.scale = scale;
+  const std::uint64_t first_index = pcl_uvol::findFirstIndex(part.cloud.width, communicator);
   const auto view = pcl_uvol::viewOf(part.cloud);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
-      pcl_uvol::readSamples(
-          view, {view.fields, field}, scale, first_index, threads, report),
-      settings,
+      pcl_uvol::readSamples(view,
+                            {view.fields, field},
+                            pcl_uvol::toPosition(parameters.scale),
+                            first_index,
+                            threads,
+                            report),
+      parameters,
       communicator,
       threads,
       report);
@@ -206,28 +207,29 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  const pcl_uvol::Position scale = check(arguments);
+  finishParameters(arguments);
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;
   if (communicator.rank() == 0)
     report.progress = std::ref(bar.emplace(arguments.progress));
   const std::string field =
-      extract(arguments, scale, arguments.threads(options), communicator, report);
+      extract(arguments, arguments.threads(options), communicator, report);
   bar.reset();
   const Report together = mergeReports(
       report, communicator, {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
   if (communicator.rank() == 0)
-    uvol_tools::printReport(options,
-                            together,
-                            {{"input", joined(arguments.inputs)},
-                             {"output", arguments.output},
-                             {"processes", std::to_string(communicator.size())},
-                             {"field", field},
-                             {"isovalues", joined(arguments.isovalues)},
-                             {"scale", joined(scale.x)},
-                             {"interpolation", arguments.interpolation}},
-                            true); // mpirun's pipes look like terminals
+    uvol_tools::printReport(
+        options,
+        together,
+        {{"input", joined(arguments.inputs)},
+         {"output", arguments.output},
+         {"processes", std::to_string(communicator.size())},
+         {"field", field},
+         {"isovalues", joined(arguments.parameters.isosurface.isovalues)},
+         {"scale", joined(arguments.parameters.isosurface.scale)},
+         {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}},
+        true); // mpirun's pipes look like terminals
   return 0;
 }
 

@@ -13,19 +13,15 @@
 #include <pcl_uvol/io/line_plot.h>
 #include <pcl_uvol/io/table_file.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/levelset/memory_need.h>
-
-#include <pcl/conversions.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <map>
 #include <memory>
-#include <numeric>
 #include <sstream>
 
 namespace {
@@ -38,14 +34,16 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, field, scale, mu = "auto", table, plot;
-  std::string scheme = "quadratic", flow = "relative", bound = "stencil";
-  std::string integration = "asynchronous", reinitialization = "distance";
-  std::string outside = "lower", start_field;
+  std::string input, output, scale, mu = "auto", table, plot, start_field;
+  LevelSetParameters parameters;
   std::vector<double> iso, sphere, box, plane;
-  std::uint64_t k = 26, steps = 400, snapshots = 0;
-  double tolerance = 0.002, band = 5.0;
+  std::uint64_t k = parameters.k, steps = parameters.max_steps, snapshots = 0;
   bool ascii = false;
+
+  Arguments()
+  {
+    parameters.field.clear();
+  } // intensity, else the only candidate
 };
 
 void
@@ -57,7 +55,7 @@ declare(Options& options, Arguments& arguments)
   options.numbers("iso", "v", 1, arguments.iso, "isovalue (required)");
   options.text("field",
                "name",
-               arguments.field,
+               arguments.parameters.field,
                "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
                "else the only candidate)");
   options.text("mu",
@@ -66,36 +64,31 @@ declare(Options& options, Arguments& arguments)
                "weight of the data against smoothness, 0 to 1; auto: by the noise, "
                "more where smoothing takes details away");
   options.choice("scheme",
-                 {"quadratic", "linear"},
-                 arguments.scheme,
+                 arguments.parameters.scheme,
                  "local fits; linear: the thesis's, unstable on noise");
   options.choice("flow",
-                 {"relative", "mean"},
-                 arguments.flow,
+                 arguments.parameters.flow,
                  "smooth by the curvature less its local mean, or by the mean "
                  "curvature as in the thesis, which shrinks");
   options.choice("integration",
-                 {"asynchronous", "synchronous"},
-                 arguments.integration,
+                 arguments.parameters.integration,
                  "every sample its own time step, or one for all");
   options.choice("bound",
-                 {"stencil", "cfl"},
-                 arguments.bound,
+                 arguments.parameters.bound,
                  "time steps by the stencils' weights, or by the thesis's condition");
   options.choice("reinit",
-                 {"distance", "eikonal", "diffusion", "none"},
-                 arguments.reinitialization,
+                 arguments.parameters.reinitialization,
                  "what keeps the slope at 1: distance to the isopoints, the Eikonal "
                  "equation, or a diffusion term");
   options.number("band",
-                 arguments.band,
+                 arguments.parameters.band_width,
                  0.0,
                  std::numeric_limits<double>::max(),
                  "advance only samples so many spacings from the surface; 0: all");
   options.integer("k", arguments.k, 3, 1000, "nearest neighbours of a stencil");
   options.integer("steps", arguments.steps, 1, many, "time steps at most");
   options.number("tolerance",
-                 arguments.tolerance,
+                 arguments.parameters.tolerance,
                  std::numeric_limits<double>::min(),
                  std::numeric_limits<double>::max(),
                  "end when the surface moves by less, in spacings per unit of time");
@@ -111,8 +104,7 @@ declare(Options& options, Arguments& arguments)
   options.text(
       "start", "name", arguments.start_field, "start from a field, such as phi");
   options.choice("outside",
-                 {"lower", "higher"},
-                 arguments.outside,
+                 arguments.parameters.outside,
                  "the outside of -sphere, -box and -plane is where values are so");
   options.text("scale",
                "sx,sy,sz|auto",
@@ -129,7 +121,7 @@ declare(Options& options, Arguments& arguments)
 }
 
 InitialFunction
-initialOf(const Options& options, const Arguments& arguments)
+makeInitialFunction(const Options& options, const Arguments& arguments)
 {
   const auto given = {options.given("sphere"),
                       options.given("box"),
@@ -152,34 +144,18 @@ initialOf(const Options& options, const Arguments& arguments)
   return {};
 }
 
+/** The parameters that the options ask for, but for what depends on the samples. */
 LevelSetParameters
-parametersOf(const Options& options, const Arguments& arguments)
+makeParameters(const Options& options, const Arguments& arguments)
 {
-  LevelSetParameters parameters;
+  if (arguments.iso.empty())
+    throw UsageError("-iso is missing: give one isovalue, as in -iso 0.3.");
+  LevelSetParameters parameters = arguments.parameters;
+  parameters.isovalue = arguments.iso.front();
   parameters.mu = uvol_tools::parseMu(arguments.mu);
-  parameters.scheme = arguments.scheme == "linear" ? pcl_uvol::FitScheme::Linear
-                                                   : pcl_uvol::FitScheme::Quadratic;
-  parameters.flow = arguments.flow == "mean" ? pcl_uvol::CurvatureFlow::Mean
-                                             : pcl_uvol::CurvatureFlow::Relative;
-  parameters.bound = arguments.bound == "cfl" ? pcl_uvol::StepBound::Cfl
-                                              : pcl_uvol::StepBound::Stencil;
-  parameters.integration = arguments.integration == "synchronous"
-                               ? pcl_uvol::Integration::Synchronous
-                               : pcl_uvol::Integration::Asynchronous;
-  using pcl_uvol::Reinitialization;
-  parameters.reinitialization = std::map<std::string, Reinitialization>{
-      {"none", Reinitialization::None},
-      {"distance", Reinitialization::Distance},
-      {"eikonal", Reinitialization::Eikonal},
-      {"diffusion", Reinitialization::Diffusion}}[arguments.reinitialization];
-  parameters.initial = initialOf(options, arguments);
-  parameters.outside = arguments.outside == "lower" ? pcl_uvol::Outside::Lower
-                                                    : pcl_uvol::Outside::Higher;
+  parameters.initial = makeInitialFunction(options, arguments);
   parameters.k = arguments.k;
   parameters.max_steps = arguments.steps;
-  parameters.tolerance = arguments.tolerance;
-  parameters.band_width = arguments.band;
-  parameters.threads = options.threads();
   return parameters;
 }
 
@@ -212,25 +188,33 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
   pcl_uvol::savePng(path, pcl_uvol::drawLinePlot(lines, "step"));
 }
 
-/** The zero level of phi. */
+/** The zero level of phi with all fields. */
 pcl_uvol::Dataset
-zeroLevel(const pcl_uvol::Dataset& input,
-          const Eigen::Array3f& scale,
-          unsigned threads,
-          const std::vector<float>& phi)
+makeZeroLevel(const pcl_uvol::Dataset& samples,
+              const LevelSetParameters& parameters,
+              unsigned threads,
+              const std::vector<float>& phi)
 {
-  const auto cloud = pcl_uvol::cloudOfPhi(pcl_uvol::viewOf(input.cloud), phi);
-  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-  extraction.setScalarField("phi");
-  extraction.setIsoValue(0.0);
-  extraction.setScale(scale);
-  extraction.setNumberOfThreads(threads);
-  pcl::PointCloud<PointIso> isopoints;
-  extraction.extract(isopoints);
-  pcl_uvol::Dataset surface = uvol_tools::withoutCloud(input);
-  pcl::toPCLPointCloud2(isopoints, surface.cloud);
-  return surface;
+  pcl_uvol::IsosurfacePipelineParameters how;
+  how.isosurface.isovalues = {parameters.isovalue};
+  how.isosurface.scale = parameters.scale;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
+  pcl_uvol::IsoEdges edges;
+  Report report;
+  pcl_uvol::extractZeroLevel(pcl_uvol::viewOf(samples.cloud),
+                             phi,
+                             how.isosurface,
+                             threads,
+                             isopoints,
+                             edges,
+                             report);
+  return pcl_uvol::finishIsosurface(samples,
+                                    std::move(isopoints),
+                                    std::move(edges),
+                                    how,
+                                    threads,
+                                    std::move(report))
+      .surface;
 }
 
 /** What the tool holds beside the points. \param surface of the isovalue */
@@ -243,7 +227,7 @@ memoryOf(const LevelSetParameters& parameters,
       [=, &parameters](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         forecast.hold(sizeof(int) * points); // indices of all
         pcl_uvol::MemoryNeed need = pcl_uvol::levelSetNeed(points, surface, parameters);
-        // zeroLevel, beside the level set
+        // makeZeroLevel, beside the level set
         const double of_phi = pcl_uvol::phi_point_bytes * points;
         if (has_snapshots)
           need.peak += of_phi + pcl_uvol::isosurfaceNeed(points, {surface}).peak;
@@ -280,9 +264,7 @@ run(int argc, char** argv)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  if (arguments.iso.empty())
-    throw UsageError("-iso is missing: give one isovalue, as in -iso 0.3.");
-  LevelSetParameters parameters = parametersOf(options, arguments);
+  LevelSetParameters parameters = makeParameters(options, arguments);
   const uvol_tools::ScaleOption scale(arguments.scale);
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
@@ -301,35 +283,36 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.scale = scale.scaleOf(view);
-  const std::string field =
-      arguments.field.empty() ? pcl_uvol::ScalarField::defaultName(dataset.cloud.fields)
-                              : arguments.field;
-  memory.checkCloud(
-      dataset,
-      memoryOf(parameters,
-               has_snapshots,
-               pcl_uvol::estimateSurfaces(
-                   view, field, arguments.iso, parameters.scale, parameters.threads)
-                   .front()));
-  std::vector<int> all(view.count);
-  std::iota(all.begin(), all.end(), 0);
-  parameters.snapshot_steps = arguments.snapshots;
-  parameters.snapshot = [&](const pcl_uvol::LevelSetSummary& summary,
-                            const std::vector<float>& phi) {
-    pcl_uvol::saveDataset(snapshotPath(arguments.output, summary.steps.size()),
-                          zeroLevel(dataset, parameters.scale, options.threads(), phi),
-                          {});
-  };
-  const auto [phi, summary] = pcl_uvol::evolveLevelSet(
-      view, all, field, arguments.iso.front(), parameters, report);
-
+  if (parameters.field.empty())
+    parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
+  memory.checkCloud(dataset,
+                    memoryOf(parameters,
+                             has_snapshots,
+                             pcl_uvol::estimateSurfaces(view,
+                                                        parameters.field,
+                                                        arguments.iso,
+                                                        parameters.scale,
+                                                        options.threads())
+                                 .front()));
+  pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  evolution.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  evolution.setParameters(parameters);
+  evolution.setNumberOfThreads(options.threads());
+  evolution.setProgressCallback(report.progress);
+  evolution.setSnapshotCallback(
+      arguments.snapshots,
+      [&](const pcl_uvol::LevelSetSummary& so_far, const std::vector<float>& phi) {
+        pcl_uvol::saveDataset(
+            snapshotPath(arguments.output, so_far.steps.size()),
+            makeZeroLevel(dataset, parameters, options.threads(), phi),
+            {});
+      });
   pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
-  {
-    const StepTimer timer(report, "fields");
-    result.cloud = pcl_uvol::cloudOfPhi(view, phi);
-    pcl_uvol::copyFields(
-        dataset.cloud, {all.begin(), all.end()}, result.cloud, options.threads());
-  }
+  evolution.evolve(result.cloud);
+  report.merge(evolution.getReport());
+  const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
+
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
   uvol_tools::savePoints(arguments.output, result, save, report);
@@ -340,8 +323,10 @@ run(int argc, char** argv)
   report.count("points", view.count);
   total.reset();
   std::vector<std::pair<std::string, std::string>> facts = {
-      {"input", arguments.input}, {"output", arguments.output}, {"field", field}};
-  for (const auto& fact : uvol_tools::describe(summary, arguments.mu == "auto"))
+      {"input", arguments.input},
+      {"output", arguments.output},
+      {"field", parameters.field}};
+  for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);

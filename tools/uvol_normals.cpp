@@ -22,21 +22,27 @@ using pcl_uvol::Report;
 
 /** The cloud with new normals and curvature; all other fields as they were. */
 pcl::PCLPointCloud2
-withNormals(const pcl_uvol::CloudView& view,
-            const pcl::PCLPointCloud2& cloud,
-            const std::vector<std::uint32_t>& all,
-            const std::vector<pcl_uvol::SurfaceNormal>& normals)
+estimateNormals(const pcl::PCLPointCloud2& cloud,
+                const pcl_uvol::SurfaceNormalParameters& parameters,
+                unsigned threads,
+                Report& report)
 {
+  pcl_uvol::SurfaceNormalEstimation<pcl::PCLPointCloud2, pcl::PointNormal> estimation;
+  estimation.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  estimation.setParameters(parameters);
+  estimation.setNumberOfThreads(threads);
+  estimation.setProgressCallback(report.progress);
   pcl::PointCloud<pcl::PointNormal> points;
-  points.resize(normals.size());
-  for (std::uint32_t i = 0; i < normals.size(); ++i) {
+  estimation.compute(points);
+  report.merge(estimation.getReport());
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
+  for (std::size_t i = 0; i < points.size(); ++i)
     points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
-    points[i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
-    points[i].curvature = normals[i].curvature;
-  }
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
   pcl::PCLPointCloud2 result;
   pcl::toPCLPointCloud2(points, result);
-  pcl_uvol::copyFields(cloud, all, result);
+  pcl_uvol::copyFields(cloud, all, result, threads);
   return result;
 }
 
@@ -47,7 +53,7 @@ memoryOf(std::uint64_t k)
   return [k](double points, double step, pcl_uvol::MemoryForecast& forecast) {
     forecast.hold(sizeof(std::uint32_t) * points); // indices of all
     forecast.run(pcl_uvol::surfaceNormalsNeed(points, static_cast<double>(k)));
-    // withNormals: a cloud, the same as bytes, and the output, a normal and a curvature
+    // A cloud, the same as bytes, and the output, a normal and a curvature
     // longer than the input.
     forecast.hold((2.0 * sizeof(pcl::PointNormal) + sizeof(IsoEdge) + step +
                    sizeof(pcl_uvol::SurfaceNormal)) *
@@ -93,7 +99,6 @@ run(int argc, char** argv)
   memory.checkCloud(dataset, memoryOf(k));
   pcl_uvol::SurfaceNormalParameters parameters;
   parameters.k = k;
-  parameters.threads = options.threads();
   if (!scale.empty())
     parameters.scale = Eigen::Array3d(scale.data()).cast<float>();
   if (view_point.empty())
@@ -107,16 +112,12 @@ run(int argc, char** argv)
         "The file has no normals to orient by: the new ones look to 0,0,0; -viewpoint "
         "chooses another place.");
 
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
-  std::vector<std::uint32_t> all(view.count);
-  std::iota(all.begin(), all.end(), 0u);
-  const auto normals = pcl_uvol::estimateSurfaceNormals(view, all, parameters, report);
   pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
-  result.cloud = withNormals(view, dataset.cloud, all, normals);
+  result.cloud = estimateNormals(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);
-  report.count("points", normals.size());
+  report.count("points", result.cloud.width);
   uvol_tools::printReport(
       options, report, {{"input", input}, {"output", output}, memory.describe()});
   return 0;

@@ -81,11 +81,9 @@ labelsOf(const Options& options,
          Report& report)
 {
   const auto field = uvol_tools::labelField(cloud, arguments.label);
-  if (field.empty()) {
-    pcl_uvol::ClusteringParameters parameters;
-    parameters.threads = options.threads();
-    return pcl_uvol::clusterAttributes(table, parameters, report).labels;
-  }
+  if (field.empty())
+    return pcl_uvol::detail::clusterAttributes(table, {}, options.threads(), report)
+        .labels;
   const std::vector<std::int32_t> all = uvol_tools::readLabels(cloud, field);
   std::vector<std::int32_t> labels;
   for (const std::uint32_t point : table.points)

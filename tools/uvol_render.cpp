@@ -8,7 +8,6 @@
 namespace {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 
 int
 run(int argc, char** argv)
@@ -31,27 +30,9 @@ run(int argc, char** argv)
 
   Report report;
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
-  renderer.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
-  look.configure(options, cloud, renderer);
-  const pcl_uvol::Camera camera = look.makeCamera(renderer.getBounds(), dataset.origin);
-  pcl_uvol::Image image;
-  Report drawing;
-  for (std::uint64_t frame = 0; frame < look.countFrames(); ++frame) {
-    renderer.setCamera(look.turned(camera, frame));
-    renderer.render(image);
-    drawing = renderer.getReport();
-    look.decorate(cloud, renderer.getColorRange(), image);
-    const StepTimer timer(report, "write");
-    pcl_uvol::savePng(look.frameName(output, frame), image);
-  }
-  report.merge(drawing);
+  const std::string backend = look.drawCloud(options, dataset, output, report);
   uvol_tools::printReport(
-      options,
-      report,
-      {{"input", input}, {"output", output}, {"backend", renderer.describeBackend()}});
+      options, report, {{"input", input}, {"output", output}, {"backend", backend}});
   return 0;
 }
 

@@ -14,19 +14,29 @@
 
 #include <pcl/conversions.h>
 
-#include <numeric>
-
 namespace {
 
 using pcl_uvol::Report;
 
-/** The splats with all other fields of the points that they are grown from. */
+/** Covers points; the splats have all other fields of the points that they are grown
+ * from. */
 pcl::PCLPointCloud2
-withFields(const pcl_uvol::Splats& splats, const pcl::PCLPointCloud2& cloud)
+generateSplats(const pcl::PCLPointCloud2& cloud,
+               const pcl_uvol::SplatParameters& parameters,
+               unsigned threads,
+               Report& report)
 {
+  pcl_uvol::SplatGeneration<pcl::PCLPointCloud2> generation;
+  generation.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  generation.setParameters(parameters);
+  generation.setNumberOfThreads(threads);
+  generation.setProgressCallback(report.progress);
+  pcl::PointCloud<pcl_uvol::PointSplat> splats;
+  generation.compute(splats);
+  report.merge(generation.getReport());
   pcl::PCLPointCloud2 result;
-  pcl::toPCLPointCloud2(splats.cloud, result);
-  pcl_uvol::copyFields(cloud, splats.sources, result);
+  pcl::toPCLPointCloud2(splats, result);
+  pcl_uvol::copyFields(cloud, generation.getSources(), result, threads);
   return result;
 }
 
@@ -38,9 +48,10 @@ memoryOf(double part, bool has_normals)
     const double splats = part * points;
     forecast.hold(sizeof(std::uint32_t) * points); // indices of all
     forecast.run(pcl_uvol::splatsNeed(points, splats, has_normals));
-    // withFields: as bytes, and with the other fields
-    forecast.hold((2.0 * sizeof(PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) *
-                  splats);
+    // as bytes, and with the other fields
+    forecast.hold(
+        (2.0 * sizeof(pcl_uvol::PointSplat) + sizeof(pcl_uvol::IsoEdge) + step) *
+        splats);
   };
 }
 
@@ -75,14 +86,10 @@ run(int argc, char** argv)
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   memory.checkCloud(
       dataset,
-      memoryOf(pcl_uvol::estimateSplats(view, parameters),
+      memoryOf(pcl_uvol::estimateSplats(view, parameters, options.threads()),
                pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
-  std::vector<std::uint32_t> all(view.count);
-  std::iota(all.begin(), all.end(), 0u);
-  const pcl_uvol::Splats splats =
-      pcl_uvol::generateSplats(view, all, parameters, report);
   pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
-  result.cloud = withFields(splats, dataset.cloud);
+  result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include "../neighbors/sample_values.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/derivatives/impl/gradient_estimation.hpp>
 #include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <Eigen/Core>
-#include <pcl/impl/pcl_base.hpp>
 
 #include <atomic>
 #include <cmath>
@@ -42,10 +42,12 @@ class GradientFinder {
 public:
   GradientFinder(const SampleSet& samples,
                  const NeighborGraph& neighbors,
-                 const GradientParameters& parameters)
+                 const GradientParameters& parameters,
+                 unsigned threads)
       : samples_(samples)
       , neighbors_(neighbors)
       , parameters_(parameters)
+      , threads_(threads)
   {
   }
 
@@ -80,20 +82,19 @@ private:
   sweep(Report& report, const char* name, const Visit& visit) const
   {
     StepTimer step(report, name, samples_.size());
-    parallelBlocks(
-        samples_.size(), block_samples, parameters_.threads, [&](auto begin, auto end) {
-          LocalFit fit(parameters_.scheme);
-          for (std::size_t i = begin; i < end; ++i) {
-            const auto row = neighbors_[i];
-            visit(i,
-                  fit,
-                  fit.fit(samples_.getPositions(),
-                          static_cast<std::uint32_t>(i),
-                          row.first,
-                          row.size()));
-          }
-          step.advance(end - begin);
-        });
+    parallelBlocks(samples_.size(), block_samples, threads_, [&](auto begin, auto end) {
+      LocalFit fit(parameters_.scheme);
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto row = neighbors_[i];
+        visit(i,
+              fit,
+              fit.fit(samples_.getPositions(),
+                      static_cast<std::uint32_t>(i),
+                      row.first,
+                      row.size()));
+      }
+      step.advance(end - begin);
+    });
   }
 
   /** Half the divergence of the normalised gradients (thesis 3.3); where a neighbour
@@ -125,16 +126,18 @@ private:
   const SampleSet& samples_;
   const NeighborGraph& neighbors_;
   const GradientParameters& parameters_;
+  unsigned threads_;
 };
 
 } // namespace
 
 std::vector<PointGradient>
-estimateGradients(const CloudView& cloud,
-                  const std::vector<int>& indices,
-                  const std::string& name,
-                  const GradientParameters& parameters,
-                  Report& report)
+detail::estimateGradients(const CloudView& cloud,
+                          const pcl::Indices& indices,
+                          const GradientParameters& parameters,
+                          const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                          unsigned threads,
+                          Report& report)
 {
   const std::size_t least = derivativesOf(parameters.scheme);
   if (parameters.k < least)
@@ -143,24 +146,19 @@ estimateGradients(const CloudView& cloud,
                           std::to_string(least) + " with this scheme.");
   if (indices.empty())
     throw InvalidArgument("GradientEstimation was given an empty cloud.");
-  const ScalarField field(cloud.fields, name);
-  const auto values = readValues(cloud, field, parameters.threads);
+  const ScalarField field(cloud.fields, parameters.field);
+  const auto values = readValues(cloud, field, threads);
   const auto use = pointsWithValue(values, indices, field);
-  const auto samples = SampleSet::build(cloud.xyz(0),
-                                        cloud.stride(),
-                                        use,
-                                        Position{{1.0f, 1.0f, 1.0f}},
-                                        parameters.threads,
-                                        report);
+  const auto samples = SampleSet::build(
+      cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
   report.count("no_value", indices.size() - use.size());
   report.count("samples", samples->size());
-  const auto f = gatherValues(*samples, values, parameters.threads, report).values;
+  const auto f = gatherValues(*samples, values, threads, report).values;
   const NeighborGraph neighbors =
-      parameters.search
-          ? computeNearestNeighbors(
-                *samples, parameters.k, parameters.threads, parameters.search, report)
-          : computeNearestNeighbors(*samples, parameters.k, parameters.threads, report);
-  const auto found = GradientFinder(*samples, neighbors, parameters).find(f, report);
+      search ? computeNearestNeighbors(*samples, parameters.k, threads, search, report)
+             : computeNearestNeighbors(*samples, parameters.k, threads, report);
+  const auto found =
+      GradientFinder(*samples, neighbors, parameters, threads).find(f, report);
 
   std::vector<PointGradient> by_point(cloud.count);
   const auto assign = [&](std::uint32_t point, const Derivatives& derivatives) {
@@ -179,6 +177,18 @@ estimateGradients(const CloudView& cloud,
   for (const int index : indices)
     gradients.push_back(by_point[static_cast<std::size_t>(index)]);
   return gradients;
+}
+
+std::string
+GradientParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+GradientParameters
+GradientParameters::fromJson(const std::string& text)
+{
+  return readJson<GradientParameters>(text);
 }
 
 template class PCL_UVOL_EXPORTS GradientEstimation<pcl::PointXYZI>;

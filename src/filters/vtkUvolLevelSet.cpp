@@ -3,7 +3,6 @@
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
-#include <pcl/common/io.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkInformation.h>
@@ -54,7 +53,8 @@ vtkUvolLevelSet::Parameters() const
 {
   using pcl_uvol::LevelSetParameters;
   LevelSetParameters parameters;
-  parameters.mu = this->AutomaticMu ? LevelSetParameters::automatic : this->Mu;
+  if (!this->AutomaticMu)
+    parameters.mu = this->Mu;
   parameters.scheme = this->Scheme == SCHEME_LINEAR ? pcl_uvol::FitScheme::Linear
                                                     : pcl_uvol::FitScheme::Quadratic;
   parameters.flow = this->CurvatureFlow == FLOW_MEAN
@@ -73,7 +73,6 @@ vtkUvolLevelSet::Parameters() const
   parameters.max_steps = static_cast<std::size_t>(this->MaximumNumberOfSteps);
   parameters.tolerance = this->Tolerance;
   parameters.band_width = this->BandWidth;
-  parameters.threads = static_cast<unsigned>(this->NumberOfThreads);
   return parameters;
 }
 
@@ -83,28 +82,27 @@ vtkUvolLevelSet::Execute(pcl_uvol::FilterRun& run)
   const pcl_uvol::PointArrays points = pcl_uvol::collectPoints(run.input);
   run.report.warnings = points.dataset.notes;
   run.progress.expect(4); // tree, neighbours, stencils, evolution
-  const std::string field =
-      this->FieldToProcess(0, this->ArrayComponent, run.input, points);
   pcl_uvol::LevelSetParameters parameters = this->Parameters();
+  parameters.field = this->FieldToProcess(0, this->ArrayComponent, run.input, points);
+  parameters.isovalue = this->Isovalue;
   vtkInformation& start = *this->GetInputArrayInformation(1);
   if (start.Has(vtkDataObject::FIELD_NAME()) ||
       start.Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
     parameters.initial =
         pcl_uvol::InitialFunction::field(this->FieldToProcess(1, 0, run.input, points));
-  const pcl::PCLPointCloud2& cloud = points.dataset.cloud;
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-  pcl_uvol::LevelSet evolved = pcl_uvol::evolveLevelSet(
-      view, run.visible, field, this->Isovalue, parameters, run.report);
-
-  const std::vector<std::uint32_t> sources(run.visible.begin(), run.visible.end());
+  pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  evolution.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&points.dataset.cloud, [](const void*) {}));
+  evolution.setIndices(pcl::make_shared<pcl::Indices>(run.visible));
+  evolution.setParameters(parameters);
+  evolution.setNumberOfThreads(static_cast<unsigned>(this->NumberOfThreads));
+  evolution.setProgressCallback(run.report.progress);
   pcl_uvol::Dataset result;
   result.origin = points.dataset.origin;
   result.double_coordinates = points.dataset.double_coordinates;
-  pcl::copyPointCloud(
-      pcl_uvol::cloudOfPhi(view, evolved.phi), run.visible, result.cloud);
-  pcl_uvol::warnOfReplacedFields(cloud, result.cloud, run.report);
-  const pcl_uvol::IsoEdges edges = pcl_uvol::edgesAt(sources);
-  pcl_uvol::interpolateFields(cloud, edges, result.cloud, parameters.threads);
-  pcl_uvol::fillOutput(result, points, edges, run);
+  evolution.evolve(result.cloud);
+  run.report.merge(evolution.getReport());
+  const std::vector<std::uint32_t> sources(run.visible.begin(), run.visible.end());
+  pcl_uvol::fillOutput(result, points, pcl_uvol::edgesAt(sources), run);
   run.output.GetPointData()->SetActiveScalars("phi");
 }

@@ -28,19 +28,23 @@ vtkUvolSplats::Execute(pcl_uvol::FilterRun& run)
   parameters.delta = this->Delta;
   parameters.delta_is_length = this->DeltaIsLength;
   parameters.lambda = this->Lambda;
-  parameters.threads = static_cast<unsigned>(this->NumberOfThreads);
   const pcl::PCLPointCloud2& cloud = points.dataset.cloud;
-  const pcl_uvol::Splats splats =
-      pcl_uvol::generateSplats(pcl_uvol::viewOf(cloud),
-                               {run.visible.begin(), run.visible.end()},
-                               parameters,
-                               run.report);
+  const auto threads = static_cast<unsigned>(this->NumberOfThreads);
+  pcl_uvol::SplatGeneration<pcl::PCLPointCloud2> generation;
+  generation.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  generation.setIndices(pcl::make_shared<pcl::Indices>(run.visible));
+  generation.setParameters(parameters);
+  generation.setNumberOfThreads(threads);
+  generation.setProgressCallback(run.report.progress);
+  pcl::PointCloud<pcl_uvol::PointSplat> splats;
+  generation.compute(splats);
+  run.report.merge(generation.getReport());
 
   pcl_uvol::Dataset result;
   result.origin = points.dataset.origin;
   result.double_coordinates = points.dataset.double_coordinates;
-  pcl::toPCLPointCloud2(splats.cloud, result.cloud);
-  const pcl_uvol::IsoEdges edges = pcl_uvol::edgesAt(splats.sources);
-  pcl_uvol::interpolateFields(cloud, edges, result.cloud, parameters.threads);
+  pcl::toPCLPointCloud2(splats, result.cloud);
+  const pcl_uvol::IsoEdges edges = pcl_uvol::edgesAt(generation.getSources());
+  pcl_uvol::interpolateFields(cloud, edges, result.cloud, threads);
   pcl_uvol::fillOutput(result, points, edges, run);
 }

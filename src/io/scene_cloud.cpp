@@ -35,10 +35,8 @@ coverPoints(const CloudItem& item,
             unsigned threads,
             Report& report)
 {
-  SplatParameters parameters = item.parameters;
-  parameters.threads = threads;
   Splats splats = callAt(item.place, [&] {
-    return splatsOf(view, parameters, item.has_parameters, report);
+    return findSplats(view, item.parameters, item.has_parameters, threads, report);
   });
   if (splats.cloud.empty())
     throwAt(item.place, "none of the splats in " + shown(item.name) + " is usable");

@@ -114,18 +114,16 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
-interpolateFields(const pcl::PCLPointCloud2& samples,
+interpolateFields(const CloudView& samples,
                   const IsoEdges& edges,
                   pcl::PCLPointCloud2& isopoints,
                   unsigned threads)
 {
-  const std::size_t sample_count =
-      static_cast<std::size_t>(samples.width) * samples.height;
   if (static_cast<std::size_t>(isopoints.width) * isopoints.height != edges.size())
     throw InvalidArgument("interpolateFields needs one edge per isopoint: got " +
                           std::to_string(edges.size()) + " edges.");
   for (const IsoEdge& edge : edges)
-    if (edge.first >= sample_count || edge.second >= sample_count)
+    if (edge.first >= samples.count || edge.second >= samples.count)
       throw InvalidArgument(
           "An edge points outside the samples: was interpolateFields given the cloud "
           "that the isopoints were extracted from?");
@@ -157,13 +155,27 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
                         copy.size);
           for (const FieldCopy& copy : carried)
             fill(copy,
-                 &samples.data[std::size_t(edges[i].first) * samples.point_step],
-                 &samples.data[std::size_t(edges[i].second) * samples.point_step],
+                 samples.point(edges[i].first),
+                 samples.point(edges[i].second),
                  edges[i].t,
                  out);
         }
       });
   isopoints = std::move(result);
+}
+
+void
+interpolateFields(const pcl::PCLPointCloud2& samples,
+                  const IsoEdges& edges,
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads)
+{
+  CloudView view;
+  view.data = samples.data.data();
+  view.count = static_cast<std::size_t>(samples.width) * samples.height;
+  view.point_step = samples.point_step;
+  view.fields = samples.fields;
+  interpolateFields(view, edges, isopoints, threads);
 }
 
 void
@@ -180,14 +192,14 @@ copyFields(const pcl::PCLPointCloud2& cloud,
 }
 
 void
-warnOfReplacedFields(const pcl::PCLPointCloud2& samples,
-                     const pcl::PCLPointCloud2& isopoints,
+warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
+                     const std::vector<pcl::PCLPointField>& isopoints,
                      Report& report)
 {
-  for (const auto& field : isopoints.fields)
+  for (const auto& field : isopoints)
     if (!isPadding(field) && axisOf(field.name) < 0 &&
         field.name.rfind("normal_", 0) != 0 &&
-        findField(samples.fields, field.name) != nullptr)
+        findField(samples, field.name) != nullptr)
       report.warnings.push_back("The samples' field '" + field.name +
                                 "' is left out: isopoints have one of that name.");
 }

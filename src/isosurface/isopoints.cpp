@@ -207,7 +207,7 @@ appendIsopoints(const IsopointInput& input,
     report.count("edges", keys.size());
     report.count("coincident", dropCoincident(points, point_edges, input.threads));
   }
-  if (input.interpolation == Interpolation::Smooth)
+  if (input.interpolation == Interpolation::Fit)
     smoothIsopoints(input, isovalue, point_edges, points, report);
   for (IsoEdge& edge : point_edges) {
     edge.first = sources[edge.first];

@@ -1,27 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include "../neighbors/sample_values.h"
 #include "isopoints.h"
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
 #include <pcl_uvol/isosurface/piece_isopoints.h>
 
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl/conversions.h>
 
 #include <cmath>
 
 namespace pcl_uvol {
 
-void
-checkSettings(const IsosurfaceSettings& settings)
+std::string
+IsosurfaceParameters::toJson() const
 {
-  if (settings.isovalues.empty())
+  return writeJson(*this);
+}
+
+IsosurfaceParameters
+IsosurfaceParameters::fromJson(const std::string& text)
+{
+  return readJson<IsosurfaceParameters>(text);
+}
+
+void
+checkParameters(const IsosurfaceParameters& parameters)
+{
+  if (parameters.isovalues.empty())
     throw InvalidArgument(
         "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
-  for (const double isovalue : settings.isovalues)
+  for (const double isovalue : parameters.isovalues)
     if (!std::isfinite(static_cast<float>(isovalue)))
       throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
                             " is not a finite number.");
-  for (const float factor : settings.scale.x)
+  for (const float factor : parameters.scale)
     if (!std::isfinite(factor) || factor <= 0.0f)
       throw InvalidArgument("The scale " + std::to_string(factor) +
                             " is not allowed: it must be finite and positive.");
@@ -31,28 +44,25 @@ void
 IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
                                         std::vector<std::uint32_t>&& use)
 {
-  if (samples_ && use == sampled_ && (scale_ == sampled_scale_).all())
+  const Eigen::Array3f& scale = parameters_.scale;
+  if (samples_ && use == sampled_ && (scale == sampled_scale_).all())
     report_.counts = sampled_report_.counts;
   else {
     Report built;
     built.progress = report_.progress;
-    samples_ = SampleSet::build(cloud.xyz(0),
-                                cloud.stride(),
-                                use,
-                                Position{{scale_[0], scale_[1], scale_[2]}},
-                                threads_,
-                                built);
+    samples_ = SampleSet::build(
+        cloud.xyz(0), cloud.stride(), use, toPosition(scale), threads_, built);
     candidates_.reset();
     report_.merge(built);
     sampled_report_ = built;
     sampled_ = std::move(use);
-    sampled_scale_ = scale_;
+    sampled_scale_ = scale;
   }
 }
 
 struct IsosurfaceExtractionBase::Scalar {
   std::string field;
-  std::vector<int> indices;
+  pcl::Indices indices;
   Eigen::Array3f scale;
   SampleValues samples;
   NodeRanges ranges; // refers to the values of samples
@@ -69,15 +79,15 @@ IsosurfaceExtractionBase::forgetSamples()
 
 void
 IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
-                                       const std::vector<int>& indices)
+                                       const pcl::Indices& indices)
 {
-  if (scalar_ && scalar_->field == field_ && scalar_->indices == indices &&
-      (scalar_->scale == scale_).all()) {
+  if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == indices &&
+      (scalar_->scale == parameters_.scale).all()) {
     report_.counts = scalar_->counts.counts;
     return;
   }
   scalar_.reset(); // of other samples, should what follows fail
-  const ScalarField field(cloud.fields, field_);
+  const ScalarField field(cloud.fields, parameters_.field);
   std::vector<float> values;
   std::vector<std::uint32_t> use;
   {
@@ -92,9 +102,9 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
 
   const StepTimer timer(report_, "ranges");
   auto scalar = std::make_shared<Scalar>();
-  scalar->field = field_;
+  scalar->field = parameters_.field;
   scalar->indices = indices;
-  scalar->scale = scale_;
+  scalar->scale = parameters_.scale;
   scalar->samples = gatherValues(*samples_, values, threads_, report_);
   scalar->ranges = samples_->getTree().computeRanges(scalar->samples.values, threads_);
   scalar->counts.counts = report_.counts;
@@ -102,40 +112,62 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
 }
 
 void
+IsosurfaceExtractionBase::updateCandidates()
+{
+  if (candidates_ && candidate_source_ == parameters_.neighbors &&
+      candidate_cells_ == parameters_.voronoi_cells)
+    return;
+  candidates_ = makeCandidates(
+      *samples_, parameters_.neighbors, parameters_.voronoi_cells, threads_, report_);
+  candidate_source_ = parameters_.neighbors;
+  candidate_cells_ = parameters_.voronoi_cells;
+}
+
+void
 IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
-                                      const std::vector<int>& indices,
+                                      const pcl::Indices& indices,
                                       pcl::PointCloud<PointIso>& isopoints)
 {
-  IsosurfaceSettings settings;
-  settings.isovalues = isovalues_;
-  settings.scale = {{scale_[0], scale_[1], scale_[2]}};
-  checkSettings(settings);
+  checkParameters(parameters_);
   if (indices.empty())
     throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
   startReport();
   updateScalar(cloud, indices);
-  if (!candidates_)
-    candidates_ = makeCandidates(*samples_, voronoi_, threads_, report_);
+  updateCandidates();
 
   const NodeRanges::Range range = scalar_->ranges[samples_->getTree().getRoot()];
   const IsopointInput input{*samples_,
                             scalar_->samples.values,
                             scalar_->ranges,
                             *candidates_,
-                            criterion_,
-                            outside_,
-                            interpolation_,
+                            parameters_.criterion,
+                            parameters_.outside,
+                            parameters_.interpolation,
                             threads_};
   pcl::PointCloud<PointIso> found;
   IsoEdges edges;
-  for (const double isovalue : isovalues_) {
+  for (const double isovalue : parameters_.isovalues) {
     const auto rounded = static_cast<float>(isovalue);
-    warnIfOutside(isovalue, field_, range, report_);
+    warnIfOutside(isovalue, parameters_.field, range, report_);
     appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
   }
   report_.count("isopoints", found.size());
   isopoints.swap(found);
   edges_.swap(edges);
+}
+
+void
+IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
+                                      const pcl::Indices& indices,
+                                      pcl::PCLPointCloud2& isopoints)
+{
+  pcl::PointCloud<PointIso> found;
+  extractFrom(cloud, indices, found);
+  pcl::PCLPointCloud2 with_fields;
+  pcl::toPCLPointCloud2(found, with_fields);
+  warnOfReplacedFields(cloud.fields, with_fields.fields, report_);
+  interpolateFields(cloud, edges_, with_fields, threads_);
+  isopoints = std::move(with_fields);
 }
 
 template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PointXYZI>;

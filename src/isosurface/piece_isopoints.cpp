@@ -50,7 +50,7 @@ setResult(GlobalIsopoint& isopoint, const PointIso& point)
 class PieceIsopoints : public PieceTask {
 public:
   PieceIsopoints(const Piece& piece,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  unsigned threads,
                  Report& report);
 
@@ -85,7 +85,7 @@ private:
       const std::vector<float>& known);
 
   const Piece& piece_;
-  const IsosurfaceSettings& settings_;
+  const IsosurfaceParameters& settings_;
   unsigned threads_;
   Report& report_;
   std::vector<std::vector<GlobalIsopoint>> found_;
@@ -93,7 +93,7 @@ private:
 };
 
 PieceIsopoints::PieceIsopoints(const Piece& piece,
-                               const IsosurfaceSettings& settings,
+                               const IsosurfaceParameters& settings,
                                unsigned threads,
                                Report& report)
     : piece_(piece)
@@ -121,7 +121,7 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
     find(input, i);
     std::vector<std::size_t> all(found_[i].size());
     std::iota(all.begin(), all.end(), std::size_t(0));
-    if (settings.interpolation == Interpolation::Smooth)
+    if (settings.interpolation == Interpolation::Fit)
       fit(input, i, all, std::vector<float>(all.size(), 0.0f));
   }
 }
@@ -175,7 +175,8 @@ PieceIsopoints::fit(const IsopointInput& input,
     GlobalIsopoint& isopoint = found_[isovalue][indices[i]];
     setResult(isopoint, points[i]);
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
-    Ball ball{stretched(isopoint.linear, settings_.scale), fits[i].radius * slack};
+    Ball ball{stretched(isopoint.linear, toPosition(settings_.scale)),
+              fits[i].radius * slack};
     if (ball.radius <= known[i] || piece_.getCell().contains(ball))
       continue;
     ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
@@ -248,7 +249,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
     normals.push_back(isopoint.outside);
   }
   const auto stays = mergeCoincident(positions, normals, threads);
-  const bool smooth = interpolation == Interpolation::Smooth;
+  const bool smooth = interpolation == Interpolation::Fit;
   std::vector<RootOutcome> outcomes;
   std::vector<std::uint8_t> supports;
   std::size_t kept = 0;
@@ -283,25 +284,25 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue)
   return point;
 }
 
-IsosurfaceStage::IsosurfaceStage(IsosurfaceSettings settings)
-    : settings_(std::move(settings))
-    , received_(settings_.isovalues.size())
+IsosurfaceStage::IsosurfaceStage(IsosurfaceParameters parameters)
+    : parameters_(std::move(parameters))
+    , received_(parameters_.isovalues.size())
 {
-  checkSettings(settings_);
+  checkParameters(parameters_);
 }
 
 void
 IsosurfaceStage::checkValues(const NodeRanges::Range& range, Report& report) const
 {
-  for (const double isovalue : settings_.isovalues)
-    warnIfOutside(isovalue, settings_.field, range, report);
+  for (const double isovalue : parameters_.isovalues)
+    warnIfOutside(isovalue, parameters_.field, range, report);
 }
 
 bool
 IsosurfaceStage::canFindIn(const NodeRanges::Range& range) const
 {
   return std::any_of(
-      settings_.isovalues.begin(), settings_.isovalues.end(), [&](double isovalue) {
+      parameters_.isovalues.begin(), parameters_.isovalues.end(), [&](double isovalue) {
         const auto rounded = static_cast<float>(isovalue);
         return range.min < rounded && rounded <= range.max;
       });
@@ -310,7 +311,7 @@ IsosurfaceStage::canFindIn(const NodeRanges::Range& range) const
 std::unique_ptr<PieceTask>
 IsosurfaceStage::start(const Piece& piece, unsigned threads, Report& report) const
 {
-  return std::make_unique<PieceIsopoints>(piece, settings_, threads, report);
+  return std::make_unique<PieceIsopoints>(piece, parameters_, threads, report);
 }
 
 Position
@@ -318,7 +319,7 @@ IsosurfaceStage::findPlace(const void* record) const
 {
   GlobalIsopoint isopoint;
   std::memcpy(&isopoint, record, sizeof(isopoint));
-  return stretched(isopoint.linear, settings_.scale);
+  return stretched(isopoint.linear, toPosition(parameters_.scale));
 }
 
 void
@@ -331,7 +332,7 @@ IsosurfaceStage::receive(std::size_t list,
   std::vector<GlobalIsopoint>& isopoints = received_[list];
   isopoints.resize(count);
   read(isopoints.data());
-  mergeIsopoints(isopoints, settings_.interpolation, threads, report);
+  mergeIsopoints(isopoints, parameters_.interpolation, threads, report);
   report.count("isopoints", isopoints.size());
 }
 

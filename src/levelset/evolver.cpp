@@ -81,6 +81,7 @@ const KernelTable<const EvolutionKernels*> kernel_table{
 
 Evolver::Evolver(const Band& band,
                  const LevelSetParameters& parameters,
+                 unsigned threads,
                  double spacing,
                  double mu,
                  std::vector<float> phi,
@@ -88,6 +89,7 @@ Evolver::Evolver(const Band& band,
     : band_(band)
     , term_(term)
     , parameters_(parameters)
+    , threads_(threads)
     , spacing_(spacing)
     , mu_(mu)
     , kernels_(*kernel_table.get())
@@ -125,11 +127,10 @@ template <typename Visit>
 void
 Evolver::forCenters(const Visit& visit) const
 {
-  parallelBlocks(
-      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i)
-          visit(i);
-      });
+  parallelBlocks(centers_, block_places, threads_, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i)
+      visit(i);
+  });
 }
 
 void
@@ -210,59 +211,55 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                           {normals_[0].data(), normals_[1].data(), normals_[2].data()},
                           slope_.data()};
     parallelBlocks(
-        band_.stencils.groups(),
-        block_groups,
-        parameters_.threads,
-        [&](auto begin, auto end) { kernels_.findNormals(step, begin, end); });
+        band_.stencils.groups(), block_groups, threads_, [&](auto begin, auto end) {
+          kernels_.findNormals(step, begin, end);
+        });
   }
   const float* const normals[3] = {
       normals_[0].data(), normals_[1].data(), normals_[2].data()};
   const double to_distance = parameters_.reinitialization == Reinitialization::Diffusion
                                  ? diffusion_weight
                                  : 0.0;
-  parallelBlocks(
-      groups.size(), block_groups, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const double dt =
-              step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
-          const EvolutionStep step{stencils,
-                                   lines,
-                                   term_.target.data(),
-                                   term_.trust.data(),
-                                   reference_.empty() ? nullptr : reference_.data(),
-                                   sq_length_.data(),
-                                   static_cast<float>(most_pull * spacing_),
-                                   static_cast<float>(steepest),
-                                   static_cast<float>(mu_ * dt),
-                                   static_cast<float>((1.0 - mu_) * dt),
-                                   static_cast<float>(to_distance * dt),
-                                   next_.data(),
-                                   curvature_.data(),
-                                   slope_.data()};
-          if (is_linear)
-            kernels_.evolveByNormals(
-                step, normals, band_.centers.size(), groups[i], groups[i] + 1);
-          else
-            kernels_.evolve(step, groups[i], groups[i] + 1);
-        }
-      });
+  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double dt = step_scale * step_ * periodOf(groups[i]) * weakness_[groups[i]];
+      const EvolutionStep step{stencils,
+                               lines,
+                               term_.target.data(),
+                               term_.trust.data(),
+                               reference_.empty() ? nullptr : reference_.data(),
+                               sq_length_.data(),
+                               static_cast<float>(most_pull * spacing_),
+                               static_cast<float>(steepest),
+                               static_cast<float>(mu_ * dt),
+                               static_cast<float>((1.0 - mu_) * dt),
+                               static_cast<float>(to_distance * dt),
+                               next_.data(),
+                               curvature_.data(),
+                               slope_.data()};
+      if (is_linear)
+        kernels_.evolveByNormals(
+            step, normals, band_.centers.size(), groups[i], groups[i] + 1);
+      else
+        kernels_.evolve(step, groups[i], groups[i] + 1);
+    }
+  });
 }
 
 void
 Evolver::commit(const std::vector<std::uint32_t>& groups, float time)
 {
-  parallelBlocks(
-      groups.size(), block_groups, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto per_period = static_cast<float>(1.0 / periodOf(groups[i]));
-          const std::size_t first = groups[i] * stencil_lanes;
-          for (std::size_t j = first; j < first + stencil_lanes; ++j) {
-            const float now = phi_[j] + rate_[j] * time;
-            rate_[j] = (next_[j] - now) * per_period;
-            phi_[j] = now - rate_[j] * time;
-          }
-        }
-      });
+  parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto per_period = static_cast<float>(1.0 / periodOf(groups[i]));
+      const std::size_t first = groups[i] * stencil_lanes;
+      for (std::size_t j = first; j < first + stencil_lanes; ++j) {
+        const float now = phi_[j] + rate_[j] * time;
+        rate_[j] = (next_[j] - now) * per_period;
+        phi_[j] = now - rate_[j] * time;
+      }
+    }
+  });
 }
 
 void
@@ -285,7 +282,7 @@ Evolver::averageTwice(const std::vector<float>& values,
   const auto average = [&](const AverageStep& step) {
     parallelBlocks(band_.stencils.groups(),
                    block_groups,
-                   parameters_.threads,
+                   threads_,
                    [&](auto begin, auto end) { kernels_.average(step, begin, end); });
   };
   const StencilView stencils = band_.stencils.view();
@@ -368,12 +365,11 @@ bool
 Evolver::isBounded(double largest) const
 {
   std::atomic<bool> bounded{true};
-  parallelBlocks(
-      centers_, block_places, parameters_.threads, [&](auto begin, auto end) {
-        for (std::size_t i = begin; i < end; ++i)
-          if (!(std::abs(phi_[i]) <= largest))
-            bounded = false;
-      });
+  parallelBlocks(centers_, block_places, threads_, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (!(std::abs(phi_[i]) <= largest))
+        bounded = false;
+  });
   return bounded;
 }
 
@@ -401,7 +397,7 @@ Evolver::summarize() const
   const auto parts =
       parallelGather<Sums>(band_.centers.size(),
                            block_places,
-                           parameters_.threads,
+                           threads_,
                            [&](auto begin, auto end, auto& found) {
                              Sums sums;
                              for (std::size_t i = begin; i < end; ++i)

@@ -29,6 +29,7 @@ public:
    * \param phi by place */
   Evolver(const Band& band,
           const LevelSetParameters& parameters,
+          unsigned threads,
           double spacing,
           double mu,
           std::vector<float> phi,
@@ -128,6 +129,7 @@ private:
   const Band& band_;
   const DataTerm& term_;
   const LevelSetParameters& parameters_;
+  unsigned threads_;
   double spacing_, mu_, step_ = 0.0;
   const EvolutionKernels& kernels_;
   std::size_t centers_; ///< places of centres

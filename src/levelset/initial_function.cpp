@@ -9,43 +9,33 @@ namespace pcl_uvol {
 InitialFunction
 InitialFunction::sphere(const Eigen::Vector3d& center, double radius)
 {
-  if (!center.allFinite() || !(radius > 0.0) || !std::isfinite(radius))
-    throw InvalidArgument("The sphere that the level set starts from needs a finite "
-                          "centre and a radius above 0.");
   InitialFunction function;
-  function.distance_ = [=](const Eigen::Vector3d& x) {
-    return radius - (x - center).norm();
-  };
+  function.kind = InitialKind::Sphere;
+  function.first = center;
+  function.radius = radius;
+  function.check();
   return function;
 }
 
 InitialFunction
 InitialFunction::box(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
 {
-  if (!low.allFinite() || !high.allFinite() || !(low.array() < high.array()).all())
-    throw InvalidArgument(
-        "The box that the level set starts from needs finite corners, "
-        "the first below the second along every axis.");
   InitialFunction function;
-  function.distance_ = [=](const Eigen::Vector3d& x) {
-    const Eigen::Array3d beyond = (low - x).array().max((x - high).array());
-    const double outside = beyond.max(0.0).matrix().norm();
-    return outside > 0.0 ? -outside : -beyond.maxCoeff();
-  };
+  function.kind = InitialKind::Box;
+  function.first = low;
+  function.second = high;
+  function.check();
   return function;
 }
 
 InitialFunction
 InitialFunction::plane(const Eigen::Vector3d& point, const Eigen::Vector3d& normal)
 {
-  if (!point.allFinite() || !normal.allFinite() || !(normal.norm() > 0.0))
-    throw InvalidArgument(
-        "The plane that the level set starts from needs a finite point "
-        "and a normal that is not 0.");
   InitialFunction function;
-  function.distance_ = [point, n = normal.normalized()](const Eigen::Vector3d& x) {
-    return (point - x).dot(n);
-  };
+  function.kind = InitialKind::Plane;
+  function.first = point;
+  function.second = normal;
+  function.check();
   return function;
 }
 
@@ -53,8 +43,41 @@ InitialFunction
 InitialFunction::field(const std::string& name)
 {
   InitialFunction function;
-  function.field_ = name;
+  function.kind = InitialKind::Field;
+  function.field_name = name;
   return function;
+}
+
+double
+InitialFunction::computeDistance(const Eigen::Vector3d& x) const
+{
+  if (kind == InitialKind::Sphere)
+    return radius - (x - first.matrix()).norm();
+  if (kind == InitialKind::Box) {
+    const Eigen::Array3d beyond = (first - x.array()).max(x.array() - second);
+    const double outside = beyond.max(0.0).matrix().norm();
+    return outside > 0.0 ? -outside : -beyond.maxCoeff();
+  }
+  return (first.matrix() - x).dot(second.matrix().normalized());
+}
+
+void
+InitialFunction::check() const
+{
+  if (kind == InitialKind::Sphere &&
+      (!first.allFinite() || !(radius > 0.0) || !std::isfinite(radius)))
+    throw InvalidArgument("The sphere that the level set starts from needs a finite "
+                          "centre and a radius above 0.");
+  if (kind == InitialKind::Box &&
+      (!first.allFinite() || !second.allFinite() || !(first < second).all()))
+    throw InvalidArgument(
+        "The box that the level set starts from needs finite corners, "
+        "the first below the second along every axis.");
+  if (kind == InitialKind::Plane &&
+      (!first.allFinite() || !second.allFinite() || !(second.matrix().norm() > 0.0)))
+    throw InvalidArgument(
+        "The plane that the level set starts from needs a finite point "
+        "and a normal that is not 0.");
 }
 
 } // namespace pcl_uvol

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include "../neighbors/sample_values.h"
 #include "band.h"
 #include "data_term.h"
@@ -6,9 +7,10 @@
 #include "reinitialization.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/records.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
 
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl/common/io.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +55,7 @@ constexpr double balanced_noise = 0.015;
 constexpr double least_mu = 0.03;
 
 void
-checkParameters(const LevelSetParameters& parameters, double isovalue)
+checkParameters(const LevelSetParameters& parameters)
 {
   const auto fail =
       [](const std::string& what, auto given, const std::string& allowed) {
@@ -61,12 +63,12 @@ checkParameters(const LevelSetParameters& parameters, double isovalue)
         text << what << " is " << given << ": it must be " << allowed << ".";
         throw InvalidArgument(text.str());
       };
-  if (!std::isfinite(static_cast<float>(isovalue)))
+  if (!std::isfinite(static_cast<float>(parameters.isovalue)))
     throw InvalidArgument(
         "LevelSetEvolution has no finite isovalue: call setIsoValue.");
-  if (parameters.mu != LevelSetParameters::automatic &&
-      !(parameters.mu >= 0.0 && parameters.mu <= 1.0))
-    fail("The weight mu", parameters.mu, "in [0, 1]");
+  if (parameters.mu && !(*parameters.mu >= 0.0 && *parameters.mu <= 1.0))
+    fail("The weight mu", *parameters.mu, "in [0, 1]");
+  parameters.initial.check();
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(parameters.scale[axis]) || parameters.scale[axis] <= 0.0f)
       fail("The scale", parameters.scale[axis], "finite and positive");
@@ -94,15 +96,19 @@ checkParameters(const LevelSetParameters& parameters, double isovalue)
 class LevelSetRun {
 public:
   LevelSetRun(const CloudView& cloud,
-              const std::vector<int>& indices,
-              const std::string& field,
-              double isovalue,
+              const pcl::Indices& indices,
               const LevelSetParameters& parameters,
+              std::size_t snapshot_steps,
+              const SnapshotCallback& snapshot,
+              unsigned threads,
               Report& report)
       : parameters_(parameters)
+      , snapshot_steps_(snapshot_steps)
+      , snapshot_(snapshot)
+      , threads_(threads)
       , report_(report)
   {
-    read(cloud, indices, field, isovalue);
+    read(cloud, indices);
     start(cloud);
   }
 
@@ -116,9 +122,8 @@ public:
       const std::uint64_t done = std::max(told, partsDone());
       timer.advance(done - told);
       told = done;
-      if (parameters_.snapshot_steps > 0 &&
-          summary_.steps.size() % parameters_.snapshot_steps == 0)
-        parameters_.snapshot(summary_, phiOfCloud());
+      if (snapshot_steps_ > 0 && summary_.steps.size() % snapshot_steps_ == 0)
+        snapshot_(summary_, phiOfCloud());
     }
     timer.advance(progress_parts - told);
     if (!summary_.converged)
@@ -144,24 +149,21 @@ private:
   }
 
   void
-  read(const CloudView& cloud,
-       const std::vector<int>& indices,
-       const std::string& name,
-       double isovalue)
+  read(const CloudView& cloud, const pcl::Indices& indices)
   {
     if (indices.empty())
       throw InvalidArgument("LevelSetEvolution was given an empty cloud.");
     cloud_size_ = cloud.count;
-    const ScalarField field(cloud.fields, name);
-    const auto values = readValues(cloud, field, parameters_.threads);
+    const double isovalue = parameters_.isovalue;
+    const ScalarField field(cloud.fields, parameters_.field);
+    const auto values = readValues(cloud, field, threads_);
     const auto use = pointsWithValue(values, indices, field);
-    samples_ = SampleSet::build(
-        cloud.xyz(0),
-        cloud.stride(),
-        use,
-        Position{{parameters_.scale[0], parameters_.scale[1], parameters_.scale[2]}},
-        parameters_.threads,
-        report_);
+    samples_ = SampleSet::build(cloud.xyz(0),
+                                cloud.stride(),
+                                use,
+                                toPosition(parameters_.scale),
+                                threads_,
+                                report_);
     report_.count("no_value", indices.size() - use.size());
     report_.count("samples", samples_->size());
     if (samples_->size() <= parameters_.k)
@@ -169,12 +171,12 @@ private:
                             " distinct samples: a stencil of " +
                             std::to_string(parameters_.k) +
                             " neighbours needs at least one more than that.");
-    f_ = gatherValues(*samples_, values, parameters_.threads, report_).values;
+    f_ = gatherValues(*samples_, values, threads_, report_).values;
     const auto [low, high] = std::minmax_element(f_.begin(), f_.end());
     if (!(*low < isovalue && isovalue <= *high)) {
       std::ostringstream text;
-      text << "The isovalue " << isovalue << " does not part the values of " << name
-           << ", which are in [" << *low << ", " << *high
+      text << "The isovalue " << isovalue << " does not part the values of "
+           << parameters_.field << ", which are in [" << *low << ", " << *high
            << "]: there is no surface to evolve.";
       throw InvalidArgument(text.str());
     }
@@ -202,10 +204,8 @@ private:
   crossingOf(const std::vector<float>& values) const
   {
     const KdTree& tree = samples_->getTree();
-    return tree.findCrossing(samples_->getPositions(),
-                             tree.computeRanges(values, parameters_.threads),
-                             0.0f,
-                             parameters_.threads);
+    return tree.findCrossing(
+        samples_->getPositions(), tree.computeRanges(values, threads_), 0.0f, threads_);
   }
 
   /** The band, its data term and the values it starts with. */
@@ -213,8 +213,7 @@ private:
   start(const CloudView& cloud)
   {
     const auto surface = crossingOf(f_);
-    summary_.spacing =
-        medianSpacing(*samples_, surface, parameters_.k, parameters_.threads);
+    summary_.spacing = medianSpacing(*samples_, surface, parameters_.k, threads_);
     if (!(summary_.spacing > 0.0))
       throw InvalidArgument("The samples at the surface have no extent.");
     const auto initial = initialValues(cloud);
@@ -225,10 +224,8 @@ private:
                             "level among the samples.");
     makeBand(crossing);
     summary_.noise = term_.noise / summary_.spacing;
-    summary_.mu =
-        parameters_.mu == LevelSetParameters::automatic
-            ? std::max(least_mu, balanced_noise / (balanced_noise + summary_.noise))
-            : parameters_.mu;
+    summary_.mu = parameters_.mu.value_or(
+        std::max(least_mu, balanced_noise / (balanced_noise + summary_.noise)));
     if (initial.empty()) {
       // Far from the surface the sign is all that counts.
       for (float& value : phi_)
@@ -246,8 +243,8 @@ private:
   {
     const InitialFunction& initial = parameters_.initial;
     std::vector<float> values;
-    if (!initial.getField().empty()) {
-      const ScalarField field(cloud.fields, initial.getField());
+    if (initial.kind == InitialKind::Field) {
+      const ScalarField field(cloud.fields, initial.field_name);
       for (std::size_t i = 0; i < samples_->size(); ++i) {
         const double value = field.read(cloud.point(samples_->getInputIndex(i)));
         if (!std::isfinite(value))
@@ -257,12 +254,12 @@ private:
         values.push_back(static_cast<float>(value));
       }
     }
-    else if (initial.getDistance()) {
+    else if (initial.isShape()) {
       const double side = parameters_.outside == Outside::Lower ? 1.0 : -1.0;
       for (std::size_t i = 0; i < samples_->size(); ++i) {
         const Eigen::Vector3d x =
             Eigen::Vector3f(cloud.xyz(samples_->getInputIndex(i))).cast<double>();
-        values.push_back(static_cast<float>(side * initial.getDistance()(x)));
+        values.push_back(static_cast<float>(side * initial.computeDistance(x)));
       }
     }
     return values;
@@ -278,9 +275,9 @@ private:
                                parameters_.band_width * summary_.spacing,
                                parameters_.scheme,
                                parameters_.k,
-                               parameters_.threads,
+                               threads_,
                                report_);
-    term_ = makeDataTerm(*band_, *samples_, f_, parameters_.threads, report_);
+    term_ = makeDataTerm(*band_, *samples_, f_, threads_, report_);
   }
 
   void
@@ -289,8 +286,13 @@ private:
     std::vector<float> phi(band_->places(), 0.0f);
     band_->forPlaces(
         [&](std::size_t place, std::uint32_t sample) { phi[place] = phi_[sample]; });
-    evolver_.emplace(
-        *band_, parameters_, summary_.spacing, summary_.mu, std::move(phi), term_);
+    evolver_.emplace(*band_,
+                     parameters_,
+                     threads_,
+                     summary_.spacing,
+                     summary_.mu,
+                     std::move(phi),
+                     term_);
   }
 
   void
@@ -304,8 +306,8 @@ private:
     summary_.steps.push_back(step);
     const std::size_t count = summary_.steps.size();
     summary_.converged = step.change < parameters_.tolerance;
-    if (parameters_.mu == LevelSetParameters::automatic &&
-        (summary_.converged || count % pattern_steps == 0) && isTooSmooth()) {
+    if (!parameters_.mu && (summary_.converged || count % pattern_steps == 0) &&
+        isTooSmooth()) {
       summary_.converged = false;
       summary_.mu = std::min(1.0, mu_factor * summary_.mu);
       phi_ = current();
@@ -359,15 +361,11 @@ private:
   reinitialize()
   {
     if (parameters_.reinitialization == Reinitialization::Distance)
-      evolver_->setPhi(distanceToZeroLevel(*band_,
-                                           *samples_,
-                                           current(),
-                                           summary_.spacing,
-                                           parameters_.threads,
-                                           report_));
+      evolver_->setPhi(distanceToZeroLevel(
+          *band_, *samples_, current(), summary_.spacing, threads_, report_));
     else if (parameters_.reinitialization == Reinitialization::Eikonal)
-      evolver_->setPhi(relaxToDistance(
-          *band_, evolver_->getPhi(), summary_.spacing, parameters_.threads));
+      evolver_->setPhi(
+          relaxToDistance(*band_, evolver_->getPhi(), summary_.spacing, threads_));
     else
       return;
     summary_.steps.back().reinitialized = true;
@@ -426,6 +424,9 @@ private:
   }
 
   const LevelSetParameters& parameters_;
+  std::size_t snapshot_steps_;
+  const SnapshotCallback& snapshot_;
+  unsigned threads_;
   LevelSetSummary summary_;
   Report& report_;
   std::size_t cloud_size_ = 0;
@@ -441,15 +442,55 @@ private:
 } // namespace
 
 LevelSet
-evolveLevelSet(const CloudView& cloud,
-               const std::vector<int>& indices,
-               const std::string& field,
-               double isovalue,
-               const LevelSetParameters& parameters,
+detail::evolveLevelSet(const CloudView& cloud,
+                       const pcl::Indices& indices,
+                       const LevelSetParameters& parameters,
+                       std::size_t snapshot_steps,
+                       const SnapshotCallback& snapshot,
+                       unsigned threads,
+                       Report& report)
+{
+  checkParameters(parameters);
+  return LevelSetRun(
+             cloud, indices, parameters, snapshot_steps, snapshot, threads, report)
+      .run();
+}
+
+pcl::PCLPointCloud2
+detail::addPhi(const CloudView& cloud,
+               const pcl::Indices& indices,
+               const std::vector<float>& phi,
+               unsigned threads,
                Report& report)
 {
-  checkParameters(parameters, isovalue);
-  return LevelSetRun(cloud, indices, field, isovalue, parameters, report).run();
+  const StepTimer timer(report, "fields");
+  pcl::PCLPointCloud2 points = cloudOfPhi(cloud, phi);
+  if (indices.size() != cloud.count) {
+    pcl::PCLPointCloud2 chosen;
+    pcl::copyPointCloud(points, indices, chosen);
+    points = std::move(chosen);
+  }
+  warnOfReplacedFields(cloud.fields, points.fields, report);
+  IsoEdges edges;
+  edges.reserve(indices.size());
+  for (const pcl::index_t index : indices) {
+    const auto point = static_cast<std::uint32_t>(index);
+    edges.push_back({point, point, 0.0f});
+  }
+  interpolateFields(cloud, edges, points, threads);
+  return points;
+}
+
+std::string
+LevelSetParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+LevelSetParameters
+LevelSetParameters::fromJson(const std::string& text)
+{
+  return readJson<LevelSetParameters>(text);
 }
 
 pcl::PCLPointCloud2

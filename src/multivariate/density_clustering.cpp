@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include "cluster_tree.h"
 #include <pcl_uvol/multivariate/impl/density_clustering.hpp>
 #include <pcl_uvol/multivariate/spanning_tree.h>
-
-#include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -150,9 +149,12 @@ countClusters(const Clustering& clustering,
 
 } // namespace
 
+namespace detail {
+
 Clustering
 clusterAttributes(const AttributeTable& table,
                   const ClusteringParameters& parameters,
+                  unsigned threads,
                   Report& report)
 {
   checkParameters(parameters);
@@ -162,7 +164,7 @@ clusterAttributes(const AttributeTable& table,
                                    ? parameters.min_cluster_size
                                    : usualSize(table.rows());
   const auto edges = spanningTree(
-      table.values, table.columns(), parameters.neighbors, parameters.threads, report);
+      table.values, table.columns(), parameters.neighbors, threads, report);
   Clustering clustering;
   {
     const StepTimer step(report, "cluster_tree");
@@ -187,15 +189,14 @@ clusterAttributes(const AttributeTable& table,
 Clustering
 clusterCloud(const CloudView& cloud,
              const std::vector<std::uint32_t>& use,
-             const std::vector<std::string>& names,
-             bool is_standardized,
              const ClusteringParameters& parameters,
+             unsigned threads,
              Report& report)
 {
   checkParameters(parameters);
-  const AttributeTable table =
-      readAttributes(cloud, use, names, is_standardized, parameters.threads, report);
-  Clustering of_rows = clusterAttributes(table, parameters, report);
+  const AttributeTable table = readAttributes(
+      cloud, use, parameters.attributes, parameters.is_standardized, threads, report);
+  Clustering of_rows = clusterAttributes(table, parameters, threads, report);
   Clustering clustering;
   clustering.labels.assign(cloud.count, -1);
   clustering.probabilities.assign(cloud.count, 0.0f);
@@ -205,6 +206,20 @@ clusterCloud(const CloudView& cloud,
   }
   clustering.tree = std::move(of_rows.tree);
   return clustering;
+}
+
+} // namespace detail
+
+std::string
+ClusteringParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+ClusteringParameters
+ClusteringParameters::fromJson(const std::string& text)
+{
+  return readJson<ClusteringParameters>(text);
 }
 
 template class PCL_UVOL_EXPORTS DensityClustering<pcl::PointXYZI>;

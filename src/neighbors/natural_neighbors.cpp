@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/impl/natural_neighbors.hpp>
 
-#include <pcl/impl/pcl_base.hpp>
 #include <pcl/point_types.h>
 
 #include <algorithm>
@@ -86,20 +86,32 @@ computeNaturalNeighbors(const SampleSet& samples,
 }
 
 NeighborGraph
-computeNaturalNeighbors(const CloudView& cloud,
-                        const std::vector<std::uint32_t>& use,
-                        const std::optional<VoronoiCandidateSettings>& voronoi,
-                        AngleCriterion criterion,
-                        unsigned threads,
-                        Report& report)
+detail::computeNaturalNeighbors(const CloudView& cloud,
+                                const std::vector<std::uint32_t>& use,
+                                const NaturalNeighborParameters& parameters,
+                                unsigned threads,
+                                Report& report)
 {
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
-  const auto candidates = makeCandidates(*samples, voronoi, threads, report);
-  return toInputOrder(
-      computeNaturalNeighbors(*samples, *candidates, criterion, threads, report),
-      *samples,
-      cloud.count);
+  const auto candidates = makeCandidates(
+      *samples, parameters.source, parameters.voronoi_cells, threads, report);
+  return toInputOrder(pcl_uvol::computeNaturalNeighbors(
+                          *samples, *candidates, parameters.criterion, threads, report),
+                      *samples,
+                      cloud.count);
+}
+
+std::string
+NaturalNeighborParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+NaturalNeighborParameters
+NaturalNeighborParameters::fromJson(const std::string& text)
+{
+  return readJson<NaturalNeighborParameters>(text);
 }
 
 template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZ>;

@@ -169,4 +169,17 @@ makeCandidates(const SampleSet& samples,
   return std::make_shared<TouchingCells>(samples);
 }
 
+NeighborCandidates::ConstPtr
+makeCandidates(const SampleSet& samples,
+               NeighborSource source,
+               std::uint32_t voronoi_cells,
+               unsigned threads,
+               Report& report)
+{
+  std::optional<VoronoiCandidateSettings> voronoi;
+  if (source == NeighborSource::Voronoi)
+    voronoi = VoronoiCandidateSettings{voronoi_cells, nullptr};
+  return makeCandidates(samples, voronoi, threads, report);
+}
+
 } // namespace pcl_uvol

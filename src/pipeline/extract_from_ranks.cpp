@@ -10,7 +10,7 @@ namespace pcl_uvol {
 
 std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  Communicator& communicator,
                  unsigned threads,
                  Report& report)

@@ -119,7 +119,9 @@ surfaceNormalsNeed(double points, double k)
 }
 
 double
-estimateSplats(const CloudView& cloud, const SplatParameters& parameters)
+estimateSplats(const CloudView& cloud,
+               const SplatParameters& parameters,
+               unsigned threads)
 {
   const std::size_t most =
       std::min(patch_points, cloud.count / (patches * patches_part));
@@ -135,7 +137,8 @@ estimateSplats(const CloudView& cloud, const SplatParameters& parameters)
     const auto patch = takePatch(cloud, extent.finite, most, seed);
     try {
       Report ignored;
-      const auto grown = generateSplats(cloud, patch, of_patch, ignored);
+      const auto grown =
+          detail::generateSplats(cloud, patch, of_patch, threads, ignored);
       const auto inner = innerOf(cloud, patch);
       points += inner.size();
       splats += static_cast<std::size_t>(std::count_if(

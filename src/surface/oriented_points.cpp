@@ -75,10 +75,9 @@ estimateNormals(const CloudView& cloud,
                 Report& report)
 {
   const StepTimer timer(report, "normals");
-  SurfaceNormalParameters parameters;
-  parameters.threads = threads;
   Report estimation;
-  const auto estimated = estimateSurfaceNormals(cloud, use, parameters, estimation);
+  const auto estimated =
+      detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
   Normals normals;
   normals.packed.resize(cloud.count);
   for (std::size_t i = 0; i < use.size(); ++i)

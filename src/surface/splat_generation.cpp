@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include "splat_growth.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/random.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/surface/footprints.h>
 #include <pcl_uvol/surface/impl/splat_generation.hpp>
-
-#include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 #include <array>
@@ -179,9 +178,9 @@ std::vector<Accepted>
 growOn(const OrientedPoints& points,
        double delta,
        const SplatParameters& parameters,
+       unsigned threads,
        Report& report)
 {
-  const unsigned threads = parameters.threads;
   Footprints footprints = computeFootprints(points, threads, report);
   const SplatGround ground{
       points,
@@ -212,15 +211,15 @@ constexpr std::array<const char*, 15> splat_fields = {"x",
 } // namespace
 
 Splats
-generateSplats(const CloudView& cloud,
-               const std::vector<std::uint32_t>& use,
-               const SplatParameters& parameters,
-               Report& report)
+detail::generateSplats(const CloudView& cloud,
+                       const std::vector<std::uint32_t>& use,
+                       const SplatParameters& parameters,
+                       unsigned threads,
+                       Report& report)
 {
   checkParameters(parameters);
   if (use.empty())
     throw InvalidArgument("The splat generation was given an empty cloud.");
-  const unsigned threads = parameters.threads;
   const OrientedPoints points = orientPoints(cloud, use, threads, report);
   const double side = longestSide(points.samples->getPositions());
   const double delta =
@@ -232,7 +231,7 @@ generateSplats(const CloudView& cloud,
   if (!(extent >= smallest_extent && extent <= largest_extent))
     throw InvalidArgument("Splats are made for clouds, and error bounds, between 1e-12 "
                           "and 1e15 in extent: scale the coordinates.");
-  const auto accepted = growOn(points, delta, parameters, report);
+  const auto accepted = growOn(points, delta, parameters, threads, report);
   // In leaf order, where neighbours are close.
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> splat_of(points.samples->size(), none);
@@ -299,15 +298,16 @@ readSplats(const CloudView& cloud, Report& report)
 }
 
 Splats
-splatsOf(const CloudView& cloud,
-         const SplatParameters& parameters,
-         bool is_asked_for,
-         Report& report)
+findSplats(const CloudView& cloud,
+           const SplatParameters& parameters,
+           bool is_asked_for,
+           unsigned threads,
+           Report& report)
 {
   if (!hasSplats(cloud)) {
     std::vector<std::uint32_t> all(cloud.count);
     std::iota(all.begin(), all.end(), 0u);
-    return generateSplats(cloud, all, parameters, report);
+    return detail::generateSplats(cloud, all, parameters, threads, report);
   }
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "
@@ -315,7 +315,20 @@ splatsOf(const CloudView& cloud,
   return readSplats(cloud, report);
 }
 
+std::string
+SplatParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+SplatParameters
+SplatParameters::fromJson(const std::string& text)
+{
+  return readJson<SplatParameters>(text);
+}
+
 template class PCL_UVOL_EXPORTS SplatGeneration<PointIso>;
 template class PCL_UVOL_EXPORTS SplatGeneration<pcl::PointNormal>;
+template class PCL_UVOL_EXPORTS SplatGeneration<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/neighbors/nearest_neighbors.h>
 #include <pcl_uvol/surface/impl/surface_normals.hpp>
 
 #include <Eigen/Eigenvalues>
-#include <pcl/impl/pcl_base.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -71,7 +71,7 @@ fitPlane(const std::vector<Position>& positions,
 /** The side that a point's normal shall look to. */
 class Orientation {
 public:
-  Orientation(const CloudView& cloud, const Eigen::Vector3f& view_point)
+  Orientation(const CloudView& cloud, const Eigen::Array3f& view_point)
       : cloud_(cloud)
       , view_point_(view_point)
   {
@@ -128,14 +128,13 @@ samplesOf(const SampleSet& samples, std::size_t points)
 
 NeighborGraph
 findNeighbors(const SampleSet& samples,
-              const SurfaceNormalParameters& parameters,
+              std::size_t k,
+              const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+              unsigned threads,
               Report& report)
 {
-  const std::size_t k = parameters.k;
-  const unsigned threads = parameters.threads;
-  return parameters.search
-             ? computeNearestNeighbors(samples, k, threads, parameters.search, report)
-             : computeNearestNeighbors(samples, k, threads, report);
+  return search ? computeNearestNeighbors(samples, k, threads, search, report)
+                : computeNearestNeighbors(samples, k, threads, report);
 }
 
 /** Turns the fit of a sample to the side of one of its points. */
@@ -166,24 +165,28 @@ orient(const Fit& fit,
 
 } // namespace
 
+namespace detail {
+
 std::vector<SurfaceNormal>
 estimateSurfaceNormals(const CloudView& cloud,
                        const std::vector<std::uint32_t>& indices,
                        const SurfaceNormalParameters& parameters,
+                       const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                       unsigned threads,
                        Report& report)
 {
   checkParameters(parameters);
   if (indices.empty())
     throw InvalidArgument("The normal estimation was given an empty cloud.");
   const Eigen::Array3f& scale = parameters.scale;
-  const unsigned threads = parameters.threads;
   const auto samples = SampleSet::build(cloud.xyz(0),
                                         cloud.stride(),
                                         indices,
                                         Position{{scale[0], scale[1], scale[2]}},
                                         threads,
                                         report);
-  const NeighborGraph graph = findNeighbors(*samples, parameters, report);
+  const NeighborGraph graph =
+      findNeighbors(*samples, parameters.k, search, threads, report);
   const StepTimer timer(report, "normals");
   std::vector<Fit> fits(samples->size());
   parallelBlocks(fits.size(), block_points, threads, [&](auto begin, auto end) {
@@ -214,6 +217,7 @@ estimateSurfaceNormals(const CloudView& cloud,
 void
 replaceNormals(pcl::PointCloud<PointIso>& isopoints,
                const SurfaceNormalParameters& parameters,
+               unsigned threads,
                Report& report)
 {
   const CloudView cloud = viewOf(isopoints);
@@ -226,7 +230,8 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
     std::iota(surface.begin(), surface.end(), static_cast<std::uint32_t>(begin));
     Report own;
     own.progress = report.progress;
-    const auto normals = estimateSurfaceNormals(cloud, surface, parameters, own);
+    const auto normals =
+        estimateSurfaceNormals(cloud, surface, parameters, nullptr, threads, own);
     for (std::size_t i = 0; i < normals.size(); ++i)
       isopoints[begin + i].getNormalVector3fMap() = Eigen::Vector3f(normals[i].normal);
     report.count("degenerate_normals", own.getCount("degenerate_normals"));
@@ -237,6 +242,7 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
 void
 replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
                       const SurfaceNormalParameters& parameters,
+                      unsigned threads,
                       Report& report)
 {
   const auto has_none = [](const PointIso& point) {
@@ -245,13 +251,29 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
   if (std::none_of(isopoints.begin(), isopoints.end(), has_none))
     return;
   pcl::PointCloud<PointIso> replaced = isopoints;
-  replaceNormals(replaced, parameters, report);
+  replaceNormals(replaced, parameters, threads, report);
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     if (has_none(isopoints[i]))
       isopoints[i] = replaced[i];
 }
 
+} // namespace detail
+
+std::string
+SurfaceNormalParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+SurfaceNormalParameters
+SurfaceNormalParameters::fromJson(const std::string& text)
+{
+  return readJson<SurfaceNormalParameters>(text);
+}
+
 template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointXYZ, pcl::Normal>;
 template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointNormal, pcl::Normal>;
+template class PCL_UVOL_EXPORTS
+    SurfaceNormalEstimation<pcl::PCLPointCloud2, pcl::PointNormal>;
 
 } // namespace pcl_uvol

@@ -19,7 +19,7 @@
 namespace {
 
 using uvol_test::SmoothField;
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 
 Surface
 isopoints(const SmoothField& field,
@@ -61,7 +61,7 @@ marchingCubes(const SmoothField& field)
   for (vtkIdType i = 0; i < contour->GetOutput()->GetNumberOfPoints(); ++i) {
     double x[3];
     contour->GetOutput()->GetPoint(i, x);
-    PointIso point;
+    pcl_uvol::PointIso point;
     point.getVector3fMap() = Eigen::Vector3d(x).cast<float>();
     surface.push_back(point);
   }
@@ -109,7 +109,7 @@ main(int argc, char** argv)
     for (std::uint64_t seed = 1; seed <= seeds; ++seed)
       for (const auto& [name, interpolation] :
            {std::pair("linear", pcl_uvol::Interpolation::Linear),
-            std::pair("smooth", pcl_uvol::Interpolation::Smooth)})
+            std::pair("smooth", pcl_uvol::Interpolation::Fit)})
         printRow(
             field, n, seed, name, isopoints(field, n, seed, clustered, interpolation));
     if (!clustered)

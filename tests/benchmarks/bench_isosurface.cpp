@@ -75,7 +75,7 @@ furtherIsovalue(benchmark::State& state, Interpolation interpolation)
   extraction.setInputCloud(radial.cloud);
   extraction.setIsoValue(radial.radius);
   extraction.setInterpolation(interpolation);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   pcl_uvol::Report report;
   for (auto _ : state) {
@@ -98,7 +98,7 @@ furtherField(benchmark::State& state)
   Extraction extraction;
   extraction.setInputCloud(radial.cloud);
   extraction.setIsoValue(radial.radius);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   bool other = true;
   for (auto _ : state) {
@@ -117,7 +117,7 @@ newCloud(benchmark::State& state)
   const RadialCloud& radial = radialCloud(static_cast<std::size_t>(state.range(0)));
   Extraction extraction;
   extraction.setIsoValue(radial.radius);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   pcl_uvol::Report report;
   for (auto _ : state) {
     extraction.setInputCloud(radial.cloud);
@@ -138,7 +138,7 @@ main(int argc, char** argv)
     furtherIsovalue(state, Interpolation::Linear);
   };
   const auto smooth = [](benchmark::State& state) {
-    furtherIsovalue(state, Interpolation::Smooth);
+    furtherIsovalue(state, Interpolation::Fit);
   };
   for (const std::int64_t n : {100000, 1000000, 4000000}) {
     const auto add = [&](const char* name, auto function) {

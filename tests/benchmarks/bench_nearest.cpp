@@ -31,9 +31,9 @@ struct Setup {
     extraction.setInputCloud(radial.cloud);
     extraction.setIsoValue(radial.radius);
     extraction.setInterpolation(pcl_uvol::Interpolation::Linear);
-    pcl::PointCloud<PointIso> surface;
+    pcl::PointCloud<pcl_uvol::PointIso> surface;
     extraction.extract(surface);
-    for (const PointIso& point : surface)
+    for (const pcl_uvol::PointIso& point : surface)
       points.push_back({{point.x, point.y, point.z}});
   }
 };

@@ -94,7 +94,7 @@ void
 isosurfaceUvol(benchmark::State& state)
 {
   const RadialCloud& radial = radialCloud(static_cast<std::size_t>(state.range(0)));
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   pcl_uvol::Report report;
   for (auto _ : state) {
     pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;

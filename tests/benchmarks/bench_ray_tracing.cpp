@@ -18,7 +18,7 @@
 namespace {
 
 using pcl_uvol::Camera;
-using Splats = pcl::PointCloud<PointSplat>;
+using Splats = pcl::PointCloud<pcl_uvol::PointSplat>;
 
 /** The knot of the rendering measurements as discs of one radius. */
 Splats::ConstPtr
@@ -31,7 +31,7 @@ knot(std::size_t count, double radius)
   splats.reset(new Splats);
   const auto points = uvol_test::makeTorusKnot(count, 1);
   for (const auto& point : *points) {
-    PointSplat splat;
+    pcl_uvol::PointSplat splat;
     splat.getVector3fMap() = point.getVector3fMap();
     splat.getNormalVector3fMap() = point.getNormalVector3fMap();
     splat.getTangentVector3fMap() = point.getNormalVector3fMap().unitOrthogonal();

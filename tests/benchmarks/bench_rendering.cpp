@@ -65,7 +65,7 @@ isosurface()
   extraction.setInputCloud(radial.cloud);
   extraction.setIsoValue(radial.radius);
   extraction.setOutside(pcl_uvol::Outside::Higher);
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   extraction.extract(isopoints);
   const uvol_test::SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
   pcl::copyPointCloud(isopoints, *cloud);

@@ -16,8 +16,8 @@ printClustering(std::size_t points)
   const std::size_t times = std::max<std::size_t>(1, points / unit);
   const auto planted = uvol_test::plantClusters(columns, 550 * times, 1, times);
   pcl_uvol::Report report;
-  const auto clustering = pcl_uvol::clusterAttributes(
-      uvol_test::tableOf(columns, planted.values), {}, report);
+  const auto clustering = pcl_uvol::detail::clusterAttributes(
+      uvol_test::tableOf(columns, planted.values), {}, 0, report);
   std::printf("%zu points, %zu attributes: %d clusters, adjusted Rand index %.4f;",
               planted.labels.size(),
               columns,

@@ -149,10 +149,10 @@ public:
           static_cast<float>(function.value(point.getVector3fMap().cast<double>()));
     pcl_uvol::GradientEstimation<pcl::PointXYZI> estimation;
     estimation.setInputCloud(cloud_);
-    pcl::PointCloud<PointGradient> gradients;
+    pcl::PointCloud<pcl_uvol::PointGradient> gradients;
     estimation.compute(gradients);
     return meanError(function, [&](std::size_t i) -> Vector3d {
-      const PointGradient& found = gradients[samples_->getInputIndex(i)];
+      const pcl_uvol::PointGradient& found = gradients[samples_->getInputIndex(i)];
       return Vector3d(found.gradient_x, found.gradient_y, found.gradient_z);
     });
   }

@@ -11,7 +11,8 @@ struct EmbreeTracer::Query {
   Hits* hits;
 };
 
-EmbreeTracer::EmbreeTracer(const pcl::PointCloud<PointSplat>& splats, EmbreeWay way)
+EmbreeTracer::EmbreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
+                           EmbreeWay way)
     : PeerTracer(splats)
     , way_(way)
     , device_(rtcNewDevice(nullptr))
@@ -57,7 +58,7 @@ void
 EmbreeTracer::boundsOf(const RTCBoundsFunctionArguments* arguments)
 {
   const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
-  const PointSplat& splat = tracer.splats_[arguments->primID];
+  const pcl_uvol::PointSplat& splat = tracer.splats_[arguments->primID];
   float low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
     const float n = splat.data_n[axis];
@@ -109,7 +110,7 @@ EmbreeTracer::meet(const RTCIntersectFunctionNArguments* arguments)
   Hits& hits = *reinterpret_cast<Query*>(arguments->context)->hits;
   auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
   RTCRay& ray = rayhit.ray;
-  const PointSplat& splat = tracer.splats_[arguments->primID];
+  const pcl_uvol::PointSplat& splat = tracer.splats_[arguments->primID];
   float distance, sq_offset;
   if (!meetDisc(splat, originOf(ray), directionOf(ray), ray.tfar, distance, sq_offset))
     return;
@@ -140,7 +141,7 @@ EmbreeTracer::keep(const RTCFilterFunctionNArguments* arguments)
   const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
   const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
   const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
-  const PointSplat& splat = tracer.splats_[hit.primID];
+  const pcl_uvol::PointSplat& splat = tracer.splats_[hit.primID];
   float distance, sq_offset;
   // Not up to ray.tfar: that is Embree's distance of this very hit, and ours may be
   // rounded to just behind it.

@@ -16,7 +16,7 @@ enum class EmbreeWay {
 
 class EmbreeTracer : public PeerTracer {
 public:
-  EmbreeTracer(const pcl::PointCloud<PointSplat>& splats, EmbreeWay way);
+  EmbreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats, EmbreeWay way);
   ~EmbreeTracer() override;
 
 private:

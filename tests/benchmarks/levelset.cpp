@@ -149,7 +149,7 @@ printSize(const pcl_uvol::Volume& volume, double isovalue, std::size_t n)
       (*level)[i].intensity = outcome.phi[i];
     std::size_t points = 0;
     const double extraction = secondsOf([&] {
-      points = uvol_test::isopoints(level, pcl_uvol::Interpolation::Smooth).size();
+      points = uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit).size();
     });
     std::printf("\n    zero level: %zu isopoints in %.2f s, tree included\n",
                 points,

@@ -20,7 +20,7 @@ namespace {
 
 using uvol_test::NoisyCloud;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 
 void
 printRow(const NoisyCloud& noisy, const std::string& method, const Surface& surface)
@@ -104,7 +104,7 @@ evolveAndPrint(const NoisyCloud& noisy, const Setting& setting)
                 setting.name,
                 summary.mu,
                 summary.steps.size());
-  printRow(noisy, name, uvol_test::isopoints(level, pcl_uvol::Interpolation::Smooth));
+  printRow(noisy, name, uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit));
   std::printf("#   noise %.3f spacing %.3f time %.1f change %.4f slope error %.3f "
               "band %zu %s%.0f ms\n",
               summary.noise,
@@ -139,10 +139,10 @@ main(int argc, char** argv)
   std::puts("# shape sampling noise method points rms shift normals_rms components");
   Surface direct = uvol_test::isopoints(noisy.cloud, Interpolation::Linear);
   pcl_uvol::Report report;
-  pcl_uvol::replaceNormals(direct, {}, report);
+  pcl_uvol::detail::replaceNormals(direct, {}, 0, report);
   printRow(noisy, "direct linear, PCA", direct);
   printRow(
-      noisy, "direct smooth", uvol_test::isopoints(noisy.cloud, Interpolation::Smooth));
+      noisy, "direct smooth", uvol_test::isopoints(noisy.cloud, Interpolation::Fit));
   const struct {
     const char* name;
     std::size_t k;
@@ -155,7 +155,7 @@ main(int argc, char** argv)
     printRow(noisy,
              fit.name,
              uvol_test::isopoints(localFit(*noisy.cloud, fit.k, fit.degree),
-                                  Interpolation::Smooth));
+                                  Interpolation::Fit));
   for (int i = 4; i < argc; ++i) {
     const double mu = std::atof(argv[i]);
     evolveAndPrint(noisy,

@@ -21,12 +21,12 @@ constexpr float relative_margin = 1e-5f;
 
 } // namespace
 
-OctreeTracer::OctreeTracer(const pcl::PointCloud<PointSplat>& splats,
+OctreeTracer::OctreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
                            std::size_t threshold)
     : PeerTracer(splats)
 {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(infinity), high = -low;
-  for (const PointSplat& splat : splats) {
+  for (const pcl_uvol::PointSplat& splat : splats) {
     low = low.cwiseMin((splat.getVector3fMap().array() - splat.radius).matrix());
     high = high.cwiseMax((splat.getVector3fMap().array() + splat.radius).matrix());
   }
@@ -42,7 +42,7 @@ OctreeTracer::OctreeTracer(const pcl::PointCloud<PointSplat>& splats,
   std::iota(order.begin(), order.end(), 0u);
   split(0, half_, 0, order.data(), order.data() + order.size(), threshold);
 
-  for (const PointSplat& splat : splats)
+  for (const pcl_uvol::PointSplat& splat : splats)
     visitLeaves(splat, 0, half_, [&](std::uint32_t leaf) { ++nodes_[leaf].count; });
   std::uint32_t first = 0;
   for (Node& node : nodes_)
@@ -92,7 +92,7 @@ OctreeTracer::split(std::uint32_t node,
 
 template <typename Visit>
 void
-OctreeTracer::visitLeaves(const PointSplat& splat,
+OctreeTracer::visitLeaves(const pcl_uvol::PointSplat& splat,
                           std::uint32_t node,
                           float half,
                           const Visit& visit) const
@@ -194,7 +194,7 @@ OctreeTracer::collect(const Eigen::Vector3f& origin,
 {
   walk(origin, direction, [&](const Node& leaf, float enter, float leave) {
     for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const PointSplat& splat = splats_[leaf_splats_[i]];
+      const pcl_uvol::PointSplat& splat = splats_[leaf_splats_[i]];
       float distance, sq_offset;
       // A hit outside this leaf is the business of another leaf with this splat.
       if (meetDisc(splat,

@@ -13,7 +13,7 @@ namespace uvol_bench {
 class OctreeTracer : public PeerTracer {
 public:
   /** \param threshold centres that a leaf holds at most */
-  explicit OctreeTracer(const pcl::PointCloud<PointSplat>& splats,
+  explicit OctreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
                         std::size_t threshold);
 
 private:
@@ -35,7 +35,7 @@ private:
   /** Calls visit(leaf) for the leaves that a splat may touch. */
   template <typename Visit>
   void
-  visitLeaves(const PointSplat& splat,
+  visitLeaves(const pcl_uvol::PointSplat& splat,
               std::uint32_t node,
               float half,
               const Visit& visit) const;

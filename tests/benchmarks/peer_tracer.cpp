@@ -36,7 +36,7 @@ PeerTracer::intersect(const Eigen::Vector3f& origin,
   float offset_of_nearest = infinity;
   for (int i = 0; i < hits.count; ++i) {
     const Hit& hit = hits.items[i];
-    const PointSplat& splat = splats_[hit.splat];
+    const pcl_uvol::PointSplat& splat = splats_[hit.splat];
     if (hit.distance > hits.limit || !(splat.getNormalVector3fMap().dot(side) > 0.0f))
       continue;
     const float offset = std::sqrt(hit.sq_offset) / splat.radius;

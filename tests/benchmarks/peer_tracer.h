@@ -23,7 +23,7 @@ constexpr float part_of_radius = 0.5f;
 
 class PeerTracer {
 public:
-  explicit PeerTracer(const pcl::PointCloud<PointSplat>& splats)
+  explicit PeerTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats)
       : splats_(splats)
   {
   }
@@ -74,7 +74,7 @@ protected:
 
   /** Distance to a disc, and squared distance to its centre; false if it is missed. */
   static bool
-  meetDisc(const PointSplat& splat,
+  meetDisc(const pcl_uvol::PointSplat& splat,
            const Eigen::Vector3f& origin,
            const Eigen::Vector3f& direction,
            float farthest,
@@ -95,7 +95,7 @@ protected:
     return sq_offset <= splat.radius * splat.radius;
   }
 
-  const pcl::PointCloud<PointSplat>& splats_;
+  const pcl::PointCloud<pcl_uvol::PointSplat>& splats_;
 
 private:
   /** Adds every hit of the first surface, each splat once. */

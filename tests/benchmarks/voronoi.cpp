@@ -49,15 +49,15 @@ printDeviations(std::size_t n, std::uint64_t seed, int cells)
     extraction.setInterpolation(pcl_uvol::Interpolation::Linear);
     extraction.setAngleCriterion(criterion);
     if (const auto settings = settingsFor(cells))
-      extraction.setVoronoiGrid(*settings);
-    pcl::PointCloud<PointIso> surface;
+      extraction.setNeighborSource(pcl_uvol::NeighborSource::Voronoi, settings->cells);
+    pcl::PointCloud<pcl_uvol::PointIso> surface;
     const auto start = std::chrono::steady_clock::now();
     extraction.extract(surface);
     const double seconds = secondsSince(start);
     double sum = 0.0, largest = 0.0;
     const Eigen::Vector3f center =
         Eigen::Vector3f::Constant(static_cast<float>(radial.center));
-    for (const PointIso& point : surface) {
+    for (const pcl_uvol::PointIso& point : surface) {
       const double deviation =
           std::abs((point.getVector3fMap() - center).norm() - radial.radius);
       sum += deviation;

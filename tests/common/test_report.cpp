@@ -46,7 +46,7 @@ TEST(Progress, ReachesTheUserOfAStageAndCanInterruptIt)
   std::map<std::string, double> told;
   extraction.setProgressCallback(
       [&](const std::string& step, double done) { told[step] = done; });
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   extraction.extract(isopoints);
   EXPECT_EQ(1u, told.count("tree"));
   EXPECT_EQ(1u, told.count("neighborhoods"));

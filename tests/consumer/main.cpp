@@ -15,7 +15,7 @@ main()
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(28.5);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   std::cout << surface.size() << " isopoints, the first at "
             << surface[0].getArray3fMap().transpose() << '\n';

@@ -10,6 +10,8 @@ cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/
 cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
+"$folder/build/pcl_consumer" | tee "$folder/out"
+grep -Eq '^1 clusters, [1-9][0-9]* triangles' "$folder/out"
 test "$("$folder/build/window_consumer")" = "bounds from 3"
 "$folder/build/pipeline_consumer" "$folder/splats.vtp" | tee "$folder/out"
 grep -Eq '^written: [1-9][0-9]* splats' "$folder/out"

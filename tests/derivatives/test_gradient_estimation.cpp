@@ -22,7 +22,7 @@ namespace {
 using pcl_uvol::FitScheme;
 using pcl_uvol::InvalidArgument;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Gradients = pcl::PointCloud<PointGradient>;
+using Gradients = pcl::PointCloud<pcl_uvol::PointGradient>;
 using Estimation = pcl_uvol::GradientEstimation<pcl::PointXYZI>;
 using Vector = Eigen::Vector3d;
 using Field = std::function<double(const Vector&)>;
@@ -56,7 +56,7 @@ estimate(const Cloud::Ptr& cloud, FitScheme scheme, unsigned threads = 0)
 }
 
 Vector
-vectorOf(const PointGradient& gradient)
+vectorOf(const pcl_uvol::PointGradient& gradient)
 {
   return {gradient.gradient_x, gradient.gradient_y, gradient.gradient_z};
 }
@@ -76,7 +76,7 @@ TEST(GradientEstimation, ExactForLinearFunctions)
   for (const FitScheme scheme : {FitScheme::Linear, FitScheme::Quadratic}) {
     const auto gradients = estimate(cloud, scheme);
     ASSERT_EQ(cloud->size(), gradients.size());
-    for (const PointGradient& gradient : gradients)
+    for (const pcl_uvol::PointGradient& gradient : gradients)
       EXPECT_LT((vectorOf(gradient) - slope).norm(), rounding);
   }
 }
@@ -188,7 +188,7 @@ TEST(GradientEstimation, NothingIsMadeUpAcrossAPlaneOrALine)
       estimation.compute(gradients);
       EXPECT_EQ(cloud->size(), estimation.getReport().getCount("singular_fits"))
           << shape;
-      for (const PointGradient& gradient : gradients) {
+      for (const pcl_uvol::PointGradient& gradient : gradients) {
         // Along the samples it is right, and no longer than that.
         const Vector found = vectorOf(gradient);
         const Vector rest = found - Vector(2.0, 3.0, 5.0);
@@ -203,15 +203,15 @@ TEST(GradientEstimation, ConstantFieldsAndFewSamples)
 {
   const auto constant =
       estimate(sample([](const Vector&) { return 7.0; }, 200), FitScheme::Quadratic);
-  for (const PointGradient& gradient : constant) {
+  for (const pcl_uvol::PointGradient& gradient : constant) {
     EXPECT_EQ(0.0, vectorOf(gradient).norm());
     EXPECT_TRUE(std::isnan(gradient.mean_curvature));
   }
   // Fewer samples than neighbours are asked for: all others; too few for a quadratic.
   const auto few = sample([](const Vector& x) { return x[0]; }, 6);
-  for (const PointGradient& gradient : estimate(few, FitScheme::Quadratic))
+  for (const pcl_uvol::PointGradient& gradient : estimate(few, FitScheme::Quadratic))
     EXPECT_LT((vectorOf(gradient) - Vector::UnitX()).norm(), 1e-4);
-  for (const PointGradient& gradient :
+  for (const pcl_uvol::PointGradient& gradient :
        estimate(sample([](const Vector& x) { return x[0]; }, 1), FitScheme::Linear))
     EXPECT_EQ(0.0, vectorOf(gradient).norm());
 }
@@ -227,7 +227,7 @@ TEST(GradientEstimation, SameBytesForAnyNumberOfThreads)
       EXPECT_EQ(0,
                 std::memcmp(one.points.data(),
                             several.points.data(),
-                            sizeof(PointGradient) * one.size()));
+                            sizeof(pcl_uvol::PointGradient) * one.size()));
     }
   }
 }

@@ -302,13 +302,12 @@ TEST_P(Convention, PrintsItself)
   for (const char* const word : {"NumberOfThreads: 0"})
     EXPECT_NE(text.str().find(word), std::string::npos) << text.str();
   const std::vector<std::string> words =
-      GetParam().name == "Isosurface"
-          ? std::vector<std::string>{"ArrayComponent: 0",
-                                     "Outside: Lower",
-                                     "Interpolation: Smooth",
-                                     "AngleCriterion: Kept",
-                                     "Scale: 1 1 1",
-                                     "Value 0: 5"}
+      GetParam().name == "Isosurface" ? std::vector<std::string>{"ArrayComponent: 0",
+                                                                 "Outside: Lower",
+                                                                 "Interpolation: Fit",
+                                                                 "AngleCriterion: Kept",
+                                                                 "Scale: 1 1 1",
+                                                                 "Value 0: 5"}
       : GetParam().name == "LevelSet"
           ? std::vector<std::string>{"Isovalue: 5",
                                      "AutomaticMu: On",

@@ -48,7 +48,7 @@ main(int argc, char** argv)
   extraction.setInputCloud(radial.cloud);
   extraction.setNumberOfThreads(threads);
   extraction.setIsoValue(radial.radius);
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   extraction.extract(isopoints); // the tree is not what "isovalue" counts
 
   const std::map<std::string, std::function<void()>> kernels = {

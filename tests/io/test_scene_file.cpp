@@ -12,10 +12,10 @@ using namespace uvol_test;
 namespace {
 
 /** A splat whose numbers are all different. */
-PointSplat
+pcl_uvol::PointSplat
 makeSplat(float x, float y, float z)
 {
-  PointSplat splat;
+  pcl_uvol::PointSplat splat;
   splat.getVector3fMap() = Eigen::Vector3f(x, y, z);
   splat.getNormalVector3fMap() = Eigen::Vector3f(0.0f, 0.6f, 0.8f);
   splat.getTangentVector3fMap() = Eigen::Vector3f(1.0f, 0.0f, 0.0f);
@@ -28,11 +28,11 @@ makeSplat(float x, float y, float z)
   return splat;
 }
 
-const pcl::PointCloud<PointSplat>&
+const pcl::PointCloud<pcl_uvol::PointSplat>&
 twoSplats()
 {
-  static const pcl::PointCloud<PointSplat> splats = [] {
-    pcl::PointCloud<PointSplat> made;
+  static const pcl::PointCloud<pcl_uvol::PointSplat> splats = [] {
+    pcl::PointCloud<pcl_uvol::PointSplat> made;
     made.push_back(makeSplat(1.0f, 2.0f, 3.0f));
     made.push_back(makeSplat(3.0f, 2.0f, 7.0f));
     return made;
@@ -83,7 +83,7 @@ expectNear(const Vector& vector, double x, double y, double z)
 
 class SceneItems : public SceneText {
 protected:
-  const PointSplat&
+  const pcl_uvol::PointSplat&
   firstSplat(const std::string& text)
   {
     loaded_ = load(text);
@@ -245,7 +245,7 @@ TEST_F(SceneItems, SplatsOfAFileAreKept)
     ASSERT_EQ(object.splats->size(), 2u);
     EXPECT_TRUE(object.colors.empty());
     EXPECT_EQ(object.material.diffuse, 0.125);
-    const PointSplat& splat = object.splats->at(1);
+    const pcl_uvol::PointSplat& splat = object.splats->at(1);
     expectNear(splat.getVector3fMap(), 3, 2, 7);
     expectNear(splat.getNormalVector3fMap(), 0, 0.6, 0.8);
     expectNear(splat.getTangentVector3fMap(), 1, 0, 0);
@@ -267,7 +267,7 @@ TEST_F(SceneItems, FittedTurnedAndMoved)
   for (const char* const text : {"cloud s.ply fit 10 20 30 8 turn 0 0 7 90",
                                  "cloud s.ply turn 0 0 -1 -90 fit 10 20 30 8"}) {
     // The centre of the box is (2, 2, 5), its longest side is 4.
-    const PointSplat& splat = firstSplat(text);
+    const pcl_uvol::PointSplat& splat = firstSplat(text);
     expectNear(splat.getVector3fMap(), 10, 18, 26);
     expectNear(splat.getNormalVector3fMap(), -0.6, 0, 0.8);
     expectNear(splat.getTangentVector3fMap(), 0, 1, 0);
@@ -281,7 +281,8 @@ TEST_F(SceneItems, FittedTurnedAndMoved)
 TEST_F(SceneItems, ScaledTurnedAndMoved)
 {
   saveSplats(folder_ / "s.ply");
-  const PointSplat splat = firstSplat("cloud s.ply at 1 1 1 scale 2 turn 1 0 0 90");
+  const pcl_uvol::PointSplat splat =
+      firstSplat("cloud s.ply at 1 1 1 scale 2 turn 1 0 0 90");
   expectNear(splat.getVector3fMap(), 3, -5, 5);
   expectNear(splat.getNormalVector3fMap(), 0, -0.8, 0.6);
   expectNear(splat.getTangentVector3fMap(), 1, 0, 0);
@@ -324,7 +325,7 @@ TEST_F(SceneItems, LargeCoordinatesThatAreMovedAwayKeepTheirDigits)
 {
   saveSplats(folder_ / "far.ply", {{5000000.125, 300000.01, 0.0}});
   const auto placeOf = [&](const std::string& options) -> Eigen::Vector3d {
-    const PointSplat& splat = firstSplat("cloud far.ply " + options);
+    const pcl_uvol::PointSplat& splat = firstSplat("cloud far.ply " + options);
     const auto& origin = loaded_.origin;
     return splat.getVector3fMap().cast<double>() +
            Eigen::Vector3d(origin[0], origin[1], origin[2]);
@@ -372,7 +373,7 @@ TEST_F(SceneItems, PointsAreCoveredBySplats)
   EXPECT_EQ(countOf("lambda 0"), 441u);
   const std::size_t few = countOf("lambda 1 delta-abs 0.05");
   EXPECT_LT(few, 441u);
-  for (const PointSplat& splat : *loaded_.scene.splats[0].splats) {
+  for (const pcl_uvol::PointSplat& splat : *loaded_.scene.splats[0].splats) {
     EXPECT_GT(splat.radius, 0.0f);
     EXPECT_LE(splat.error, 0.0501f);
     EXPECT_GT(splat.normal_z, 0.8f);

@@ -26,7 +26,7 @@ expectSize(const Cloud::Ptr& cloud, double isovalue, double tolerance)
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(isovalue);
   extraction.setInterpolation(pcl_uvol::Interpolation::Linear);
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   extraction.extract(isopoints);
   const auto crossing =
       static_cast<double>(extraction.getReport().getCount("crossing_samples"));

@@ -130,12 +130,14 @@ TEST(InterpolateFields, FieldsThatGiveWayAreWarnedOf)
       makeCloud<float>("error", pcl::PCLPointField::FLOAT32, {8, 9}, 1);
   pcl_uvol::Report report;
   pcl_uvol::warnOfReplacedFields(
-      samples, makeCloud<float>("error", pcl::PCLPointField::FLOAT32, {1}, 1), report);
+      samples.fields,
+      makeCloud<float>("error", pcl::PCLPointField::FLOAT32, {1}, 1).fields,
+      report);
   ASSERT_EQ(1u, report.warnings.size());
   EXPECT_NE(std::string::npos, report.warnings[0].find("'error'"));
   for (const char* const meant : {"x", "normal_x", "_"}) {
     const auto field = makeCloud<float>(meant, pcl::PCLPointField::FLOAT32, {1}, 1);
-    pcl_uvol::warnOfReplacedFields(field, field, report);
+    pcl_uvol::warnOfReplacedFields(field.fields, field.fields, report);
     EXPECT_EQ(1u, report.warnings.size()) << meant;
   }
 }

@@ -25,7 +25,7 @@ using pcl_uvol::AngleCriterion;
 using pcl_uvol::Interpolation;
 using pcl_uvol::InvalidArgument;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
@@ -34,15 +34,16 @@ bool
 sameBytes(const Surface& a, const Surface& b)
 {
   return a.size() == b.size() &&
-         (a.empty() ||
-          std::memcmp(&a.points[0], &b.points[0], a.size() * sizeof(PointIso)) == 0);
+         (a.empty() || std::memcmp(&a.points[0],
+                                   &b.points[0],
+                                   a.size() * sizeof(pcl_uvol::PointIso)) == 0);
 }
 
 Surface
 extract(const Cloud::Ptr& cloud,
         double isovalue,
         unsigned threads = 0,
-        Interpolation interpolation = Interpolation::Smooth)
+        Interpolation interpolation = Interpolation::Fit)
 {
   Extraction extraction;
   extraction.setInterpolation(interpolation);
@@ -112,7 +113,7 @@ double
 meanDeviation(const Surface& surface, const uvol_test::RadialCloud& radial)
 {
   double sum = 0.0;
-  for (const PointIso& point : surface)
+  for (const pcl_uvol::PointIso& point : surface)
     sum += std::abs(std::hypot(point.x - radial.center,
                                point.y - radial.center,
                                point.z - radial.center) -
@@ -175,7 +176,7 @@ TEST(IsosurfaceExtraction, LinearFieldsAreExact)
   const auto cloud = uvol_test::makeCloud("uniform", 5000, 4);
   for (auto& point : *cloud)
     point.intensity = point.x + 2.0f * point.y - point.z;
-  for (const PointIso& point : extract(cloud, 0.7)) {
+  for (const pcl_uvol::PointIso& point : extract(cloud, 0.7)) {
     EXPECT_NEAR(0.7, point.x + 2.0f * point.y - point.z, 2e-6);
     EXPECT_EQ(0.7f, point.isovalue);
   }
@@ -235,7 +236,7 @@ TEST(IsosurfaceExtraction, KeepsWhatDoesNotDependOnTheIsovalue)
   extraction.extract(surface);
   EXPECT_EQ(0u, steps(extraction).count("tree"));
   EXPECT_EQ(1u, steps(extraction).count("ranges"));
-  for (const PointIso& point : surface)
+  for (const pcl_uvol::PointIso& point : surface)
     ASSERT_NEAR(6.0, point.x, 1e-4);
 
   // A failed extraction leaves nothing behind that a later one would take for its own.
@@ -335,7 +336,7 @@ TEST(IsosurfaceExtraction, SamplesAtTheIsovalueGiveOneIsopoint)
   extraction.extract(surface);
   EXPECT_EQ(9u, surface.size());
   EXPECT_GT(extraction.getReport().getCount("coincident"), 0u);
-  for (const PointIso& point : surface) {
+  for (const pcl_uvol::PointIso& point : surface) {
     EXPECT_EQ(1.0f, point.z);
     EXPECT_LT(point.normal_z, -0.5f);
   }

@@ -20,7 +20,7 @@ namespace {
 using pcl_uvol::Interpolation;
 using pcl_uvol::IsoSupport;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
 using uvol_test::deviations;
 using uvol_test::makeSmoothField;
@@ -33,7 +33,7 @@ using Vector = Eigen::Vector3d;
 Surface
 extract(const Cloud::Ptr& cloud,
         double isovalue,
-        Interpolation interpolation = Interpolation::Smooth)
+        Interpolation interpolation = Interpolation::Fit)
 {
   Extraction extraction;
   extraction.setInputCloud(cloud);
@@ -54,7 +54,7 @@ TEST(SmoothIsopoints, RadialTestWithFourMillionSamples)
   EXPECT_LE(quantile(found, 0.999), 1.5e-5);
   EXPECT_LE(quantile(found, 1.0), 4e-5);
   double degrees = 0.0, curvature = 0.0;
-  for (const PointIso& point : surface) {
+  for (const pcl_uvol::PointIso& point : surface) {
     const Vector x(point.x, point.y, point.z);
     const Vector normal = point.getNormalVector3fMap().cast<double>();
     // values are lower inside: the enclosed side is the outer one, which is hollow
@@ -77,7 +77,7 @@ TEST(SmoothIsopoints, ClusteredSamples)
     EXPECT_LE(quantile(found, 0.999), 1.5e-4);
     EXPECT_LE(quantile(found, 1.0), 5e-4);
     double degrees = 0.0;
-    for (const PointIso& point : surface)
+    for (const pcl_uvol::PointIso& point : surface)
       degrees += std::asin(Vector(point.x, point.y, point.z)
                                .normalized()
                                .cross(point.getNormalVector3fMap().cast<double>())
@@ -112,7 +112,7 @@ TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing)
     return std::log2(relative(60000, interpolation) / relative(480000, interpolation));
   };
   EXPECT_NEAR(2.0, order(Interpolation::Linear), 0.2);
-  EXPECT_GE(order(Interpolation::Smooth), 3.7);
+  EXPECT_GE(order(Interpolation::Fit), 3.7);
 }
 
 TEST(SmoothIsopoints, CurvatureOfAGyroid)
@@ -121,7 +121,7 @@ TEST(SmoothIsopoints, CurvatureOfAGyroid)
   const Surface surface =
       extract(sampleSmoothField(field, 500000, 1, false), field.isovalue);
   std::vector<double> truth;
-  for (const PointIso& point : surface) // outside is where values are lower
+  for (const pcl_uvol::PointIso& point : surface) // outside is where values are lower
     truth.push_back(
         -uvol_test::meanCurvatureOf(field, Vector(point.x, point.y, point.z)));
   double highest = 0.0;
@@ -146,7 +146,7 @@ struct Trust {
   Trust(const SmoothField& field, const Surface& surface)
   {
     truth = deviations(field, surface);
-    for (const PointIso& point : surface)
+    for (const pcl_uvol::PointIso& point : surface)
       estimate.push_back(point.error);
   }
 
@@ -261,7 +261,7 @@ TEST(SmoothIsopoints, HolesInTheSamplingAreFlagged)
       if (depth(point.getVector3fMap().cast<double>()) < 0)
         punched->push_back(point);
     std::size_t inside = 0, unflagged = 0, elsewhere = 0, flagged = 0;
-    for (const PointIso& point : extract(punched, field.isovalue)) {
+    for (const pcl_uvol::PointIso& point : extract(punched, field.isovalue)) {
       const double d = depth(Vector(point.x, point.y, point.z));
       const bool is_flagged =
           point.support != static_cast<std::uint8_t>(IsoSupport::Measured);
@@ -333,7 +333,7 @@ TEST(SmoothIsopoints, FewOrFlatSamplesStayLinear)
     extraction.extract(surface);
     EXPECT_GT(surface.size(), 0u);
     EXPECT_EQ(surface.size(), extraction.getReport().getCount("linear_singular"));
-    for (const PointIso& point : surface) {
+    for (const pcl_uvol::PointIso& point : surface) {
       EXPECT_NEAR(0.5f, point.x, 1e-6f);
       EXPECT_TRUE(std::isnan(point.mean_curvature));
       EXPECT_GT(point.error, 0.0f);

@@ -41,8 +41,8 @@ std::vector<double>
 radiiOf(const Cloud& cloud, const std::vector<float>& phi)
 {
   std::vector<double> radii;
-  for (const PointIso& point :
-       uvol_test::isopoints(withValues(cloud, phi), Interpolation::Smooth))
+  for (const pcl_uvol::PointIso& point :
+       uvol_test::isopoints(withValues(cloud, phi), Interpolation::Fit))
     radii.push_back(point.getVector3fMap().cast<double>().norm());
   return radii;
 }
@@ -116,7 +116,7 @@ struct Reinitialized {
     constexpr double radius = 10.0;
     const auto ball = makeBall(radius, 16.0);
     pcl::PointCloud<pcl::PointXYZINormal> cloud;
-    std::vector<int> all;
+    pcl::Indices all;
     for (const auto& point : *ball) {
       pcl::PointXYZINormal other;
       other.getVector3fMap() = point.getVector3fMap();
@@ -130,8 +130,9 @@ struct Reinitialized {
     parameters.initial = InitialFunction::field("curvature");
     parameters.reinitialization = way;
     parameters.max_steps = steps;
-    const pcl_uvol::LevelSet found = pcl_uvol::evolveLevelSet(
-        pcl_uvol::viewOf(cloud), all, "intensity", 0.0, parameters, report);
+    parameters.isovalue = 0.0;
+    const pcl_uvol::LevelSet found = pcl_uvol::detail::evolveLevelSet(
+        pcl_uvol::viewOf(cloud), all, parameters, 0, nullptr, 0, report);
     summary = found.summary;
     for (const double distance : radiiOf(*ball, found.phi))
       deviations.push_back(std::abs(distance - radius));

@@ -37,7 +37,7 @@ TEST_P(LevelSetOfNoise, IsSmoothAndInItsPlace)
   const auto noisy = uvol_test::makeNoisyCloud(shape, clustered, noise, 1);
   auto direct = uvol_test::isopoints(noisy.cloud, Interpolation::Linear);
   pcl_uvol::Report report;
-  pcl_uvol::replaceNormals(direct, {}, report);
+  pcl_uvol::detail::replaceNormals(direct, {}, 0, report);
   const auto before = uvol_test::measure(noisy, direct);
   Evolution evolution;
   const auto phi = evolve(evolution, noisy.cloud);
@@ -46,8 +46,7 @@ TEST_P(LevelSetOfNoise, IsSmoothAndInItsPlace)
   const double part = noisy.shape.components == 1 ? 0.1 : 0.4;
   EXPECT_NEAR(noisy.noise, evolution.getSummary().noise, part * noisy.noise);
   const auto after = uvol_test::measure(
-      noisy,
-      uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Smooth));
+      noisy, uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Fit));
   EXPECT_LT(after.rms, (noise < 0.03 ? 1.0 / 2.0 : 1.0 / 3.0) * before.rms);
   EXPECT_LT(after.normal_rms, before.normal_rms / 3.0);
   EXPECT_LT(std::abs(after.shift), 0.01 * 22.0);
@@ -106,7 +105,7 @@ TEST(LevelSetNoise, AutomaticWeightIsNearlyTheBest)
       const auto phi = evolve(evolution, noisy.cloud);
       return uvol_test::measure(noisy,
                                 uvol_test::isopoints(withValues(*noisy.cloud, phi),
-                                                     Interpolation::Smooth))
+                                                     Interpolation::Fit))
           .rms;
     };
     double best = deviation(0.4);

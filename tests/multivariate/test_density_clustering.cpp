@@ -27,10 +27,12 @@ constexpr double least_agreement = 0.95;
 Clustering
 cluster(std::size_t columns,
         const std::vector<float>& values,
-        const ClusteringParameters& parameters = {})
+        const ClusteringParameters& parameters = {},
+        unsigned threads = 0)
 {
   Report report;
-  return clusterAttributes(tableOf(columns, values), parameters, report);
+  return pcl_uvol::detail::clusterAttributes(
+      tableOf(columns, values), parameters, threads, report);
 }
 
 /** Points evenly over an interval, in 1-D. */
@@ -228,12 +230,9 @@ TEST(DensityClustering, CutLeavesOutWhatIsFartherOff)
 TEST(DensityClustering, AnyNumberOfThreadsIsTheSame)
 {
   const auto planted = plantClusters(5, 6000, 1);
-  ClusteringParameters parameters;
-  parameters.threads = 1;
-  const auto one = cluster(5, planted.values, parameters);
+  const auto one = cluster(5, planted.values, {}, 1);
   for (const unsigned threads : {2u, 3u, 7u}) {
-    parameters.threads = threads;
-    const auto many = cluster(5, planted.values, parameters);
+    const auto many = cluster(5, planted.values, {}, threads);
     EXPECT_EQ(one.labels, many.labels);
     EXPECT_EQ(one.probabilities, many.probabilities);
     ASSERT_EQ(one.tree.size(), many.tree.size());
@@ -315,8 +314,8 @@ TEST(DensityClustering, FewOrEqualPointsGiveAWarningOrOneCluster)
     ClusteringParameters parameters;
     parameters.allow_single_cluster = few.allow_single_cluster;
     Report report;
-    const auto found = clusterAttributes(
-        tableOf(2, std::vector<float>(2 * few.points, 1.0f)), parameters, report);
+    const auto found = pcl_uvol::detail::clusterAttributes(
+        tableOf(2, std::vector<float>(2 * few.points, 1.0f)), parameters, 0, report);
     ASSERT_EQ(found.labels.size(), few.points);
     EXPECT_EQ(report.getCount("points"), few.points);
     EXPECT_EQ(report.getCount("clusters"), static_cast<std::uint64_t>(few.clusters));

@@ -19,7 +19,7 @@ namespace {
 using pcl_uvol::AngleCriterion;
 using pcl_uvol::GlobalIsopoint;
 using pcl_uvol::Interpolation;
-using pcl_uvol::IsosurfaceSettings;
+using pcl_uvol::IsosurfaceParameters;
 using pcl_uvol::Report;
 using pcl_uvol::Samples;
 using uvol_test::runRanks;
@@ -28,11 +28,11 @@ using Isopoints = std::vector<std::vector<GlobalIsopoint>>;
 
 /** What one process finds. */
 struct Alone {
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   pcl_uvol::IsoEdges edges;
   Report report;
 
-  Alone(const Cloud::Ptr& cloud, const IsosurfaceSettings& settings)
+  Alone(const Cloud::Ptr& cloud, const IsosurfaceParameters& settings)
   {
     pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
     extraction.setInputCloud(cloud);
@@ -40,7 +40,7 @@ struct Alone {
     extraction.setInterpolation(settings.interpolation);
     extraction.setAngleCriterion(settings.criterion);
     extraction.setOutside(settings.outside);
-    extraction.setScale({settings.scale[0], settings.scale[1], settings.scale[2]});
+    extraction.setScale(settings.scale);
     extraction.extract(isopoints);
     edges = extraction.getEdges();
     report = extraction.getReport();
@@ -54,7 +54,7 @@ struct Together {
 
   /** \param owner of point i among the ranks */
   Together(const Cloud& cloud,
-           const IsosurfaceSettings& settings,
+           const IsosurfaceParameters& settings,
            std::size_t ranks,
            const std::function<std::size_t(std::size_t)>& owner)
       : isopoints(settings.isovalues.size())
@@ -64,8 +64,12 @@ struct Together {
     runRanks(ranks, [&](pcl_uvol::Communicator& communicator) {
       Report own;
       Samples samples;
-      const Samples all =
-          readSamples(view, {view.fields, "intensity"}, settings.scale, 0, 1, own);
+      const Samples all = readSamples(view,
+                                      {view.fields, "intensity"},
+                                      pcl_uvol::toPosition(settings.scale),
+                                      0,
+                                      1,
+                                      own);
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner(all.sources[i]) == communicator.rank())
           samples.append(all.span(i, 1));
@@ -86,14 +90,15 @@ struct Together {
 void
 expectEqual(const Alone& alone,
             const Together& together,
-            const IsosurfaceSettings& settings)
+            const IsosurfaceParameters& settings)
 {
   std::size_t next = 0;
   for (std::size_t i = 0; i < together.isopoints.size(); ++i)
     for (const GlobalIsopoint& isopoint : together.isopoints[i]) {
       ASSERT_LT(next, alone.isopoints.size());
-      const PointIso point = toPointIso(isopoint, settings.isovalues[i]);
-      ASSERT_EQ(0, std::memcmp(&point, &alone.isopoints[next], sizeof(PointIso)))
+      const pcl_uvol::PointIso point = toPointIso(isopoint, settings.isovalues[i]);
+      ASSERT_EQ(0,
+                std::memcmp(&point, &alone.isopoints[next], sizeof(pcl_uvol::PointIso)))
           << next << ": " << point.x << " " << alone.isopoints[next].x;
       EXPECT_EQ(alone.edges[next].first, isopoint.first);
       EXPECT_EQ(alone.edges[next].second, isopoint.second);
@@ -122,7 +127,7 @@ const auto in_turn = [](std::size_t ranks) {
 void
 expectRanksFind(const Alone& alone,
                 const Cloud& cloud,
-                const IsosurfaceSettings& settings,
+                const IsosurfaceParameters& settings,
                 std::initializer_list<std::size_t> numbers)
 {
   for (const std::size_t ranks : numbers) {
@@ -136,9 +141,9 @@ class RanksOnEveryShape : public testing::TestWithParam<std::string> {};
 TEST_P(RanksOnEveryShape, FindWhatOneFinds)
 {
   const auto cloud = uvol_test::makeCloud(GetParam(), 4000, 7);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.41234, 0.2};
-  for (const auto interpolation : {Interpolation::Smooth, Interpolation::Linear}) {
+  for (const auto interpolation : {Interpolation::Fit, Interpolation::Linear}) {
     settings.interpolation = interpolation;
     const Alone alone(cloud, settings);
     expectRanksFind(alone, *cloud, settings, {1, 2, 3, 4, 8});
@@ -158,7 +163,7 @@ TEST(RankExtraction, LendsAlongTheCutsOnly)
   std::size_t n = 30000;
   for (std::uint64_t& bytes : exchanged) {
     const auto radial = uvol_test::makeRadialCloud(n, 3);
-    IsosurfaceSettings settings;
+    IsosurfaceParameters settings;
     settings.isovalues = {radial.radius};
     const Together together(*radial.cloud, settings, 8, in_turn(8));
     if (n == 30000)
@@ -175,11 +180,11 @@ TEST(RankExtraction, LendsAlongTheCutsOnly)
 TEST(RankExtraction, TakesSettingsAsOneProcessDoes)
 {
   const auto cloud = uvol_test::makeCloud("clustered", 8000, 5);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.3};
   settings.criterion = AngleCriterion::All;
   settings.outside = pcl_uvol::Outside::Higher;
-  settings.scale = {{1.0f, 2.5f, 0.75f}};
+  settings.scale = {1.0f, 2.5f, 0.75f};
   expectEqual(
       Alone(cloud, settings), Together(*cloud, settings, 4, in_turn(4)), settings);
 }
@@ -197,7 +202,7 @@ TEST(RankExtraction, AsksForWhatFitsReachBeyondNeighboringBricks)
     if (i % 50 == 0 || point.x + point.y + point.z < 0.6f)
       cloud->push_back(point);
   }
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.3, 0.5};
   const Alone alone(cloud, settings);
   EXPECT_GT(alone.isopoints.size(), 300u);
@@ -212,9 +217,9 @@ TEST(RankExtraction, MergesIsopointsThatCoincideAcrossPieces)
     const auto cloud = uvol_test::makeCloud(shape, 5000, 7);
     for (auto& point : *cloud)
       point.intensity = std::round(20.0f * point.intensity) / 20.0f;
-    IsosurfaceSettings settings;
+    IsosurfaceParameters settings;
     settings.isovalues = {0.4};
-    for (const auto interpolation : {Interpolation::Linear, Interpolation::Smooth}) {
+    for (const auto interpolation : {Interpolation::Linear, Interpolation::Fit}) {
       settings.interpolation = interpolation;
       const Alone alone(cloud, settings);
       EXPECT_GT(alone.report.getCount("coincident"), 300u);
@@ -226,7 +231,7 @@ TEST(RankExtraction, MergesIsopointsThatCoincideAcrossPieces)
 TEST(RankExtraction, DoesNotCareWhereSamplesAre)
 {
   const auto cloud = uvol_test::makeCloud("uniform", 2000, 2);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.4};
   const Alone alone(cloud, settings);
   expectEqual(alone, Together(*cloud, settings, 4, [](auto) { return 2; }), settings);
@@ -244,7 +249,7 @@ TEST(RankExtraction, MergesDuplicatesAcrossRanks)
     cloud->push_back((*once)[i]);
     cloud->back().intensity += 0.01f;
   }
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.4};
   const Alone alone(cloud, settings);
   EXPECT_EQ(1800u, alone.report.getCount("duplicates"));
@@ -254,7 +259,7 @@ TEST(RankExtraction, MergesDuplicatesAcrossRanks)
 TEST(RankExtraction, TakesMoreRanksThanSamples)
 {
   const auto cloud = uvol_test::makeCloud("uniform", 5, 4);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.4};
   for (const std::size_t size : {1, 2, 5}) {
     cloud->resize(size);
@@ -267,7 +272,7 @@ TEST(RankExtraction, TakesMoreRanksThanSamples)
 TEST(RankExtraction, TakesManyRanks)
 {
   const auto cloud = uvol_test::makeCloud("clustered", 12000, 6);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.3};
   const Alone alone(cloud, settings);
   EXPECT_GT(alone.isopoints.size(), 300u);
@@ -276,7 +281,7 @@ TEST(RankExtraction, TakesManyRanks)
 
 TEST(RankExtraction, RefusesNothingAtAll)
 {
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.isovalues = {0.4};
   EXPECT_THROW(Together(Cloud(), settings, 3, in_turn(3)), pcl_uvol::InvalidArgument);
 }

@@ -22,7 +22,8 @@ constexpr double step = 1.0 / 255.0;
 constexpr Rgba red = 0xff0000ff, green = 0xff00ff00;
 
 Scene
-sceneOf(const std::vector<PointSplat>& splats, const std::vector<Rgba>& colors)
+sceneOf(const std::vector<pcl_uvol::PointSplat>& splats,
+        const std::vector<Rgba>& colors)
 {
   Scene scene;
   scene.lights.clear();
@@ -80,7 +81,7 @@ TEST(SplatTracing, ThinSheetsAreNotAveraged)
 
 TEST(SplatTracing, NormalsFollowTheField)
 {
-  PointSplat splat = discAt({0, 0, 0}, {0, 0, 1}, 2.0);
+  pcl_uvol::PointSplat splat = discAt({0, 0, 0}, {0, 0, 1}, 2.0);
   splat.getTangentVector3fMap() = Eigen::Vector3f::UnitX();
   splat.tilt_u = 0.05f;
   splat.tilt_v = -0.1f;
@@ -96,7 +97,7 @@ TEST(SplatTracing, NormalsFollowTheField)
 
 /** What is seen of some splats along a ray, found by looking at all of them. */
 std::optional<Vector>
-colorByBruteForce(const std::vector<PointSplat>& splats,
+colorByBruteForce(const std::vector<pcl_uvol::PointSplat>& splats,
                   const std::vector<Rgba>& colors,
                   const Vector& eye,
                   const Vector& d)
@@ -142,7 +143,7 @@ TEST(SplatTracing, FindsWhatBruteForceFinds)
   // From few splats, which are one leaf, to a tree of three levels; of all sizes.
   for (const std::size_t count : {1u, 15u, 17u, 300u, 3000u}) {
     Random random(count);
-    std::vector<PointSplat> splats;
+    std::vector<pcl_uvol::PointSplat> splats;
     std::vector<Rgba> colors;
     const auto any = [&] {
       return Vector(random.uniform(), random.uniform(), random.uniform());
@@ -176,7 +177,8 @@ TEST(SplatTracing, FindsWhatBruteForceFinds)
 
 TEST(SplatTracing, SplatsAtOnePlaceAreATreeAsWell)
 {
-  const std::vector<PointSplat> splats(5000, discAt({0, 0, 0}, {0, 0, 1}, 1.0));
+  const std::vector<pcl_uvol::PointSplat> splats(5000,
+                                                 discAt({0, 0, 0}, {0, 0, 1}, 1.0));
   const Camera camera = looking({0.3, 0.0, 10.0}, {0.3, 0.0, 0.0}, 0.1, {0, 1, 0});
   const Image image = trace(sceneOf(splats, {}), camera, 2);
   EXPECT_EQ(1.0, channelAt(image, 0, 0));
@@ -193,11 +195,11 @@ sphereOfSplats(std::size_t points, double delta, double lambda)
   std::vector<std::uint32_t> all(cloud->size());
   std::iota(all.begin(), all.end(), 0u);
   pcl_uvol::Report report;
-  auto splats =
-      pcl_uvol::generateSplats(pcl_uvol::viewOf(*cloud), all, parameters, report);
+  auto splats = pcl_uvol::detail::generateSplats(
+      pcl_uvol::viewOf(*cloud), all, parameters, 0, report);
   pcl_uvol::SplatObject object;
   object.splats =
-      pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));
+      pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
   return object;
 }
 

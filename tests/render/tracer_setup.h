@@ -101,10 +101,10 @@ rayThrough(const pcl_uvol::Camera& camera, int size, int column, int row)
 }
 
 /** \brief A disc with one normal everywhere. */
-inline PointSplat
+inline pcl_uvol::PointSplat
 discAt(const Vector& center, const Vector& normal, double radius)
 {
-  PointSplat splat;
+  pcl_uvol::PointSplat splat;
   const Vector n = normal.normalized();
   splat.getVector3fMap() = center.cast<float>();
   splat.getNormalVector3fMap() = n.cast<float>();
@@ -115,11 +115,12 @@ discAt(const Vector& center, const Vector& normal, double radius)
 
 /** \brief An object of splats, one colour each. */
 inline pcl_uvol::SplatObject
-objectOf(const std::vector<PointSplat>& splats,
+objectOf(const std::vector<pcl_uvol::PointSplat>& splats,
          const std::vector<pcl_uvol::Rgba>& colors = {})
 {
-  const pcl::PointCloud<PointSplat>::Ptr cloud(new pcl::PointCloud<PointSplat>);
-  for (const PointSplat& splat : splats)
+  const pcl::PointCloud<pcl_uvol::PointSplat>::Ptr cloud(
+      new pcl::PointCloud<pcl_uvol::PointSplat>);
+  for (const pcl_uvol::PointSplat& splat : splats)
     cloud->push_back(splat);
   pcl_uvol::SplatObject object;
   object.splats = cloud;

@@ -21,10 +21,10 @@ constexpr double room = 8.0;
 constexpr double link = 2.0;
 
 std::size_t
-countComponents(const pcl::PointCloud<PointIso>& surface)
+countComponents(const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {
   const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
-  for (const PointIso& point : surface)
+  for (const pcl_uvol::PointIso& point : surface)
     points->push_back({point.x, point.y, point.z});
   pcl::search::KdTree<pcl::PointXYZ> search;
   search.setInputCloud(points);
@@ -125,7 +125,7 @@ makeNoisyCloud(const std::string& name,
   return noisy;
 }
 
-pcl::PointCloud<PointIso>
+pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
           pcl_uvol::Interpolation interpolation)
 {
@@ -133,17 +133,17 @@ isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(0.0);
   extraction.setInterpolation(interpolation);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   return surface;
 }
 
 SurfaceQuality
-measure(const NoisyCloud& noisy, const pcl::PointCloud<PointIso>& surface)
+measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {
   constexpr double degrees = 180.0 / 3.14159265358979;
   double sum = 0.0, squares = 0.0, angles = 0.0;
-  for (const PointIso& point : surface) {
+  for (const pcl_uvol::PointIso& point : surface) {
     const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
     const double inside = noisy.shape.distance(x);
     const Eigen::Vector3d outwards = -gradientOf(noisy.shape, x);

@@ -47,7 +47,7 @@ makeNoisyCloud(const std::string& shape,
                std::uint64_t seed);
 
 /** \brief The zero level of the intensity. */
-pcl::PointCloud<PointIso>
+pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
           pcl_uvol::Interpolation interpolation);
 
@@ -60,6 +60,6 @@ struct SurfaceQuality {
 };
 
 SurfaceQuality
-measure(const NoisyCloud& noisy, const pcl::PointCloud<PointIso>& surface);
+measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surface);
 
 } // namespace uvol_test

@@ -29,7 +29,7 @@ gradientOf(const SmoothField& field, const Vector& x)
 
 /** Distance to the isosurface, along the gradient. */
 double
-deviation(const SmoothField& field, const PointIso& point)
+deviation(const SmoothField& field, const pcl_uvol::PointIso& point)
 {
   const Vector start(point.x, point.y, point.z);
   Vector x = start;
@@ -131,10 +131,10 @@ sampleSmoothField(const SmoothField& field,
 }
 
 std::vector<double>
-deviations(const SmoothField& field, const pcl::PointCloud<PointIso>& surface)
+deviations(const SmoothField& field, const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {
   std::vector<double> result;
-  for (const PointIso& point : surface)
+  for (const pcl_uvol::PointIso& point : surface)
     result.push_back(deviation(field, point));
   return result;
 }

@@ -35,7 +35,8 @@ meanCurvatureOf(const SmoothField& field, const Eigen::Vector3d& x);
 
 /** \brief Distance of every point to the isosurface, along the gradient. */
 std::vector<double>
-deviations(const SmoothField& field, const pcl::PointCloud<PointIso>& surface);
+deviations(const SmoothField& field,
+           const pcl::PointCloud<pcl_uvol::PointIso>& surface);
 
 /** \brief n samples, uniform, or clustered about the origin: density ~ r^-3 over a
  * factor 27,000. The scalar is that at the position in single precision.

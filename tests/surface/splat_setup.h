@@ -14,7 +14,7 @@
 
 namespace uvol_test {
 
-using SplatCloud = pcl::PointCloud<PointSplat>;
+using SplatCloud = pcl::PointCloud<pcl_uvol::PointSplat>;
 using SplatStage = pcl_uvol::SplatGeneration<pcl::PointNormal>;
 
 /** \param delta a length */
@@ -37,7 +37,7 @@ struct Disc {
   double radius, error;
   Eigen::Vector2d tilt, slope;
 
-  explicit Disc(const PointSplat& splat)
+  explicit Disc(const pcl_uvol::PointSplat& splat)
       : center(splat.getVector3fMap().cast<double>())
       , radius(splat.radius)
       , error(splat.error)
@@ -103,7 +103,7 @@ normalOf(const pcl::PointNormal& point)
 
 /** \brief The numbers of a splat, without the padding between them. */
 inline std::vector<float>
-numbersOf(const PointSplat& s)
+numbersOf(const pcl_uvol::PointSplat& s)
 {
   return {s.x,
           s.y,
@@ -126,7 +126,7 @@ inline std::string
 bytesOf(const SplatCloud& splats)
 {
   std::string bytes;
-  for (const PointSplat& splat : splats) {
+  for (const pcl_uvol::PointSplat& splat : splats) {
     const std::vector<float> numbers = numbersOf(splat);
     bytes.append(reinterpret_cast<const char*>(numbers.data()),
                  numbers.size() * sizeof(float));

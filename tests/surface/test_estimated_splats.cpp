@@ -16,7 +16,7 @@ estimate(const pcl::PointCloud<pcl::PointNormal>& cloud, double delta)
   pcl_uvol::SplatParameters parameters;
   parameters.delta = delta;
   parameters.delta_is_length = true;
-  return pcl_uvol::estimateSplats(pcl_uvol::viewOf(cloud), parameters);
+  return pcl_uvol::estimateSplats(pcl_uvol::viewOf(cloud), parameters, 0);
 }
 
 TEST(EstimatedSplats, AreAboutAsManyAsThereWillBe)

@@ -62,7 +62,7 @@ computeWith(SplatStage& generation, const SurfaceCloudPtr& cloud)
 void
 expectUsable(const SplatCloud& splats)
 {
-  for (const PointSplat& splat : splats) {
+  for (const pcl_uvol::PointSplat& splat : splats) {
     for (const float number : numbersOf(splat))
       EXPECT_TRUE(std::isfinite(number));
     const Disc disc(splat);
@@ -98,7 +98,7 @@ TEST(SplatGeneration, TwoPointsMeetHalfWay)
   for (const double delta : {1e-6, 0.1, 100.0}) {
     const auto splats = makeSplats(cloud, delta, 1.0);
     ASSERT_EQ(splats.size(), 2u) << delta;
-    for (const PointSplat& splat : splats)
+    for (const pcl_uvol::PointSplat& splat : splats)
       EXPECT_FLOAT_EQ(splat.radius, 1.5f);
     expectUsable(splats);
   }
@@ -112,7 +112,7 @@ TEST(SplatGeneration, PointsOfALineMeetHalfWay)
   for (const double delta : {1e-3, 100.0}) {
     const auto splats = makeSplats(makeCloud(places), delta, 0.2);
     EXPECT_EQ(splats.size(), places.size());
-    for (const PointSplat& splat : splats)
+    for (const pcl_uvol::PointSplat& splat : splats)
       EXPECT_FLOAT_EQ(splat.radius, 0.5f * places[1].norm());
     expectUsable(splats);
   }
@@ -175,8 +175,8 @@ TEST(SplatGeneration, EstimatesNormalsWhereThereAreNone)
   pcl_uvol::SplatParameters parameters;
   parameters.delta = 4e-3;
   parameters.delta_is_length = true;
-  const auto splats = pcl_uvol::generateSplats(
-      pcl_uvol::viewOf(bare), allOf(bare.size()), parameters, report);
+  const auto splats = pcl_uvol::detail::generateSplats(
+      pcl_uvol::viewOf(bare), allOf(bare.size()), parameters, 0, report);
   ASSERT_EQ(report.warnings.size(), 1u);
   EXPECT_NE(report.warnings[0].find("no normals"), std::string::npos);
   EXPECT_LT(splats.cloud.size(), bare.size());
@@ -318,7 +318,7 @@ TEST(SplatGeneration, IsTheSameInAnyUnitOfLength)
   generation.setDelta(1e-3);
   const auto meanRadius = [](const SplatCloud& splats) {
     double sum = 0.0;
-    for (const PointSplat& splat : splats)
+    for (const pcl_uvol::PointSplat& splat : splats)
       sum += splat.radius;
     return sum / static_cast<double>(splats.size());
   };
@@ -335,7 +335,7 @@ TEST(SplatGeneration, IsTheSameInAnyUnitOfLength)
     EXPECT_NEAR(meanRadius(splats) / unit, meanRadius(expected), 1e-3) << unit;
     if (std::log2(unit) != std::floor(std::log2(unit)))
       continue;
-    for (PointSplat& splat : splats) { // powers of two do not round
+    for (pcl_uvol::PointSplat& splat : splats) { // powers of two do not round
       splat.getVector3fMap() /= unit;
       splat.radius /= unit;
       splat.error /= unit;
@@ -369,9 +369,10 @@ TEST(SplatGeneration, KeepsTheHeaderAndTakesIsopoints)
   const auto sphere = makeSphere(1000, 9);
   sphere->header.frame_id = "laboratory";
   sphere->header.stamp = 42;
-  const pcl::PointCloud<PointIso>::Ptr isopoints(new pcl::PointCloud<PointIso>);
+  const pcl::PointCloud<pcl_uvol::PointIso>::Ptr isopoints(
+      new pcl::PointCloud<pcl_uvol::PointIso>);
   for (const auto& point : *sphere) {
-    PointIso isopoint;
+    pcl_uvol::PointIso isopoint;
     isopoint.getVector3fMap() = point.getVector3fMap();
     isopoint.getNormalVector3fMap() = point.getNormalVector3fMap();
     isopoints->push_back(isopoint);
@@ -382,7 +383,7 @@ TEST(SplatGeneration, KeepsTheHeaderAndTakesIsopoints)
   EXPECT_EQ(splats.header.stamp, 42u);
   EXPECT_EQ(splats.width, splats.size());
   EXPECT_EQ(splats.height, 1u);
-  pcl_uvol::SplatGeneration<PointIso> of_isopoints;
+  pcl_uvol::SplatGeneration<pcl_uvol::PointIso> of_isopoints;
   of_isopoints.setInputCloud(isopoints);
   SplatCloud others;
   of_isopoints.compute(others);

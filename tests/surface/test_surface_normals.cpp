@@ -166,10 +166,10 @@ TEST(SurfaceNormals, DuplicatesAndNonFinitePointsStayInLine)
 
 TEST(SurfaceNormals, OfSeveralIsosurfacesAreFittedOneByOne)
 {
-  pcl::PointCloud<PointIso> isopoints;
+  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   for (const float z : {0.0f, 0.5f}) // as near to each other as their points
     for (int i = 0; i < 400; ++i) {
-      PointIso point;
+      pcl_uvol::PointIso point;
       point.x = static_cast<float>(i % 20);
       point.y = static_cast<float>(i / 20);
       point.z = z;
@@ -179,8 +179,8 @@ TEST(SurfaceNormals, OfSeveralIsosurfacesAreFittedOneByOne)
       isopoints.push_back(point);
     }
   pcl_uvol::Report report;
-  pcl_uvol::replaceNormals(isopoints, {}, report);
-  for (const PointIso& point : isopoints)
+  pcl_uvol::detail::replaceNormals(isopoints, {}, 0, report);
+  for (const pcl_uvol::PointIso& point : isopoints)
     EXPECT_NEAR(point.isovalue == 0.0f ? 1.0f : -1.0f, point.normal_z, 1e-6f);
 }
 

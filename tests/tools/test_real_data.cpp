@@ -141,7 +141,7 @@ TEST_P(OnSmallRealData, EdgesEqualBruteForce)
   const std::string isovalues = data.isovalues;
   const double isovalue = std::stod(isovalues.substr(isovalues.rfind(',') + 1));
   extraction.setIsoValue(isovalue);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
 
   // With merged duplicates any member may stand for the sample: compare by sample.
@@ -191,7 +191,7 @@ TEST(RealData, NoOvershootAtTheCoreOfAPlanet)
   extraction.setInputCloud(cloud);
   extraction.setScalarField("rho_g_cm3");
   extraction.setIsoValue(8.0);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   EXPECT_GT(surface.size(), 500u);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);

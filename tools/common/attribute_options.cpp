@@ -88,11 +88,20 @@ AttributeOptions::cluster(const Options& options,
                           pcl_uvol::Report& report) const
 {
   checkPosition(dataset);
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  pcl_uvol::ClusteringParameters with_threads = parameters;
-  with_threads.threads = options.threads();
-  return pcl_uvol::clusterCloud(
-      cloud, allOf(cloud), required(), is_standardized_, with_threads, report);
+  pcl_uvol::DensityClustering<pcl::PCLPointCloud2> clustering;
+  clustering.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  clustering.setParameters(parameters);
+  clustering.setAttributes(required());
+  clustering.setStandardized(is_standardized_);
+  clustering.setNumberOfThreads(options.threads());
+  clustering.setProgressCallback(report.progress);
+  pcl_uvol::Clustering found;
+  clustering.compute(found.labels);
+  report.merge(clustering.getReport());
+  found.probabilities = clustering.getProbabilities();
+  found.tree = clustering.getTree();
+  return found;
 }
 
 void

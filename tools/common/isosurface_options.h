@@ -4,7 +4,7 @@
 
 #include "common/options.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/isosurface/piece_isopoints.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <sstream>
 #include <string>
@@ -12,10 +12,12 @@
 
 namespace uvol_tools {
 
+/** \brief Options that fill the parameters of the pipeline. */
 struct IsosurfaceOptions {
-  std::string field, where, scale, outside = "lower", criterion = "kept",
-                                   interpolation = "smooth";
-  std::vector<double> isovalues, xyz;
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  std::string where;
+
+  IsosurfaceOptions();
 
   /** \brief -iso, -field, -where, -scale, -xyz, -outside.
    * \param automatic -scale takes auto */
@@ -26,17 +28,18 @@ struct IsosurfaceOptions {
   void
   declareMethod(Options& options);
 
-  /** \throws UsageError without an isovalue */
+  /** \brief Complete the parameters by what has been parsed.
+   * \throws UsageError without an isovalue, and for a scale that is none */
   void
-  check() const;
+  finish();
 
   /** \throws UsageError for columns that are none */
   pcl_uvol::LoadOptions
   makeLoadOptions() const;
 
-  /** \brief But for the field and the scale, which depend on the samples. */
-  pcl_uvol::IsosurfaceSettings
-  makeSettings() const;
+private:
+  std::string scale_;
+  std::vector<double> xyz_;
 };
 
 /** \brief Numbers between commas. */

@@ -7,11 +7,11 @@
 
 namespace uvol_tools {
 
-double
+std::optional<double>
 parseMu(const std::string& text)
 {
   if (text == "auto")
-    return pcl_uvol::LevelSetParameters::automatic;
+    return std::nullopt;
   const double mu = parseNumbers("mu", text, 1).front();
   if (mu < 0.0 || mu > 1.0)
     throw UsageError("-mu takes auto or a number from 0 to 1, but got " + text + ".");

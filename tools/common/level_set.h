@@ -4,14 +4,16 @@
 
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace uvol_tools {
 
-/** \brief The value of -mu: a number in [0, 1], or "auto". \throws UsageError */
-double
+/** \brief The value of -mu: a number in [0, 1], or none for "auto".
+ * \throws UsageError */
+std::optional<double>
 parseMu(const std::string& text);
 
 /** \brief What an evolution found out, for the report. */

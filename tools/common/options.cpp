@@ -154,16 +154,30 @@ Options::choice(const std::string& name,
                 std::string& target,
                 const std::string& help)
 {
-  const auto assign = [name, words, &target](const std::string& value) {
-    if (std::find(words.begin(), words.end(), value) == words.end())
-      throw UsageError("-" + name + " is " + joined(words, " or ") + ", not '" + value +
+  choice(name, words, words, target, help, [&target](const std::string& word) {
+    target = word;
+  });
+}
+
+void
+Options::choice(const std::string& name,
+                const std::vector<std::string>& shown,
+                const std::vector<std::string>& allowed,
+                const std::string& default_word,
+                const std::string& help,
+                const std::function<void(const std::string&)>& assign)
+{
+  const auto check = [name, shown, allowed, assign](const std::string& value) {
+    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+      throw UsageError("-" + name + " is " + joined(shown, " or ") + ", not '" + value +
                        "'.");
-    target = value;
+    assign(value);
   };
-  options_.push_back({name,
-                      joined(words, "|"),
-                      target.empty() ? help : help + " (default " + target + ")",
-                      assign});
+  options_.push_back(
+      {name,
+       joined(shown, "|"),
+       default_word.empty() ? help : help + " (default " + default_word + ")",
+       check});
 }
 
 void

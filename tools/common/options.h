@@ -3,6 +3,7 @@
 // an unknown option, a missing or malformed value and a leftover argument are errors.
 #pragma once
 
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/report.h>
 
 #include <array>
@@ -52,6 +53,21 @@ public:
          const std::vector<std::string>& words,
          std::string& target,
          const std::string& help);
+  /** \brief One of the words of an enumeration, see EnumWord. */
+  template <typename Enum>
+  void
+  choice(const std::string& name, Enum& target, const std::string& help)
+  {
+    std::vector<std::string> shown, all;
+    for (const auto& [value, word] : listWords(Enum())) {
+      all.emplace_back(word);
+      if (word == std::string(toWord(value)))
+        shown.emplace_back(word);
+    }
+    choice(name, shown, all, toWord(target), help, [&target](const std::string& word) {
+      fromWord(word, target);
+    });
+  }
   /** \brief A finite number in [minimum, maximum]; a default that cannot be
    * given is not shown. */
   void
@@ -116,6 +132,16 @@ private:
     bool required;
     std::vector<std::string>* targets = nullptr; // of one that takes several
   };
+
+  /** \param shown words in the help \param allowed those and other words for the same
+   */
+  void
+  choice(const std::string& name,
+         const std::vector<std::string>& shown,
+         const std::vector<std::string>& allowed,
+         const std::string& default_word,
+         const std::string& help,
+         const std::function<void(const std::string&)>& assign);
 
   Option&
   find(const std::string& argument);

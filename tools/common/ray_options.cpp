@@ -80,8 +80,11 @@ RayOptions::makeScene(const Options& options,
                       std::array<double, 2>& range,
                       pcl_uvol::Report& report) const
 {
-  pcl_uvol::Splats splats = pcl_uvol::splatsOf(
-      cloud, splats_.parameters(options), splats_.isGiven(options), report);
+  pcl_uvol::Splats splats = pcl_uvol::findSplats(cloud,
+                                                 splats_.parameters(options),
+                                                 splats_.isGiven(options),
+                                                 options.threads(),
+                                                 report);
   if (splats.cloud.empty())
     throw pcl_uvol::InvalidArgument("None of the input's splats is usable.");
   pcl_uvol::SplatObject object;
@@ -94,7 +97,7 @@ RayOptions::makeScene(const Options& options,
       object.colors.push_back(colored.colors[source]);
   }
   object.splats =
-      pcl::make_shared<pcl::PointCloud<PointSplat>>(std::move(splats.cloud));
+      pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
   static_cast<pcl_uvol::Material&>(object.material) = view.getMaterial();
   object.material.reflectivity = reflectivity_;
   object.material.transparency = transparency_;

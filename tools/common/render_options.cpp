@@ -2,6 +2,7 @@
 #include "common/render_options.h"
 
 #include <pcl_uvol/gl/gl_backend.h>
+#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/render/image_space/cpu_backend.h>
 
 #include <memory>
@@ -121,6 +122,32 @@ RenderOptions::configure(const Options& options,
   renderer.setBackend(makeBackend(backend_));
   renderer.setSize(getWidth(), getHeight());
   renderer.setSupersampling(getSupersampling());
+}
+
+std::string
+RenderOptions::drawCloud(const Options& options,
+                         const pcl_uvol::Dataset& surface,
+                         const std::string& output,
+                         pcl_uvol::Report& report) const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
+  configure(options, cloud, renderer);
+  const pcl_uvol::Camera camera = makeCamera(renderer.getBounds(), surface.origin);
+  pcl_uvol::Image image;
+  pcl_uvol::Report drawing;
+  for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
+    renderer.setCamera(turned(camera, frame));
+    renderer.render(image);
+    drawing = renderer.getReport();
+    decorate(cloud, renderer.getColorRange(), image);
+    const pcl_uvol::StepTimer timer(report, "write");
+    pcl_uvol::savePng(frameName(output, frame), image);
+  }
+  report.merge(drawing);
+  return renderer.describeBackend();
 }
 
 } // namespace uvol_tools

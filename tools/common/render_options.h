@@ -4,6 +4,7 @@
 #pragma once
 
 #include "common/view_options.h"
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <string>
@@ -31,6 +32,13 @@ public:
   applyLook(const Options& options,
             const pcl_uvol::CloudView& cloud,
             pcl_uvol::ImageSpaceRendererBase& renderer) const;
+
+  /** \brief Draw all frames of a surface. \return what they were drawn on */
+  std::string
+  drawCloud(const Options& options,
+            const pcl_uvol::Dataset& surface,
+            const std::string& output,
+            pcl_uvol::Report& report) const;
 
   /** \brief Apply everything but the camera. */
   void

@@ -19,7 +19,7 @@ ScaleOption::scaleOf(const pcl_uvol::CloudView& cloud) const
 {
   if (is_automatic_)
     return pcl_uvol::equalizingScale(cloud);
-  return Eigen::Array3d(factors_.data()).cast<float>();
+  return getFactors();
 }
 
 } // namespace uvol_tools

@@ -17,6 +17,19 @@ public:
   /** \param text empty for factors of 1 \throws UsageError */
   explicit ScaleOption(const std::string& text);
 
+  bool
+  isAutomatic() const
+  {
+    return is_automatic_;
+  }
+
+  /** \brief The factors that were given, 1 if none were. */
+  Eigen::Array3f
+  getFactors() const
+  {
+    return Eigen::Array3d(factors_.data()).cast<float>();
+  }
+
   /** \brief Of a cloud: with auto the one that makes the spread equal along all axes.
    */
   Eigen::Array3f

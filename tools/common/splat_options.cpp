@@ -24,7 +24,6 @@ pcl_uvol::SplatParameters
 SplatOptions::parameters(const Options& options) const
 {
   pcl_uvol::SplatParameters parameters = parameters_;
-  parameters.threads = options.threads();
   if (!options.given("delta-abs"))
     return parameters;
   if (options.given("delta"))

@@ -3,10 +3,8 @@
 
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/Geometry>
-#include <pcl/conversions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,11 +64,11 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
                            unsigned threads)
     : origin_(dataset.origin)
     , field_(field)
-    , threads_(threads)
 {
   if (dataset.cloud.width == 0)
     throw InvalidArgument("There are no points to be shown.");
-  samples_ = Cloud::ConstPtr(new Cloud(std::move(dataset.cloud)));
+  const auto samples = std::make_shared<const pcl_uvol::Dataset>(std::move(dataset));
+  samples_ = Cloud::ConstPtr(samples, &samples->cloud);
   if (field_.empty()) {
     cloud_ = samples_;
     return;
@@ -79,9 +77,8 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   if (!(range_[0] < range_[1]))
     throw InvalidArgument("All values of " + field_ +
                           " are equal: there is no isosurface between them.");
-  extraction_.setInputCloud(samples_);
-  extraction_.setScalarField(field_);
-  extraction_.setNumberOfThreads(threads_);
+  pipeline_.setInput(samples);
+  pipeline_.setNumberOfThreads(threads);
 }
 
 void
@@ -93,21 +90,16 @@ ShownSurface::setIsoValue(double isovalue)
          << ", the range of " << field_ << ", and is not " << isovalue << ".";
     throw InvalidArgument(text.str());
   }
-  extraction_.setIsoValue(isovalue);
-  pcl::PointCloud<PointIso> isopoints;
-  extraction_.extract(isopoints);
-  report_ = extraction_.getReport();
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = field_;
+  parameters.isosurface.isovalues = {isovalue};
+  pipeline_.setParameters(parameters);
+  pcl_uvol::IsosurfaceResult result = pipeline_.run();
+  report_ = std::move(result.report);
   isovalue_ = isovalue;
   cloud_.reset();
-  if (isopoints.empty())
-    return;
-  pcl_uvol::SurfaceNormalParameters parameters;
-  parameters.threads = threads_;
-  pcl_uvol::replaceMissingNormals(isopoints, parameters, report_);
-  const Cloud::Ptr cloud(new Cloud);
-  pcl::toPCLPointCloud2(isopoints, *cloud);
-  pcl_uvol::interpolateFields(*samples_, extraction_.getEdges(), *cloud, threads_);
-  cloud_ = cloud;
+  if (result.surface.cloud.width > 0)
+    cloud_ = pcl::make_shared<Cloud>(std::move(result.surface.cloud));
 }
 
 pcl_uvol::BoundingSphere

@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/render/camera.h>
 
 #include <array>
@@ -79,8 +79,7 @@ private:
   std::string field_;
   std::array<double, 2> range_{{0.0, 0.0}};
   double isovalue_ = 0.0;
-  unsigned threads_;
-  pcl_uvol::IsosurfaceExtraction<Cloud> extraction_;
+  pcl_uvol::IsosurfacePipeline pipeline_;
   pcl_uvol::Report report_;
 };
 

@@ -11,14 +11,20 @@
 
 namespace pcl_uvol {
 
-/** \brief Base of everything this library throws on purpose. message() is the bare
- * sentence; what() is PCL's form of it. */
+/** \brief Base of everything this library throws on purpose. message() and
+ * what() are the bare sentence, without the place that PCL puts in front. */
 class PCL_UVOL_EXPORTS Exception : public pcl::PCLException {
 public:
   explicit Exception(const std::string& message)
       : pcl::PCLException(message)
       , message_(message)
   {
+  }
+
+  const char*
+  what() const noexcept override
+  {
+    return message_.c_str();
   }
 
   const std::string&

@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/export.h>
 
 #include <pcl/pcl_base.h>
+#include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
 
@@ -21,8 +22,6 @@ enum class IsoSupport : std::uint8_t {
   Rim = 3       ///< beside a wide cone without samples: border of a gap or of the cloud
 };
 
-} // namespace pcl_uvol
-
 /** \brief One point of an isosurface. Lengths are in units of the coordinates.
  *
  * normal_x/y/z: unit vector to the outside, where values are lower (as for densities
@@ -30,7 +29,7 @@ enum class IsoSupport : std::uint8_t {
  * was extracted for, in units of the scalar field; mean_curvature: 1/length, positive
  * where the enclosed side is convex, NaN where no fit gave one; error: estimated
  * distance to the true surface, NaN where there is no estimate; edge_length: distance
- * of the two samples the point lies between; support: a pcl_uvol::IsoSupport. */
+ * of the two samples the point lies between; support: an IsoSupport. */
 struct EIGEN_ALIGN16 PointIso {
   PCL_ADD_POINT4D;
   PCL_ADD_NORMAL4D;
@@ -56,7 +55,7 @@ struct EIGEN_ALIGN16 PointIso {
     isovalue = edge_length = 0.0f;
     mean_curvature = error = std::numeric_limits<float>::quiet_NaN();
     data_s[0] = data_s[1] = data_s[2] = data_s[3] = 0.0f;
-    support = static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Unknown);
+    support = static_cast<std::uint8_t>(IsoSupport::Unknown);
   }
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
@@ -122,24 +121,34 @@ struct EIGEN_ALIGN16 PointSplat {
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
+/** \brief Isopoints as PCL's own points with normals, for algorithms that PCL has
+ * compiled for these: clustering, triangulation, registration. curvature is the mean
+ * curvature.
+ */
+PCL_UVOL_EXPORTS pcl::PointCloud<pcl::PointNormal>
+toPointNormal(const pcl::PointCloud<PointIso>& isopoints);
+
+} // namespace pcl_uvol
+
 // clang-format off
-POINT_CLOUD_REGISTER_POINT_STRUCT(PointIso,
+POINT_CLOUD_REGISTER_POINT_STRUCT(pcl_uvol::PointIso,
     (float, x, x)(float, y, y)(float, z, z)
     (float, normal_x, normal_x)(float, normal_y, normal_y)(float, normal_z, normal_z)
     (float, isovalue, isovalue)(float, mean_curvature, mean_curvature)
     (float, error, error)(float, edge_length, edge_length)
     (std::uint8_t, support, support))
-POINT_CLOUD_REGISTER_POINT_STRUCT(PointSplat,
+POINT_CLOUD_REGISTER_POINT_STRUCT(pcl_uvol::PointSplat,
     (float, x, x)(float, y, y)(float, z, z)
     (float, normal_x, normal_x)(float, normal_y, normal_y)(float, normal_z, normal_z)
     (float, radius, radius)(float, error, error)
     (float, tangent_x, tangent_x)(float, tangent_y, tangent_y)(float, tangent_z, tangent_z)
     (float, tilt_u, tilt_u)(float, tilt_v, tilt_v)
     (float, slope_u, slope_u)(float, slope_v, slope_v))
-POINT_CLOUD_REGISTER_POINT_STRUCT(PointGradient,
+POINT_CLOUD_REGISTER_POINT_STRUCT(pcl_uvol::PointGradient,
     (float, gradient_x, gradient_x)(float, gradient_y, gradient_y)
     (float, gradient_z, gradient_z)(float, mean_curvature, mean_curvature))
 // clang-format on
 
-// What stages on isosurfaces derive from; PCL has it compiled for its own types only.
-extern template class PCL_UVOL_EXPORTS pcl::PCLBase<PointIso>;
+// What stages on isosurfaces derive from. PCL has it, KdTreeFLANN and search::KdTree
+// compiled for its own types only; core has all of them for isopoints.
+extern template class PCL_UVOL_EXPORTS pcl::PCLBase<pcl_uvol::PointIso>;

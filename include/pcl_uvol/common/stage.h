@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the stages have in common besides their input: threads, progress and report.
+// What the stages have in common besides their input: parameters, threads, progress and
+// report.
 #pragma once
 
 #include <pcl_uvol/common/report.h>
@@ -14,6 +15,11 @@ public:
   setNumberOfThreads(unsigned threads)
   {
     threads_ = threads;
+  }
+  unsigned
+  getNumberOfThreads() const
+  {
+    return threads_;
   }
 
   /** \brief Told while the stage runs; see ProgressCallback. Default: nobody is. */
@@ -47,6 +53,32 @@ protected:
 
 private:
   ProgressCallback progress_;
+};
+
+/** \brief Base of the stages whose parameters are a plain struct; their setters set its
+ * members one by one. */
+template <typename ParametersT>
+class ParameterStage : public Stage {
+public:
+  using Parameters = ParametersT;
+
+  /** \brief All of them at once; they are checked when the stage runs. */
+  void
+  setParameters(const Parameters& parameters)
+  {
+    parameters_ = parameters;
+  }
+  const Parameters&
+  getParameters() const
+  {
+    return parameters_;
+  }
+
+protected:
+  ParameterStage() = default;
+  ~ParameterStage() = default;
+
+  Parameters parameters_;
 };
 
 } // namespace pcl_uvol

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/derivatives/local_fit.h>
@@ -14,29 +16,55 @@
 #include <pcl/search/search.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief How gradients are estimated; the setters of GradientEstimation tell more. */
-struct GradientParameters {
+/** \brief Parameters of GradientEstimation. */
+struct PCL_UVOL_EXPORTS GradientParameters {
+  std::string field = "intensity"; ///< see ScalarField
   FitScheme scheme = FitScheme::Quadratic;
+  /** Nearest neighbours besides the sample, all others where there are fewer: at least
+   * 3, with the quadratic scheme 9; 26 as in the thesis. */
   std::size_t k = 26;
-  unsigned threads = 0;
-  pcl::search::Search<pcl::PointXYZ>::Ptr search; ///< null: FLANN
+
+  static auto
+  listMembers()
+  {
+    using Own = GradientParameters;
+    return std::make_tuple(Member{"field", &Own::field},
+                           Member{"scheme", &Own::scheme},
+                           Member{"k", &Own::k});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static GradientParameters
+  fromJson(const std::string& text);
 };
+
+namespace detail {
 
 /** \brief The kernel of GradientEstimation for any cloud.
  * \param indices points to take part, as neighbours and in the result
+ * \param search null: FLANN
  * \return one gradient per index \throws InvalidArgument as GradientEstimation::compute
  */
 PCL_UVOL_EXPORTS std::vector<PointGradient>
 estimateGradients(const CloudView& cloud,
-                  const std::vector<int>& indices,
-                  const std::string& field,
+                  const pcl::Indices& indices,
                   const GradientParameters& parameters,
+                  const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                  unsigned threads,
                   Report& report);
+
+} // namespace detail
 
 /** \brief Gradient of a scalar field given at scattered points, in the manner of
  * pcl::IntensityGradientEstimation, but for a field of the volume.
@@ -50,13 +78,22 @@ estimateGradients(const CloudView& cloud,
  * values. \tparam PointInT with x, y, z \tparam PointOutT with gradient_x/y/z; with
  * mean_curvature it gets that too */
 template <typename PointInT, typename PointOutT = PointGradient>
-class GradientEstimation : public pcl::PCLBase<PointInT>, public Stage {
+class GradientEstimation : public pcl::PCLBase<PointInT>,
+                           public ParameterStage<GradientParameters> {
 public:
+  using Ptr = std::shared_ptr<GradientEstimation<PointInT, PointOutT>>;
+  using ConstPtr = std::shared_ptr<const GradientEstimation<PointInT, PointOutT>>;
+
   /** \brief Any field of the cloud, see ScalarField. Default `intensity`. */
   void
   setScalarField(const std::string& field)
   {
-    field_ = field;
+    parameters_.field = field;
+  }
+  const std::string&
+  getScalarField() const
+  {
+    return parameters_.field;
   }
 
   /** \brief Nearest neighbours besides the sample, all others where there are fewer: at
@@ -66,12 +103,22 @@ public:
   {
     parameters_.k = k;
   }
+  std::size_t
+  getKSearch() const
+  {
+    return parameters_.k;
+  }
 
   /** \brief Default FitScheme::Quadratic. */
   void
   setScheme(FitScheme scheme)
   {
     parameters_.scheme = scheme;
+  }
+  FitScheme
+  getScheme() const
+  {
+    return parameters_.scheme;
   }
 
   /** \brief How neighbours are found. The search gets the distinct samples as its input
@@ -80,7 +127,12 @@ public:
   void
   setSearchMethod(const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
   {
-    parameters_.search = search;
+    search_ = search;
+  }
+  const pcl::search::Search<pcl::PointXYZ>::Ptr&
+  getSearchMethod() const
+  {
+    return search_;
   }
 
   /** \brief One output point per input point or index. A point without finite
@@ -94,8 +146,7 @@ public:
   compute(pcl::PointCloud<PointOutT>& output);
 
 private:
-  std::string field_ = "intensity";
-  GradientParameters parameters_;
+  pcl::search::Search<pcl::PointXYZ>::Ptr search_;
 };
 
 } // namespace pcl_uvol

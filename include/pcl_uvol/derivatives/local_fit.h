@@ -4,8 +4,10 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/neighbors/kd_tree.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +22,12 @@ enum class FitScheme {
             ///< exp(-2 d^2 / h^2), h a little more than the farthest neighbour; second
             ///< order, with second derivatives (default)
 };
+
+constexpr std::array<EnumWord<FitScheme>, 2>
+listWords(FitScheme)
+{
+  return {{{FitScheme::Linear, "linear"}, {FitScheme::Quadratic, "quadratic"}}};
+}
 
 /** \brief First and, with the quadratic scheme, second derivatives: x y z, then xx xy
  * xz yy yz zz. */

@@ -72,10 +72,14 @@ public:
   vtkGetMacro(Outside, int);
   /** @} */
 
-  enum InterpolationKind { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
+  enum InterpolationKind {
+    INTERPOLATION_LINEAR,
+    INTERPOLATION_FIT,
+    INTERPOLATION_SMOOTH = INTERPOLATION_FIT ///< the older name
+  };
   /** \brief Isopoints along the edges, with normals by principal components of the 30
    * nearest, or on local polynomial fits (default). @{ */
-  vtkSetClampMacro(Interpolation, int, INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH);
+  vtkSetClampMacro(Interpolation, int, INTERPOLATION_LINEAR, INTERPOLATION_FIT);
   vtkGetMacro(Interpolation, int);
   /** @} */
 
@@ -113,7 +117,7 @@ private:
   vtkNew<vtkContourValues> Values;
   int ArrayComponent = 0;
   int Outside = OUTSIDE_LOWER;
-  int Interpolation = INTERPOLATION_SMOOTH;
+  int Interpolation = INTERPOLATION_FIT;
   int AngleCriterion = CRITERION_KEPT;
   double Scale[3] = {1.0, 1.0, 1.0};
 

@@ -3,6 +3,7 @@
 // there.
 #pragma once
 
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
@@ -46,6 +47,13 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
  * threads 0 (default) = all cores \throws InvalidArgument if sizes disagree or an edge
  * points outside the samples */
 PCL_UVOL_EXPORTS void
+interpolateFields(const CloudView& samples,
+                  const IsoEdges& edges,
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads = 0);
+
+/** \brief The same for a cloud, which needs no positions. */
+PCL_UVOL_EXPORTS void
 interpolateFields(const pcl::PCLPointCloud2& samples,
                   const IsoEdges& edges,
                   pcl::PCLPointCloud2& isopoints,
@@ -64,8 +72,8 @@ copyFields(const pcl::PCLPointCloud2& cloud,
  * column called error, say, before fields are carried along. Coordinates and normals
  * are meant to. */
 PCL_UVOL_EXPORTS void
-warnOfReplacedFields(const pcl::PCLPointCloud2& samples,
-                     const pcl::PCLPointCloud2& isopoints,
+warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
+                     const std::vector<pcl::PCLPointField>& isopoints,
                      Report& report);
 
 } // namespace pcl_uvol

@@ -4,11 +4,12 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/neighbors/angle_criterion.h>
+#include <pcl_uvol/isosurface/isosurface_parameters.h>
 #include <pcl_uvol/neighbors/neighbor_candidates.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
@@ -24,71 +25,90 @@
 
 namespace pcl_uvol {
 
-/** \brief The side that the normals of an isosurface point to. */
-enum class Outside {
-  Lower, ///< where values are lower, as for densities (default)
-  Higher ///< where values are higher: the thesis's v = (f(x) - f(y)) (x - y)
-};
-
-/** \brief How isopoints are found between two samples. */
-enum class Interpolation {
-  Linear, ///< thesis 2.4: along the edge, normal along the edge
-  Smooth  ///< the zero level of a local cubic or quadratic fit (default)
-};
-
-/** \brief Parameters and the kernel of IsosurfaceExtraction, for any point type. */
-class PCL_UVOL_EXPORTS IsosurfaceExtractionBase : public Stage {
+/** \brief Setters and the kernel of IsosurfaceExtraction, for any point type. */
+class PCL_UVOL_EXPORTS IsosurfaceExtractionBase
+    : public ParameterStage<IsosurfaceParameters> {
 public:
   /** \brief Any field of the cloud: `density`, `vel[1]`, `|vel|`, `|vx,vy,vz|`; default
    * `intensity`. See ScalarField. */
   void
   setScalarField(const std::string& field)
   {
-    field_ = field;
+    parameters_.field = field;
+  }
+  const std::string&
+  getScalarField() const
+  {
+    return parameters_.field;
   }
 
   /** \brief One isovalue, in units of the field. */
   void
   setIsoValue(double isovalue)
   {
-    isovalues_ = {isovalue};
+    parameters_.isovalues = {isovalue};
   }
 
   /** \brief Several isovalues; their isopoints follow one another in this order. */
   void
   setIsoValues(const std::vector<double>& isovalues)
   {
-    isovalues_ = isovalues;
+    parameters_.isovalues = isovalues;
+  }
+  const std::vector<double>&
+  getIsoValues() const
+  {
+    return parameters_.isovalues;
   }
 
   /** \brief Default: Outside::Lower. */
   void
   setOutside(Outside outside)
   {
-    outside_ = outside;
+    parameters_.outside = outside;
+  }
+  Outside
+  getOutside() const
+  {
+    return parameters_.outside;
   }
 
-  /** \brief Default: Interpolation::Smooth. */
+  /** \brief Default: Interpolation::Fit. */
   void
   setInterpolation(Interpolation interpolation)
   {
-    interpolation_ = interpolation;
+    parameters_.interpolation = interpolation;
+  }
+  Interpolation
+  getInterpolation() const
+  {
+    return parameters_.interpolation;
   }
 
   /** \brief Default: AngleCriterion::Kept. */
   void
   setAngleCriterion(AngleCriterion criterion)
   {
-    criterion_ = criterion;
+    parameters_.criterion = criterion;
+  }
+  AngleCriterion
+  getAngleCriterion() const
+  {
+    return parameters_.criterion;
   }
 
-  /** \brief Look for neighbours in a discrete Voronoi diagram (thesis 2.1); default: in
-   * the kd-tree (2.2), which is faster and never sees more than some tens. */
+  /** \brief Where neighbours are looked for. Default: NeighborSource::KdTree.
+   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell */
   void
-  setVoronoiGrid(const VoronoiCandidateSettings& settings)
+  setNeighborSource(NeighborSource source, std::uint32_t voronoi_cells = 0)
   {
-    voronoi_ = settings;
-    candidates_.reset();
+    parameters_.neighbors = source;
+    parameters_.voronoi_cells = voronoi_cells;
+  }
+  NeighborSource
+  getNeighborSource() const
+  {
+    return parameters_.neighbors;
   }
 
   /** \brief Factors per axis, finite and positive: neighbours are found in the
@@ -96,7 +116,12 @@ public:
   void
   setScale(const Eigen::Array3f& scale)
   {
-    scale_ = scale;
+    parameters_.scale = scale;
+  }
+  const Eigen::Array3f&
+  getScale() const
+  {
+    return parameters_.scale;
   }
 
   /** \brief The edge of each isopoint of the last extract(): indices into the input
@@ -122,8 +147,14 @@ protected:
 
   void
   extractFrom(const CloudView& cloud,
-              const std::vector<int>& indices,
+              const pcl::Indices& indices,
               pcl::PointCloud<PointIso>& isopoints);
+
+  /** \brief As a cloud with all fields of the samples. */
+  void
+  extractFrom(const CloudView& cloud,
+              const pcl::Indices& indices,
+              pcl::PCLPointCloud2& isopoints);
 
   /** \brief The next extraction reads the cloud anew. */
   void
@@ -134,22 +165,19 @@ private:
   updateSamples(const CloudView& cloud, std::vector<std::uint32_t>&& use);
 
   void
-  updateScalar(const CloudView& cloud, const std::vector<int>& indices);
+  updateScalar(const CloudView& cloud, const pcl::Indices& indices);
 
-  std::string field_ = "intensity";
-  std::vector<double> isovalues_;
-  Outside outside_ = Outside::Lower;
-  Interpolation interpolation_ = Interpolation::Smooth;
-  AngleCriterion criterion_ = AngleCriterion::Kept;
-  std::optional<VoronoiCandidateSettings> voronoi_;
-  Eigen::Array3f scale_{1.0f, 1.0f, 1.0f};
+  void
+  updateCandidates();
 
   /** The scalar in leaf order and its range per node, and what they were read from. */
   struct Scalar;
 
   std::shared_ptr<const Scalar> scalar_;
   SampleSet::ConstPtr samples_;
-  NeighborCandidates::ConstPtr candidates_;        // of samples_
+  NeighborCandidates::ConstPtr candidates_; // of samples_, as these parameters ask:
+  NeighborSource candidate_source_ = NeighborSource::KdTree;
+  std::uint32_t candidate_cells_ = 0;
   std::vector<std::uint32_t> sampled_;             // input points behind samples_
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted
@@ -178,6 +206,8 @@ template <typename PointT>
 class IsosurfaceExtraction : public pcl::PCLBase<PointT>,
                              public IsosurfaceExtractionBase {
 public:
+  using Ptr = std::shared_ptr<IsosurfaceExtraction<PointT>>;
+  using ConstPtr = std::shared_ptr<const IsosurfaceExtraction<PointT>>;
   using Cloud = std::conditional_t<std::is_same_v<PointT, pcl::PCLPointCloud2>,
                                    pcl::PCLPointCloud2,
                                    pcl::PointCloud<PointT>>;
@@ -201,13 +231,23 @@ public:
    * isovalue, a bad scale, or no usable sample; isopoints are then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
-   * conflicting_duplicates, crossing_samples, edges, coincident, isopoints; with smooth
-   * interpolation cubic_roots, quadratic_roots, and linear_singular, linear_step,
+   * conflicting_duplicates, crossing_samples, edges, coincident, isopoints; with
+   * Interpolation::Fit cubic_roots, quadratic_roots, and linear_singular, linear_step,
    * linear_far for isopoints whose linear root stayed because the fit is singular or
    * fails, the values step, or the fit leaves the edge's surroundings; bridged and rim
    * by support. */
   void
   extract(pcl::PointCloud<PointIso>& isopoints);
+
+  /** \brief The same with every field of the samples, see interpolateFields: the fields
+   * of PointIso come first. */
+  void
+  extract(pcl::PCLPointCloud2& isopoints);
+
+private:
+  template <typename OutputT>
+  void
+  extractAs(OutputT& isopoints);
 };
 
 } // namespace pcl_uvol

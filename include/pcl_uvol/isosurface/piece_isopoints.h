@@ -19,20 +19,6 @@
 
 namespace pcl_uvol {
 
-/** \brief What IsosurfaceExtraction is told by its setters. */
-struct IsosurfaceSettings {
-  std::string field; ///< see ScalarField
-  std::vector<double> isovalues;
-  Outside outside = Outside::Lower;
-  Interpolation interpolation = Interpolation::Smooth;
-  AngleCriterion criterion = AngleCriterion::Kept;
-  Position scale{{1.0f, 1.0f, 1.0f}};
-};
-
-/** \throws InvalidArgument without an isovalue, for one that is not finite in float and
- * for factors that are not finite and positive */
-PCL_UVOL_EXPORTS void
-checkSettings(const IsosurfaceSettings& settings);
 
 /** \brief Warn of an isovalue that no edge can cross, with the values there are. */
 PCL_UVOL_EXPORTS void
@@ -69,19 +55,19 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue);
  * disk; one list per isovalue. */
 class PCL_UVOL_EXPORTS IsosurfaceStage : public PieceStage {
 public:
-  /** \throws InvalidArgument for settings that are none, see checkSettings */
-  explicit IsosurfaceStage(IsosurfaceSettings settings);
+  /** \throws InvalidArgument for parameters that are none, see checkParameters */
+  explicit IsosurfaceStage(IsosurfaceParameters parameters);
 
   Position
   getScale() const override
   {
-    return settings_.scale;
+    return toPosition(parameters_.scale);
   }
 
   std::size_t
   countLists() const override
   {
-    return settings_.isovalues.size();
+    return parameters_.isovalues.size();
   }
 
   std::size_t
@@ -125,7 +111,7 @@ public:
   }
 
 private:
-  IsosurfaceSettings settings_;
+  IsosurfaceParameters parameters_;
   std::vector<std::vector<GlobalIsopoint>> received_;
 };
 

@@ -3,21 +3,46 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 
 #include <Eigen/Core>
 
-#include <functional>
+#include <array>
 #include <string>
+#include <tuple>
 
 namespace pcl_uvol {
+
+/** \brief What the function at the start is. */
+enum class InitialKind {
+  Values, ///< f - f_iso, scaled to a distance by its slope (default)
+  Field,  ///< another scalar field of the cloud, in units of length
+  Sphere, ///< signed distances to shapes
+  Box,
+  Plane
+};
+
+constexpr std::array<EnumWord<InitialKind>, 5>
+listWords(InitialKind)
+{
+  return {{{InitialKind::Values, "values"},
+           {InitialKind::Field, "field"},
+           {InitialKind::Sphere, "sphere"},
+           {InitialKind::Box, "box"},
+           {InitialKind::Plane, "plane"}}};
+}
 
 /** \brief The level-set function at the start: the scaled scalar field itself, a field
  * of the cloud, or the signed distance to a shape, positive inside where values are
  * higher inside (Outside::Lower), else negative. */
-class PCL_UVOL_EXPORTS InitialFunction {
-public:
-  /** \brief f - f_iso, scaled to a distance by its slope: the default. */
-  InitialFunction() = default;
+struct PCL_UVOL_EXPORTS InitialFunction {
+  InitialKind kind = InitialKind::Values;
+  std::string field_name; ///< of InitialKind::Field, see ScalarField
+  /** Centre of a sphere, lowest corner of a box, a point of a plane. */
+  Eigen::Array3d first{0.0, 0.0, 0.0};
+  /** Highest corner of a box; normal of a plane to the outside, not 0. */
+  Eigen::Array3d second{0.0, 0.0, 0.0};
+  double radius = 0.0; ///< of a sphere, > 0
 
   /** \param radius > 0 \throws InvalidArgument */
   static InitialFunction
@@ -36,23 +61,30 @@ public:
   static InitialFunction
   field(const std::string& name);
 
-  /** \brief Distance to the shape, positive inside; empty without a shape. */
-  const std::function<double(const Eigen::Vector3d&)>&
-  getDistance() const
+  bool
+  isShape() const
   {
-    return distance_;
+    return kind != InitialKind::Values && kind != InitialKind::Field;
   }
 
-  /** \brief Empty without a field. */
-  const std::string&
-  getField() const
-  {
-    return field_;
-  }
+  /** \brief Distance of a place to the shape, positive inside. */
+  double
+  computeDistance(const Eigen::Vector3d& x) const;
 
-private:
-  std::function<double(const Eigen::Vector3d&)> distance_;
-  std::string field_;
+  /** \throws InvalidArgument for a shape that is none */
+  void
+  check() const;
+
+  static auto
+  listMembers()
+  {
+    using Own = InitialFunction;
+    return std::make_tuple(Member{"kind", &Own::kind},
+                           Member{"field", &Own::field_name},
+                           Member{"first", &Own::first},
+                           Member{"second", &Own::second},
+                           Member{"radius", &Own::radius});
+  }
 };
 
 } // namespace pcl_uvol

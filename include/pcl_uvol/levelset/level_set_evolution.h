@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
@@ -11,21 +12,35 @@
 #include <pcl/pcl_base.h>
 
 #include <cstddef>
-#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace pcl_uvol {
 
+namespace detail {
+
 /** \brief The kernel of LevelSetEvolution for any cloud.
+ * \param snapshot told after every snapshot_steps steps; 0: never
  * \throws InvalidArgument, Diverged as LevelSetEvolution::evolve */
 PCL_UVOL_EXPORTS LevelSet
 evolveLevelSet(const CloudView& cloud,
-               const std::vector<int>& indices,
-               const std::string& field,
-               double isovalue,
+               const pcl::Indices& indices,
                const LevelSetParameters& parameters,
+               std::size_t snapshot_steps,
+               const SnapshotCallback& snapshot,
+               unsigned threads,
                Report& report);
+
+/** \brief The points of a cloud with phi and all other fields. */
+PCL_UVOL_EXPORTS pcl::PCLPointCloud2
+addPhi(const CloudView& cloud,
+       const pcl::Indices& indices,
+       const std::vector<float>& phi,
+       unsigned threads,
+       Report& report);
+
+} // namespace detail
 
 /** \brief Bytes of a point of cloudOfPhi(). */
 constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
@@ -54,20 +69,34 @@ cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi);
  * quadratic scheme (288 linear) and 60. \tparam PointT any registered point type with
  * x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class LevelSetEvolution : public pcl::PCLBase<PointT>, public Stage {
+class LevelSetEvolution : public pcl::PCLBase<PointT>,
+                          public ParameterStage<LevelSetParameters> {
 public:
+  using Ptr = std::shared_ptr<LevelSetEvolution<PointT>>;
+  using ConstPtr = std::shared_ptr<const LevelSetEvolution<PointT>>;
+
   /** \brief Any field of the cloud, see ScalarField. Default `intensity`. */
   void
   setScalarField(const std::string& field)
   {
-    field_ = field;
+    parameters_.field = field;
+  }
+  const std::string&
+  getScalarField() const
+  {
+    return parameters_.field;
   }
 
   /** \brief In units of the field. */
   void
   setIsoValue(double isovalue)
   {
-    isovalue_ = isovalue;
+    parameters_.isovalue = isovalue;
+  }
+  double
+  getIsoValue() const
+  {
+    return parameters_.isovalue;
   }
 
   /** \brief Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0
@@ -77,6 +106,12 @@ public:
   {
     parameters_.mu = mu;
   }
+  /** \brief None: automatic. */
+  const std::optional<double>&
+  getMu() const
+  {
+    return parameters_.mu;
+  }
 
   /** \brief Choose mu by the noise of the data, and raise it whenever the data pull
    * the surface in one direction over several spacings: smoothing has taken away what
@@ -84,7 +119,7 @@ public:
   void
   setAutomaticMu()
   {
-    parameters_.mu = LevelSetParameters::automatic;
+    parameters_.mu.reset();
   }
 
   /** \brief Default FitScheme::Quadratic; FitScheme::Linear is the thesis's. */
@@ -93,12 +128,22 @@ public:
   {
     parameters_.scheme = scheme;
   }
+  FitScheme
+  getScheme() const
+  {
+    return parameters_.scheme;
+  }
 
   /** \brief Default CurvatureFlow::Relative; CurvatureFlow::Mean is the thesis's. */
   void
   setCurvatureFlow(CurvatureFlow flow)
   {
     parameters_.flow = flow;
+  }
+  CurvatureFlow
+  getCurvatureFlow() const
+  {
+    return parameters_.flow;
   }
 
   /** \brief Default StepBound::Stencil; StepBound::Cfl is the thesis's. */
@@ -107,12 +152,22 @@ public:
   {
     parameters_.bound = bound;
   }
+  StepBound
+  getStepBound() const
+  {
+    return parameters_.bound;
+  }
 
   /** \brief Default Integration::Asynchronous. */
   void
   setIntegration(Integration integration)
   {
     parameters_.integration = integration;
+  }
+  Integration
+  getIntegration() const
+  {
+    return parameters_.integration;
   }
 
   /** \brief Default Reinitialization::Distance. */
@@ -121,6 +176,11 @@ public:
   {
     parameters_.reinitialization = reinitialization;
   }
+  Reinitialization
+  getReinitialization() const
+  {
+    return parameters_.reinitialization;
+  }
 
   /** \brief Default: the field itself. */
   void
@@ -128,12 +188,22 @@ public:
   {
     parameters_.initial = initial;
   }
+  const InitialFunction&
+  getInitialFunction() const
+  {
+    return parameters_.initial;
+  }
 
   /** \brief The outside of the shapes of InitialFunction. Default Outside::Lower. */
   void
   setOutside(Outside outside)
   {
     parameters_.outside = outside;
+  }
+  Outside
+  getOutside() const
+  {
+    return parameters_.outside;
   }
 
   /** \brief Factors per axis, finite and positive: neighbours, curvature and phi belong
@@ -143,6 +213,11 @@ public:
   {
     parameters_.scale = scale;
   }
+  const Eigen::Array3f&
+  getScale() const
+  {
+    return parameters_.scale;
+  }
 
   /** \brief Nearest neighbours of a stencil: at least 3, with the quadratic scheme 9.
    * Default 26. */
@@ -151,12 +226,22 @@ public:
   {
     parameters_.k = k;
   }
+  std::size_t
+  getKSearch() const
+  {
+    return parameters_.k;
+  }
 
   /** \brief Default 400. A run that ends there has a warning in its report. */
   void
   setMaximumSteps(std::size_t steps)
   {
     parameters_.max_steps = steps;
+  }
+  std::size_t
+  getMaximumSteps() const
+  {
+    return parameters_.max_steps;
   }
 
   /** \brief The evolution ends when the zero level moves by less, in spacings per unit
@@ -165,6 +250,11 @@ public:
   setTolerance(double tolerance)
   {
     parameters_.tolerance = tolerance;
+  }
+  double
+  getTolerance() const
+  {
+    return parameters_.tolerance;
   }
 
   /** \brief Only samples so near to the zero level, in spacings, are advanced; the band
@@ -175,13 +265,18 @@ public:
   {
     parameters_.band_width = spacings;
   }
+  double
+  getBandWidth() const
+  {
+    return parameters_.band_width;
+  }
 
   /** \brief Told after every so many steps of evolve(); 0 (default): nobody is. */
   void
   setSnapshotCallback(std::size_t steps, const SnapshotCallback& snapshot)
   {
-    parameters_.snapshot_steps = steps;
-    parameters_.snapshot = snapshot;
+    snapshot_steps_ = steps;
+    snapshot_ = snapshot;
   }
 
   /** \brief Evolve, and return phi for every point of the cloud.
@@ -197,6 +292,11 @@ public:
   void
   evolve(std::vector<float>& phi);
 
+  /** \brief The same as a cloud of the points in the indices: x, y, z, phi and all
+   * other fields of the input, of which one called phi gives way, with a warning. */
+  void
+  evolve(pcl::PCLPointCloud2& cloud);
+
   /** \brief Of the last evolve(). */
   const LevelSetSummary&
   getSummary() const
@@ -205,9 +305,12 @@ public:
   }
 
 private:
-  std::string field_ = "intensity";
-  double isovalue_ = std::numeric_limits<double>::quiet_NaN();
-  LevelSetParameters parameters_;
+  /** Runs with the cloud and the indices that are set. */
+  LevelSet
+  evolveInput();
+
+  std::size_t snapshot_steps_ = 0;
+  SnapshotCallback snapshot_;
   LevelSetSummary summary_;
 };
 

@@ -2,12 +2,21 @@
 // How a level set is evolved, and what is told of it.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/derivatives/local_fit.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/isosurface/isosurface_parameters.h>
 #include <pcl_uvol/levelset/initial_function.h>
 
+#include <Eigen/Core>
+
+#include <array>
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace pcl_uvol {
@@ -20,11 +29,23 @@ enum class CurvatureFlow {
            ///< radius (default)
 };
 
+constexpr std::array<EnumWord<CurvatureFlow>, 2>
+listWords(CurvatureFlow)
+{
+  return {{{CurvatureFlow::Mean, "mean"}, {CurvatureFlow::Relative, "relative"}}};
+}
+
 /** \brief What bounds the time step. */
 enum class StepBound {
   Cfl,    ///< thesis 3.5.1, by the distance to the nearest neighbour
   Stencil ///< by the stencil's own weights: sharper on random samples (default)
 };
+
+constexpr std::array<EnumWord<StepBound>, 2>
+listWords(StepBound)
+{
+  return {{{StepBound::Cfl, "cfl"}, {StepBound::Stencil, "stencil"}}};
+}
 
 /** \brief Whose step is taken. */
 enum class Integration {
@@ -32,6 +53,13 @@ enum class Integration {
   Asynchronous ///< thesis 3.5.2: every sample takes its own, in classes of powers of
                ///< two; neighbours are interpolated linearly in time (default)
 };
+
+constexpr std::array<EnumWord<Integration>, 2>
+listWords(Integration)
+{
+  return {{{Integration::Synchronous, "synchronous"},
+           {Integration::Asynchronous, "asynchronous"}}};
+}
 
 /** \brief What makes the level-set function a distance again when its slope has left 1
  * by too much. */
@@ -43,6 +71,15 @@ enum class Reinitialization {
   Diffusion ///< thesis 3.4, after Li et al. 2005: a term of the evolution itself; slow,
             ///< moves the surface, and is unstable where the slope is below 1
 };
+
+constexpr std::array<EnumWord<Reinitialization>, 4>
+listWords(Reinitialization)
+{
+  return {{{Reinitialization::None, "none"},
+           {Reinitialization::Distance, "distance"},
+           {Reinitialization::Eikonal, "eikonal"},
+           {Reinitialization::Diffusion, "diffusion"}}};
+}
 
 /** \brief One step of an evolution. Lengths are in units of the spacing, times in its
  * square; figures are those of the samples within one spacing of the zero level. */
@@ -74,26 +111,66 @@ struct LevelSetSummary {
 using SnapshotCallback =
     std::function<void(const LevelSetSummary& summary, const std::vector<float>& phi)>;
 
-/** \brief The setters of LevelSetEvolution tell more. */
-struct LevelSetParameters {
-  static constexpr double automatic = -1.0;
-
-  double mu = automatic;
+/** \brief Parameters of LevelSetEvolution. */
+struct PCL_UVOL_EXPORTS LevelSetParameters {
+  std::string field = "intensity"; ///< see ScalarField
+  /** In units of the field; there is no default. */
+  double isovalue = std::numeric_limits<double>::quiet_NaN();
+  /** Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0 only
+   * smooths. None: chosen by the noise of the data, and raised whenever the data pull
+   * the surface in one direction over several spacings, where smoothing has taken away
+   * what is no noise. */
+  std::optional<double> mu;
   FitScheme scheme = FitScheme::Quadratic;
   CurvatureFlow flow = CurvatureFlow::Relative;
   StepBound bound = StepBound::Stencil;
   Integration integration = Integration::Asynchronous;
   Reinitialization reinitialization = Reinitialization::Distance;
   InitialFunction initial;
-  Outside outside = Outside::Lower;
+  Outside outside = Outside::Lower; ///< of the shapes of initial
+  /** Factors per axis, finite and positive: neighbours, curvature and phi belong to the
+   * stretched space. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  /** Nearest neighbours of a stencil: at least 3, with the quadratic scheme 9. */
   std::size_t k = 26;
+  /** A run that ends there has a warning in its report. */
   std::size_t max_steps = 400;
+  /** The evolution ends when the zero level moves by less, in spacings per unit of
+   * time.
+   */
   double tolerance = 0.002;
-  double band_width = 5.0; ///< 0: no band
-  SnapshotCallback snapshot;
-  std::size_t snapshot_steps = 0; ///< 0: nobody is told
-  unsigned threads = 0;
+  /** Only samples so near to the zero level, in spacings, are advanced; the band
+   * follows it (Rosenthal, Molchanov, Linsen 2010). At least 3; 0: all samples are. */
+  double band_width = 5.0;
+
+  static auto
+  listMembers()
+  {
+    using Own = LevelSetParameters;
+    return std::make_tuple(Member{"field", &Own::field},
+                           Member{"isovalue", &Own::isovalue},
+                           Member{"mu", &Own::mu},
+                           Member{"scheme", &Own::scheme},
+                           Member{"flow", &Own::flow},
+                           Member{"bound", &Own::bound},
+                           Member{"integration", &Own::integration},
+                           Member{"reinitialization", &Own::reinitialization},
+                           Member{"initial", &Own::initial},
+                           Member{"outside", &Own::outside},
+                           Member{"scale", &Own::scale},
+                           Member{"k", &Own::k},
+                           Member{"max_steps", &Own::max_steps},
+                           Member{"tolerance", &Own::tolerance},
+                           Member{"band_width", &Own::band_width});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static LevelSetParameters
+  fromJson(const std::string& text);
 };
 
 /** \brief What an evolution leaves. */

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/multivariate/attributes.h>
 
@@ -12,19 +14,50 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief How clusters are found; the setters of DensityClustering tell more. */
-struct ClusteringParameters {
+/** \brief Parameters of DensityClustering. */
+struct PCL_UVOL_EXPORTS ClusteringParameters {
+  std::vector<std::string>
+      attributes; ///< fields that span the space, see readAttributes
+  /** Divide attributes by their standard deviations, so that units do not count. */
+  bool is_standardized = true;
+  /** Nearest other points that the core distance of a point reaches to, up to 1000. 0:
+   * plain distances, single linkage. */
   std::size_t neighbors = 10;
-  std::size_t min_cluster_size = 0; ///< 0: the larger one of 10 and root n
-  bool allow_single_cluster = false;
-  double cut_distance = 0.0; ///< 0: clusters are chosen by persistence
-  unsigned threads = 0;
+  /** Fewer points are no cluster; 0: the larger one of 10 and the square root of the
+   * number of points. */
+  std::size_t min_cluster_size = 0;
+  bool allow_single_cluster = false; ///< all points together may be the one chosen
+  /** In units of the attributes or, if standardized, of standard deviations; 0:
+   * clusters are chosen by persistence. */
+  double cut_distance = 0.0;
+
+  static auto
+  listMembers()
+  {
+    using Own = ClusteringParameters;
+    return std::make_tuple(Member{"attributes", &Own::attributes},
+                           Member{"is_standardized", &Own::is_standardized},
+                           Member{"neighbors", &Own::neighbors},
+                           Member{"min_cluster_size", &Own::min_cluster_size},
+                           Member{"allow_single_cluster", &Own::allow_single_cluster},
+                           Member{"cut_distance", &Own::cut_distance});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static ClusteringParameters
+  fromJson(const std::string& text);
 };
 
 /** \brief A cluster at some level of density, 1 / distance. It is born where a larger
@@ -48,6 +81,8 @@ struct Clustering {
   std::vector<ClusterNode> tree;    ///< the root first, parents before children
 };
 
+namespace detail {
+
 /** \brief The kernel of DensityClustering for any points.
  * \param report gets the counts "points", "clusters" and "noise", and times
  * \return per row of the table
@@ -55,6 +90,7 @@ struct Clustering {
 PCL_UVOL_EXPORTS Clustering
 clusterAttributes(const AttributeTable& table,
                   const ClusteringParameters& parameters,
+                  unsigned threads,
                   Report& report);
 
 /** \brief Clustering with labels and probabilities per point of a cloud: those without
@@ -62,10 +98,11 @@ clusterAttributes(const AttributeTable& table,
 PCL_UVOL_EXPORTS Clustering
 clusterCloud(const CloudView& cloud,
              const std::vector<std::uint32_t>& use,
-             const std::vector<std::string>& names,
-             bool is_standardized,
              const ClusteringParameters& parameters,
+             unsigned threads,
              Report& report);
+
+} // namespace detail
 
 /** \brief Finds clusters of samples by the density of their attributes.
  *
@@ -88,13 +125,22 @@ clusterCloud(const CloudView& cloud,
  * and 10 neighbours.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class DensityClustering : public pcl::PCLBase<PointT>, public Stage {
+class DensityClustering : public pcl::PCLBase<PointT>,
+                          public ParameterStage<ClusteringParameters> {
 public:
+  using Ptr = std::shared_ptr<DensityClustering<PointT>>;
+  using ConstPtr = std::shared_ptr<const DensityClustering<PointT>>;
+
   /** \brief Fields that span the space, see readAttributes; no default. */
   void
   setAttributes(const std::vector<std::string>& names)
   {
-    names_ = names;
+    parameters_.attributes = names;
+  }
+  const std::vector<std::string>&
+  getAttributes() const
+  {
+    return parameters_.attributes;
   }
 
   /** \brief Divide attributes by their standard deviations, so that units do not count;
@@ -102,7 +148,12 @@ public:
   void
   setStandardized(bool is_standardized)
   {
-    is_standardized_ = is_standardized;
+    parameters_.is_standardized = is_standardized;
+  }
+  bool
+  isStandardized() const
+  {
+    return parameters_.is_standardized;
   }
 
   /** \brief Nearest other points that the core distance of a point reaches to, up to
@@ -113,6 +164,11 @@ public:
   {
     parameters_.neighbors = neighbors;
   }
+  std::size_t
+  getKSearch() const
+  {
+    return parameters_.neighbors;
+  }
 
   /** \brief Fewer points are no cluster: 2 or more; 0, the default, stands for the
    * larger one of 10 and the square root of the number of points. */
@@ -120,6 +176,11 @@ public:
   setMinClusterSize(std::size_t size)
   {
     parameters_.min_cluster_size = size;
+  }
+  std::size_t
+  getMinClusterSize() const
+  {
+    return parameters_.min_cluster_size;
   }
 
   /** \brief Whether all points together may be the one cluster chosen; default false.
@@ -129,6 +190,11 @@ public:
   {
     parameters_.allow_single_cluster = allow_single_cluster;
   }
+  bool
+  getAllowSingleCluster() const
+  {
+    return parameters_.allow_single_cluster;
+  }
 
   /** \brief Choose the clusters at one distance instead, > 0, in units of the
    * attributes or, if standardized, of standard deviations. 0, the default: by
@@ -137,6 +203,11 @@ public:
   setCutDistance(double distance)
   {
     parameters_.cut_distance = distance;
+  }
+  double
+  getCutDistance() const
+  {
+    return parameters_.cut_distance;
   }
 
   /** \brief Find clusters.
@@ -167,9 +238,6 @@ public:
   }
 
 private:
-  std::vector<std::string> names_;
-  bool is_standardized_ = true;
-  ClusteringParameters parameters_;
   std::vector<float> probabilities_;
   std::vector<ClusterNode> tree_;
 };

@@ -7,7 +7,7 @@
 
 namespace pcl_uvol {
 
-/** \brief Of clusterCloud, besides the cloud: 60 bytes per point, 12 per point and
+/** \brief Of DensityClustering, besides the cloud: 60 bytes per point, 12 per point and
  * attribute, and 8 per neighbour that core distances reach to, of which there are 8 at
  * least; labels and probabilities remain. */
 PCL_UVOL_EXPORTS MemoryNeed

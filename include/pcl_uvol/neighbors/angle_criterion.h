@@ -5,18 +5,12 @@
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/neighbors/kd_tree.h>
+#include <pcl_uvol/neighbors/natural_neighbor_parameters.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace pcl_uvol {
-
-/** \brief Which closer candidates can remove a farther one; Table 2.4 leaves it open.
- */
-enum class AngleCriterion {
-  Kept, ///< only those kept so far: about 5.1 neighbours, more isopoints (default)
-  All   ///< also those that were removed: about 4.7 neighbours, shorter edges
-};
 
 /** \brief Remove every candidate whose angle to a closer one, seen from the sample, is
  * below acos(sqrt(1/3)), 54.7 degrees (Table 2.4). Equal distances count by index. */

@@ -31,6 +31,14 @@ struct Position {
   }
 };
 
+/** \brief Three numbers that come with an index operator, as a position. */
+template <typename T>
+Position
+toPosition(const T& numbers)
+{
+  return {{numbers[0], numbers[1], numbers[2]}};
+}
+
 /** \brief A position times factors per axis. Adding zero turns -0 into 0, which compare
  * as equal. */
 inline Position

@@ -3,6 +3,7 @@
 // 2.2) or a discrete Voronoi diagram (2.1), thinned by the angle criterion (2.3).
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/angle_criterion.h>
@@ -13,7 +14,7 @@
 #include <pcl/pcl_base.h>
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace pcl_uvol {
@@ -77,31 +78,42 @@ computeNaturalNeighbors(const SampleSet& samples,
  * Points with a non-finite coordinate have no neighbours; of exact duplicates the first
  * has those of all, the others none. */
 template <typename PointT>
-class NaturalNeighbors : public pcl::PCLBase<PointT>, public Stage {
+class NaturalNeighbors : public pcl::PCLBase<PointT>,
+                         public ParameterStage<NaturalNeighborParameters> {
 public:
+  using Ptr = std::shared_ptr<NaturalNeighbors<PointT>>;
+  using ConstPtr = std::shared_ptr<const NaturalNeighbors<PointT>>;
+
   /** \brief Default: AngleCriterion::Kept. */
   void
   setAngleCriterion(AngleCriterion criterion)
   {
-    criterion_ = criterion;
+    parameters_.criterion = criterion;
+  }
+  AngleCriterion
+  getAngleCriterion() const
+  {
+    return parameters_.criterion;
   }
 
-  /** \brief Take the candidates from a discrete Voronoi diagram (thesis 2.1); default:
-   * from the kd-tree (2.2). */
+  /** \brief Where candidates come from. Default: NeighborSource::KdTree.
+   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell */
   void
-  setVoronoiGrid(const VoronoiCandidateSettings& settings)
+  setNeighborSource(NeighborSource source, std::uint32_t voronoi_cells = 0)
   {
-    voronoi_ = settings;
+    parameters_.source = source;
+    parameters_.voronoi_cells = voronoi_cells;
+  }
+  NeighborSource
+  getNeighborSource() const
+  {
+    return parameters_.source;
   }
 
   /** \brief One row per point of the input cloud, indices into the input cloud.
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
   compute(NeighborGraph& graph);
-
-private:
-  AngleCriterion criterion_ = AngleCriterion::Kept;
-  std::optional<VoronoiCandidateSettings> voronoi_;
 };
 
 } // namespace pcl_uvol

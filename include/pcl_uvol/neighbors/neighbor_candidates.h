@@ -6,6 +6,7 @@
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/neighbors/natural_neighbor_parameters.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
@@ -101,6 +102,14 @@ private:
 PCL_UVOL_EXPORTS NeighborCandidates::ConstPtr
 makeCandidates(const SampleSet& samples,
                const std::optional<VoronoiCandidateSettings>& voronoi,
+               unsigned threads,
+               Report& report);
+
+/** \brief The same by a source, and the cells of a diagram along the longest side. */
+PCL_UVOL_EXPORTS NeighborCandidates::ConstPtr
+makeCandidates(const SampleSet& samples,
+               NeighborSource source,
+               std::uint32_t voronoi_cells,
                unsigned threads,
                Report& report);
 

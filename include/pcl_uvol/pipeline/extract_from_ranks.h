@@ -23,7 +23,7 @@ namespace pcl_uvol {
  * Memory: about 130 bytes per sample. */
 PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  Communicator& communicator,
                  unsigned threads,
                  Report& report);

@@ -9,8 +9,8 @@
 
 namespace pcl_uvol {
 
-/** \brief Of estimateSurfaceNormals, besides the cloud: with k neighbours 4 k and 70 to
- * 80 bytes per point, of which the 16 of the normal remain. */
+/** \brief Of SurfaceNormalEstimation, besides the cloud: with k neighbours 4 k and 70
+ * to 80 bytes per point, of which the 16 of the normal remain. */
 PCL_UVOL_EXPORTS MemoryNeed
 surfaceNormalsNeed(double points, double k);
 
@@ -18,9 +18,11 @@ surfaceNormalsNeed(double points, double k);
  * patches of the surface, where points lie as close as everywhere. It assumes that they
  * are like the rest. */
 PCL_UVOL_EXPORTS double
-estimateSplats(const CloudView& cloud, const SplatParameters& parameters);
+estimateSplats(const CloudView& cloud,
+               const SplatParameters& parameters,
+               unsigned threads);
 
-/** \brief Of generateSplats, besides the cloud: 166 to 174 bytes per point, 130 per
+/** \brief Of SplatGeneration, besides the cloud: 166 to 174 bytes per point, 130 per
  * splat while they are grown, of which 84 remain.
  * \param has_normals the cloud has some: they need not be estimated */
 PCL_UVOL_EXPORTS MemoryNeed

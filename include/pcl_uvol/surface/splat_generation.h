@@ -4,23 +4,48 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 
 #include <pcl/pcl_base.h>
 
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief How splats are made; the setters of SplatGeneration tell more. */
-struct SplatParameters {
+/** \brief Parameters of SplatGeneration. */
+struct PCL_UVOL_EXPORTS SplatParameters {
+  /** Largest distance of covered points to their splat, > 0. */
   double delta = 1e-4;
-  bool delta_is_length = false; ///< else part of the longest side of the bounding box
+  /** In units of the coordinates; else in parts of the longest side of the bounding
+   * box. */
+  bool delta_is_length = false;
+  /** Part of a splat's radius within which no other one starts, in [0, 1]. */
   double lambda = 0.2;
-  unsigned threads = 0;
+
+  static auto
+  listMembers()
+  {
+    using Own = SplatParameters;
+    return std::make_tuple(Member{"delta", &Own::delta},
+                           Member{"delta_is_length", &Own::delta_is_length},
+                           Member{"lambda", &Own::lambda});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static SplatParameters
+  fromJson(const std::string& text);
 };
 
 /** \brief Splats, and the input point that each is grown from. */
@@ -28,6 +53,8 @@ struct Splats {
   pcl::PointCloud<PointSplat> cloud;
   std::vector<std::uint32_t> sources;
 };
+
+namespace detail {
 
 /** \brief The kernel of SplatGeneration for any cloud.
  * \param use indices of the points to cover
@@ -37,7 +64,10 @@ PCL_UVOL_EXPORTS Splats
 generateSplats(const CloudView& cloud,
                const std::vector<std::uint32_t>& use,
                const SplatParameters& parameters,
+               unsigned threads,
                Report& report);
+
+} // namespace detail
 
 /** \brief True if a cloud has the fields of splats. */
 PCL_UVOL_EXPORTS bool
@@ -53,10 +83,11 @@ readSplats(const CloudView& cloud, Report& report);
  * \param is_asked_for the user chose parameters: a warning tells where they go unused
  * \throws InvalidArgument as SplatGeneration::compute */
 PCL_UVOL_EXPORTS Splats
-splatsOf(const CloudView& cloud,
-         const SplatParameters& parameters,
-         bool is_asked_for,
-         Report& report);
+findSplats(const CloudView& cloud,
+           const SplatParameters& parameters,
+           bool is_asked_for,
+           unsigned threads,
+           Report& report);
 
 /** \brief Covers a surface with splats.
  *
@@ -78,8 +109,12 @@ splatsOf(const CloudView& cloud,
  * the input. Every finite point that has a normal is covered by a splat within delta.
  * \tparam PointT with x, y, z; normals if it has them, else they are estimated */
 template <typename PointT>
-class SplatGeneration : public pcl::PCLBase<PointT>, public Stage {
+class SplatGeneration : public pcl::PCLBase<PointT>,
+                        public ParameterStage<SplatParameters> {
 public:
+  using Ptr = std::shared_ptr<SplatGeneration<PointT>>;
+  using ConstPtr = std::shared_ptr<const SplatGeneration<PointT>>;
+
   /** \brief Largest distance of covered points to their splat, as a part of the longest
    * side of the bounding box: > 0, default 1e-4. */
   void
@@ -97,12 +132,29 @@ public:
     parameters_.delta_is_length = true;
   }
 
+  double
+  getDelta() const
+  {
+    return parameters_.delta;
+  }
+  /** \brief Whether delta is a length. */
+  bool
+  isDeltaLength() const
+  {
+    return parameters_.delta_is_length;
+  }
+
   /** \brief Part of a splat's radius within which no other one starts: in [0, 1],
    * default 0.2. Larger is fewer splats and less smooth normals. */
   void
   setLambda(double lambda)
   {
     parameters_.lambda = lambda;
+  }
+  double
+  getLambda() const
+  {
+    return parameters_.lambda;
   }
 
   /** \brief Cover the input. Counts of the report: points, non_finite, without_normal,
@@ -122,7 +174,6 @@ public:
   }
 
 private:
-  SplatParameters parameters_;
   std::vector<std::uint32_t> sources_;
 };
 

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 
@@ -12,7 +14,11 @@
 #include <pcl/pcl_base.h>
 #include <pcl/search/search.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace pcl_uvol {
@@ -25,18 +31,38 @@ struct SurfaceNormal {
   float curvature;
 };
 
-/** \brief How normals are estimated; the setters of SurfaceNormalEstimation tell more.
- */
-struct SurfaceNormalParameters {
-  std::size_t k = 30;
+/** \brief Parameters of SurfaceNormalEstimation. */
+struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
+  std::size_t k = 30; ///< nearest neighbours besides the point: at least 2
+  /** Factors per axis, finite and positive: neighbours and covariance belong to the
+   * stretched space, normals to the original one. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
-  Eigen::Vector3f view_point{0.0f, 0.0f, 0.0f};
-  unsigned threads = 0;
-  pcl::search::Search<pcl::PointXYZ>::Ptr search; ///< null: FLANN
+  /** Where points without a normal of their own are seen from. */
+  Eigen::Array3f view_point{0.0f, 0.0f, 0.0f};
+
+  static auto
+  listMembers()
+  {
+    using Own = SurfaceNormalParameters;
+    return std::make_tuple(Member{"k", &Own::k},
+                           Member{"scale", &Own::scale},
+                           Member{"view_point", &Own::view_point});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static SurfaceNormalParameters
+  fromJson(const std::string& text);
 };
+
+namespace detail {
 
 /** \brief The kernel of SurfaceNormalEstimation for any cloud.
  * \param indices points to take part, as neighbours and in the result
+ * \param search null: FLANN
  * \return one normal per index
  * \param report gets "non_finite", "duplicates", "degenerate_normals" and times
  * \throws InvalidArgument as SurfaceNormalEstimation::compute */
@@ -44,6 +70,8 @@ PCL_UVOL_EXPORTS std::vector<SurfaceNormal>
 estimateSurfaceNormals(const CloudView& cloud,
                        const std::vector<std::uint32_t>& indices,
                        const SurfaceNormalParameters& parameters,
+                       const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
+                       unsigned threads,
                        Report& report);
 
 /** \brief Replace the outside vectors of isopoints by normals that they orient. Every
@@ -52,6 +80,7 @@ estimateSurfaceNormals(const CloudView& cloud,
 PCL_UVOL_EXPORTS void
 replaceNormals(pcl::PointCloud<PointIso>& isopoints,
                const SurfaceNormalParameters& parameters,
+               unsigned threads,
                Report& report);
 
 /** \brief The same for those isopoints only that no fit gave a normal, which are those
@@ -59,7 +88,10 @@ replaceNormals(pcl::PointCloud<PointIso>& isopoints,
 PCL_UVOL_EXPORTS void
 replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
                       const SurfaceNormalParameters& parameters,
+                      unsigned threads,
                       Report& report);
+
+} // namespace detail
 
 /** \brief Normals of a point cloud in the manner of pcl::NormalEstimation.
  *
@@ -71,13 +103,22 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
  * Exact duplicates count as one neighbour. \tparam PointInT with x, y, z \tparam
  * PointOutT with normal_x/y/z and curvature */
 template <typename PointInT, typename PointOutT = pcl::Normal>
-class SurfaceNormalEstimation : public pcl::PCLBase<PointInT>, public Stage {
+class SurfaceNormalEstimation : public pcl::PCLBase<PointInT>,
+                                public ParameterStage<SurfaceNormalParameters> {
 public:
+  using Ptr = std::shared_ptr<SurfaceNormalEstimation<PointInT, PointOutT>>;
+  using ConstPtr = std::shared_ptr<const SurfaceNormalEstimation<PointInT, PointOutT>>;
+
   /** \brief Nearest neighbours besides the point: at least 2, default 30. */
   void
   setKSearch(std::size_t k)
   {
     parameters_.k = k;
+  }
+  std::size_t
+  getKSearch() const
+  {
+    return parameters_.k;
   }
 
   /** \brief How neighbours are found. The search gets the distinct finite points,
@@ -86,7 +127,12 @@ public:
   void
   setSearchMethod(const pcl::search::Search<pcl::PointXYZ>::Ptr& search)
   {
-    parameters_.search = search;
+    search_ = search;
+  }
+  const pcl::search::Search<pcl::PointXYZ>::Ptr&
+  getSearchMethod() const
+  {
+    return search_;
   }
 
   /** \brief Factors per axis, finite and positive: neighbours and covariance belong to
@@ -96,6 +142,11 @@ public:
   {
     parameters_.scale = scale;
   }
+  const Eigen::Array3f&
+  getScale() const
+  {
+    return parameters_.scale;
+  }
 
   /** \brief Where points without a normal of their own are seen from. Default 0, 0, 0.
    */
@@ -103,6 +154,11 @@ public:
   setViewPoint(float x, float y, float z)
   {
     parameters_.view_point = {x, y, z};
+  }
+  const Eigen::Array3f&
+  getViewPoint() const
+  {
+    return parameters_.view_point;
   }
 
   /** \brief One output point per input point or index. A point with a non-finite
@@ -113,7 +169,7 @@ public:
   compute(pcl::PointCloud<PointOutT>& output);
 
 private:
-  SurfaceNormalParameters parameters_;
+  pcl::search::Search<pcl::PointXYZ>::Ptr search_;
 };
 
 } // namespace pcl_uvol

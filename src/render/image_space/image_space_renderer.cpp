@@ -29,7 +29,7 @@ checkThreshold(const char* name, double value)
 }
 
 void
-checkSettings(const ImageSpaceSettings& settings)
+checkParameters(const ImageSpaceSettings& settings)
 {
   constexpr int unlimited = std::numeric_limits<int>::max();
   checkRange("number of background fills", settings.background_fill, 0, unlimited);
@@ -132,7 +132,7 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
                                    const pcl::IndicesConstPtr& indices,
                                    Image& image)
 {
-  checkSettings(settings_);
+  checkParameters(settings_);
   checkPictureSize(View::largest_size / std::max(supersampling_, 1));
   if (supersampling_ > 1 && (planes_.depth || planes_.normal || planes_.id))
     throw InvalidArgument("Planes of an image cannot be averaged: render depth, normal "
@@ -161,7 +161,7 @@ ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
                                  const View& view,
                                  const Painter& painter)
 {
-  checkSettings(settings_);
+  checkParameters(settings_);
   prepare(cloud, indices);
   const Color& color = settings_.material.color;
   if (!colored_ || (color_field_.empty() && toRgba(color) != uniform_color_)) {

@@ -82,7 +82,7 @@ checkScene(const Scene& scene)
 }
 
 void
-checkSettings(const RayTracingSettings& settings)
+checkParameters(const RayTracingSettings& settings)
 {
   constexpr int most_samples = 4096, most_depth = 10000;
   checkRange("depth of ray tracing", settings.depth, 0, most_depth);
@@ -205,7 +205,7 @@ RayTracer::getBounds()
 void
 RayTracer::render(Image& image)
 {
-  checkSettings(settings_);
+  checkParameters(settings_);
   checkPictureSize(largest_size);
   startReport();
   const World& world = build();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
+
+#include <pcl/impl/pcl_base.hpp>
 
 namespace pcl_uvol {
 
@@ -13,9 +14,8 @@ GradientEstimation<PointInT, PointOutT>::compute(pcl::PointCloud<PointOutT>& out
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("GradientEstimation has no input cloud: call setInputCloud.");
   startReport();
-  parameters_.threads = threads_;
-  const auto gradients = estimateGradients(
-      viewOf(*this->input_), *this->indices_, field_, parameters_, report_);
+  const auto gradients = detail::estimateGradients(
+      viewOf(*this->input_), *this->indices_, parameters_, search_, threads_, report_);
   output.resize(gradients.size());
   const bool organized = gradients.size() == this->input_->size();
   output.width =

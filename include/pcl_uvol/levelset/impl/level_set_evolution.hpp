@@ -1,26 +1,49 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+
+#include <pcl/impl/pcl_base.hpp>
 
 #include <utility>
 
 namespace pcl_uvol {
 
 template <typename PointT>
-void
-LevelSetEvolution<PointT>::evolve(std::vector<float>& phi)
+LevelSet
+LevelSetEvolution<PointT>::evolveInput()
 {
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("LevelSetEvolution has no input cloud: call setInputCloud.");
   startReport();
-  parameters_.threads = threads_;
   summary_ = LevelSetSummary();
-  LevelSet level_set = evolveLevelSet(
-      viewOf(*this->input_), *this->indices_, field_, isovalue_, parameters_, report_);
-  phi = std::move(level_set.phi);
-  summary_ = std::move(level_set.summary);
+  LevelSet level_set = detail::evolveLevelSet(viewOf(*this->input_),
+                                              *this->indices_,
+                                              parameters_,
+                                              snapshot_steps_,
+                                              snapshot_,
+                                              threads_,
+                                              report_);
+  summary_ = level_set.summary;
+  return level_set;
+}
+
+template <typename PointT>
+void
+LevelSetEvolution<PointT>::evolve(std::vector<float>& phi)
+{
+  phi = evolveInput().phi;
+  this->deinitCompute();
+}
+
+template <typename PointT>
+void
+LevelSetEvolution<PointT>::evolve(pcl::PCLPointCloud2& cloud)
+{
+  const LevelSet level_set = evolveInput();
+  cloud = detail::addPhi(
+      viewOf(*this->input_), *this->indices_, level_set.phi, threads_, report_);
+  cloud.header = this->input_->header;
   this->deinitCompute();
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
+
+#include <pcl/impl/pcl_base.hpp>
 
 #include <utility>
 
@@ -15,10 +16,9 @@ DensityClustering<PointT>::compute(std::vector<int>& labels)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("DensityClustering has no input cloud: call setInputCloud.");
   startReport();
-  parameters_.threads = threads_;
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  Clustering clustering = clusterCloud(
-      viewOf(*this->input_), use, names_, is_standardized_, parameters_, report_);
+  Clustering clustering =
+      detail::clusterCloud(viewOf(*this->input_), use, parameters_, threads_, report_);
   labels.assign(clustering.labels.begin(), clustering.labels.end());
   probabilities_ = std::move(clustering.probabilities);
   tree_ = std::move(clustering.tree);

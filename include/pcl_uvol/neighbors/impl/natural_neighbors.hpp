@@ -2,19 +2,23 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 
+#include <pcl/impl/pcl_base.hpp>
+
 namespace pcl_uvol {
+
+namespace detail {
 
 /** \brief The non-template part of NaturalNeighbors::compute. */
 PCL_UVOL_EXPORTS NeighborGraph
 computeNaturalNeighbors(const CloudView& cloud,
                         const std::vector<std::uint32_t>& use,
-                        const std::optional<VoronoiCandidateSettings>& voronoi,
-                        AngleCriterion criterion,
+                        const NaturalNeighborParameters& parameters,
                         unsigned threads,
                         Report& report);
+
+} // namespace detail
 
 template <typename PointT>
 void
@@ -24,8 +28,8 @@ NaturalNeighbors<PointT>::compute(NeighborGraph& graph)
     throw InvalidArgument("NaturalNeighbors has no input cloud: call setInputCloud.");
   startReport();
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  graph = computeNaturalNeighbors(
-      viewOf(*this->input_), use, voronoi_, criterion_, threads_, report_);
+  graph = detail::computeNaturalNeighbors(
+      viewOf(*this->input_), use, parameters_, threads_, report_);
   this->deinitCompute();
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/splat_generation.h>
+
+#include <pcl/impl/pcl_base.hpp>
 
 #include <utility>
 
@@ -15,9 +16,9 @@ SplatGeneration<PointT>::compute(pcl::PointCloud<PointSplat>& splats)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("SplatGeneration has no input cloud: call setInputCloud.");
   startReport();
-  parameters_.threads = threads_;
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  Splats generated = generateSplats(viewOf(*this->input_), use, parameters_, report_);
+  Splats generated = detail::generateSplats(
+      viewOf(*this->input_), use, parameters_, threads_, report_);
   splats = std::move(generated.cloud);
   splats.header = this->input_->header;
   sources_ = std::move(generated.sources);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/surface_normals.h>
+
+#include <pcl/impl/pcl_base.hpp>
 
 namespace pcl_uvol {
 
@@ -15,12 +16,12 @@ SurfaceNormalEstimation<PointInT, PointOutT>::compute(
     throw InvalidArgument(
         "SurfaceNormalEstimation has no input cloud: call setInputCloud.");
   startReport();
-  parameters_.threads = threads_;
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  const auto normals =
-      estimateSurfaceNormals(viewOf(*this->input_), use, parameters_, report_);
+  const auto normals = detail::estimateSurfaceNormals(
+      viewOf(*this->input_), use, parameters_, search_, threads_, report_);
   output.resize(normals.size());
-  const bool organized = normals.size() == this->input_->size();
+  const bool organized =
+      normals.size() == std::size_t(this->input_->width) * this->input_->height;
   output.width =
       organized ? this->input_->width : static_cast<std::uint32_t>(normals.size());
   output.height = organized ? this->input_->height : 1;

@@ -4,7 +4,7 @@
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/pipeline/extract_out_of_core.h>
+#include <pcl_uvol/io/extract_out_of_core.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
@@ -29,7 +29,7 @@ namespace {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Interpolation;
-using pcl_uvol::IsosurfaceSettings;
+using pcl_uvol::IsosurfaceParameters;
 using pcl_uvol::OutOfCoreIsosurface;
 using pcl_uvol::OutOfCoreSettings;
 using pcl_uvol::PointStream;
@@ -54,7 +54,7 @@ protected:
   }
 
   OutOfCoreIsosurface
-  extract(const IsosurfaceSettings& settings, unsigned threads = 0)
+  extract(const IsosurfaceParameters& settings, unsigned threads = 0)
   {
     PointStream points(path_);
     OutOfCoreSettings out_of_core;
@@ -68,7 +68,7 @@ protected:
   }
 
   void
-  expectAsInMemory(const IsosurfaceSettings& settings)
+  expectAsInMemory(const IsosurfaceParameters& settings)
   {
     const Dataset dataset = pcl_uvol::loadDataset(path_);
     pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
@@ -76,15 +76,15 @@ protected:
         pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
     extraction.setIsoValues(settings.isovalues);
     extraction.setInterpolation(settings.interpolation);
-    extraction.setScale({settings.scale[0], settings.scale[1], settings.scale[2]});
-    pcl::PointCloud<PointIso> isopoints;
+    extraction.setScale(settings.scale);
+    pcl::PointCloud<pcl_uvol::PointIso> isopoints;
     extraction.extract(isopoints);
     const OutOfCoreIsosurface found = extract(settings);
     ASSERT_EQ(isopoints.size(), found.isopoints.size());
     EXPECT_EQ(0,
               std::memcmp(isopoints.points.data(),
                           found.isopoints.points.data(),
-                          isopoints.size() * sizeof(PointIso)));
+                          isopoints.size() * sizeof(pcl_uvol::PointIso)));
     pcl::PCLPointCloud2 expected, carried;
     pcl::toPCLPointCloud2(isopoints, expected);
     pcl::toPCLPointCloud2(found.isopoints, carried);
@@ -109,7 +109,7 @@ class OutOfCoreOnEveryShape : public OutOfCore,
 TEST_P(OutOfCoreOnEveryShape, GivesTheBytesOfMemory)
 {
   save(*uvol_test::makeCloud(GetParam(), 80000, 3));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.41234, 0.1, 7.0};
   expectAsInMemory(settings);
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Clouds,
 TEST_F(OutOfCore, GivesTheBytesOfMemoryWithLargePieces)
 {
   save(*uvol_test::makeCloud("clustered", 300000, 6));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   more_memory_ = 8000000;
@@ -145,11 +145,11 @@ TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
     (*cloud)[i + 2].intensity += 0.001f;
   }
   save(*cloud);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   settings.interpolation = Interpolation::Linear;
-  settings.scale = {{2.0f, 1.0f, 0.25f}};
+  settings.scale = {2.0f, 1.0f, 0.25f};
   expectAsInMemory(settings);
   EXPECT_EQ(72u, report_.getCount("duplicates"));
   EXPECT_EQ(72u, report_.getCount("no_value"));
@@ -158,7 +158,7 @@ TEST_F(OutOfCore, TakesSettingsAndBadPointsAsMemoryDoes)
 TEST_F(OutOfCore, DoesNotDependOnThreads)
 {
   save(*uvol_test::makeCloud("clustered", 50000, 2));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto one = extract(settings, 1), three = extract(settings, 3);
@@ -166,7 +166,7 @@ TEST_F(OutOfCore, DoesNotDependOnThreads)
   EXPECT_EQ(0,
             std::memcmp(one.isopoints.points.data(),
                         three.isopoints.points.data(),
-                        one.isopoints.size() * sizeof(PointIso)));
+                        one.isopoints.size() * sizeof(pcl_uvol::PointIso)));
 }
 
 template <typename Error>
@@ -185,7 +185,7 @@ expectSentence(const std::function<void()>& run, const std::string& part)
 TEST_F(OutOfCore, RefusesWhatCannotWork)
 {
   save(*uvol_test::makeCloud("uniform", 1000, 8));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   const auto run = [&](const std::string& field, OutOfCoreSettings out_of_core) {
@@ -208,7 +208,7 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
 TEST_F(OutOfCore, HasScratchFilesThatNobodySees)
 {
   save(*uvol_test::makeCloud("uniform", 50000, 8));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   std::set<std::string> steps;
@@ -268,7 +268,7 @@ TEST_F(OutOfCore, KeepsEachSampleOnDiskOnce)
     if (duplicates)
       (*cloud)[0] = (*cloud)[1];
     save(*cloud);
-    IsosurfaceSettings settings;
+    IsosurfaceParameters settings;
     settings.field = "intensity";
     settings.isovalues = {7.0}; // no value comes near: isopoints are none of this test
     std::atomic<bool> ends{false};
@@ -291,7 +291,7 @@ TEST_F(OutOfCore, KeepsEachSampleOnDiskOnce)
 TEST_F(OutOfCore, SaysThatTheDiskIsFull)
 {
   save(*uvol_test::makeCloud("uniform", 50000, 8));
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   // A limit on the size of files stands for the end of the disk.
@@ -312,7 +312,7 @@ TEST_F(OutOfCore, RefusesMoreAtOnePlaceThanFits)
   for (std::size_t i = 0; i < cloud.size(); i += 8)
     cloud[i].x = cloud[i].y = cloud[i].z = cloud[i].intensity = static_cast<float>(i);
   save(cloud);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   expectSentence<pcl_uvol::InvalidArgument>([&] { extract(settings); }, "at one place");
@@ -324,7 +324,7 @@ TEST_F(OutOfCore, HasNothingToSayOfNothing)
   for (auto& point : cloud)
     point.x = std::numeric_limits<float>::quiet_NaN();
   save(cloud);
-  IsosurfaceSettings settings;
+  IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
   EXPECT_THROW(extract(settings), pcl_uvol::InvalidArgument);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/edge_ends.h>
-#include <pcl_uvol/pipeline/extract_out_of_core.h>
+#include <pcl_uvol/io/extract_out_of_core.h>
 
 #include <algorithm>
 #include <utility>
@@ -15,7 +15,7 @@ constexpr std::size_t block_bytes = 16u << 20;
 
 ScratchSamples
 readPoints(PointStream& points,
-           const IsosurfaceSettings& settings,
+           const IsosurfaceParameters& settings,
            const OutOfCoreSettings& out_of_core,
            Report& report)
 {
@@ -29,7 +29,7 @@ readPoints(PointStream& points,
     const CloudView view = viewOf(block);
     samples.append(readSamples(view,
                                ScalarField(view.fields, settings.field),
-                               settings.scale,
+                               toPosition(settings.scale),
                                begin,
                                out_of_core.threads,
                                report));
@@ -51,7 +51,7 @@ leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues)
 
 OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report)
 {

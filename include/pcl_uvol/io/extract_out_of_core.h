@@ -41,7 +41,7 @@ leastOutOfCoreMemory(std::uint64_t samples, std::size_t isovalues);
  * that is full or takes no files */
 PCL_UVOL_EXPORTS OutOfCoreIsosurface
 extractOutOfCore(PointStream& points,
-                 const IsosurfaceSettings& settings,
+                 const IsosurfaceParameters& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report);
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of stages: plain structs that list their members once. Equality and JSON
+// rest on that list; the words of enumerations are those of JSON and of options.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <type_traits>
+
+namespace pcl_uvol {
+
+/** \brief A value of an enumeration and a word for it.
+ *
+ * Beside each enumeration stands `listWords(Enum)`, which returns an array of them: of
+ * several words for one value the first is written, all are understood. */
+template <typename Enum>
+struct EnumWord {
+  Enum value;
+  const char* word;
+};
+
+/** \brief The word that is written for a value. */
+template <typename Enum>
+const char*
+toWord(Enum value)
+{
+  for (const auto& [other, word] : listWords(Enum()))
+    if (other == value)
+      return word;
+  return "";
+}
+
+/** \brief The value that a word stands for. \return whether there is one */
+template <typename Enum>
+bool
+fromWord(const std::string& word, Enum& value)
+{
+  for (const auto& [other, its_word] : listWords(Enum()))
+    if (word == its_word) {
+      value = other;
+      return true;
+    }
+  return false;
+}
+
+/** \brief A member of a struct of parameters, which lists them all as
+ * \code static auto listMembers() { return std::make_tuple(Member{"k", &Own::k}); }
+ * \endcode */
+template <typename Parameters, typename T>
+struct Member {
+  const char* name;
+  T Parameters::*pointer;
+};
+
+template <typename Parameters, typename T>
+Member(const char*, T Parameters::*) -> Member<Parameters, T>;
+
+/** \brief Call visit(name, pointer to member) for each of them. */
+template <typename Parameters, typename Visit>
+void
+forEachMember(Visit&& visit)
+{
+  std::apply([&](const auto&... member) { (visit(member.name, member.pointer), ...); },
+             Parameters::listMembers());
+}
+
+namespace detail {
+
+template <typename T>
+bool
+areEqual(const T& a, const T& b)
+{
+  if constexpr (std::is_floating_point_v<T>)
+    return a == b || (a != a && b != b); // NaN: not given
+  else if constexpr (std::is_base_of_v<Eigen::ArrayBase<T>, T> ||
+                     std::is_base_of_v<Eigen::MatrixBase<T>, T>)
+    return (a.array() == b.array()).all();
+  else
+    return a == b;
+}
+
+} // namespace detail
+
+/** \brief Two structs of parameters are equal where all their members are. @{ */
+template <typename Parameters, typename = decltype(Parameters::listMembers())>
+bool
+operator==(const Parameters& a, const Parameters& b)
+{
+  bool equal = true;
+  forEachMember<Parameters>([&](const char*, auto pointer) {
+    equal = equal && detail::areEqual(a.*pointer, b.*pointer);
+  });
+  return equal;
+}
+
+template <typename Parameters, typename = decltype(Parameters::listMembers())>
+bool
+operator!=(const Parameters& a, const Parameters& b)
+{
+  return !(a == b);
+}
+/** @} */
+
+} // namespace pcl_uvol

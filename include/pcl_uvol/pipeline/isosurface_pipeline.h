@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From samples to an isosurface with normals and all fields: the one way that the
+// tools, the viewer and the filters take.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/memory.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/isosurface/memory_need.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+
+#include <Eigen/Core>
+#include <pcl/pcl_base.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The estimated errors of isopoints, in units of length. */
+struct ErrorSummary {
+  float median, percentile_95, largest;
+};
+
+/** \brief What comes out. */
+struct PCL_UVOL_EXPORTS IsosurfaceResult {
+  /** The isopoints: the fields of PointIso, then all fields of the samples that these
+   * do not replace. */
+  Dataset surface;
+  IsoEdges edges;       ///< one per isopoint, indices into the samples
+  std::string field;    ///< that was taken
+  Eigen::Array3f scale; ///< that was taken
+  /** With `smooth`: one per isovalue. */
+  std::vector<LevelSetSummary> level_sets;
+  std::optional<ErrorSummary> errors; ///< none where no error is estimated
+  /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
+   * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
+  Report report;
+};
+
+/** \brief Extraction, level set, normals, filters and fields in one call.
+ *
+ * \code
+ * pcl_uvol::IsosurfacePipeline pipeline;
+ * pipeline.setInput(dataset); // a std::shared_ptr<const pcl_uvol::Dataset>
+ * pcl_uvol::IsosurfacePipelineParameters parameters;
+ * parameters.isosurface.isovalues = {0.5};
+ * parameters.smooth = true;
+ * pipeline.setParameters(parameters);
+ * const pcl_uvol::IsosurfaceResult result = pipeline.run();
+ * \endcode
+ * Without `smooth` the tree is built once per input: further isovalues and fields reuse
+ * it. */
+class PCL_UVOL_EXPORTS IsosurfacePipeline
+    : public ParameterStage<IsosurfacePipelineParameters> {
+public:
+  using Ptr = std::shared_ptr<IsosurfacePipeline>;
+  using ConstPtr = std::shared_ptr<const IsosurfacePipeline>;
+
+  /** \brief The samples. They must not change until the next call: values and tree are
+   * kept. */
+  void
+  setInput(const std::shared_ptr<const Dataset>& samples);
+
+  /** \brief The samples to take; null, the default: all of them. */
+  void
+  setIndices(const pcl::IndicesPtr& indices);
+
+  /** \brief Run from the samples to the surface; getReport() is that of the result.
+   * \throws InvalidArgument without an input, as checkParameters, and as the stages do
+   * \throws Diverged as LevelSetEvolution */
+  IsosurfaceResult
+  run();
+
+  /** \brief The field and the scale that run() takes: those of the parameters, with the
+   * automatic ones filled in. \throws InvalidArgument without an input, and where the
+   * samples do not tell which field is meant */
+  IsosurfaceParameters
+  resolveParameters() const;
+
+  /** \brief How large the surfaces of run() will be, one per isovalue, from some of the
+   * samples: what addMemoryNeed takes. */
+  std::vector<SurfaceSize>
+  estimateSurfaces() const;
+
+private:
+  struct Isopoints {
+    pcl::PointCloud<PointIso> points;
+    IsoEdges edges;
+  };
+
+  Isopoints
+  extract(const IsosurfaceParameters& parameters);
+
+  Isopoints
+  extractLevelSets(const IsosurfaceParameters& parameters,
+                   std::vector<LevelSetSummary>& summaries);
+
+  std::shared_ptr<const Dataset> samples_;
+  pcl::IndicesPtr indices_;
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction_;
+};
+
+/** \brief The second half of the way, for isopoints that were extracted elsewhere, out
+ * of core or by another process: normals, filters, fields and warnings.
+ * \param samples between which the edges lie
+ * \param parameters with the field and the scale that were taken
+ * \param report continued */
+PCL_UVOL_EXPORTS IsosurfaceResult
+finishIsosurface(const Dataset& samples,
+                 pcl::PointCloud<PointIso>&& isopoints,
+                 IsoEdges&& edges,
+                 const IsosurfacePipelineParameters& parameters,
+                 unsigned threads,
+                 Report&& report);
+
+/** \brief The zero level of a level-set function of samples.
+ * \param phi one per point of the cloud, see LevelSetEvolution
+ * \param parameters of the isosurface that phi stands for; isopoints have its first
+ * isovalue
+ * \param report gets the counts and times of IsosurfaceExtraction */
+PCL_UVOL_EXPORTS void
+extractZeroLevel(const CloudView& samples,
+                 const std::vector<float>& phi,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads,
+                 pcl::PointCloud<PointIso>& isopoints,
+                 IsoEdges& edges,
+                 Report& report);
+
+/** \brief Add the memory of IsosurfacePipeline::run() to a forecast.
+ * \param points, point_step of the samples, which the forecast holds already
+ * \param surfaces see estimateSurfaces; fewer than isovalues, or none, where their
+ * sizes are not known */
+PCL_UVOL_EXPORTS void
+addMemoryNeed(const IsosurfacePipelineParameters& parameters,
+              double points,
+              double point_step,
+              std::vector<SurfaceSize> surfaces,
+              MemoryForecast& forecast);
+
+} // namespace pcl_uvol

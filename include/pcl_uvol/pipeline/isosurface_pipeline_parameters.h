@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that can be chosen on the way from samples to an isosurface with all
+// fields.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
+#include <pcl_uvol/isosurface/isosurface_parameters.h>
+#include <pcl_uvol/levelset/level_set_parameters.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <tuple>
+
+namespace pcl_uvol {
+
+/** \brief How isopoints are oriented. */
+enum class NormalMethod {
+  Auto, ///< Fit with Interpolation::Fit, Pca with Interpolation::Linear (default)
+  Fit,  ///< by the local fits, by principal components where none serves
+  Pca,  ///< by principal components of the isopoints (thesis 4.1)
+  Edge ///< as the extraction leaves them: by the fits, along the edge where none serves
+};
+
+constexpr std::array<EnumWord<NormalMethod>, 4>
+listWords(NormalMethod)
+{
+  return {{{NormalMethod::Auto, "auto"},
+           {NormalMethod::Fit, "fit"},
+           {NormalMethod::Pca, "pca"},
+           {NormalMethod::Edge, "edge"}}};
+}
+
+/** \brief Parameters of IsosurfacePipeline. */
+struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
+  /** An empty field stands for `intensity`, else the only candidate, see
+   * ScalarField::defaultName. */
+  IsosurfaceParameters isosurface;
+  /** Take the scale from the samples, see equalizingScale, instead of
+   * isosurface.scale. */
+  bool automatic_scale = false;
+  /** Smooth noisy or uneven samples by a level set first. */
+  bool smooth = false;
+  /** How; field, isovalue, scale and outside are those of the isosurface. */
+  LevelSetParameters level_set;
+  NormalMethod normals = NormalMethod::Auto;
+  /** Isopoints that a normal by principal components is fitted to: at least 2. */
+  std::size_t normal_neighbors = 30;
+  /** Leave out isopoints of a larger estimated error, or without an estimate, in units
+   * of length. None: no bound. */
+  std::optional<double> max_error;
+  /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
+  bool drop_bridged = false;
+
+  static auto
+  listMembers()
+  {
+    using Own = IsosurfacePipelineParameters;
+    return std::make_tuple(Member{"isosurface", &Own::isosurface},
+                           Member{"automatic_scale", &Own::automatic_scale},
+                           Member{"smooth", &Own::smooth},
+                           Member{"level_set", &Own::level_set},
+                           Member{"normals", &Own::normals},
+                           Member{"normal_neighbors", &Own::normal_neighbors},
+                           Member{"max_error", &Own::max_error},
+                           Member{"drop_bridged", &Own::drop_bridged});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static IsosurfacePipelineParameters
+  fromJson(const std::string& text);
+};
+
+/** \throws InvalidArgument for what can be told without samples: see
+ * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
+ * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
+ * number, or that, as leaving out bridged points, linear interpolation cannot serve */
+PCL_UVOL_EXPORTS void
+checkParameters(const IsosurfacePipelineParameters& parameters);
+
+} // namespace pcl_uvol

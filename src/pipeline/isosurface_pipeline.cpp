@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "../common/parameter_json.h"
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/neighbors/anisotropy.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** The cloud of a data set, which keeps the data set alive. */
+pcl::PCLPointCloud2::ConstPtr
+shareCloud(const std::shared_ptr<const Dataset>& samples)
+{
+  return {samples, &samples->cloud};
+}
+
+NormalMethod
+chooseNormals(const IsosurfacePipelineParameters& parameters)
+{
+  if (parameters.normals != NormalMethod::Auto)
+    return parameters.normals;
+  return parameters.isosurface.interpolation == Interpolation::Fit ? NormalMethod::Fit
+                                                                   : NormalMethod::Pca;
+}
+
+void
+orientIsopoints(pcl::PointCloud<PointIso>& isopoints,
+                const IsosurfacePipelineParameters& parameters,
+                unsigned threads,
+                Report& report)
+{
+  const NormalMethod method = chooseNormals(parameters);
+  if (method == NormalMethod::Edge || isopoints.empty())
+    return;
+  const StepTimer timer(report, "normals");
+  SurfaceNormalParameters normals;
+  normals.k = parameters.normal_neighbors;
+  normals.scale = parameters.isosurface.scale;
+  if (method == NormalMethod::Pca)
+    detail::replaceNormals(isopoints, normals, threads, report);
+  else
+    detail::replaceMissingNormals(isopoints, normals, threads, report);
+}
+
+/** Leaves out what max_error and drop_bridged do not want. */
+void
+dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
+              IsoEdges& edges,
+              const IsosurfacePipelineParameters& parameters,
+              Report& report)
+{
+  if (parameters.max_error)
+    report.count("removed_by_error",
+                 filterIsopoints(isopoints, edges, [&](const PointIso& point) {
+                   return point.error <= *parameters.max_error;
+                 }));
+  if (parameters.drop_bridged)
+    report.count(
+        "removed_bridged", filterIsopoints(isopoints, edges, [](const PointIso& point) {
+          return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
+        }));
+}
+
+std::optional<ErrorSummary>
+summarizeErrors(const pcl::PointCloud<PointIso>& isopoints)
+{
+  std::vector<float> errors;
+  for (const PointIso& point : isopoints)
+    if (!std::isnan(point.error))
+      errors.push_back(point.error);
+  if (errors.empty())
+    return std::nullopt;
+  std::sort(errors.begin(), errors.end());
+  return ErrorSummary{
+      errors[errors.size() / 2], errors[errors.size() * 95 / 100], errors.back()};
+}
+
+} // namespace
+
+std::string
+IsosurfacePipelineParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+IsosurfacePipelineParameters
+IsosurfacePipelineParameters::fromJson(const std::string& text)
+{
+  return readJson<IsosurfacePipelineParameters>(text);
+}
+
+void
+checkParameters(const IsosurfacePipelineParameters& parameters)
+{
+  checkParameters(parameters.isosurface);
+  const bool fits = parameters.isosurface.interpolation == Interpolation::Fit;
+  if (parameters.normals == NormalMethod::Fit && !fits)
+    throw InvalidArgument("Normals by fits need interpolation by fits: linear "
+                          "interpolation makes none.");
+  if (parameters.normal_neighbors < 2)
+    throw InvalidArgument("Normals from " +
+                          std::to_string(parameters.normal_neighbors) +
+                          " neighbours are not possible: there must be at least 2.");
+  if (parameters.max_error && !(*parameters.max_error >= 0.0))
+    throw InvalidArgument("The largest error is " +
+                          std::to_string(*parameters.max_error) +
+                          ": it must be a length from 0.");
+  if ((parameters.max_error || parameters.drop_bridged) && !fits)
+    throw InvalidArgument("Errors and bridged points are known with interpolation by "
+                          "fits only: linear interpolation estimates none.");
+}
+
+void
+IsosurfacePipeline::setInput(const std::shared_ptr<const Dataset>& samples)
+{
+  samples_ = samples;
+  extraction_.setInputCloud(samples ? shareCloud(samples) : nullptr);
+}
+
+void
+IsosurfacePipeline::setIndices(const pcl::IndicesPtr& indices)
+{
+  indices_ = indices;
+  extraction_.setIndices(indices);
+}
+
+IsosurfaceParameters
+IsosurfacePipeline::resolveParameters() const
+{
+  if (!samples_)
+    throw InvalidArgument("IsosurfacePipeline has no input: call setInput.");
+  IsosurfaceParameters parameters = parameters_.isosurface;
+  if (parameters.field.empty())
+    parameters.field = ScalarField::defaultName(samples_->cloud.fields);
+  if (parameters_.automatic_scale)
+    parameters.scale = equalizingScale(viewOf(samples_->cloud));
+  return parameters;
+}
+
+IsosurfaceResult
+IsosurfacePipeline::run()
+{
+  checkParameters(parameters_);
+  IsosurfacePipelineParameters parameters = parameters_;
+  parameters.isosurface = resolveParameters();
+  startReport();
+  std::vector<LevelSetSummary> level_sets;
+  Isopoints found = parameters.smooth
+                        ? extractLevelSets(parameters.isosurface, level_sets)
+                        : extract(parameters.isosurface);
+  IsosurfaceResult result = finishIsosurface(*samples_,
+                                             std::move(found.points),
+                                             std::move(found.edges),
+                                             parameters,
+                                             threads_,
+                                             std::move(report_));
+  result.level_sets = std::move(level_sets);
+  report_ = result.report;
+  return result;
+}
+
+IsosurfacePipeline::Isopoints
+IsosurfacePipeline::extract(const IsosurfaceParameters& parameters)
+{
+  extraction_.setParameters(parameters);
+  extraction_.setNumberOfThreads(threads_);
+  extraction_.setProgressCallback(report_.progress);
+  Isopoints found;
+  extraction_.extract(found.points);
+  report_.merge(extraction_.getReport());
+  found.edges = extraction_.getEdges();
+  return found;
+}
+
+IsosurfacePipeline::Isopoints
+IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
+                                     std::vector<LevelSetSummary>& summaries)
+{
+  LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  evolution.setInputCloud(shareCloud(samples_));
+  evolution.setIndices(indices_);
+  evolution.setNumberOfThreads(threads_);
+  evolution.setProgressCallback(report_.progress);
+  evolution.setParameters(parameters_.level_set);
+  evolution.setScalarField(parameters.field);
+  evolution.setScale(parameters.scale);
+  evolution.setOutside(parameters.outside);
+  Isopoints all;
+  for (const double isovalue : parameters.isovalues) {
+    evolution.setIsoValue(isovalue);
+    std::vector<float> phi;
+    evolution.evolve(phi);
+    report_.merge(evolution.getReport());
+    summaries.push_back(evolution.getSummary());
+    IsosurfaceParameters of_phi = parameters;
+    of_phi.isovalues = {isovalue};
+    Isopoints found;
+    extractZeroLevel(viewOf(samples_->cloud),
+                     phi,
+                     of_phi,
+                     threads_,
+                     found.points,
+                     found.edges,
+                     report_);
+    all.points += found.points;
+    all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
+  }
+  return all;
+}
+
+void
+extractZeroLevel(const CloudView& samples,
+                 const std::vector<float>& phi,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads,
+                 pcl::PointCloud<PointIso>& isopoints,
+                 IsoEdges& edges,
+                 Report& report)
+{
+  const auto cloud = cloudOfPhi(samples, phi);
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  extraction.setParameters(parameters);
+  extraction.setScalarField("phi");
+  extraction.setIsoValue(0.0);
+  extraction.setNumberOfThreads(threads);
+  extraction.setProgressCallback(report.progress);
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+  edges = extraction.getEdges();
+  for (PointIso& point : isopoints)
+    point.isovalue = static_cast<float>(parameters.isovalues.front());
+}
+
+IsosurfaceResult
+finishIsosurface(const Dataset& samples,
+                 pcl::PointCloud<PointIso>&& isopoints,
+                 IsoEdges&& edges,
+                 const IsosurfacePipelineParameters& parameters,
+                 unsigned threads,
+                 Report&& report)
+{
+  orientIsopoints(isopoints, parameters, threads, report);
+  dropIsopoints(isopoints, edges, parameters, report);
+  IsosurfaceResult result;
+  result.surface.origin = samples.origin;
+  result.surface.double_coordinates = samples.double_coordinates;
+  {
+    const StepTimer timer(report, "fields");
+    const CloudView view = viewOf(samples.cloud);
+    pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
+    warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
+    interpolateFields(view, edges, result.surface.cloud, threads);
+  }
+  result.edges = std::move(edges);
+  result.field = parameters.isosurface.field;
+  result.scale = parameters.isosurface.scale;
+  result.errors = summarizeErrors(isopoints);
+  result.report = std::move(report);
+  return result;
+}
+
+} // namespace pcl_uvol

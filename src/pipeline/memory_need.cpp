@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory of IsosurfacePipeline, from the samples to the surface with all fields.
+#include <pcl_uvol/isosurface/memory_need.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/levelset/memory_need.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/surface/memory_need.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** One surface after the other from a level set of its own; isopoints remain. */
+void
+addLevelSets(const LevelSetParameters& parameters,
+             const std::vector<SurfaceSize>& surfaces,
+             double points,
+             MemoryForecast& forecast)
+{
+  forecast.hold(sizeof(int) * points); // indices of all
+  for (const SurfaceSize& surface : surfaces) {
+    forecast.run(levelSetNeed(points, surface, parameters));
+    forecast.hold(phi_point_bytes * points);
+    forecast.run(isosurfaceNeed(points, {surface}));
+    forecast.release((phi_point_bytes + sizeof(float)) * points);
+  }
+}
+
+} // namespace
+
+void
+addMemoryNeed(const IsosurfacePipelineParameters& parameters,
+              double points,
+              double point_step,
+              std::vector<SurfaceSize> surfaces,
+              MemoryForecast& forecast)
+{
+  surfaces.resize(parameters.isosurface.isovalues.size());
+  if (parameters.smooth)
+    addLevelSets(parameters.level_set, surfaces, points, forecast);
+  else
+    forecast.run(isosurfaceNeed(points, surfaces));
+  double isopoints = 0.0, largest = 0.0;
+  for (const SurfaceSize& surface : surfaces) {
+    isopoints += surface.isopoints;
+    largest = std::max(largest, surface.isopoints);
+  }
+  // Normals of one surface after the other, beside a copy of all where some are
+  // missing.
+  const auto normals =
+      surfaceNormalsNeed(largest, static_cast<double>(parameters.normal_neighbors));
+  forecast.run({normals.peak + sizeof(PointIso) * isopoints, 0.0});
+  // As bytes, and with the other fields.
+  forecast.hold((2.0 * sizeof(PointIso) + point_step) * isopoints);
+}
+
+std::vector<SurfaceSize>
+IsosurfacePipeline::estimateSurfaces() const
+{
+  const IsosurfaceParameters parameters = resolveParameters();
+  return pcl_uvol::estimateSurfaces(viewOf(samples_->cloud),
+                                    parameters.field,
+                                    parameters.isovalues,
+                                    parameters.scale,
+                                    threads_);
+}
+
+} // namespace pcl_uvol

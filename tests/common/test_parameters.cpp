@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of all stages: they survive JSON, and equality sees every member.
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/derivatives/gradient_estimation.h>
+#include <pcl_uvol/multivariate/density_clustering.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/surface/splat_generation.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace {
+
+using pcl_uvol::InvalidArgument;
+using pcl_uvol::IsosurfaceParameters;
+using pcl_uvol::IsosurfacePipelineParameters;
+using pcl_uvol::LevelSetParameters;
+
+/** Another value than before. */
+template <typename T>
+void
+change(T& value)
+{
+  if constexpr (std::is_same_v<T, bool>)
+    value = !value;
+  else if constexpr (std::is_enum_v<T>) {
+    for (const auto& [other, word] : listWords(T()))
+      if (other != value) {
+        value = other;
+        return;
+      }
+  }
+  else if constexpr (std::is_floating_point_v<T>)
+    value = value != value ? T(0.5) : value + T(0.25);
+  else if constexpr (std::is_integral_v<T>)
+    ++value;
+  else if constexpr (std::is_same_v<T, std::string>)
+    value += "\"|v,é|";
+  else if constexpr (std::is_same_v<T, std::optional<double>>)
+    value = 0.125;
+  else if constexpr (std::is_same_v<T, std::vector<double>>)
+    value.push_back(0.1);
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    value.emplace_back("rho");
+  else if constexpr (std::is_base_of_v<Eigen::DenseBase<T>, T>)
+    value[1] += 1.5f;
+  else
+    pcl_uvol::forEachMember<T>(
+        [&](const char*, auto pointer) { change(value.*pointer); });
+}
+
+template <typename Parameters>
+class StageParameters : public testing::Test {
+};
+
+using AllParameters = testing::Types<IsosurfaceParameters,
+                                     LevelSetParameters,
+                                     IsosurfacePipelineParameters,
+                                     pcl_uvol::NaturalNeighborParameters,
+                                     pcl_uvol::GradientParameters,
+                                     pcl_uvol::SurfaceNormalParameters,
+                                     pcl_uvol::SplatParameters,
+                                     pcl_uvol::ClusteringParameters>;
+TYPED_TEST_SUITE(StageParameters, AllParameters);
+
+TYPED_TEST(StageParameters, SurviveJson)
+{
+  EXPECT_EQ(TypeParam(), TypeParam::fromJson(TypeParam().toJson()));
+  TypeParam changed;
+  pcl_uvol::forEachMember<TypeParam>(
+      [&](const char*, auto pointer) { change(changed.*pointer); });
+  EXPECT_NE(TypeParam(), changed);
+  EXPECT_EQ(changed, TypeParam::fromJson(changed.toJson())) << changed.toJson();
+}
+
+TYPED_TEST(StageParameters, AreUnequalInEveryMember)
+{
+  std::set<std::string> names;
+  pcl_uvol::forEachMember<TypeParam>([&](const char* name, auto pointer) {
+    TypeParam changed;
+    change(changed.*pointer);
+    EXPECT_NE(TypeParam(), changed) << name;
+    EXPECT_NE(TypeParam().toJson(), changed.toJson()) << name;
+    EXPECT_TRUE(names.insert(name).second) << name << " is listed twice";
+  });
+}
+
+TYPED_TEST(StageParameters, HaveDefaultsInJson)
+{
+  EXPECT_EQ(TypeParam(), TypeParam::fromJson("{}"));
+}
+
+TYPED_TEST(StageParameters, RefuseUnknownNamesAndWhatIsNoJson)
+{
+  for (const char* const text : {"", "{", "[]", "1", "null", "{\"unknown\": 1}"})
+    EXPECT_THROW(TypeParam::fromJson(text), InvalidArgument) << text;
+}
+
+std::string
+refusal(const std::string& text)
+{
+  try {
+    IsosurfacePipelineParameters::fromJson(text);
+  }
+  catch (const InvalidArgument& error) {
+    return error.message();
+  }
+  return "";
+}
+
+TEST(Parameters, NameWhatIsWrongInJson)
+{
+  EXPECT_EQ("The parameter isosurface.outside is \"left\" in JSON: it must be one of "
+            "lower, higher.",
+            refusal(R"({"isosurface": {"outside": "left"}})"));
+  EXPECT_EQ("The parameter isosurface.scale is [1,2] in JSON: it must be a list of 3.",
+            refusal(R"({"isosurface": {"scale": [1, 2]}})"));
+  EXPECT_EQ("The parameter normal_neighbors is -3 in JSON: it must be a whole number "
+            "from 0.",
+            refusal(R"({"normal_neighbors": -3})"));
+  EXPECT_EQ("The parameter smooth is 1 in JSON: it must be true or false.",
+            refusal(R"({"smooth": 1})"));
+  EXPECT_EQ(
+      "The parameter isosurface.voronoi_cells is 4294967296 in JSON: it must be a "
+      "whole number from 0.",
+      refusal(R"({"isosurface": {"voronoi_cells": 4294967296}})"));
+  EXPECT_NE(refusal(R"({"isosurfaces": {}})").find("there are isosurface, "),
+            std::string::npos);
+}
+
+TEST(Parameters, UnderstandTheOldWordForFits)
+{
+  EXPECT_EQ(IsosurfaceParameters(),
+            IsosurfaceParameters::fromJson(R"({"interpolation": "smooth"})"));
+  EXPECT_STREQ("fit", pcl_uvol::toWord(pcl_uvol::Interpolation::Fit));
+}
+
+TEST(Parameters, HaveNullForWhatIsNotGiven)
+{
+  LevelSetParameters given;
+  given.mu = 0.5;
+  given.isovalue = 2.0;
+  const std::string text = R"({"mu": null, "isovalue": null})";
+  EXPECT_EQ(LevelSetParameters(), LevelSetParameters::fromJson(text));
+  EXPECT_EQ(given, LevelSetParameters::fromJson(R"({"mu": 0.5, "isovalue": 2})"));
+}
+
+} // namespace

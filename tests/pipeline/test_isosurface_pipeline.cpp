@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline gives what its stages give one by one, in every combination.
+#include "support/clouds.h"
+#include "support/environment.h"
+#include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::Interpolation;
+using pcl_uvol::InvalidArgument;
+using pcl_uvol::IsosurfacePipeline;
+using pcl_uvol::IsosurfacePipelineParameters;
+using pcl_uvol::IsosurfaceResult;
+using pcl_uvol::NormalMethod;
+
+/** A ball of noisy samples with a second field. */
+std::shared_ptr<Dataset>
+makeSamples(std::size_t n = 4000)
+{
+  uvol_test::Random random(3);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  std::vector<float> second;
+  for (std::size_t i = 0; i < n; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(2.0 * random.uniform() - 1.0);
+    point.intensity = 0.7f - point.getVector3fMap().norm() +
+                      0.02f * static_cast<float>(random.uniform() - 0.5);
+    cloud.push_back(point);
+    second.push_back(point.x + 2.0f * point.y);
+  }
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  pcl_uvol::setField(*samples, "second", second);
+  samples->origin = {{1000.0, 0.0, -5.0}};
+  samples->double_coordinates = true;
+  return samples;
+}
+
+IsosurfacePipelineParameters
+makeParameters(double isovalue = 0.0)
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {isovalue};
+  return parameters;
+}
+
+IsosurfaceResult
+run(const std::shared_ptr<Dataset>& samples,
+    const IsosurfacePipelineParameters& parameters,
+    unsigned threads = 0)
+{
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  pipeline.setNumberOfThreads(threads);
+  return pipeline.run();
+}
+
+float
+readField(const Dataset& dataset, std::size_t point, const std::string& name)
+{
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
+  return static_cast<float>(
+      pcl_uvol::ScalarField(view.fields, name).read(view.point(point)));
+}
+
+std::vector<float>
+readColumn(const Dataset& dataset, const std::string& name)
+{
+  std::vector<float> values;
+  for (std::size_t i = 0; i < dataset.cloud.width; ++i)
+    values.push_back(readField(dataset, i, name));
+  return values;
+}
+
+TEST(IsosurfacePipeline, CarriesFieldsOriginAndReport)
+{
+  const auto samples = makeSamples();
+  const IsosurfaceResult result = run(samples, makeParameters());
+  ASSERT_GT(result.surface.cloud.width, 300u);
+  EXPECT_EQ(result.surface.cloud.width, result.edges.size());
+  EXPECT_EQ(result.surface.cloud.width, result.report.getCount("isopoints"));
+  EXPECT_EQ("intensity", result.field);
+  EXPECT_EQ(samples->origin, result.surface.origin);
+  EXPECT_TRUE(result.surface.double_coordinates);
+  ASSERT_TRUE(result.errors);
+  EXPECT_LE(result.errors->median, result.errors->percentile_95);
+  EXPECT_LE(result.errors->percentile_95, result.errors->largest);
+  for (std::size_t i = 0; i < result.edges.size(); i += 17) {
+    const auto& edge = result.edges[i];
+    const float a = readField(*samples, edge.first, "second"),
+                b = readField(*samples, edge.second, "second");
+    EXPECT_NEAR((1.0f - edge.t) * a + edge.t * b,
+                readField(result.surface, i, "second"),
+                1e-5f);
+    EXPECT_EQ(0.0f, readField(result.surface, i, "isovalue"));
+  }
+}
+
+TEST(IsosurfacePipeline, IsTheExtractionWithAllFields)
+{
+  const auto samples = makeSamples();
+  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(samples, &samples->cloud));
+  extraction.setIsoValue(0.0);
+  pcl::PCLPointCloud2 alone;
+  extraction.extract(alone);
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.normals = NormalMethod::Edge;
+  const IsosurfaceResult result = run(samples, parameters);
+  ASSERT_EQ(alone.fields.size(), result.surface.cloud.fields.size());
+  EXPECT_EQ(alone.data, result.surface.cloud.data);
+}
+
+TEST(IsosurfacePipeline, OrientsAsItIsTold)
+{
+  const auto samples = makeSamples();
+  for (const auto interpolation : {Interpolation::Linear, Interpolation::Fit}) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.isosurface.interpolation = interpolation;
+    const auto normals = [&](NormalMethod method) {
+      parameters.normals = method;
+      return readColumn(run(samples, parameters).surface, "normal_x");
+    };
+    const auto by_default = normals(NormalMethod::Auto);
+    const auto pca = normals(NormalMethod::Pca), edge = normals(NormalMethod::Edge);
+    EXPECT_NE(pca, edge);
+    if (interpolation == Interpolation::Linear)
+      EXPECT_EQ(pca, by_default);
+    else
+      EXPECT_EQ(normals(NormalMethod::Fit), by_default);
+  }
+}
+
+TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipelineParameters parameters = makeParameters();
+  const IsosurfaceResult all = run(samples, parameters);
+  parameters.max_error = all.errors->median;
+  const IsosurfaceResult some = run(samples, parameters);
+  EXPECT_GT(some.surface.cloud.width, all.surface.cloud.width / 3);
+  EXPECT_EQ(all.surface.cloud.width,
+            some.surface.cloud.width + some.report.getCount("removed_by_error"));
+  EXPECT_LE(some.errors->largest, static_cast<float>(*parameters.max_error));
+  parameters.max_error.reset();
+  parameters.drop_bridged = true;
+  const IsosurfaceResult measured = run(samples, parameters);
+  EXPECT_EQ(all.report.getCount("bridged"),
+            measured.report.getCount("removed_bridged"));
+  for (const float support : readColumn(measured.surface, "support"))
+    EXPECT_NE(2.0f, support);
+}
+
+TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.isosurface.isovalues = {0.0, 0.1};
+  parameters.smooth = true;
+  parameters.level_set.mu = 0.5;
+  parameters.level_set.max_steps = 20;
+  const IsosurfaceResult result = run(samples, parameters);
+  ASSERT_EQ(2u, result.level_sets.size());
+  EXPECT_GE(20u, result.level_sets[1].steps.size());
+  const auto isovalues = readColumn(result.surface, "isovalue");
+  EXPECT_EQ(0.0f, isovalues.front());
+  EXPECT_EQ(0.1f, isovalues.back());
+
+  pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  evolution.setInputCloud(pcl::PCLPointCloud2::ConstPtr(samples, &samples->cloud));
+  evolution.setIsoValue(0.1);
+  evolution.setMu(0.5);
+  evolution.setMaximumSteps(20);
+  auto with_phi = std::make_shared<Dataset>();
+  evolution.evolve(with_phi->cloud);
+  IsosurfacePipelineParameters of_phi = makeParameters();
+  of_phi.isosurface.field = "phi";
+  const auto second = readColumn(run(with_phi, of_phi).surface, "x");
+  const auto both = readColumn(result.surface, "x");
+  ASSERT_LT(second.size(), both.size());
+  EXPECT_EQ(second,
+            std::vector<float>(both.end() - static_cast<std::ptrdiff_t>(second.size()),
+                               both.end()));
+}
+
+TEST(IsosurfacePipeline, ReusesTheTreeForFurtherIsovalues)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  for (const double isovalue : {0.0, 0.2}) {
+    pipeline.setParameters(makeParameters(isovalue));
+    const IsosurfaceResult again = pipeline.run();
+    EXPECT_EQ(run(samples, makeParameters(isovalue)).surface.cloud.data,
+              again.surface.cloud.data);
+    const auto& steps = again.report.milliseconds;
+    EXPECT_EQ(isovalue == 0.0,
+              std::any_of(steps.begin(), steps.end(), [](const auto& step) {
+                return step.first == "tree";
+              }));
+  }
+}
+
+TEST(IsosurfacePipeline, TakesTheIndices)
+{
+  const auto samples = makeSamples();
+  const auto half = pcl::make_shared<pcl::Indices>();
+  for (int i = 0; i < 4000; i += 2)
+    half->push_back(i);
+  for (const bool smooth : {false, true}) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.smooth = smooth;
+    parameters.level_set.max_steps = 5;
+    IsosurfacePipeline pipeline;
+    pipeline.setInput(samples);
+    pipeline.setIndices(half);
+    pipeline.setParameters(parameters);
+    const IsosurfaceResult result = pipeline.run();
+    EXPECT_EQ(2000u, pipeline.getReport().getCount("samples") / (smooth ? 2 : 1));
+    for (const auto& edge : result.edges)
+      EXPECT_EQ(0u, (edge.first | edge.second) % 2);
+    pipeline.setIndices(nullptr);
+    EXPECT_EQ(run(samples, parameters).surface.cloud.data,
+              pipeline.run().surface.cloud.data);
+  }
+}
+
+TEST(IsosurfacePipeline, DoesNotDependOnThreads)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.smooth = true;
+  parameters.level_set.max_steps = 10;
+  const auto one = run(samples, parameters, 1).surface.cloud.data;
+  for (const unsigned threads : {2u, 5u})
+    EXPECT_EQ(one, run(samples, parameters, threads).surface.cloud.data);
+}
+
+TEST(IsosurfacePipeline, WarnsOfReplacedFields)
+{
+  const auto samples = makeSamples();
+  pcl_uvol::setField(*samples, "error", std::vector<float>(4000, 1.0f));
+  const auto result = run(samples, makeParameters());
+  ASSERT_EQ(1u, result.report.warnings.size());
+  EXPECT_NE(result.report.warnings[0].find("'error'"), std::string::npos);
+}
+
+TEST(IsosurfacePipeline, ForecastsItsMemory)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(makeParameters());
+  const auto sizes = pipeline.estimateSurfaces();
+  ASSERT_EQ(1u, sizes.size());
+  const double isopoints = pipeline.run().surface.cloud.width;
+  EXPECT_NEAR(isopoints, sizes[0].isopoints, 0.1 * isopoints);
+  const auto forecast = [&](bool smooth, double points) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.smooth = smooth;
+    pcl_uvol::MemoryForecast memory(0.0);
+    pcl_uvol::addMemoryNeed(parameters, points, 20.0, sizes, memory);
+    return memory.getPeak();
+  };
+  EXPECT_GT(forecast(false, 1e6), 50e6);
+  EXPECT_GT(forecast(true, 1e6), forecast(false, 1e6));
+}
+
+TEST(IsosurfacePipeline, RefusesWhatItCannotDo)
+{
+  const auto samples = makeSamples(100);
+  EXPECT_THROW(run(nullptr, makeParameters()), InvalidArgument);
+  EXPECT_THROW(run(samples, IsosurfacePipelineParameters()), InvalidArgument);
+  const auto expect_bad = [&](auto change) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    change(parameters);
+    EXPECT_THROW(run(samples, parameters), InvalidArgument);
+  };
+  using Parameters = IsosurfacePipelineParameters;
+  expect_bad([](Parameters& p) { p.isosurface.field = "nothing"; });
+  expect_bad([](Parameters& p) { p.isosurface.scale = {1.0f, 0.0f, 1.0f}; });
+  expect_bad([](Parameters& p) { p.normal_neighbors = 1; });
+  expect_bad([](Parameters& p) { p.max_error = -1.0; });
+  expect_bad([](Parameters& p) { p.max_error = std::nan(""); });
+  expect_bad([](Parameters& p) {
+    p.isosurface.interpolation = Interpolation::Linear;
+    p.normals = NormalMethod::Fit;
+  });
+  expect_bad([](Parameters& p) {
+    p.isosurface.interpolation = Interpolation::Linear;
+    p.drop_bridged = true;
+  });
+}
+
+/** What a callback throws ends the run, and the next one is whole. */
+TEST(IsosurfacePipeline, IsEndedByItsProgress)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(makeParameters());
+  pipeline.setProgressCallback(
+      [](const std::string&, double) { throw std::runtime_error("enough"); });
+  EXPECT_THROW(pipeline.run(), std::runtime_error);
+  pipeline.setProgressCallback(nullptr);
+  EXPECT_EQ(run(samples, makeParameters()).surface.cloud.data,
+            pipeline.run().surface.cloud.data);
+}
+
+} // namespace
