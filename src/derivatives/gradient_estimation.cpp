@@ -144,8 +144,7 @@ detail::estimateGradients(const CloudView& cloud,
     throw InvalidArgument("The number of neighbours is " +
                           std::to_string(parameters.k) + ": it must be at least " +
                           std::to_string(least) + " with this scheme.");
-  if (indices.empty())
-    throw InvalidArgument("GradientEstimation was given an empty cloud.");
+  checkIndices(indices, cloud.count, "GradientEstimation");
   const ScalarField field(cloud.fields, parameters.field);
   const auto values = readValues(cloud, field, threads);
   const auto use = pointsWithValue(values, indices, field);

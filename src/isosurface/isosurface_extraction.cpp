@@ -129,8 +129,7 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
                                       pcl::PointCloud<PointIso>& isopoints)
 {
   checkParameters(parameters_);
-  if (indices.empty())
-    throw InvalidArgument("IsosurfaceExtraction was given an empty cloud.");
+  detail::checkIndices(indices, cloud.count, "IsosurfaceExtraction");
   startReport();
   updateScalar(cloud, indices);
   updateCandidates();

@@ -151,8 +151,7 @@ private:
   void
   read(const CloudView& cloud, const pcl::Indices& indices)
   {
-    if (indices.empty())
-      throw InvalidArgument("LevelSetEvolution was given an empty cloud.");
+    detail::checkIndices(indices, cloud.count, "LevelSetEvolution");
     cloud_size_ = cloud.count;
     const double isovalue = parameters_.isovalue;
     const ScalarField field(cloud.fields, parameters_.field);

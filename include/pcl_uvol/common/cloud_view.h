@@ -7,20 +7,26 @@
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>
 #include <pcl/point_cloud.h>
+#include <pcl/types.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace pcl_uvol {
 
-/** \brief Refers to a cloud, which must outlive it. x, y, z are consecutive floats. */
+/** \brief Refers to a cloud, which must outlive it. x, y, z are consecutive floats: a
+ * cloud that has them otherwise, as doubles, say, is referred to as a copy of its own.
+ */
 struct PCL_UVOL_EXPORTS CloudView {
   const std::uint8_t* data = nullptr;
   std::size_t count = 0;
   std::size_t point_step = 0; ///< bytes from point to point, a multiple of 4
   std::size_t xyz_offset = 0; ///< bytes from the start of a point to x, a multiple of 4
   std::vector<pcl::PCLPointField> fields;
+  std::shared_ptr<const std::vector<std::uint8_t>>
+      copy; ///< that data refers to, or null
 
   const std::uint8_t*
   point(std::size_t index) const
@@ -42,23 +48,50 @@ struct PCL_UVOL_EXPORTS CloudView {
   }
 };
 
-/** \brief View of a cloud of a registered point type. */
+namespace detail {
+
+/** \brief The bytes of a cloud, as a point type or a file lays them out. */
+struct CloudBytes {
+  const std::uint8_t* data;
+  std::size_t size; ///< bytes
+  std::size_t width, height, point_step, row_step;
+  bool is_big_endian;
+};
+
+/** \brief Check a layout, and lay the points out anew where x, y, z are not consecutive
+ * aligned floats or rows are padded.
+ * \throws InvalidArgument without x, y and z, for a field beyond the end of the points
+ * or of an unknown type, for fewer bytes than points, big endian, more points than
+ * PCL's indices can number */
+PCL_UVOL_EXPORTS CloudView
+makeView(const CloudBytes& bytes, const std::vector<pcl::PCLPointField>& fields);
+
+/** \brief Indices that a user gave. \param stage name for the messages
+ * \throws InvalidArgument for none, and for one that is no point of the cloud */
+PCL_UVOL_EXPORTS void
+checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage);
+
+} // namespace detail
+
+/** \brief View of a cloud of a registered point type with x, y, z of any numeric type.
+ * \throws InvalidArgument for more points than PCL's indices can number */
 template <typename PointT>
 CloudView
 viewOf(const pcl::PointCloud<PointT>& cloud)
 {
-  CloudView view;
-  view.data = reinterpret_cast<const std::uint8_t*>(cloud.points.data());
-  view.count = cloud.size();
-  view.point_step = sizeof(PointT);
-  view.xyz_offset = offsetof(PointT, x);
-  view.fields = pcl::getFields<PointT>();
-  return view;
+  const std::size_t bytes = cloud.size() * sizeof(PointT);
+  return detail::makeView({reinterpret_cast<const std::uint8_t*>(cloud.points.data()),
+                           bytes,
+                           cloud.size(),
+                           1,
+                           sizeof(PointT),
+                           bytes,
+                           false},
+                          pcl::getFields<PointT>());
 }
 
 /** \brief View of a cloud with fields known at run time only.
- * \throws InvalidArgument unless x, y, z are consecutive aligned float32 fields and the
- * data is as large as width * height says */
+ * \throws InvalidArgument as detail::makeView */
 PCL_UVOL_EXPORTS CloudView
 viewOf(const pcl::PCLPointCloud2& cloud);
 

@@ -218,7 +218,10 @@ public:
   // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
   setInputCloud(const typename Cloud::ConstPtr& cloud)
   {
-    pcl::PCLBase<PointT>::setInputCloud(cloud);
+    if (cloud)
+      pcl::PCLBase<PointT>::setInputCloud(cloud);
+    else // PCLBase<PCLPointCloud2> would look into it
+      this->input_.reset();
     forgetSamples();
   }
 
@@ -248,6 +251,9 @@ private:
   template <typename OutputT>
   void
   extractAs(OutputT& isopoints);
+
+  /** Of the last extraction: PCLBase can be given another cloud past setInputCloud. */
+  typename Cloud::ConstPtr extracted_;
 };
 
 } // namespace pcl_uvol

@@ -106,6 +106,7 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
 {
   if (surface_ && indices == drawn_)
     return *surface_;
+  detail::checkIndices(*indices, cloud.count, "ImageSpaceRenderer");
   const std::vector<std::uint32_t> use(indices->begin(), indices->end());
   surface_report_ = Report();
   const StepTimer timer(surface_report_, "prepare");

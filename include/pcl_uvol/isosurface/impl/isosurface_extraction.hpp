@@ -15,6 +15,9 @@ IsosurfaceExtraction<PointT>::extractAs(OutputT& isopoints)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument(
         "IsosurfaceExtraction has no input cloud: call setInputCloud.");
+  if (this->input_ != extracted_)
+    forgetSamples();
+  extracted_ = this->input_;
   extractFrom(viewOf(*this->input_), *this->indices_, isopoints);
   isopoints.header = this->input_->header;
   this->deinitCompute();

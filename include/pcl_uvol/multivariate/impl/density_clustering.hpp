@@ -16,9 +16,11 @@ DensityClustering<PointT>::compute(std::vector<int>& labels)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("DensityClustering has no input cloud: call setInputCloud.");
   startReport();
+  const CloudView cloud = viewOf(*this->input_);
+  detail::checkIndices(*this->indices_, cloud.count, "DensityClustering");
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   Clustering clustering =
-      detail::clusterCloud(viewOf(*this->input_), use, parameters_, threads_, report_);
+      detail::clusterCloud(cloud, use, parameters_, threads_, report_);
   labels.assign(clustering.labels.begin(), clustering.labels.end());
   probabilities_ = std::move(clustering.probabilities);
   tree_ = std::move(clustering.tree);

@@ -27,9 +27,10 @@ NaturalNeighbors<PointT>::compute(NeighborGraph& graph)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("NaturalNeighbors has no input cloud: call setInputCloud.");
   startReport();
+  const CloudView cloud = viewOf(*this->input_);
+  detail::checkIndices(*this->indices_, cloud.count, "NaturalNeighbors");
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  graph = detail::computeNaturalNeighbors(
-      viewOf(*this->input_), use, parameters_, threads_, report_);
+  graph = detail::computeNaturalNeighbors(cloud, use, parameters_, threads_, report_);
   this->deinitCompute();
 }
 

@@ -16,9 +16,10 @@ SplatGeneration<PointT>::compute(pcl::PointCloud<PointSplat>& splats)
   if (!this->input_ || !this->initCompute())
     throw InvalidArgument("SplatGeneration has no input cloud: call setInputCloud.");
   startReport();
+  const CloudView cloud = viewOf(*this->input_);
+  detail::checkIndices(*this->indices_, cloud.count, "SplatGeneration");
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
-  Splats generated = detail::generateSplats(
-      viewOf(*this->input_), use, parameters_, threads_, report_);
+  Splats generated = detail::generateSplats(cloud, use, parameters_, threads_, report_);
   splats = std::move(generated.cloud);
   splats.header = this->input_->header;
   sources_ = std::move(generated.sources);

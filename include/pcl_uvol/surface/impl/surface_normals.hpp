@@ -16,9 +16,11 @@ SurfaceNormalEstimation<PointInT, PointOutT>::compute(
     throw InvalidArgument(
         "SurfaceNormalEstimation has no input cloud: call setInputCloud.");
   startReport();
+  const CloudView cloud = viewOf(*this->input_);
+  detail::checkIndices(*this->indices_, cloud.count, "SurfaceNormalEstimation");
   const std::vector<std::uint32_t> use(this->indices_->begin(), this->indices_->end());
   const auto normals = detail::estimateSurfaceNormals(
-      viewOf(*this->input_), use, parameters_, search_, threads_, report_);
+      cloud, use, parameters_, search_, threads_, report_);
   output.resize(normals.size());
   const bool organized =
       normals.size() == std::size_t(this->input_->width) * this->input_->height;
