@@ -167,7 +167,8 @@ extract(const Arguments& arguments,
   const std::string& field = parameters.field;
   if (!arguments.inPieces())
     pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
-  const std::uint64_t first_index = pcl_uvol::findFirstIndex(part.cloud.width, communicator);
+  const std::uint64_t first_index =
+      pcl_uvol::findFirstIndex(part.cloud.width, communicator);
   const auto view = pcl_uvol::viewOf(part.cloud);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
       pcl_uvol::readSamples(view,
@@ -216,8 +217,10 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   const std::string field =
       extract(arguments, arguments.threads(options), communicator, report);
   bar.reset();
-  const Report together = mergeReports(
-      report, communicator, {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
+  const Report together =
+      mergeReports(report,
+                   communicator,
+                   {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
   if (communicator.rank() == 0)
     uvol_tools::printReport(
         options,

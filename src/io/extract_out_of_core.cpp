@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/edge_ends.h>
 #include <pcl_uvol/io/extract_out_of_core.h>
+#include <pcl_uvol/isosurface/edge_ends.h>
 
 #include <algorithm>
 #include <utility>

@@ -3,8 +3,8 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/io/extract_out_of_core.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

@@ -19,7 +19,6 @@
 
 namespace pcl_uvol {
 
-
 /** \brief Warn of an isovalue that no edge can cross, with the values there are. */
 PCL_UVOL_EXPORTS void
 warnIfOutside(double isovalue,
