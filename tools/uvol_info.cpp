@@ -127,6 +127,8 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
     return facts;
   }
   const auto positions = pcl_uvol::describePositions(dataset, threads);
+  report.warnings.insert(
+      report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
     report.warnings.push_back(arguments.input + " has no point with finite x, y, z.");
   else {

@@ -170,14 +170,12 @@ extract(const Arguments& arguments,
   const std::uint64_t first_index =
       pcl_uvol::findFirstIndex(part.cloud.width, communicator);
   const auto view = pcl_uvol::viewOf(part.cloud);
+  const pcl_uvol::ScalarField scalar(view.fields, field);
+  const auto frame = pcl_uvol::findValueFrame(view, scalar, communicator, threads);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
-      pcl_uvol::readSamples(view,
-                            {view.fields, field},
-                            pcl_uvol::toPosition(parameters.scale),
-                            first_index,
-                            threads,
-                            report),
+      pcl_uvol::readSamples(view, scalar, frame, first_index, threads, report),
       parameters,
+      frame,
       communicator,
       threads,
       report);

@@ -64,9 +64,9 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
                           " points for a cloud of " +
                           std::to_string(cloud.width * cloud.height) + ".");
   CoordinateRange range;
-  for (std::size_t i = 0; i < xyz.size(); ++i)
-    range.add(i % 3, xyz[i]);
-  dataset.origin = range.origin();
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+    range.add({xyz[i], xyz[i + 1], xyz[i + 2]});
+  dataset.origin = findOrigin(range, dataset.notes);
   cloud = repack(cloud, false);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -180,9 +180,9 @@ RecordLayout::isIdentity() const
 }
 
 void
-RecordLayout::setOrigin(const std::array<double, 3>& origin)
+RecordLayout::setOrigin(const CoordinateRange& range)
 {
-  header_.origin = origin;
+  header_.origin = findOrigin(range, header_.notes);
   needs_origin_ = false;
 }
 
@@ -192,8 +192,7 @@ RecordLayout::addTo(CoordinateRange& range,
                     std::size_t count) const
 {
   for (std::size_t i = 0; i < count; ++i, records += record_step_)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      range.add(axis, axes_[axis].read(records));
+    range.add({axes_[0].read(records), axes_[1].read(records), axes_[2].read(records)});
 }
 
 void
@@ -209,6 +208,16 @@ RecordLayout::convert(const std::uint8_t* records,
     if (point_bytes_ < step)
       std::memset(points + point_bytes_, 0, step - point_bytes_);
   }
+}
+
+std::array<double, 3>
+findOrigin(const CoordinateRange& range, std::vector<std::string>& notes)
+{
+  const std::array<double, 3> origin = range.findOrigin();
+  const std::string note = range.describeRounding(origin);
+  if (!note.empty())
+    notes.push_back(note);
+  return origin;
 }
 
 void
@@ -229,7 +238,7 @@ makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
   if (layout.needsOrigin()) {
     CoordinateRange range;
     layout.addTo(range, records.data.data(), count);
-    layout.setOrigin(range.origin());
+    layout.setOrigin(range);
   }
   Dataset dataset = layout.getHeader();
   dataset.cloud.header = records.header;

@@ -127,6 +127,7 @@ struct NormalEquations {
   Lanes squares{};                        // of the values
   Lanes factor[cubic_terms][cubic_terms]; // lower triangle
   Lanes inverse_pivot[cubic_terms];
+  Lanes least_pivot; // of its own diagonal entry
   Mask quadratic_regular, cubic_regular;
 
   /** Two samples at a time, for half the traffic of the sums; along x in registers. */
@@ -166,6 +167,7 @@ struct NormalEquations {
   factorize()
   {
     const Lanes zero{}, one = zero + 1.0;
+    least_pivot = one;
     quadratic_regular = cubic_regular = zero == zero;
     for (int i = 0; i < cubic_terms; ++i) {
       for (int j = 0; j < i; ++j) {
@@ -179,6 +181,8 @@ struct NormalEquations {
       for (int k = 0; k < i; ++k)
         pivot -= factor[i][k] * factor[i][k];
       const Mask regular = pivot > smallest_pivot * diagonal;
+      const Lanes part = regular ? pivot / diagonal : zero;
+      least_pivot = part < least_pivot ? part : least_pivot;
       cubic_regular &= regular;
       if (i < quadratic_terms)
         quadratic_regular &= regular;
@@ -337,6 +341,7 @@ fitRegister(const FitSample* samples,
     store(gradient[axis], result.gradient[axis] + first);
   for (int i = 0; i < 6; ++i)
     store(hessian[i], result.hessian[i] + first);
+  store(equations.least_pivot, result.pivot + first);
   store(squareRoot(leverage * variance) / slope, result.error + first);
   store(squareRoot((is_cubic ? cubic_residuals : quadratic_residuals) /
                    equations.moment[0]),

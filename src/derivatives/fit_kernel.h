@@ -29,7 +29,9 @@ struct alignas(64) FitResult {
   double hessian[6][fit_lanes];  ///< there: xx xy xz yy yz zz
   double error[fit_lanes];       ///< standard error of the zero level's place
   double residual[fit_lanes];    ///< weighted root mean square of the values' residuals
-  int order[fit_lanes];          ///< a FitOrder; the others are undefined for 0
+  double pivot[fit_lanes]; ///< least part of a term of the cubic that those before
+                           ///< it do not give at the samples
+  int order[fit_lanes];    ///< a FitOrder; the others but pivot are undefined for 0
 };
 
 /** \brief Fit a cubic and, from the leading part of the same normal equations, a

@@ -59,6 +59,11 @@ public:
     sweep(report, "gradients", [&](std::size_t i, const LocalFit& fit, auto outcome) {
       reduced += outcome == FitOutcome::Reduced;
       singular += outcome == FitOutcome::Singular;
+      if (neighbors_[i].size() == 0) { // the only sample
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        found[i] = {Eigen::Vector3d::Constant(none), none};
+        return;
+      }
       double d[9] = {};
       for (std::size_t j = 0; j < neighbors_[i].size(); ++j) {
         const double difference =
@@ -146,7 +151,8 @@ detail::estimateGradients(const CloudView& cloud,
                           std::to_string(least) + " with this scheme.");
   checkIndices(indices, cloud.count, "GradientEstimation");
   const ScalarField field(cloud.fields, parameters.field);
-  const auto values = readValues(cloud, field, threads);
+  const ValueFrame frame = findValueRange(cloud, field, threads).findFrame();
+  const auto values = readValues(cloud, field, frame, threads);
   const auto use = pointsWithValue(values, indices, field);
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
@@ -160,11 +166,14 @@ detail::estimateGradients(const CloudView& cloud,
       GradientFinder(*samples, neighbors, parameters, threads).find(f, report);
 
   std::vector<PointGradient> by_point(cloud.count);
+  const double per_length = samples->getUnit().factor;
   const auto assign = [&](std::uint32_t point, const Derivatives& derivatives) {
-    by_point[point].gradient_x = static_cast<float>(derivatives.gradient[0]);
-    by_point[point].gradient_y = static_cast<float>(derivatives.gradient[1]);
-    by_point[point].gradient_z = static_cast<float>(derivatives.gradient[2]);
-    by_point[point].mean_curvature = static_cast<float>(derivatives.mean_curvature);
+    const Eigen::Vector3d gradient = per_length / frame.factor * derivatives.gradient;
+    by_point[point].gradient_x = static_cast<float>(gradient[0]);
+    by_point[point].gradient_y = static_cast<float>(gradient[1]);
+    by_point[point].gradient_z = static_cast<float>(gradient[2]);
+    by_point[point].mean_curvature =
+        static_cast<float>(per_length * derivatives.mean_curvature);
   };
   for (std::size_t i = 0; i < samples->size(); ++i)
     assign(samples->getInputIndex(i), found[i]);

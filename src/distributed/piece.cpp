@@ -200,7 +200,7 @@ Piece::Piece(const Decomposition& decomposition,
     , axes_(decomposition.getAxes())
 {
   SampleSet::Parts parts;
-  parts.scale = scale;
+  parts.unit.scale = scale;
   parts.positions = std::move(samples.positions);
   parts.trees.push_back(std::move(tree));
   placeTrees(parts, {runs_[0].cell});
@@ -378,7 +378,7 @@ Piece::join(const std::vector<GhostBrick>& bricks, std::vector<KdTree>&& trees)
   });
 
   SampleSet::Parts parts;
-  parts.scale = old.scale;
+  parts.unit = old.unit;
   Samples joined;
   joined.reserve(total);
   joined.positions.reserve(total + anchors_per_cell * blocks.size());

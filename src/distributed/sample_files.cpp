@@ -165,18 +165,22 @@ SampleLog::getPositions() const
 {
   return {size_, [this](std::uint64_t begin, std::size_t count, Position* buffer) {
             file_.readPositions(begin, count, buffer);
+            for (std::size_t i = 0; i < count; ++i)
+              buffer[i] = unit_.apply(buffer[i]);
             return buffer;
           }};
 }
 
 void
-SampleLog::take(const std::function<void(const Samples&)>& block)
+SampleLog::take(const std::function<void(Samples&)>& block)
 {
   Samples samples;
   for (std::uint64_t begin = 0; begin < size(); begin += block_samples) {
     const std::size_t count = std::min<std::uint64_t>(size() - begin, block_samples);
     file_.read(begin, count, samples);
     file_.release(begin, count);
+    for (Position& position : samples.positions)
+      position = unit_.apply(position);
     block(samples);
   }
 }

@@ -64,17 +64,25 @@ public:
     return size_;
   }
 
+  /** \brief Positions come out in a unit in which all of them are those of samples. */
+  void
+  setUnit(const LengthUnit& unit)
+  {
+    unit_ = unit;
+  }
+
   /** \brief All positions; the log must outlive them. */
   PositionSource
   getPositions() const;
 
   /** \brief Call block for all samples, which then are gone. */
   void
-  take(const std::function<void(const Samples&)>& block);
+  take(const std::function<void(Samples&)>& block);
 
 private:
   SampleFile file_;
   std::uint64_t size_ = 0;
+  LengthUnit unit_;
 };
 
 /** \brief Samples by piece, one piece behind the other. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "../neighbors/sample_values.h"
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/distributed/byte_stream.h>
 #include <pcl_uvol/distributed/samples.h>
 
 #include <algorithm>
@@ -43,23 +44,54 @@ Samples::append(const SampleSpan& others)
   copy(others.sources, sources);
 }
 
+Strays
+Samples::normalize(const LengthUnit& unit)
+{
+  Strays strays;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const Position position = unit.apply(positions[i]);
+    if (!LengthUnit::isWithin(position)) {
+      strays.add(sources[i], positions[i]);
+      continue;
+    }
+    positions[kept] = position;
+    values[kept] = values[i];
+    sources[kept++] = sources[i];
+  }
+  resize(kept);
+  return strays;
+}
+
+ValueFrame
+findValueFrame(const CloudView& cloud,
+               const ScalarField& field,
+               Communicator& communicator,
+               unsigned threads)
+{
+  const std::vector<ValueRange> own{findValueRange(cloud, field, threads)};
+  ValueRange all;
+  for (const ValueRange& other : allGatherItems(communicator, own))
+    all.add(other);
+  return all.findFrame();
+}
+
 Samples
 readSamples(const CloudView& cloud,
             const ScalarField& field,
-            const Position& scale,
+            const ValueFrame& frame,
             std::uint64_t first_source,
             unsigned threads,
             Report& report)
 {
   const StepTimer timer(report, "scalar");
-  const std::vector<float> values = readValues(cloud, field, threads);
-  const auto position_of = [&](std::size_t i) {
+  const std::vector<float> values = readValues(cloud, field, frame, threads);
+  const auto position_of = [&](std::size_t i) -> Position {
     const float* const xyz = cloud.xyz(i);
-    return stretched({{xyz[0], xyz[1], xyz[2]}}, scale);
+    return {{xyz[0], xyz[1], xyz[2]}};
   };
   const auto is_sample = [&](std::size_t i, const Position& position) {
-    return !std::isnan(values[i]) && std::isfinite(position[0]) &&
-           std::isfinite(position[1]) && std::isfinite(position[2]);
+    return !std::isnan(values[i]) && isFinite(position);
   };
   struct Counts {
     std::size_t samples, no_value, non_finite;
@@ -102,6 +134,27 @@ readSamples(const CloudView& cloud,
     }
   });
   return samples;
+}
+
+LengthUnit
+normalizeTogether(Samples& samples,
+                  const Position& scale,
+                  Communicator& communicator,
+                  unsigned threads,
+                  Report& report)
+{
+  const auto position_at = [&](std::size_t i) { return samples.positions[i]; };
+  MagnitudeCounts counts = countMagnitudes(samples.size(), position_at, scale, threads);
+  communicator.allReduce(counts.getCounts());
+  const LengthUnit unit = counts.findUnit(scale);
+  const std::vector<Strays> own{samples.normalize(unit)};
+  if (own[0].count > 0)
+    report.count("strays", own[0].count);
+  Strays all;
+  for (const Strays& strays : allGatherItems(communicator, own))
+    all.add(strays);
+  all.warn(report);
+  return unit;
 }
 
 void

@@ -50,8 +50,10 @@ selectTouching(const std::vector<Brick>& bricks, const std::vector<Brick>& other
 
 } // namespace
 
-ScratchSamples::ScratchSamples(const OutOfCoreSettings& settings)
-    : log_(std::make_unique<SampleLog>(settings.scratch_folder, settings.threads))
+ScratchSamples::ScratchSamples(const OutOfCoreSettings& settings, const Position& scale)
+    : settings_(settings)
+    , scale_(scale)
+    , log_(std::make_unique<SampleLog>(settings.scratch_folder, settings.threads))
 {
 }
 
@@ -63,7 +65,33 @@ ScratchSamples::~ScratchSamples() = default;
 void
 ScratchSamples::append(const Samples& samples)
 {
+  magnitudes_.add(countMagnitudes(
+      samples.size(),
+      [&](std::size_t i) { return samples.positions[i]; },
+      scale_,
+      settings_.threads));
   log_->append(samples);
+}
+
+LengthUnit
+ScratchSamples::normalize(Report& report)
+{
+  const LengthUnit unit = magnitudes_.findUnit(scale_);
+  if (!magnitudes_.reachesBeyond(unit)) {
+    log_->setUnit(unit);
+    return unit;
+  }
+  auto kept = std::make_unique<SampleLog>(settings_.scratch_folder, settings_.threads);
+  Strays strays;
+  log_->take([&](Samples& samples) {
+    strays.add(samples.normalize(unit));
+    kept->append(samples);
+  });
+  log_ = std::move(kept);
+  if (strays.count > 0)
+    report.count("strays", strays.count);
+  strays.warn(report);
+  return unit;
 }
 
 std::uint64_t

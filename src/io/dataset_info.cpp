@@ -96,15 +96,17 @@ describePositions(const Dataset& dataset, unsigned threads)
                                         threads,
                                         report);
   statistics.duplicates = report.getCount("duplicates");
+  statistics.warnings = report.warnings;
   const auto& positions = samples->getPositions();
+  const LengthUnit& unit = samples->getUnit();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int a = static_cast<int>(axis);
     const auto [low, high] = std::minmax_element(
         positions.begin(), positions.end(), [&](const Position& p, const Position& q) {
           return p[a] < q[a];
         });
-    statistics.lower[axis] = dataset.origin[axis] + (*low)[a];
-    statistics.upper[axis] = dataset.origin[axis] + (*high)[a];
+    statistics.lower[axis] = dataset.origin[axis] + unit.toInput((*low)[a]);
+    statistics.upper[axis] = dataset.origin[axis] + unit.toInput((*high)[a]);
   }
   if (positions.size() < 2)
     return statistics;
@@ -126,9 +128,9 @@ describePositions(const Dataset& dataset, unsigned threads)
         }
       });
   std::sort(spacing.begin(), spacing.end());
-  statistics.spacing_min = spacing.front();
-  statistics.spacing_median = spacing[spacing.size() / 2];
-  statistics.spacing_max = spacing.back();
+  statistics.spacing_min = unit.toInput(spacing.front());
+  statistics.spacing_median = unit.toInput(spacing[spacing.size() / 2]);
+  statistics.spacing_max = unit.toInput(spacing.back());
   return statistics;
 }
 

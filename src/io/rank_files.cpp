@@ -206,33 +206,35 @@ public:
   }
 
 private:
-  /** Call visit(axis, coordinate in double, point) for all. */
+  /** Call visit(coordinates in double, point) for all. */
   template <typename Visit>
   void
-  forCoordinates(const Visit& visit)
+  forPoints(const Visit& visit)
   {
     std::uint8_t* point = part_.cloud.data.data();
     for (const auto& [count, origin] : origins_)
-      for (std::size_t i = 0; i < count; ++i, point += part_.cloud.point_step)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          float relative;
-          std::memcpy(&relative, point + axis * sizeof(relative), sizeof(relative));
-          visit(axis, origin[axis] + relative, point);
-        }
+      for (std::size_t i = 0; i < count; ++i, point += part_.cloud.point_step) {
+        std::array<float, 3> relative;
+        std::memcpy(relative.data(), point, sizeof(relative));
+        visit(
+            {origin[0] + relative[0], origin[1] + relative[1], origin[2] + relative[2]},
+            point);
+      }
   }
 
   void
   findCommonOrigin()
   {
-    std::vector<CoordinateRange> ranges(1);
-    forCoordinates([&](std::size_t axis, double coordinate, const std::uint8_t*) {
-      ranges[0].add(axis, coordinate);
-    });
-    for (const CoordinateRange& other : allGatherItems(communicator_, ranges))
-      ranges[0].add(other);
-    part_.origin = ranges[0].origin();
-    forCoordinates([&](std::size_t axis, double coordinate, std::uint8_t* point) {
-      putCoordinate(coordinate - part_.origin[axis], axis, point);
+    using Point = CoordinateRange::Point;
+    std::vector<CoordinateRange> own(1);
+    forPoints([&](const Point& point, const std::uint8_t*) { own[0].add(point); });
+    CoordinateRange range;
+    for (const CoordinateRange& other : allGatherItems(communicator_, own))
+      range.add(other);
+    part_.origin = findOrigin(range, part_.notes);
+    forPoints([&](const Point& point, std::uint8_t* bytes) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        putCoordinate(point[axis] - part_.origin[axis], axis, bytes);
     });
   }
 

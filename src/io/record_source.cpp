@@ -149,7 +149,7 @@ PointReader::findOrigin()
               [&](const std::uint8_t* records, std::size_t count) {
                 layout_.addTo(range, records, count);
               });
-  layout_.setOrigin(range.origin());
+  layout_.setOrigin(range);
   source_->seek(0);
 }
 

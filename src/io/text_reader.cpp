@@ -357,15 +357,18 @@ TextTable::scan(bool keep)
 {
   cursor_->seek(start_);
   Cells cells;
-  for (; rows_.next(cells); ++count_)
+  CoordinateRange::Point point{};
+  for (; rows_.next(cells); ++count_) {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       TextColumn& column = columns_[i];
       const double value = column.cell ? takeCell(column, cells[*column.cell]) : 0.0;
-      if (i < 3)
-        range_.add(i, value);
+      if (i < point.size())
+        point[i] = value;
       if (keep)
         column.values.push_back(value);
     }
+    range_.add(point);
+  }
 }
 
 RecordInfo
@@ -402,7 +405,7 @@ TextTable::describe()
   info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   info.has_coordinates = has_coordinates_;
-  info.origin = range_.origin();
+  info.origin = findOrigin(range_, info.notes);
   return info;
 }
 

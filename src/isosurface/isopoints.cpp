@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 
 namespace pcl_uvol {
 
@@ -29,22 +28,24 @@ void
 warnIfOutside(double isovalue,
               const std::string& field,
               const NodeRanges::Range& range,
+              const ValueFrame& frame,
               Report& report)
 {
-  const auto rounded = static_cast<float>(isovalue);
+  const auto rounded = static_cast<float>(frame.apply(isovalue));
   if (range.min < rounded && rounded <= range.max)
     return;
-  std::ostringstream text;
-  text << "No isopoints for " << isovalue << ": ";
+  const double low = frame.toInput(range.min), high = frame.toInput(range.max);
+  const auto texts = describeNumbers({isovalue, low, high});
+  std::string text = "No isopoints for " + texts[0] + ": ";
   if (range.min == range.max)
-    text << "all values of " << field << " are " << range.min << ".";
-  else if (isovalue == range.min)
-    text << "it is the lowest value of " << field
-         << ", and values equal to the isovalue count as above.";
+    text += "all values of " + field + " are " + texts[1] + ".";
+  else if (rounded == range.min)
+    text += "it is the lowest value of " + field +
+            ", and values equal to the isovalue count as above.";
   else
-    text << "it lies outside the range [" << range.min << ", " << range.max << "] of "
-         << field << ".";
-  report.warnings.push_back(text.str());
+    text += "it lies outside the range [" + texts[1] + ", " + texts[2] + "] of " +
+            field + ".";
+  report.warnings.push_back(text);
 }
 
 std::vector<EdgeKey>

@@ -31,7 +31,7 @@ checkParameters(const IsosurfaceParameters& parameters)
     throw InvalidArgument(
         "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
   for (const double isovalue : parameters.isovalues)
-    if (!std::isfinite(static_cast<float>(isovalue)))
+    if (!std::isfinite(isovalue))
       throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
                             " is not a finite number.");
   for (const float factor : parameters.scale)
@@ -45,8 +45,10 @@ IsosurfaceExtractionBase::updateSamples(const CloudView& cloud,
                                         std::vector<std::uint32_t>&& use)
 {
   const Eigen::Array3f& scale = parameters_.scale;
-  if (samples_ && use == sampled_ && (scale == sampled_scale_).all())
+  if (samples_ && use == sampled_ && (scale == sampled_scale_).all()) {
     report_.counts = sampled_report_.counts;
+    report_.warnings = sampled_report_.warnings;
+  }
   else {
     Report built;
     built.progress = report_.progress;
@@ -64,9 +66,10 @@ struct IsosurfaceExtractionBase::Scalar {
   std::string field;
   pcl::Indices indices;
   Eigen::Array3f scale;
-  SampleValues samples;
-  NodeRanges ranges; // refers to the values of samples
-  Report counts;     // of what was read
+  ValueFrame frame;
+  SampleValues samples; // values in the frame
+  NodeRanges ranges;    // refers to the values of samples
+  Report read;          // of what was read
 };
 
 void
@@ -83,16 +86,19 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
 {
   if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == indices &&
       (scalar_->scale == parameters_.scale).all()) {
-    report_.counts = scalar_->counts.counts;
+    report_.counts = scalar_->read.counts;
+    report_.warnings = scalar_->read.warnings;
     return;
   }
   scalar_.reset(); // of other samples, should what follows fail
   const ScalarField field(cloud.fields, parameters_.field);
+  ValueFrame frame;
   std::vector<float> values;
   std::vector<std::uint32_t> use;
   {
     const StepTimer timer(report_, "scalar");
-    values = readValues(cloud, field, threads_);
+    frame = findValueRange(cloud, field, threads_).findFrame();
+    values = readValues(cloud, field, frame, threads_);
     use = pointsWithValue(values, indices, field);
   }
   const std::uint64_t without_value = indices.size() - use.size();
@@ -105,9 +111,11 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   scalar->field = parameters_.field;
   scalar->indices = indices;
   scalar->scale = parameters_.scale;
+  scalar->frame = frame;
   scalar->samples = gatherValues(*samples_, values, threads_, report_);
   scalar->ranges = samples_->getTree().computeRanges(scalar->samples.values, threads_);
-  scalar->counts.counts = report_.counts;
+  scalar->read.counts = report_.counts;
+  scalar->read.warnings = report_.warnings;
   scalar_ = scalar;
 }
 
@@ -146,9 +154,12 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   pcl::PointCloud<PointIso> found;
   IsoEdges edges;
   for (const double isovalue : parameters_.isovalues) {
-    const auto rounded = static_cast<float>(isovalue);
-    warnIfOutside(isovalue, parameters_.field, range, report_);
+    const auto rounded = static_cast<float>(scalar_->frame.apply(isovalue));
+    warnIfOutside(isovalue, parameters_.field, range, scalar_->frame, report_);
+    const std::size_t first = found.size();
     appendIsopoints(input, scalar_->samples.sources, rounded, found, edges, report_);
+    for (std::size_t i = first; i < found.size(); ++i)
+      found[i].isovalue = static_cast<float>(isovalue);
   }
   report_.count("isopoints", found.size());
   isopoints.swap(found);

@@ -180,7 +180,7 @@ PieceIsopoints::fit(const IsopointInput& input,
     if (ball.radius <= known[i] || piece_.getCell().contains(ball))
       continue;
     ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
-                                  : first_part * ball.radius;
+                                  : first_part * fits[i].nearest_radius;
     pending_.push_back({isovalue, indices[i], ball});
   }
 }
@@ -284,18 +284,25 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue)
   return point;
 }
 
-IsosurfaceStage::IsosurfaceStage(IsosurfaceParameters parameters)
-    : parameters_(std::move(parameters))
-    , received_(parameters_.isovalues.size())
+IsosurfaceStage::IsosurfaceStage(const IsosurfaceParameters& parameters,
+                                 const LengthUnit& unit,
+                                 const ValueFrame& frame)
+    : parameters_(parameters)
+    , isovalues_(parameters.isovalues)
+    , frame_(frame)
+    , received_(parameters.isovalues.size())
 {
-  checkParameters(parameters_);
+  checkParameters(parameters);
+  parameters_.scale = {unit.scale[0], unit.scale[1], unit.scale[2]};
+  for (double& isovalue : parameters_.isovalues)
+    isovalue = frame.apply(isovalue);
 }
 
 void
 IsosurfaceStage::checkValues(const NodeRanges::Range& range, Report& report) const
 {
-  for (const double isovalue : parameters_.isovalues)
-    warnIfOutside(isovalue, parameters_.field, range, report);
+  for (const double isovalue : isovalues_)
+    warnIfOutside(isovalue, parameters_.field, range, frame_, report);
 }
 
 bool

@@ -2,10 +2,13 @@
 #include "smooth_roots.h"
 
 #include "../derivatives/fit_kernel.h"
+#include "../neighbors/local_metric.h"
 #include "empty_cone_kernel.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +41,11 @@ constexpr double step_residual = 0.06, step_span = 0.6;
  * own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
+/** Different whole numbers among the fitted samples that are labels. Quantised data on
+ * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
+ * little. */
+constexpr std::size_t most_labels = 4;
+
 /** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
  * Uniform samples leave no such cone at 99.8 % of the isopoints. */
 constexpr float empty_cone = 0.5446f;
@@ -48,6 +56,17 @@ constexpr double empty_ball = 0.5;
 
 /** Of the radius of the support: a longer edge reaches across a gap. */
 constexpr double bridging_edge = 1.0;
+
+/** Least pivot of a fit that needs no other metric: of uniform random samples one fit
+ * in a thousand has less, of layers all have. */
+constexpr double good_pivot = 0.02;
+
+/** A fit of less is worth nothing, and a little stretching matters: curved lattices. */
+constexpr double worthless_pivot = 1e-3, little_stretching = 1.1;
+
+/** Spacings that differ by less may be those of random samples: they are no reason to
+ * doubt a good fit, or that a gap is one. */
+constexpr double sure_stretching = 2.0;
 
 const KernelTable<FitKernel> fit_kernels{
     baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
@@ -87,8 +106,16 @@ struct Surroundings {
   double radius;      ///< of the support
   double value_range; ///< of the fitted samples
   double edge_span;   ///< part of the range between the values at the ends of the edge
+  bool has_steps;     ///< the values are labels
   Position center;    ///< the linear root
   IsoSupport support;
+};
+
+/** A fit that a stretched sampling may have spoilt. */
+struct DoubtfulFit {
+  std::size_t point;
+  Position center; ///< the linear root, in the stretched space
+  double pivot;
 };
 
 /** Fits of consecutive isopoints; one object per thread. */
@@ -97,6 +124,8 @@ public:
   RootSmoother(const IsopointInput& input, float isovalue)
       : input_(input)
       , finder_(input.samples, fitted_samples + 1)
+      , nearest_(input.samples, fitted_samples + 1)
+      , metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , cone_(cone_kernels.get())
@@ -104,34 +133,19 @@ public:
   {
   }
 
-  /** At most fit_lanes points. */
+  /** Fit consecutive points in the metric of the stretched space, where that serves. */
   void
   smooth(const IsoEdge* edges, std::size_t count, PointIso* points, RootFit* fits)
   {
-    Position centers[fit_lanes];
-    for (std::size_t lane = 0; lane < count; ++lane)
-      centers[lane] = centerOf(points[lane]);
-    finder_.expect(centers, count);
-    Surroundings surroundings[fit_lanes];
-    int weighted[fit_lanes] = {};
-    for (std::size_t lane = 0; lane < fit_lanes; ++lane)
-      weighted[lane] =
-          lane < count ? gather(centers[lane], edges[lane], lane, surroundings[lane])
-                       : clear(lane, 0);
-    FitResult result;
-    fit_(samples_.data(), samples_.size(), weighted, result);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      fits[lane] = {judge(result, lane, surroundings[lane]),
-                    weighted[lane] < static_cast<int>(fitted_samples)
-                        ? std::numeric_limits<float>::infinity()
-                        : static_cast<float>(surroundings[lane].radius)};
-      finish(result,
-             lane,
-             surroundings[lane],
-             fits[lane].outcome <= RootOutcome::Quadratic,
-             edges[lane],
-             points[lane]);
-    }
+    doubtful_.clear();
+    for (std::size_t first = 0; first < count; first += fit_lanes)
+      fitAsTheyAre(first, std::min(fit_lanes, count - first), edges, points, fits);
+    for (std::size_t first = 0; first < doubtful_.size(); first += fit_lanes)
+      fitInLocalMetrics(&doubtful_[first],
+                        std::min(fit_lanes, doubtful_.size() - first),
+                        edges,
+                        points,
+                        fits);
   }
 
 private:
@@ -141,6 +155,97 @@ private:
   {
     const Position& scale = input_.samples.getScale();
     return {{point.x * scale[0], point.y * scale[1], point.z * scale[2]}};
+  }
+
+  void
+  fitAsTheyAre(std::size_t first,
+               std::size_t count,
+               const IsoEdge* edges,
+               PointIso* points,
+               RootFit* fits)
+  {
+    Position centers[fit_lanes];
+    for (std::size_t lane = 0; lane < count; ++lane)
+      centers[lane] = centerOf(points[first + lane]);
+    finder_.expect(centers, count);
+    Surroundings surroundings[fit_lanes];
+    int weighted[fit_lanes] = {};
+    for (std::size_t lane = 0; lane < fit_lanes; ++lane)
+      weighted[lane] =
+          lane < count
+              ? gather(centers[lane], edges[first + lane], lane, surroundings[lane])
+              : clear(lane, 0);
+    FitResult result;
+    fit_(samples_.data(), samples_.size(), weighted, result);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::size_t i = first + lane;
+      const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
+      const float radius = has_all ? std::numeric_limits<float>::infinity()
+                                   : static_cast<float>(surroundings[lane].radius);
+      fits[i] = {judge(result, lane, surroundings[lane]), radius, radius};
+      if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
+                       surroundings[lane].support != IsoSupport::Measured))
+        doubtful_.push_back({i, centers[lane], result.pivot[lane]});
+      finish(result,
+             lane,
+             surroundings[lane],
+             fits[i].outcome <= RootOutcome::Quadratic,
+             edges[i],
+             points[i]);
+    }
+  }
+
+  /** Fit again in the metrics of the samples around, where these are stretched. */
+  void
+  fitInLocalMetrics(const DoubtfulFit* doubtful,
+                    std::size_t count,
+                    const IsoEdge* edges,
+                    PointIso* points,
+                    RootFit* fits)
+  {
+    Surroundings surroundings[fit_lanes];
+    Eigen::Matrix3d metrics[fit_lanes];
+    double ratios[fit_lanes];
+    int weighted[fit_lanes] = {};
+    for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
+      clear(lane, 0);
+      if (lane >= count)
+        continue;
+      const auto& [i, center, pivot] = doubtful[lane];
+      const Position& end = input_.samples.getPositions()[edges[i].first];
+      const bool is_stretched =
+          metrics_.find(edges[i].first,
+                        pivot < worthless_pivot ? little_stretching
+                        : pivot < good_pivot    ? LocalMetricFinder::even_ratio
+                                                : sure_stretching);
+      double reach = metrics_.getReach() + distance(end, center);
+      if (is_stretched) {
+        metrics[lane] = metrics_.getMetric();
+        ratios[lane] = metrics_.getRatio();
+        weighted[lane] =
+            gatherStretched(metrics[lane], center, edges[i], lane, surroundings[lane]);
+        reach = std::max(reach, nearest_.getReach());
+      }
+      fits[i].radius = std::max(fits[i].radius, static_cast<float>(reach));
+    }
+    FitResult result;
+    fit_(samples_.data(), samples_.size(), weighted, result);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (weighted[lane] == 0)
+        continue;
+      const auto& [i, center, pivot] = doubtful[lane];
+      if (ratios[lane] < sure_stretching)
+        surroundings[lane].support = static_cast<IsoSupport>(points[i].support);
+      points[i].support = static_cast<std::uint8_t>(surroundings[lane].support);
+      const RootOutcome outcome = judge(result, lane, surroundings[lane]);
+      if (outcome > RootOutcome::Quadratic ||
+          surroundings[lane].support == IsoSupport::Bridged ||
+          (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
+        continue;
+      fits[i].outcome = outcome;
+      leaveMetric(metrics[lane], lane, result);
+      finish(result, lane, surroundings[lane], true, edges[i], points[i]);
+    }
   }
 
   static double
@@ -175,38 +280,116 @@ private:
     surroundings.edge_length = distance(positions[edge.first], positions[edge.second]);
     const auto neighbors =
         finder_.find(center, static_cast<float>(surroundings.edge_length));
-    const std::vector<float>& values = input_.values;
     float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
     for (std::size_t j = 0; j < neighbors.size; ++j) {
       sq_nearest = std::min(sq_nearest, neighbors.sq_dists[j]);
       sq_farthest = std::max(sq_farthest, neighbors.sq_dists[j]);
+      const Position& x = positions[neighbors.samples[j]];
+      for (int axis = 0; axis < 3; ++axis)
+        direction_[axis][j] = x[axis] - center[axis];
     }
+    return fill(neighbors.samples,
+                neighbors.size,
+                sq_nearest,
+                sq_farthest,
+                edge,
+                lane,
+                surroundings);
+  }
+
+  /** The same in another metric. */
+  int
+  gatherStretched(const Eigen::Matrix3d& metric,
+                  const Position& center,
+                  const IsoEdge& edge,
+                  std::size_t lane,
+                  Surroundings& surroundings)
+  {
+    const auto image = [&](std::uint32_t sample, const Position& origin) {
+      const Position& x = input_.samples.getPositions()[sample];
+      Eigen::Vector3d offset;
+      for (int axis = 0; axis < 3; ++axis)
+        offset[axis] = static_cast<double>(x[axis]) - origin[axis];
+      return Eigen::Vector3d(metric * offset);
+    };
+    surroundings.center = center;
+    surroundings.edge_length =
+        image(edge.second, input_.samples.getPositions()[edge.first]).norm();
+    const std::vector<std::uint32_t>& neighbors = nearest_.find(center, metric);
+    double sq_nearest = std::numeric_limits<double>::infinity(), sq_farthest = 0.0;
+    for (std::size_t j = 0; j < neighbors.size(); ++j) {
+      const Eigen::Vector3d u = image(neighbors[j], center);
+      sq_nearest = std::min(sq_nearest, u.squaredNorm());
+      sq_farthest = std::max(sq_farthest, u.squaredNorm());
+      for (int axis = 0; axis < 3; ++axis)
+        direction_[axis][j] = static_cast<float>(u[axis]);
+    }
+    return fill(neighbors.data(),
+                neighbors.size(),
+                static_cast<float>(sq_nearest),
+                static_cast<float>(sq_farthest),
+                edge,
+                lane,
+                surroundings);
+  }
+
+  /** Fill a lane with neighbours, the directions to which are not scaled yet. */
+  int
+  fill(const std::uint32_t* neighbors,
+       std::size_t count,
+       float sq_nearest,
+       float sq_farthest,
+       const IsoEdge& edge,
+       std::size_t lane,
+       Surroundings& surroundings)
+  {
+    const std::vector<float>& values = input_.values;
     const float radius = std::sqrt(sq_farthest), per_radius = 1.0f / radius;
     float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
-    for (std::size_t j = 0; j < neighbors.size; ++j) {
-      const Position& x = positions[neighbors.samples[j]];
+    for (std::size_t j = 0; j < count; ++j) {
       FitSample& sample = samples_[j];
-      const float value = values[neighbors.samples[j]];
-      sample.x[lane] = direction_[0][j] = (x[0] - center[0]) * per_radius;
-      sample.y[lane] = direction_[1][j] = (x[1] - center[1]) * per_radius;
-      sample.z[lane] = direction_[2][j] = (x[2] - center[2]) * per_radius;
+      const float value = values[neighbors[j]];
+      for (auto& coordinate : direction_)
+        coordinate[j] *= per_radius;
+      sample.x[lane] = direction_[0][j];
+      sample.y[lane] = direction_[1][j];
+      sample.z[lane] = direction_[2][j];
       sample.value[lane] = value - isovalue_;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
-    const std::size_t directions =
-        (neighbors.size + cone_lanes - 1) / cone_lanes * cone_lanes;
+    const std::size_t directions = (count + cone_lanes - 1) / cone_lanes * cone_lanes;
     for (auto& coordinate : direction_)
-      std::fill(coordinate + neighbors.size, coordinate + directions, 0.0f);
-    clear(lane, neighbors.size);
+      std::fill(coordinate + count, coordinate + directions, 0.0f);
+    clear(lane, count);
     surroundings.radius = radius;
     surroundings.value_range = static_cast<double>(highest) - lowest;
     surroundings.edge_span =
         std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
         surroundings.value_range;
+    surroundings.has_steps = areLabels(neighbors, count);
     surroundings.support =
         supportOf(surroundings, std::sqrt(static_cast<double>(sq_nearest)), directions);
-    return static_cast<int>(neighbors.size) - 1;
+    return static_cast<int>(count) - 1;
+  }
+
+  /** Whether samples have two values only, or few that are whole numbers. */
+  bool
+  areLabels(const std::uint32_t* neighbors, std::size_t count) const
+  {
+    float seen[most_labels];
+    std::size_t different = 0;
+    bool are_whole = true;
+    for (std::size_t j = 0; j < count; ++j) {
+      const float value = input_.values[neighbors[j]];
+      if (std::find(seen, seen + different, value) != seen + different)
+        continue;
+      are_whole = are_whole && value == std::floor(value);
+      if (different == most_labels || (different == 2 && !are_whole))
+        return false;
+      seen[different++] = value;
+    }
+    return true;
   }
 
   IsoSupport
@@ -227,6 +410,8 @@ private:
   {
     if (result.order[lane] == fit_failed)
       return RootOutcome::Singular;
+    if (surroundings.has_steps)
+      return RootOutcome::Step;
     const double residual = result.residual[lane] / surroundings.value_range;
     if (!(residual <=
           (surroundings.edge_span > step_span ? step_residual : largest_residual)))
@@ -240,6 +425,32 @@ private:
       return RootOutcome::Far;
     return result.order[lane] == fit_cubic ? RootOutcome::Cubic
                                            : RootOutcome::Quadratic;
+  }
+
+  /** Turn the result of a lane back from a metric, to the space it was made in. */
+  static void
+  leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result)
+  {
+    constexpr int entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}; // of the Hessian
+    Eigen::Vector3d offset, gradient;
+    Eigen::Matrix3d hessian;
+    for (int i = 0; i < 3; ++i) {
+      offset[i] = result.offset[i][lane];
+      gradient[i] = result.gradient[i][lane];
+      for (int j = 0; j < 3; ++j)
+        hessian(i, j) = result.hessian[entry[i][j]][lane];
+    }
+    const double slope = gradient.norm();
+    offset = metric.inverse() * offset;
+    gradient = metric.transpose() * gradient;
+    hessian = metric.transpose() * hessian * metric;
+    for (int i = 0; i < 3; ++i) {
+      result.offset[i][lane] = offset[i];
+      result.gradient[i][lane] = gradient[i];
+      for (int j = 0; j < 3; ++j)
+        result.hessian[entry[i][j]][lane] = hessian(i, j);
+    }
+    result.error[lane] *= slope / gradient.norm();
   }
 
   void
@@ -297,6 +508,9 @@ private:
   alignas(64) float direction_[3][direction_room]; // to the neighbours
   const IsopointInput& input_;
   NearestFinder finder_;
+  MetricFinder nearest_;
+  LocalMetricFinder metrics_;
+  std::vector<DoubtfulFit> doubtful_;
   std::vector<FitSample> samples_;
   FitKernel fit_;
   EmptyConeKernel cone_;
@@ -318,9 +532,8 @@ fitRoots(const IsopointInput& input,
                  input.threads,
                  [&](std::size_t begin, std::size_t end) {
                    RootSmoother smoother(input, isovalue);
-                   for (std::size_t i = begin; i < end; i += fit_lanes)
-                     smoother.smooth(
-                         &edges[i], std::min(fit_lanes, end - i), &points[i], &fits[i]);
+                   smoother.smooth(
+                       &edges[begin], end - begin, &points[begin], &fits[begin]);
                    step.advance(end - begin);
                  });
   return fits;

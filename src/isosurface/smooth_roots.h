@@ -18,6 +18,8 @@ struct RootFit {
   RootOutcome outcome;
   float radius; ///< of the ball around the linear root that the result depends on, in
                 ///< the stretched space; infinite where samples are few
+  float nearest_radius; ///< of the part of it that the nearest samples lie in: unless
+                        ///< all of it is known, the radius means little
 };
 
 /** \brief Move isopoints onto fits through their nearest samples.

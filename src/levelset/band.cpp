@@ -93,8 +93,8 @@ samplesNear(const SampleSet& samples,
   std::vector<std::uint32_t> all(near.size());
   std::iota(all.begin(), all.end(), 0u);
   Report ignored;
-  const auto crossings = SampleSet::build(
-      near.front().x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, threads, ignored);
+  const auto crossings =
+      SampleSet::buildInUnit(near.front().x, 3, all, LengthUnit{}, threads, ignored);
   return parallelGather<NearSample>(
       samples.size(),
       block_samples,

@@ -63,7 +63,7 @@ checkParameters(const LevelSetParameters& parameters)
         text << what << " is " << given << ": it must be " << allowed << ".";
         throw InvalidArgument(text.str());
       };
-  if (!std::isfinite(static_cast<float>(parameters.isovalue)))
+  if (!std::isfinite(parameters.isovalue))
     throw InvalidArgument(
         "LevelSetEvolution has no finite isovalue: call setIsoValue.");
   if (parameters.mu && !(*parameters.mu >= 0.0 && *parameters.mu <= 1.0))
@@ -130,15 +130,17 @@ public:
       warnOfStepLimit();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    return {phiOfCloud(), summary_};
+    return {phiOfCloud(), std::move(sources_), summary_};
   }
 
 private:
-  /** By input index. */
+  /** By input index, in the input's unit of length. */
   std::vector<float>
   phiOfCloud() const
   {
-    const std::vector<float> values = current();
+    std::vector<float> values = current();
+    for (float& value : values)
+      value = static_cast<float>(samples_->getUnit().toInput(value));
     std::vector<float> phi(cloud_size_, std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < samples_->size(); ++i)
       phi[samples_->getInputIndex(i)] = values[i];
@@ -155,7 +157,8 @@ private:
     cloud_size_ = cloud.count;
     const double isovalue = parameters_.isovalue;
     const ScalarField field(cloud.fields, parameters_.field);
-    const auto values = readValues(cloud, field, threads_);
+    const ValueFrame frame = findValueRange(cloud, field, threads_).findFrame();
+    const auto values = readValues(cloud, field, frame, threads_);
     const auto use = pointsWithValue(values, indices, field);
     samples_ = SampleSet::build(cloud.xyz(0),
                                 cloud.stride(),
@@ -170,17 +173,21 @@ private:
                             " distinct samples: a stencil of " +
                             std::to_string(parameters_.k) +
                             " neighbours needs at least one more than that.");
-    f_ = gatherValues(*samples_, values, threads_, report_).values;
+    SampleValues scalar = gatherValues(*samples_, values, threads_, report_);
+    f_ = std::move(scalar.values);
+    sources_ = std::move(scalar.sources);
     const auto [low, high] = std::minmax_element(f_.begin(), f_.end());
-    if (!(*low < isovalue && isovalue <= *high)) {
-      std::ostringstream text;
-      text << "The isovalue " << isovalue << " does not part the values of "
-           << parameters_.field << ", which are in [" << *low << ", " << *high
-           << "]: there is no surface to evolve.";
-      throw InvalidArgument(text.str());
+    const double threshold = frame.apply(isovalue);
+    if (!(*low < threshold && threshold <= *high)) {
+      const auto texts =
+          describeNumbers({isovalue, frame.toInput(*low), frame.toInput(*high)});
+      throw InvalidArgument("The isovalue " + texts[0] +
+                            " does not part the values of " + parameters_.field +
+                            ", which are in [" + texts[1] + ", " + texts[2] +
+                            "]: there is no surface to evolve.");
     }
     for (float& value : f_)
-      value = static_cast<float>(static_cast<double>(value) - isovalue);
+      value = static_cast<float>(static_cast<double>(value) - threshold);
     largest_phi_ = largestPhi();
   }
 
@@ -212,8 +219,9 @@ private:
   start(const CloudView& cloud)
   {
     const auto surface = crossingOf(f_);
-    summary_.spacing = medianSpacing(*samples_, surface, parameters_.k, threads_);
-    if (!(summary_.spacing > 0.0))
+    spacing_ = medianSpacing(*samples_, surface, parameters_.k, threads_);
+    summary_.spacing = samples_->getUnit().toInput(spacing_);
+    if (!(spacing_ > 0.0))
       throw InvalidArgument("The samples at the surface have no extent.");
     const auto initial = initialValues(cloud);
     phi_ = initial.empty() ? f_ : initial;
@@ -222,7 +230,7 @@ private:
       throw InvalidArgument("The function that the level set starts from has no zero "
                             "level among the samples.");
     makeBand(crossing);
-    summary_.noise = term_.noise / summary_.spacing;
+    summary_.noise = term_.noise / spacing_;
     summary_.mu = parameters_.mu.value_or(
         std::max(least_mu, balanced_noise / (balanced_noise + summary_.noise)));
     if (initial.empty()) {
@@ -236,21 +244,23 @@ private:
     makeEvolver();
   }
 
-  /** Of a shape or a field, in leaf order; empty if f itself is the start. */
+  /** Of a shape or a field, in leaf order and the samples' unit; empty if f itself is
+   * the start. */
   std::vector<float>
   initialValues(const CloudView& cloud) const
   {
     const InitialFunction& initial = parameters_.initial;
+    const double unit = samples_->getUnit().factor;
     std::vector<float> values;
     if (initial.kind == InitialKind::Field) {
       const ScalarField field(cloud.fields, initial.field_name);
       for (std::size_t i = 0; i < samples_->size(); ++i) {
-        const double value = field.read(cloud.point(samples_->getInputIndex(i)));
+        const double value = field.read(cloud.point(sources_[i]));
         if (!std::isfinite(value))
           throw InvalidArgument("The field " + field.getName() +
                                 " that the level set starts from is not finite "
                                 "everywhere.");
-        values.push_back(static_cast<float>(value));
+        values.push_back(static_cast<float>(unit * value));
       }
     }
     else if (initial.isShape()) {
@@ -258,7 +268,7 @@ private:
       for (std::size_t i = 0; i < samples_->size(); ++i) {
         const Eigen::Vector3d x =
             Eigen::Vector3f(cloud.xyz(samples_->getInputIndex(i))).cast<double>();
-        values.push_back(static_cast<float>(side * initial.computeDistance(x)));
+        values.push_back(static_cast<float>(side * unit * initial.computeDistance(x)));
       }
     }
     return values;
@@ -271,7 +281,7 @@ private:
     band_.reset(); // before the new one takes as much again
     band_ = pcl_uvol::makeBand(*samples_,
                                crossing,
-                               parameters_.band_width * summary_.spacing,
+                               parameters_.band_width * spacing_,
                                parameters_.scheme,
                                parameters_.k,
                                threads_,
@@ -285,13 +295,8 @@ private:
     std::vector<float> phi(band_->places(), 0.0f);
     band_->forPlaces(
         [&](std::size_t place, std::uint32_t sample) { phi[place] = phi_[sample]; });
-    evolver_.emplace(*band_,
-                     parameters_,
-                     threads_,
-                     summary_.spacing,
-                     summary_.mu,
-                     std::move(phi),
-                     term_);
+    evolver_.emplace(
+        *band_, parameters_, threads_, spacing_, summary_.mu, std::move(phi), term_);
   }
 
   void
@@ -361,10 +366,9 @@ private:
   {
     if (parameters_.reinitialization == Reinitialization::Distance)
       evolver_->setPhi(distanceToZeroLevel(
-          *band_, *samples_, current(), summary_.spacing, threads_, report_));
+          *band_, *samples_, current(), spacing_, threads_, report_));
     else if (parameters_.reinitialization == Reinitialization::Eikonal)
-      evolver_->setPhi(
-          relaxToDistance(*band_, evolver_->getPhi(), summary_.spacing, threads_));
+      evolver_->setPhi(relaxToDistance(*band_, evolver_->getPhi(), spacing_, threads_));
     else
       return;
     summary_.steps.back().reinitialized = true;
@@ -376,7 +380,7 @@ private:
   void
   followZeroLevel()
   {
-    const double border = (parameters_.band_width - band_margin) * summary_.spacing;
+    const double border = (parameters_.band_width - band_margin) * spacing_;
     const std::vector<float>& phi = evolver_->getPhi();
     bool is_near = false;
     for (std::size_t i = 0; i < band_->centers.size() && !is_near; ++i)
@@ -430,8 +434,10 @@ private:
   Report& report_;
   std::size_t cloud_size_ = 0;
   double largest_phi_ = 0.0;
+  double spacing_ = 0.0; ///< in the samples' unit, as all that follows
   SampleSet::ConstPtr samples_;
-  std::vector<float> f_;   ///< minus the isovalue, by sample
+  std::vector<float> f_;               ///< minus the isovalue, by sample
+  std::vector<std::uint32_t> sources_; ///< by sample, the points that they are of
   std::vector<float> phi_; ///< by sample; in the band as it was when that was made
   std::optional<Band> band_;
   DataTerm term_;

@@ -61,14 +61,14 @@ levelSetNeed(double samples,
   forecast.hold(of_points);
   forecast.run(sampleSetNeed(samples));
   forecast.hold((float_bytes + index_bytes) * samples); // in leaf order, with sources
-  forecast.release(of_points + index_bytes * samples);
+  forecast.release(of_points);
   forecast.hold(float_bytes * samples); // phi
   forecast.run({nodeRangesBytes(samples), 0.0});
   forecast.hold((stencilBytes(parameters) + centerBytes(parameters)) * centers +
                 other_bytes * others);
   // phi of all samples, in leaf order and then as they came.
   forecast.run({2.0 * float_bytes * samples, 0.0});
-  return {forecast.getPeak(), float_bytes * samples};
+  return {forecast.getPeak(), (float_bytes + index_bytes) * samples};
 }
 
 } // namespace pcl_uvol

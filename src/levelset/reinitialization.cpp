@@ -72,13 +72,14 @@ distanceToZeroLevel(const Band& band,
   std::iota(all.begin(), all.end(), 0u);
   for (const PointIso& point : isopoints) {
     positions.push_back({{point.x * scale[0], point.y * scale[1], point.z * scale[2]}});
-    normals.push_back((point.getNormalVector3fMap().array() /
-                       Eigen::Array3f(scale[0], scale[1], scale[2]))
-                          .matrix()
-                          .normalized());
+    normals.push_back(
+        (point.getNormalVector3fMap().array() /
+         (Eigen::Array3f(scale[0], scale[1], scale[2]) / samples.getUnit().factor))
+            .matrix()
+            .normalized());
   }
-  const auto surface = SampleSet::build(
-      positions.front().x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, threads, ignored);
+  const auto surface = SampleSet::buildInUnit(
+      positions.front().x, 3, all, LengthUnit{}, threads, ignored);
   const auto planar = static_cast<float>(planar_distance * spacing);
   const auto measure = [&](NearestFinder& finder, std::size_t place, auto sample) {
     const Position& x = samples.getPositions()[sample];

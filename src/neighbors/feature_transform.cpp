@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pcl_uvol {
 
@@ -15,8 +16,11 @@ namespace {
 /** Columns that are worked on together: what a line of the cache holds. */
 constexpr std::size_t bundle = 16;
 
+/** Holds squared distances of the flattest cells. */
+__extension__ using Wide = __int128;
+
 /** Squared distances as whole numbers, so that ties are ties: 32 bits where all
- * spacings are equal, else 64 bits. */
+ * spacings are equal, else 64 bits, or 128 where cells are flat. */
 template <typename Number>
 class Transform {
 public:
@@ -189,23 +193,52 @@ private:
   std::vector<std::uint32_t>& nearest_;
 };
 
-/** Squares of the spacings in parts of the smallest one. */
-std::array<std::int64_t, 3>
-wholeWeights(const GridShape& shape)
+/** The spacings, but for cells so flat that no number of them makes up for one step
+ * along their thicker sides: these are thick enough to be counted, and keep their
+ * order. Beside the thickest side that is exact; beside the next one what is added to
+ * squared distances is below 2^-31 of its square. */
+std::array<double, 3>
+boundedSpacing(const std::array<double, 3>& spacing)
 {
-  const double smallest = *std::min_element(shape.spacing.begin(), shape.spacing.end());
+  constexpr double flattest[2] = {0x1p-16, 0x1p-30}; // largest_side is 2^14
+  std::array<std::size_t, 3> order{{0, 1, 2}};
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return spacing[a] > spacing[b];
+  });
+  std::array<double, 3> bounded = spacing;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const double least = flattest[i - 1] * bounded[order[i - 1]];
+    const double factor = std::max(1.0, least / bounded[order[i]]);
+    for (std::size_t j = i; j < order.size(); ++j) // their ratio stays
+      bounded[order[j]] *= factor;
+  }
+  return bounded;
+}
+
+/** Squares of the spacings in parts of the smallest one.
+ * \param largest sum that the number holds
+ * \return nothing if the squared distances of the grid are larger than that */
+template <typename Number>
+std::optional<std::array<Number, 3>>
+wholeWeights(const GridShape& shape, double largest)
+{
+  const std::array<double, 3> spacing = boundedSpacing(shape.spacing);
+  const double smallest = *std::min_element(spacing.begin(), spacing.end());
   std::array<double, 3> ratios{};
-  double largest = 0.0; // squared distance
+  double extent = 0.0; // squared distance
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ratios[axis] = shape.spacing[axis] / smallest;
-    largest += std::pow(ratios[axis] * shape.cells[axis], 2);
+    ratios[axis] = spacing[axis] / smallest;
+    extent += std::pow(ratios[axis] * shape.cells[axis], 2);
   }
   double parts = 65536.0;
-  while (parts > 1.0 && parts * largest > 0x1p61)
+  while (parts > 1.0 && parts * extent > largest)
     parts *= 0.5;
-  std::array<std::int64_t, 3> weights{};
+  if (parts * extent > largest)
+    return std::nullopt;
+  std::array<Number, 3> weights{};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    weights[axis] = std::llround(parts * ratios[axis] * ratios[axis]);
+    weights[axis] =
+        static_cast<Number>(std::round(parts * ratios[axis] * ratios[axis]));
   return weights;
 }
 
@@ -222,8 +255,10 @@ FeatureTransform::find(const GridShape& shape,
   const auto& spacing = shape.spacing;
   if (spacing[0] == spacing[1] && spacing[0] == spacing[2])
     Transform<std::int32_t>(shape, sites, {{1, 1, 1}}, nearest).run(threads, step);
+  else if (const auto weights = wholeWeights<std::int64_t>(shape, 0x1p61))
+    Transform<std::int64_t>(shape, sites, *weights, nearest).run(threads, step);
   else
-    Transform<std::int64_t>(shape, sites, wholeWeights(shape), nearest)
+    Transform<Wide>(shape, sites, wholeWeights<Wide>(shape, 0x1p125).value(), nearest)
         .run(threads, step);
   return nearest;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building the bit-indexed kd-tree (thesis Table 2.2) and the range of a scalar per
-// node.
+// Building the bit-indexed kd-tree (thesis Table 2.2), boxes around samples and the
+// range of a scalar per node.
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/kd_tree.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -14,8 +15,8 @@ namespace pcl_uvol {
 namespace {
 
 /** Below this many samples a subtree is one task: large enough to hide the cost of a
- * fork. */
-constexpr std::uint32_t task_samples = 1u << 14;
+ * fork, and small enough for the cache. Ranges cost a hundredth of the tree. */
+constexpr std::uint32_t task_samples = 1u << 14, range_task_samples = 1u << 18;
 
 constexpr std::size_t block_samples = 1u << 14;
 
@@ -156,66 +157,191 @@ partAtCut(SampleRecord* const first, SampleRecord* const cut, SampleRecord* cons
   return {cut - 1, std::min_element(cut, last, lessRecord<axis>)};
 }
 
+/** Finds records of equal positions. One object per block of records. */
+class EqualPositions {
+public:
+  /** \param most records that are looked at */
+  explicit EqualPositions(std::size_t most)
+  {
+    while ((std::size_t(1) << bits_) < 2 * most)
+      ++bits_;
+    places_.assign(std::size_t(1) << bits_, empty);
+  }
+
+  /** \param count less than task_samples */
+  bool
+  areAmong(const SampleRecord* records, std::uint32_t count)
+  {
+    const std::size_t last = places_.size() - 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Position& position = records[i].position;
+      std::size_t place = hash(position);
+      for (; places_[place] != empty; place = (place + 1) & last) {
+        const Position& other = records[places_[place]].position;
+        if (position[0] == other[0] && position[1] == other[1] &&
+            position[2] == other[2])
+          return true;
+      }
+      places_[place] = static_cast<std::uint16_t>(i);
+    }
+    return false;
+  }
+
+private:
+  static constexpr std::uint16_t empty = std::numeric_limits<std::uint16_t>::max();
+  static_assert(task_samples < empty, "places are numbers of records");
+
+  /** By multiplication with odd numbers, of which the upper bits are the best mixed
+   * (Knuth, The Art of Computer Programming 3, 6.4). */
+  std::size_t
+  hash(const Position& position) const
+  {
+    std::uint32_t bits[3];
+    std::memcpy(bits, position.x, sizeof(bits));
+    std::uint32_t mixed =
+        bits[0] * 0x9e3779b1u + bits[1] * 0x85ebca77u + bits[2] * 0xc2b2ae3du;
+    mixed = (mixed ^ (mixed >> 15)) * 0x2c1b3c6du;
+    return mixed >> (32 - bits_);
+  }
+
+  unsigned bits_ = 1;
+  std::vector<std::uint16_t> places_;
+};
+
+/** Parts records from the root down to blocks, which tell whether positions are equal;
+ * only where none are the rest of the tree is of use. */
 class Builder {
 public:
   Builder(const KdTree& tree,
           std::vector<SampleRecord>& records,
           std::vector<SplitPlane>& planes,
+          std::vector<KdBox>& boxes,
           StepTimer& step)
       : tree_(tree)
       , records_(records)
       , planes_(planes)
+      , boxes_(boxes)
       , step_(step)
   {
   }
 
+  /** False if positions are equal. */
+  bool
+  build(const KdNode& root)
+  {
+    partToBlocks(root);
+    if (has_equals_)
+      return false;
+    buildBlocks(root);
+    return true;
+  }
+
+private:
+  /** Where a cut runs through equal positions, they stay together between the others.
+   */
   void
-  build(const KdNode& node)
+  partToBlocks(const KdNode& node)
+  {
+    if (node.count < task_samples) {
+      inspectBlock(node);
+      return;
+    }
+    KdNode left = node.left(), right = node.right();
+    if (const SampleRecord* const equal = split(node)) {
+      has_equals_.store(true, std::memory_order_relaxed);
+      const auto [less_end, greater] = partAround(node, equal->position);
+      left.count = less_end - node.begin;
+      right.begin = greater;
+      right.count = node.begin + node.count - greater;
+    }
+    TaskGroup::fork([&] { partToBlocks(left); }, [&] { partToBlocks(right); });
+  }
+
+  /** Records below a position, equal to it and above it; returns the ends of the first
+   * two parts. */
+  std::pair<std::uint32_t, std::uint32_t>
+  partAround(const KdNode& node, const Position position)
+  {
+    const int axis = tree_.getAxis(node.depth);
+    SampleRecord* const first = records_.data() + node.begin;
+    SampleRecord* const last = first + node.count;
+    SampleRecord* const less_end =
+        std::partition(first, last, [&](const SampleRecord& record) {
+          return lessAlong(axis, record.position, position);
+        });
+    SampleRecord* const greater =
+        std::partition(less_end, last, [&](const SampleRecord& record) {
+          return !lessAlong(axis, position, record.position);
+        });
+    return {static_cast<std::uint32_t>(less_end - records_.data()),
+            static_cast<std::uint32_t>(greater - records_.data())};
+  }
+
+  void
+  inspectBlock(const KdNode& block)
+  {
+    SampleRecord* const first = records_.data() + block.begin;
+    if (!EqualPositions(block.count).areAmong(first, block.count))
+      return;
+    has_equals_.store(true, std::memory_order_relaxed);
+    std::sort(first, first + block.count, lessRecord<0>);
+  }
+
+  void
+  buildBlocks(const KdNode& node)
   {
     if (node.count < task_samples) {
       buildAlone(node);
       step_.advance(node.count);
       return;
     }
-    split(node);
-    TaskGroup::fork([&] { build(node.left()); }, [&] { build(node.right()); });
+    TaskGroup::fork([&] { buildBlocks(node.left()); },
+                    [&] { buildBlocks(node.right()); });
+    joinBoxes(node);
   }
 
-  bool
-  hasDuplicates() const
-  {
-    return has_duplicates_;
-  }
-
-private:
   /** A subtree by one task. */
   void
   buildAlone(const KdNode& node)
   {
-    if (node.isLeaf())
+    if (KdTree::isBucket(node)) {
+      boxes_[node.number] = boxAround(node);
+      buildBucket(node);
       return;
+    }
     split(node);
     buildAlone(node.left());
     buildAlone(node.right());
+    joinBoxes(node);
   }
 
   void
+  buildBucket(const KdNode& node)
+  {
+    if (node.isLeaf())
+      return;
+    split(node);
+    buildBucket(node.left());
+    buildBucket(node.right());
+  }
+
+  /** Returns a record of the position that stands on both sides of the cut, if there is
+   * one. */
+  const SampleRecord*
   split(const KdNode& node)
   {
     switch (tree_.getAxis(node.depth)) {
     case 0:
-      split<0>(node);
-      break;
+      return split<0>(node);
     case 1:
-      split<1>(node);
-      break;
+      return split<1>(node);
     default:
-      split<2>(node);
+      return split<2>(node);
     }
   }
 
   template <int axis>
-  void
+  const SampleRecord*
   split(const KdNode& node)
   {
     SampleRecord* const first = records_.data() + node.begin;
@@ -223,28 +349,56 @@ private:
     SampleRecord* const cut = first + (node.count + 1) / 2; // first of the right half
     const auto [below, above] = partAtCut<axis>(first, cut, last);
     if (!lessRecord<axis>(*below, *above))
-      has_duplicates_.store(true, std::memory_order_relaxed);
+      return below;
     const double middle = 0.5 * (static_cast<double>(below->position[axis]) +
                                  static_cast<double>(above->position[axis]));
     planes_[node.number] = {static_cast<float>(middle), below->input_index};
+    return nullptr;
+  }
+
+  KdBox
+  boxAround(const KdNode& bucket) const
+  {
+    const auto* const first =
+        reinterpret_cast<const RecordRegister*>(records_.data() + bucket.begin);
+    RecordRegister low = *first, high = *first;
+    for (std::uint32_t i = 1; i < bucket.count; ++i) {
+      low = first[i] < low ? first[i] : low;
+      high = first[i] > high ? first[i] : high;
+    }
+    return {{{low[0], low[1], low[2]}}, {{high[0], high[1], high[2]}}};
+  }
+
+  /** The box of a node from those of its halves. */
+  void
+  joinBoxes(const KdNode& node)
+  {
+    const KdBox &left = boxes_[node.left().number],
+                &right = boxes_[node.right().number];
+    KdBox& box = boxes_[node.number];
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(left.low[axis], right.low[axis]);
+      box.high[axis] = std::max(left.high[axis], right.high[axis]);
+    }
   }
 
   const KdTree& tree_;
   std::vector<SampleRecord>& records_;
   std::vector<SplitPlane>& planes_;
+  std::vector<KdBox>& boxes_;
   StepTimer& step_;
-  std::atomic<bool> has_duplicates_{false};
+  std::atomic<bool> has_equals_{false};
 };
 
-/** Smallest power of two that is not below the count: no inner node has a higher
- * number. */
+/** Smallest power of two of parts that leaves no part more than that many samples:
+ * nodes that hold more have lower numbers. */
 std::size_t
-innerNodeNumbers(std::uint32_t count)
+partsOf(std::uint32_t count, std::uint32_t most)
 {
-  std::size_t numbers = 1;
-  while (numbers < count)
-    numbers <<= 1;
-  return numbers;
+  std::size_t parts = 1;
+  while (parts * most < count)
+    parts <<= 1;
+  return parts;
 }
 
 NodeRanges::Range
@@ -261,7 +415,7 @@ fillRanges(NodeRanges& ranges, const KdNode& node)
   NodeRanges::Range left, right;
   const auto fill_left = [&] { left = fillRanges(ranges, node.left()); };
   const auto fill_right = [&] { right = fillRanges(ranges, node.right()); };
-  if (node.count < task_samples) {
+  if (node.count < range_task_samples) {
     fill_left();
     fill_right();
   }
@@ -308,10 +462,12 @@ KdTree::build(std::vector<SampleRecord>& records,
 {
   root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
   axis_at_depth_ = axes;
-  planes_.assign(innerNodeNumbers(root_.count), SplitPlane{0.0f, 0});
-  Builder builder(*this, records, planes_, step);
-  TaskGroup::run(threads, [&] { builder.build(getRoot()); });
-  if (builder.hasDuplicates())
+  planes_.assign(partsOf(root_.count, 1), SplitPlane{0.0f, 0});
+  boxes_.resize(2 * partsOf(root_.count, bucket_samples));
+  Builder builder(*this, records, planes_, boxes_, step);
+  bool is_built = false;
+  TaskGroup::run(threads, [&] { is_built = builder.build(getRoot()); });
+  if (!is_built)
     return false;
 
   // Planes were given input indices; the samples' leaf order is known only now.

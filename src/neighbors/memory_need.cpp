@@ -29,7 +29,9 @@ MemoryNeed
 sampleSetNeed(double samples)
 {
   const double planes = sizeof(SplitPlane) * nodeNumbers(samples);
-  const double kept = planes + (sizeof(Position) + index_bytes) * samples;
+  const double boxes =
+      2.0 * sizeof(KdBox) * nodeNumbers(samples / KdTree::bucket_samples);
+  const double kept = planes + boxes + (sizeof(Position) + index_bytes) * samples;
   return {kept + sizeof(SampleRecord) * samples, kept};
 }
 

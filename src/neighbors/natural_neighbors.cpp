@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -18,6 +19,17 @@ struct Rows {
   std::vector<std::uint32_t> sizes, indices;
   std::uint64_t candidates = 0;
 };
+
+double
+sqDistance(const Position& a, const Position& b)
+{
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double along = static_cast<double>(a[axis]) - b[axis];
+    sum += along * along;
+  }
+  return sum;
+}
 
 /** Neighbours as input indices, in rows by input index. */
 NeighborGraph
@@ -32,10 +44,17 @@ toInputOrder(const NeighborGraph& by_sample,
   for (std::size_t i = 0; i < points; ++i)
     graph.offsets[i + 1] += graph.offsets[i];
   graph.indices.resize(by_sample.indices.size());
+  const std::vector<Position>& positions = samples.getPositions();
+  std::vector<std::pair<double, std::uint32_t>> row;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    std::uint64_t position = graph.offsets[samples.getInputIndex(i)];
+    row.clear();
     for (const std::uint32_t neighbor : by_sample[i])
-      graph.indices[position++] = samples.getInputIndex(neighbor);
+      row.emplace_back(sqDistance(positions[i], positions[neighbor]),
+                       samples.getInputIndex(neighbor));
+    std::sort(row.begin(), row.end()); // equally far ones by another index than before
+    std::uint64_t position = graph.offsets[samples.getInputIndex(i)];
+    for (const auto& entry : row)
+      graph.indices[position++] = entry.second;
   }
   return graph;
 }

@@ -27,23 +27,52 @@ everyThird(int first, __m512 a, __m512 b, __m512 c)
       _mm512_permutex2var_ps(a, index, b), of_last, index, c);
 }
 
-/** The coordinates that lie between two bounds. */
-__mmask16
-between(__m512 x, float low, float high)
+/** Up to 16 positions, coordinate by coordinate. */
+struct Transposed {
+  __m512 x, y, z;
+};
+
+/** \param here number of positions, the others are 0 */
+Transposed
+transpose(const float* p, std::uint32_t here)
 {
-  return static_cast<__mmask16>(
-      _mm512_cmp_ps_mask(x, _mm512_set1_ps(low), _CMP_GE_OQ) &
-      _mm512_cmp_ps_mask(x, _mm512_set1_ps(high), _CMP_LE_OQ));
+  const std::uint64_t floats = (std::uint64_t(1) << (3 * here)) - 1;
+  const __m512 a = _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats), p);
+  const __m512 b = _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats >> 16), p + 16);
+  const __m512 c = _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats >> 32), p + 32);
+  return {everyThird(0, a, b, c), everyThird(1, a, b, c), everyThird(2, a, b, c)};
+}
+
+/** Squared distances of coordinates to an interval. */
+__m512
+sqGap(__m512 x, float low, float high)
+{
+  // With a mask: g++ 12 warns of the register that the plain ones leave undefined.
+  constexpr __mmask16 all = 0xffff;
+  const __m512 outside = _mm512_maskz_max_ps(all,
+                                             _mm512_sub_ps(_mm512_set1_ps(low), x),
+                                             _mm512_sub_ps(x, _mm512_set1_ps(high)));
+  const __m512 gap = _mm512_maskz_max_ps(all, outside, _mm512_setzero_ps());
+  return _mm512_mul_ps(gap, gap);
+}
+#else
+float
+sqGap(float x, float low, float high)
+{
+  const float below = low - x, above = x - high;
+  const float gap = below > above ? below : above;
+  return gap > 0.0f ? gap * gap : 0.0f;
 }
 #endif
 
 std::size_t
-keepInside(const float* positions,
-           std::uint32_t begin,
-           std::uint32_t end,
-           const float* low,
-           const float* high,
-           const BoxedSamples& kept)
+keepNear(const float* positions,
+         std::uint32_t begin,
+         std::uint32_t end,
+         const float* low,
+         const float* high,
+         float sq_limit,
+         const CopiedSamples& kept)
 {
   std::size_t count = 0;
   std::uint32_t i = begin;
@@ -51,40 +80,37 @@ keepInside(const float* positions,
   // Compilers find neither the transposition nor the compression by themselves.
   for (; i < end; i += static_cast<std::uint32_t>(lanes)) {
     const std::uint32_t here = end - i < lanes ? end - i : lanes;
-    const std::uint64_t floats = (std::uint64_t(1) << (3 * here)) - 1;
-    const float* const p = positions + std::size_t(3) * i;
-    const __m512 a = _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats), p);
-    const __m512 b =
-        _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats >> 16), p + 16);
-    const __m512 c =
-        _mm512_maskz_loadu_ps(static_cast<__mmask16>(floats >> 32), p + 32);
-    const __m512 x = everyThird(0, a, b, c), y = everyThird(1, a, b, c),
-                 z = everyThird(2, a, b, c);
-    const auto inside = static_cast<__mmask16>(
-        ((1u << here) - 1) & between(x, low[0], high[0]) & between(y, low[1], high[1]) &
-        between(z, low[2], high[2]));
+    const auto [x, y, z] = transpose(positions + std::size_t(3) * i, here);
+    const __m512 sq_gap = _mm512_add_ps(
+        _mm512_add_ps(sqGap(x, low[0], high[0]), sqGap(y, low[1], high[1])),
+        sqGap(z, low[2], high[2]));
+    const __mmask16 near =
+        _mm512_mask_cmp_ps_mask(static_cast<__mmask16>((1u << here) - 1),
+                                sq_gap,
+                                _mm512_set1_ps(sq_limit),
+                                _CMP_LE_OQ);
     const __m512i index = _mm512_add_epi32(
         _mm512_set1_epi32(static_cast<int>(i)),
         _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
-    _mm512_storeu_ps(kept.x + count, _mm512_maskz_compress_ps(inside, x));
-    _mm512_storeu_ps(kept.y + count, _mm512_maskz_compress_ps(inside, y));
-    _mm512_storeu_ps(kept.z + count, _mm512_maskz_compress_ps(inside, z));
-    _mm512_storeu_si512(kept.indices + count,
-                        _mm512_maskz_compress_epi32(inside, index));
-    count += static_cast<std::size_t>(__builtin_popcount(inside));
+    _mm512_storeu_ps(kept.x + count, _mm512_maskz_compress_ps(near, x));
+    _mm512_storeu_ps(kept.y + count, _mm512_maskz_compress_ps(near, y));
+    _mm512_storeu_ps(kept.z + count, _mm512_maskz_compress_ps(near, z));
+    _mm512_storeu_si512(kept.indices + count, _mm512_maskz_compress_epi32(near, index));
+    count += static_cast<std::size_t>(__builtin_popcount(near));
   }
 #else
-  // Written first and counted if inside: no branches to be mispredicted.
+  // Written first and counted if near: no branches to be mispredicted.
+  const float low_x = low[0], low_y = low[1], low_z = low[2];
+  const float high_x = high[0], high_y = high[1], high_z = high[2];
   for (; i < end; ++i) {
     const float* const p = positions + std::size_t(3) * i;
     kept.x[count] = p[0];
     kept.y[count] = p[1];
     kept.z[count] = p[2];
     kept.indices[count] = i;
-    count += static_cast<std::size_t>(
-        static_cast<int>(p[0] >= low[0]) & static_cast<int>(p[0] <= high[0]) &
-        static_cast<int>(p[1] >= low[1]) & static_cast<int>(p[1] <= high[1]) &
-        static_cast<int>(p[2] >= low[2]) & static_cast<int>(p[2] <= high[2]));
+    const float sq_gap = sqGap(p[0], low_x, high_x) + sqGap(p[1], low_y, high_y) +
+                         sqGap(p[2], low_z, high_z);
+    count += static_cast<std::size_t>(sq_gap <= sq_limit);
   }
 #endif
   return count;
@@ -103,6 +129,36 @@ measure(const float* x,
     const float dx = x[i] - px, dy = y[i] - py, dz = z[i] - pz;
     sq_dist[i] = dx * dx + dy * dy + dz * dz;
   }
+}
+
+void
+measureRun(const float* positions,
+           std::uint32_t begin,
+           std::uint32_t end,
+           const float* point,
+           float* sq_dist)
+{
+  const float px = point[0], py = point[1], pz = point[2];
+  std::uint32_t i = begin;
+#if defined(__AVX512F__)
+  for (; i < end; i += static_cast<std::uint32_t>(lanes)) {
+    const std::uint32_t here = end - i < lanes ? end - i : lanes;
+    const auto [x, y, z] = transpose(positions + std::size_t(3) * i, here);
+    const __m512 dx = _mm512_sub_ps(x, _mm512_set1_ps(px)),
+                 dy = _mm512_sub_ps(y, _mm512_set1_ps(py)),
+                 dz = _mm512_sub_ps(z, _mm512_set1_ps(pz));
+    _mm512_storeu_ps(
+        sq_dist + (i - begin),
+        _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy)),
+                      _mm512_mul_ps(dz, dz)));
+  }
+#else
+  for (; i < end; ++i) {
+    const float* const p = positions + std::size_t(3) * i;
+    const float dx = p[0] - px, dy = p[1] - py, dz = p[2] - pz;
+    sq_dist[i - begin] = dx * dx + dy * dy + dz * dz;
+  }
+#endif
 }
 
 std::size_t
@@ -146,6 +202,6 @@ keepWithin(const float* values,
 } // namespace
 
 extern const NearestKernels nearest_kernels{
-    keepInside, measure, countWithin, keepWithin};
+    keepNear, measure, measureRun, countWithin, keepWithin};
 
 } // namespace pcl_uvol::PCL_UVOL_SIMD

@@ -11,8 +11,8 @@ namespace pcl_uvol {
 /** Arrays that a kernel writes have room for that many elements more than it keeps. */
 constexpr std::size_t kernel_room = 16;
 
-/** \brief Samples of a box, coordinate by coordinate. */
-struct BoxedSamples {
+/** \brief Samples, coordinate by coordinate. */
+struct CopiedSamples {
   float *x, *y, *z;
   std::uint32_t* indices;
 };
@@ -20,14 +20,15 @@ struct BoxedSamples {
 /** \brief One instruction set's versions. */
 struct NearestKernels {
   /** \brief Append those of the positions begin to end (x, y, z one after another) that
-   * lie in a closed box.
+   * lie within a squared distance of a closed box.
    * \return their number */
-  std::size_t (*keepInside)(const float* positions,
-                            std::uint32_t begin,
-                            std::uint32_t end,
-                            const float* low,
-                            const float* high,
-                            const BoxedSamples& kept);
+  std::size_t (*keepNear)(const float* positions,
+                          std::uint32_t begin,
+                          std::uint32_t end,
+                          const float* low,
+                          const float* high,
+                          float sq_limit,
+                          const CopiedSamples& kept);
 
   /** \brief sq_dist[i] = squared distance of (x, y, z)[i] to the point. */
   void (*measure)(const float* x,
@@ -36,6 +37,13 @@ struct NearestKernels {
                   std::size_t count,
                   const float* point,
                   float* sq_dist);
+
+  /** \brief The same of the positions begin to end (x, y, z one after another). */
+  void (*measureRun)(const float* positions,
+                     std::uint32_t begin,
+                     std::uint32_t end,
+                     const float* point,
+                     float* sq_dist);
 
   /** \brief Number of values up to a limit. */
   std::size_t (*countWithin)(const float* values, std::size_t count, float limit);

@@ -7,8 +7,11 @@
 #include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -25,15 +28,63 @@ checkCount(std::size_t k)
         "The number of nearest neighbours is 0: it must be at least 1.");
 }
 
+/** A search of the user's may have settings in the unit of the input, as an octree its
+ * resolution: it gets samples in that unit as long as, with factors within these
+ * bounds, the squares of their distances are numbers in float. */
+constexpr float least_factor = 0x1p-20f, largest_factor = 0x1p20f;
+
 pcl::PointCloud<pcl::PointXYZ>::Ptr
 cloudOf(const SampleSet& samples)
 {
+  const float factor = samples.getUnit().factor;
+  const float back =
+      factor >= least_factor && factor <= largest_factor ? 1.0f / factor : 1.0f;
   pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
   cloud->reserve(samples.size());
   for (const Position& x : samples.getPositions())
-    cloud->push_back({x[0], x[1], x[2]});
+    cloud->push_back({back * x[0], back * x[1], back * x[2]});
   return cloud;
 }
+
+/** Samples found, without the one that was searched for, nearest first. */
+class SortedRow {
+public:
+  explicit SortedRow(std::size_t sample_count)
+      : sample_count_(sample_count)
+  {
+  }
+
+  void
+  start(std::size_t sample)
+  {
+    sample_ = sample;
+    found_.clear();
+  }
+
+  /** What a search gives that does not find as many as it should: no sample, or no
+   * distance. */
+  void
+  add(float sq_dist, std::size_t neighbor)
+  {
+    if (neighbor != sample_ && neighbor < sample_count_ && std::isfinite(sq_dist))
+      found_.emplace_back(sq_dist, static_cast<std::uint32_t>(neighbor));
+  }
+
+  /** At most so many, sorted. */
+  const std::vector<std::pair<float, std::uint32_t>>&
+  finish(std::size_t most)
+  {
+    // Sorted by distance already but for ties; a sample whose squared distances
+    // underflow may miss itself, then the farthest goes.
+    std::sort(found_.begin(), found_.end());
+    found_.resize(std::min(most, found_.size()));
+    return found_;
+  }
+
+private:
+  std::size_t sample_count_, sample_ = 0;
+  std::vector<std::pair<float, std::uint32_t>> found_;
+};
 
 } // namespace
 
@@ -76,19 +127,20 @@ computeNearestNeighbors(const SampleSet& samples,
                         distance_rows,
                         found,
                         search);
-        std::vector<std::pair<float, std::uint32_t>> sorted;
+        SortedRow sorted(count);
         for (std::size_t i = begin; i < end; ++i) {
-          sorted.clear();
-          for (std::size_t j = 0; j < found; ++j)
-            if (const std::size_t neighbor = indices[(i - begin) * found + j];
-                neighbor != i)
-              sorted.emplace_back(sq_dists[(i - begin) * found + j],
-                                  static_cast<std::uint32_t>(neighbor));
-          // Sorted by distance already but for ties; a sample whose squared distances
-          // underflow may miss itself, then the farthest goes.
-          std::sort(sorted.begin(), sorted.end());
+          sorted.start(i);
+          for (std::size_t j = (i - begin) * found; j < (i - begin + 1) * found; ++j)
+            sorted.add(sq_dists[j], indices[j]);
+          const auto& neighbors = sorted.finish(row);
+          if (neighbors.size() < row)
+            throw InvalidArgument("Sample " + std::to_string(i) + " has only " +
+                                  std::to_string(neighbors.size()) + " of " +
+                                  std::to_string(row) +
+                                  " neighbours at a finite distance: scale the "
+                                  "coordinates.");
           for (std::size_t j = 0; j < row; ++j)
-            graph.indices[i * row + j] = sorted[j].second;
+            graph.indices[i * row + j] = neighbors[j].second;
         }
         step.advance(end - begin);
       });
@@ -115,21 +167,18 @@ computeNearestNeighbors(const SampleSet& samples,
       count, block_samples, threads, [&](auto begin, auto end, auto& block) {
         pcl::Indices found;
         std::vector<float> sq_dists;
-        std::vector<std::pair<float, std::uint32_t>> sorted;
+        SortedRow sorted(count);
         for (std::size_t i = begin; i < end; ++i) {
           // each sample finds itself as well
           search->nearestKSearch(
               static_cast<pcl::index_t>(i), static_cast<int>(row + 1), found, sq_dists);
-          sorted.clear();
-          for (std::size_t j = 0; j < found.size(); ++j)
-            if (const auto neighbor = static_cast<std::uint32_t>(found[j]);
-                neighbor != i)
-              sorted.emplace_back(sq_dists[j], neighbor);
-          std::sort(sorted.begin(), sorted.end());
-          sorted.resize(std::min(row, sorted.size()));
-          for (const auto& entry : sorted)
+          sorted.start(i);
+          for (std::size_t j = 0; j < std::min(found.size(), sq_dists.size()); ++j)
+            sorted.add(sq_dists[j], static_cast<std::size_t>(found[j]));
+          const auto& neighbors = sorted.finish(row);
+          for (const auto& entry : neighbors)
             block.push_back(entry.second);
-          graph.offsets[i + 1] = sorted.size();
+          graph.offsets[i + 1] = neighbors.size();
         }
         step.advance(end - begin);
       });

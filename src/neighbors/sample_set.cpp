@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/length_unit.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_uvol {
 
@@ -12,33 +14,45 @@ namespace {
 
 constexpr std::size_t block_samples = 1u << 14;
 
+/** What became of points of a block. */
+struct Gathered {
+  std::size_t records = 0, non_finite = 0;
+  Strays strays;
+};
+
+/** Records of the points that are samples. \param all gets what became of the others */
 std::vector<SampleRecord>
 gatherRecords(const float* xyz,
               std::size_t stride,
               const std::vector<std::uint32_t>& use,
-              const Position& scale,
-              unsigned threads)
+              const LengthUnit& unit,
+              unsigned threads,
+              Gathered& all)
 {
   std::vector<SampleRecord> records(use.size());
-  std::vector<std::size_t> finite((use.size() + block_samples - 1) / block_samples);
+  std::vector<Gathered> blocks((use.size() + block_samples - 1) / block_samples);
   parallelBlocks(
       use.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
-        std::size_t next = begin;
+        Gathered& block = blocks[begin / block_samples];
         for (std::size_t i = begin; i < end; ++i) {
           const float* const point = xyz + use[i] * stride;
-          const Position position = stretched({{point[0], point[1], point[2]}}, scale);
-          if (std::isfinite(position[0]) && std::isfinite(position[1]) &&
-              std::isfinite(position[2]))
-            records[next++] = {position, use[i]};
+          const Position raw{{point[0], point[1], point[2]}};
+          const Position position = unit.apply(raw);
+          if (unit.isWithin(position))
+            records[begin + block.records++] = {position, use[i]};
+          else if (isFinite(raw))
+            block.strays.add(use[i], raw);
+          else
+            ++block.non_finite;
         }
-        finite[begin / block_samples] = next - begin;
       });
   auto end = records.begin();
-  for (std::size_t block = 0; block < finite.size(); ++block) {
-    const auto begin =
-        records.begin() + static_cast<std::ptrdiff_t>(block * block_samples);
-    const auto last = begin + static_cast<std::ptrdiff_t>(finite[block]);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const auto begin = records.begin() + static_cast<std::ptrdiff_t>(i * block_samples);
+    const auto last = begin + static_cast<std::ptrdiff_t>(blocks[i].records);
     end = begin == end ? last : std::move(begin, last, end);
+    all.non_finite += blocks[i].non_finite;
+    all.strays.add(blocks[i].strays);
   }
   records.erase(end, records.end());
   return records;
@@ -51,54 +65,66 @@ samePosition(const SampleRecord& a, const SampleRecord& b)
          a.position[2] == b.position[2];
 }
 
-/** Leave one record, that of the lowest input index, per position; members of the
- * others are told by the representative's input index. */
-std::vector<SampleSet::Merged>
+/** Input points of equal positions. */
+struct Duplicates {
+  std::vector<std::uint32_t> members; ///< ascending for each position
+  std::vector<std::size_t> ends;      ///< of each position's members
+};
+
+/** Leave one record, that of the lowest input index, per position.
+ * \param records equal ones side by side */
+Duplicates
 mergeDuplicates(std::vector<SampleRecord>& records)
 {
-  std::sort(
-      records.begin(), records.end(), [](const SampleRecord& a, const SampleRecord& b) {
-        if (samePosition(a, b))
-          return a.input_index < b.input_index;
-        return lessAlong(0, a.position, b.position);
-      });
-  std::vector<SampleSet::Merged> merged;
+  Duplicates duplicates;
+  std::vector<std::uint32_t>& members = duplicates.members;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < records.size();) {
+  for (std::size_t i = 0; i < records.size(); ++kept) {
+    const SampleRecord first = records[i];
     std::size_t end = i + 1;
-    while (end < records.size() && samePosition(records[i], records[end]))
+    while (end < records.size() && samePosition(first, records[end]))
       ++end;
+    records[kept] = first;
     if (end - i > 1) {
-      merged.push_back({records[i].input_index, {}});
+      const auto begin = static_cast<std::ptrdiff_t>(members.size());
       for (std::size_t k = i; k < end; ++k)
-        merged.back().members.push_back(records[k].input_index);
+        members.push_back(records[k].input_index);
+      std::sort(members.begin() + begin, members.end());
+      records[kept].input_index = members[static_cast<std::size_t>(begin)];
+      duplicates.ends.push_back(members.size());
     }
-    records[kept++] = records[i];
     i = end;
   }
   records.resize(kept);
-  return merged;
+  return duplicates;
 }
 
-/** Turn input indices of representatives into sample indices. */
-void
-renumberMerged(std::vector<SampleSet::Merged>& merged,
-               const std::vector<SampleRecord>& records)
+/** The samples that stand for several points, in leaf order. */
+std::vector<SampleSet::Merged>
+findMerged(const Duplicates& duplicates, const std::vector<SampleRecord>& records)
 {
-  const auto by_sample = [](const SampleSet::Merged& a, const SampleSet::Merged& b) {
-    return a.sample < b.sample;
+  // Per input index that stands for others its place among the duplicates.
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  const std::uint32_t* const members = duplicates.members.data();
+  const auto rowOf = [&](std::size_t place) {
+    return NeighborGraph::Row{members + (place == 0 ? 0 : duplicates.ends[place - 1]),
+                              members + duplicates.ends[place]};
   };
-  std::sort(merged.begin(), merged.end(), by_sample);
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const SampleSet::Merged key{records[i].input_index, {}};
-    const auto found = std::lower_bound(
-        merged.begin(), merged.end(), key, [](const auto& a, const auto& b) {
-          return a.members.front() < b.sample;
-        });
-    if (found != merged.end() && found->members.front() == records[i].input_index)
-      found->sample = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> place_of;
+  for (std::size_t place = 0; place < duplicates.ends.size(); ++place) {
+    const std::uint32_t first = *rowOf(place).begin();
+    if (first >= place_of.size())
+      place_of.resize(
+          std::max<std::size_t>(first + std::size_t{1}, 2 * place_of.size()), none);
+    place_of[first] = static_cast<std::uint32_t>(place);
   }
-  std::sort(merged.begin(), merged.end(), by_sample);
+  std::vector<SampleSet::Merged> merged;
+  merged.reserve(duplicates.ends.size());
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (const std::uint32_t index = records[i].input_index;
+        index < place_of.size() && place_of[index] != none)
+      merged.push_back({static_cast<std::uint32_t>(i), rowOf(place_of[index])});
+  return merged;
 }
 
 } // namespace
@@ -111,9 +137,31 @@ SampleSet::build(const float* xyz,
                  unsigned threads,
                  Report& report)
 {
+  const auto position_at = [&](std::size_t i) -> Position {
+    const float* const point = xyz + use[i] * stride;
+    return {{point[0], point[1], point[2]}};
+  };
+  const LengthUnit unit =
+      countMagnitudes(use.size(), position_at, scale, threads).findUnit(scale);
+  return buildInUnit(xyz, stride, use, unit, threads, report);
+}
+
+SampleSet::ConstPtr
+SampleSet::buildInUnit(const float* xyz,
+                       std::size_t stride,
+                       const std::vector<std::uint32_t>& use,
+                       const LengthUnit& unit,
+                       unsigned threads,
+                       Report& report)
+{
   StepTimer step(report, "tree", use.size());
-  std::vector<SampleRecord> records = gatherRecords(xyz, stride, use, scale, threads);
-  report.count("non_finite", use.size() - records.size());
+  Gathered gathered;
+  std::vector<SampleRecord> records =
+      gatherRecords(xyz, stride, use, unit, threads, gathered);
+  report.count("non_finite", gathered.non_finite);
+  if (gathered.strays.count > 0)
+    report.count("strays", gathered.strays.count);
+  gathered.strays.warn(report);
   if (records.empty())
     throw InvalidArgument("The cloud has no usable sample: all " +
                           std::to_string(use.size()) +
@@ -122,13 +170,14 @@ SampleSet::build(const float* xyz,
   // Not make_shared: the constructor is private.
   const std::shared_ptr<SampleSet> set(new SampleSet);
   Parts& parts = set->parts_;
-  parts.scale = scale;
+  parts.unit = unit;
   KdTree& tree = parts.trees.emplace_back();
   const std::size_t finite = records.size();
   if (!tree.build(records, threads, step)) {
-    set->merged_ = mergeDuplicates(records);
+    Duplicates duplicates = mergeDuplicates(records);
     tree.build(records, threads, step);
-    renumberMerged(set->merged_, records);
+    set->merged_ = findMerged(duplicates, records);
+    set->members_ = std::move(duplicates.members);
   }
   report.count("duplicates", finite - records.size());
 

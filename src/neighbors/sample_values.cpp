@@ -18,12 +18,16 @@ constexpr std::size_t block_points = 1u << 14;
 } // namespace
 
 std::vector<float>
-readValues(const CloudView& cloud, const ScalarField& field, unsigned threads)
+readValues(const CloudView& cloud,
+           const ScalarField& field,
+           const ValueFrame& frame,
+           unsigned threads)
 {
   std::vector<float> values(cloud.count);
   const FieldComponent& first = field.getComponents().front();
-  const bool is_plain =
-      !field.isLength() && first.datatype == pcl::PCLPointField::FLOAT32;
+  const bool is_plain = !field.isLength() &&
+                        first.datatype == pcl::PCLPointField::FLOAT32 &&
+                        frame == ValueFrame();
   parallelBlocks(
       cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
         if (is_plain) // most fields: without a call per value
@@ -31,7 +35,7 @@ readValues(const CloudView& cloud, const ScalarField& field, unsigned threads)
             std::memcpy(&values[i], cloud.point(i) + first.offset, sizeof(float));
         else
           for (std::size_t i = begin; i < end; ++i)
-            values[i] = static_cast<float>(field.read(cloud.point(i)));
+            values[i] = static_cast<float>(frame.apply(field.read(cloud.point(i))));
         // Adding zero turns -0 into 0, so that medians do not depend on its sign.
         for (std::size_t i = begin; i < end; ++i)
           values[i] = std::isfinite(values[i])
@@ -73,8 +77,9 @@ gatherValues(const SampleSet& samples,
         }
       });
   std::uint64_t conflicting = 0;
+  std::vector<std::uint32_t> members;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
-    std::vector<std::uint32_t> members = merged.members;
+    members.assign(merged.members.begin(), merged.members.end());
     const std::uint32_t source = representativeOf(
         members, [&](auto member) { return input_values[member]; }, conflicting);
     scalar.values[merged.sample] = input_values[source];

@@ -6,6 +6,7 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/common/value_frame.h>
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
@@ -14,9 +15,13 @@
 
 namespace pcl_uvol {
 
-/** \brief The scalar of every input point: NaN where float holds no finite value. */
+/** \brief The scalar of every input point in a frame: NaN where float holds no finite
+ * value. */
 std::vector<float>
-readValues(const CloudView& cloud, const ScalarField& field, unsigned threads);
+readValues(const CloudView& cloud,
+           const ScalarField& field,
+           const ValueFrame& frame,
+           unsigned threads);
 
 /** \brief The indices whose point has a value. \throws InvalidArgument if there is none
  */

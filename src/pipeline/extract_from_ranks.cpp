@@ -11,11 +11,15 @@ namespace pcl_uvol {
 std::vector<std::vector<GlobalIsopoint>>
 extractFromRanks(Samples&& samples,
                  const IsosurfaceParameters& settings,
+                 const ValueFrame& frame,
                  Communicator& communicator,
                  unsigned threads,
                  Report& report)
 {
-  IsosurfaceStage stage(settings);
+  checkParameters(settings);
+  const LengthUnit unit = normalizeTogether(
+      samples, toPosition(settings.scale), communicator, threads, report);
+  IsosurfaceStage stage(settings, unit, frame);
   runOnRanks(stage, std::move(samples), communicator, threads, report);
   return std::move(stage).take();
 }

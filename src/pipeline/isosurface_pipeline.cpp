@@ -168,6 +168,25 @@ IsosurfacePipeline::run()
   return result;
 }
 
+namespace {
+
+/** Merge the report of a stage on samples that an earlier stage has told of. */
+void
+mergeLater(Report& report, Report stage)
+{
+  const auto is_of_samples = [](const auto& count) {
+    const std::string& name = count.first;
+    return name == "samples" || name == "no_value" || name == "non_finite" ||
+           name == "duplicates" || name == "conflicting_duplicates";
+  };
+  stage.counts.erase(
+      std::remove_if(stage.counts.begin(), stage.counts.end(), is_of_samples),
+      stage.counts.end());
+  report.merge(stage);
+}
+
+} // namespace
+
 IsosurfacePipeline::Isopoints
 IsosurfacePipeline::extract(const IsosurfaceParameters& parameters)
 {
@@ -199,18 +218,28 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     evolution.setIsoValue(isovalue);
     std::vector<float> phi;
     evolution.evolve(phi);
-    report_.merge(evolution.getReport());
+    if (summaries.empty())
+      report_.merge(evolution.getReport());
+    else
+      mergeLater(report_, evolution.getReport());
     summaries.push_back(evolution.getSummary());
     IsosurfaceParameters of_phi = parameters;
     of_phi.isovalues = {isovalue};
+    // Of points at one position only the one that phi was made from: edges name it.
+    std::vector<float> of_sources(phi.size(), std::numeric_limits<float>::quiet_NaN());
+    for (const std::uint32_t source : evolution.getSources())
+      of_sources[source] = phi[source];
     Isopoints found;
+    Report zero_level;
+    zero_level.progress = report_.progress;
     extractZeroLevel(viewOf(samples_->cloud),
-                     phi,
+                     of_sources,
                      of_phi,
                      threads_,
                      found.points,
                      found.edges,
-                     report_);
+                     zero_level);
+    mergeLater(report_, std::move(zero_level));
     all.points += found.points;
     all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
   }

@@ -45,6 +45,17 @@ constexpr Side sides[] = {{"front", {0, -1, 0}, {0, 0, 1}},
 
 } // namespace
 
+double
+lengthUnitOf(const BoundingSphere& bounds)
+{
+  // Radii of clouds that are drawn in their own unit: squares of parts of a pixel, and
+  // of distances a thousand times as large, are far inside float's range.
+  constexpr double smallest = 0x1p-20, largest = 0x1p20;
+  if (!(bounds.radius > 0.0) || (bounds.radius >= smallest && bounds.radius <= largest))
+    return 1.0;
+  return std::exp2(-std::floor(std::log2(bounds.radius)));
+}
+
 Eigen::Matrix3d
 Camera::rotation() const
 {

@@ -45,6 +45,7 @@ void
 SurfaceCloud::place(unsigned threads)
 {
   const std::vector<Position>& positions = points_.samples->getPositions();
+  const LengthUnit& unit = points_.samples->getUnit();
   const std::size_t count = positions.size();
   Position low = positions[0], high = positions[0];
   for (const Position& position : positions)
@@ -56,7 +57,7 @@ SurfaceCloud::place(unsigned threads)
   Position center;
   for (int axis = 0; axis < 3; ++axis) {
     center[axis] = 0.5f * low[axis] + 0.5f * high[axis];
-    bounds_.center[axis] = center[axis];
+    bounds_.center[axis] = unit.toInput(center[axis]);
     coordinates_[axis].resize(count);
   }
   looks_.resize(count);
@@ -74,7 +75,12 @@ SurfaceCloud::place(unsigned threads)
                          coordinates_[0][i] * coordinates_[0][i] +
                              coordinates_[1][i] * coordinates_[1][i] +
                              coordinates_[2][i] * coordinates_[2][i]);
-  bounds_.radius = std::sqrt(static_cast<double>(sq_radius));
+  bounds_.radius = unit.toInput(std::sqrt(static_cast<double>(sq_radius)));
+  // Powers of two, so that nothing is rounded.
+  length_factor_ = static_cast<float>(unit.toInput(lengthUnitOf(bounds_)));
+  for (auto& coordinates : coordinates_)
+    for (float& coordinate : coordinates)
+      coordinate *= length_factor_;
 }
 
 void
@@ -158,6 +164,9 @@ SurfaceCloud::computeFootprints(unsigned threads, Report& report)
   Footprints footprints = pcl_uvol::computeFootprints(points_, threads, report);
   footprints_ = std::move(footprints.radii);
   fillers_ = std::move(footprints.fillers);
+  for (auto* const radii : {&footprints_, &fillers_})
+    for (float& radius : *radii)
+      radius *= length_factor_;
   std::vector<float> sorted = footprints_;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());

@@ -78,6 +78,10 @@ estimateNormals(const CloudView& cloud,
   Report estimation;
   const auto estimated =
       detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
+  if (const std::uint64_t strays = estimation.getCount("strays"); strays > 0)
+    report.count("strays", strays);
+  report.warnings.insert(
+      report.warnings.end(), estimation.warnings.begin(), estimation.warnings.end());
   Normals normals;
   normals.packed.resize(cloud.count);
   for (std::size_t i = 0; i < use.size(); ++i)

@@ -27,7 +27,8 @@ constexpr std::size_t blocks_at_once = 16, largest_block = 256;
 /** Splats of a block whose neighbours are looked up in common. */
 constexpr std::size_t run_splats = 16;
 
-/** Extents whose squares, and those of the spacings, are numbers in float. */
+/** Extents, in the samples' unit, whose squares, and those of the spacings, are numbers
+ * in float. */
 constexpr double smallest_extent = 1e-12, largest_extent = 1e15;
 
 void
@@ -192,6 +193,16 @@ growOn(const OrientedPoints& points,
   return coverSurface(ground, threads, report);
 }
 
+/** A splat in the unit of the input. */
+PointSplat
+toInput(PointSplat splat, const LengthUnit& unit)
+{
+  for (float* const length :
+       {&splat.x, &splat.y, &splat.z, &splat.radius, &splat.error})
+    *length = static_cast<float>(unit.toInput(*length));
+  return splat;
+}
+
 constexpr std::array<const char*, 15> splat_fields = {"x",
                                                       "y",
                                                       "z",
@@ -221,16 +232,18 @@ detail::generateSplats(const CloudView& cloud,
   if (use.empty())
     throw InvalidArgument("The splat generation was given an empty cloud.");
   const OrientedPoints points = orientPoints(cloud, use, threads, report);
+  const LengthUnit& unit = points.samples->getUnit();
   const double side = longestSide(points.samples->getPositions());
-  const double delta =
-      parameters.delta_is_length ? parameters.delta : parameters.delta * side;
+  const double delta = parameters.delta_is_length ? parameters.delta * unit.factor
+                                                  : parameters.delta * side;
   if (!(delta > 0.0))
     throw InvalidArgument("All points of the cloud lie at one place: their extent "
                           "gives no error bound, which must be given as a length.");
   const double extent = std::max(side, delta);
   if (!(extent >= smallest_extent && extent <= largest_extent))
-    throw InvalidArgument("Splats are made for clouds, and error bounds, between 1e-12 "
-                          "and 1e15 in extent: scale the coordinates.");
+    throw InvalidArgument("The error bound delta of splats is no length beside "
+                          "coordinates as large as these: it, or the extent of the "
+                          "cloud, must be 1e-12 to 1e15 times as large.");
   const auto accepted = growOn(points, delta, parameters, threads, report);
   // In leaf order, where neighbours are close.
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
@@ -241,7 +254,7 @@ detail::generateSplats(const CloudView& cloud,
   splats.cloud.reserve(accepted.size());
   for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample)
     if (splat_of[sample] != none) {
-      splats.cloud.push_back(accepted[splat_of[sample]].splat);
+      splats.cloud.push_back(toInput(accepted[splat_of[sample]].splat, unit));
       splats.sources.push_back(points.samples->getInputIndex(sample));
     }
   return splats;

@@ -71,9 +71,11 @@ fitPlane(const std::vector<Position>& positions,
 /** The side that a point's normal shall look to. */
 class Orientation {
 public:
-  Orientation(const CloudView& cloud, const Eigen::Array3f& view_point)
+  /** \param unit lengths of directions are near 1 in it */
+  Orientation(const CloudView& cloud, const Eigen::Array3f& view_point, float unit)
       : cloud_(cloud)
-      , view_point_(view_point)
+      , view_point_(unit * view_point)
+      , unit_(unit)
   {
     constexpr const char* names[] = {"normal_x", "normal_y", "normal_z"};
     for (const char* name : names)
@@ -92,12 +94,13 @@ public:
       if (own.allFinite() && !own.isZero(0.0f))
         return own;
     }
-    return view_point_ - Eigen::Vector3f(cloud_.xyz(index));
+    return view_point_ - unit_ * Eigen::Vector3f(cloud_.xyz(index));
   }
 
 private:
   const CloudView& cloud_;
   Eigen::Vector3f view_point_;
+  float unit_;
   std::vector<ScalarField> own_normal_;
 };
 
@@ -195,7 +198,8 @@ estimateSurfaceNormals(const CloudView& cloud,
           fitPlane(samples->getPositions(), static_cast<std::uint32_t>(i), graph[i]);
   });
   const std::vector<std::uint32_t> sample_of = samplesOf(*samples, cloud.count);
-  const Orientation orientation(cloud, parameters.view_point);
+  const Orientation orientation(
+      cloud, parameters.view_point, samples->getUnit().factor);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
   std::atomic<std::uint64_t> degenerate{0};

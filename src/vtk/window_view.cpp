@@ -98,10 +98,11 @@ makeWindowView(vtkRenderer& renderer, vtkMatrix4x4& model, const BoundingSphere&
   View view(makeCamera(cloud_to_eye, scale, fov), bounds, width, height);
   view.center_x -= static_cast<float>(0.5 * width * projection(0, 2));
   view.center_y += static_cast<float>(0.5 * height * projection(1, 2));
-  view.near =
-      std::max(view.near, static_cast<float>(camera->GetClippingRange()[0] / scale));
+  view.near = std::max(
+      view.near, static_cast<float>(view.unit * camera->GetClippingRange()[0] / scale));
 
-  const Eigen::Vector4d axes(scale, -scale, -scale, 1.0); // from our camera space
+  const double length = scale / view.unit;
+  const Eigen::Vector4d axes(length, -length, -length, 1.0); // from our camera space
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
       target.projection[4 * row + column] =

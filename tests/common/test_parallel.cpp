@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -58,6 +60,29 @@ TEST(Parallel, NoBlockBeginsAfterAnException)
                                         }),
                std::runtime_error);
   EXPECT_LT(begun, 50);
+}
+
+/** Blocks that take no time stay with the caller's thread; those that do are shared,
+ * and every one is run once. */
+TEST(Parallel, TeamsAreOpenedForWorkOnly)
+{
+  const auto caller = std::this_thread::get_id();
+  std::atomic<int> elsewhere{0}, sum{0};
+  const auto run = [&](std::chrono::milliseconds time) {
+    elsewhere = sum = 0;
+    pcl_uvol::parallelBlocks(40, 1, 2, [&](std::size_t begin, std::size_t) {
+      std::this_thread::sleep_for(time);
+      elsewhere += std::this_thread::get_id() != caller ? 1 : 0;
+      sum += static_cast<int>(begin);
+    });
+    EXPECT_EQ(780, sum);
+  };
+  run(std::chrono::milliseconds(2));
+  EXPECT_GT(elsewhere, 0);
+  elsewhere = 0;
+  pcl_uvol::TaskGroup::run(
+      2, [&] { elsewhere += std::this_thread::get_id() != caller ? 1 : 0; });
+  EXPECT_EQ(0, elsewhere);
 }
 
 } // namespace

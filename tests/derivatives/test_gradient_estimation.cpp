@@ -211,9 +211,18 @@ TEST(GradientEstimation, ConstantFieldsAndFewSamples)
   const auto few = sample([](const Vector& x) { return x[0]; }, 6);
   for (const pcl_uvol::PointGradient& gradient : estimate(few, FitScheme::Quadratic))
     EXPECT_LT((vectorOf(gradient) - Vector::UnitX()).norm(), 1e-4);
-  for (const pcl_uvol::PointGradient& gradient :
-       estimate(sample([](const Vector& x) { return x[0]; }, 1), FitScheme::Linear))
-    EXPECT_EQ(0.0, vectorOf(gradient).norm());
+}
+
+TEST(GradientEstimation, AnOnlySampleHasNoGradient)
+{
+  const auto one = sample([](const Vector& x) { return x[0]; }, 1);
+  for (const FitScheme scheme : {FitScheme::Linear, FitScheme::Quadratic}) {
+    const auto gradients = estimate(one, scheme);
+    ASSERT_EQ(1u, gradients.size());
+    EXPECT_FALSE(gradients.is_dense);
+    EXPECT_TRUE(vectorOf(gradients[0]).array().isNaN().all());
+    EXPECT_TRUE(std::isnan(gradients[0].mean_curvature));
+  }
 }
 
 TEST(GradientEstimation, SameBytesForAnyNumberOfThreads)

@@ -153,12 +153,69 @@ TEST(NaturalNeighbors, DuplicatesAreMergedAndRemembered)
   EXPECT_EQ(50u, samples->size());
   ASSERT_EQ(2u, samples->getMerged().size());
   for (const auto& merged : samples->getMerged()) {
-    const bool is_third = merged.members.front() == 3;
-    EXPECT_EQ((is_third ? std::vector<std::uint32_t>{3, 50, 52}
-                        : std::vector<std::uint32_t>{40, 51}),
-              merged.members);
-    EXPECT_EQ(merged.members.front(), samples->getInputIndex(merged.sample));
+    const std::vector<std::uint32_t> members(merged.members.begin(),
+                                             merged.members.end());
+    EXPECT_EQ((members.front() == 3 ? std::vector<std::uint32_t>{3, 50, 52}
+                                    : std::vector<std::uint32_t>{40, 51}),
+              members);
+    EXPECT_EQ(members.front(), samples->getInputIndex(merged.sample));
   }
+}
+
+/** More points than one task builds a tree of, at the same places in any order. */
+TEST(NaturalNeighbors, ManyDuplicatesGiveTheTreeOfTheDistinctOnes)
+{
+  const Cloud distinct = *makeCloud("uniform", 20000, 1);
+  const auto expected = buildSamples(distinct);
+  for (const std::size_t places :
+       {std::size_t(20000), std::size_t(1), std::size_t(7)}) {
+    Cloud cloud;
+    for (std::size_t i = 0; i < 3 * distinct.size(); ++i)
+      cloud.push_back(distinct[i % places]);
+    std::shuffle(cloud.begin(), cloud.end(), std::mt19937_64(5));
+    const auto samples = buildSamples(cloud, 2);
+    ASSERT_EQ(places, samples->size());
+    if (places == distinct.size()) {
+      EXPECT_TRUE(sameBytes(expected->getPositions(), samples->getPositions()));
+    }
+    std::size_t members = 0, last = 0;
+    for (const auto& merged : samples->getMerged()) {
+      EXPECT_LE(last, merged.sample);
+      last = merged.sample;
+      members += merged.members.size();
+      EXPECT_TRUE(std::is_sorted(merged.members.begin(), merged.members.end()));
+      EXPECT_EQ(*merged.members.begin(), samples->getInputIndex(merged.sample));
+      for (const auto member : merged.members)
+        ASSERT_EQ(cloud[member].x, samples->getPositions()[merged.sample][0]);
+    }
+    EXPECT_EQ(cloud.size(), members);
+  }
+}
+
+/** A lattice, where many neighbours are equally far, in any order of its points. */
+TEST(NaturalNeighbors, RowsAreSortedByDistanceAndIndex)
+{
+  const auto cloud = makeCloud("lattice", 1000, 1);
+  std::shuffle(cloud->begin(), cloud->end(), std::mt19937_64(5));
+  pcl_uvol::NaturalNeighbors<pcl::PointXYZI> natural;
+  natural.setInputCloud(cloud);
+  pcl_uvol::NeighborGraph graph;
+  natural.compute(graph);
+  std::size_t ties = 0;
+  for (std::size_t i = 0; i < graph.size(); ++i) {
+    std::pair<double, std::uint32_t> last(0.0, 0);
+    for (const auto j : graph[i]) {
+      const std::pair<double, std::uint32_t> next(
+          ((*cloud)[i].getVector3fMap().cast<double>() -
+           (*cloud)[j].getVector3fMap().cast<double>())
+              .squaredNorm(),
+          j);
+      EXPECT_LT(last, next);
+      ties += last.first == next.first ? 1 : 0;
+      last = next;
+    }
+  }
+  EXPECT_GT(ties, 100u);
 }
 
 TEST(NaturalNeighbors, NegativeZeroEqualsZero)

@@ -16,19 +16,22 @@ using pcl_uvol::Position;
 using pcl_uvol::SampleSet;
 using uvol_test::buildSamples;
 
+float
+sqDistance(const Position& a, const Position& b)
+{
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+  return sum;
+}
+
 /** Indices of the k nearest, ascending; of equally far ones the lower index. */
 std::vector<std::uint32_t>
 bruteForce(const SampleSet& samples, const Position& point, std::size_t k)
 {
   std::vector<std::pair<float, std::uint32_t>> all;
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    float sum = 0.0f;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float d = samples.getPositions()[i][axis] - point[axis];
-      sum += d * d;
-    }
-    all.emplace_back(sum, i);
-  }
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    all.emplace_back(sqDistance(samples.getPositions()[i], point), i);
   std::sort(all.begin(), all.end());
   all.resize(std::min(k, all.size()));
   std::vector<std::uint32_t> indices;
@@ -145,6 +148,68 @@ TEST(NearestFinder, AnyStartGivesTheSame)
   const auto expected = bruteForce(*samples, point, 26);
   for (const float length : {1e-30f, 1e-6f, 0.1f, 1.0f, 1e6f, 1e38f})
     EXPECT_EQ(expected, indicesOf(NearestFinder(*samples, 26).find(point, length)));
+}
+
+/** Samples of two clusters, and groups of points in the gap between them, whose squared
+ * distances are equal by the hundred in float; and a sphere about its centre. */
+TEST(NearestFinder, AcrossGaps)
+{
+  for (const float distance : {3.0f, 1e3f, 1e7f, 1e15f}) {
+    auto clusters = uvol_test::makeCloud("uniform", 4000, 3);
+    for (std::size_t i = 0; i < clusters->size(); i += 2)
+      (*clusters)[i].x += distance;
+    auto sphere = uvol_test::makeCloud("uniform", 4000, 4);
+    for (auto& point : *sphere)
+      point.getVector3fMap() =
+          distance *
+          (point.getVector3fMap() - Eigen::Vector3f::Constant(0.5f)).normalized();
+    for (const auto& cloud : {clusters, sphere}) {
+      const auto samples = buildSamples(*cloud);
+      const float middle = cloud == clusters ? 0.5f * distance : 0.0f;
+      uvol_test::Random random(4);
+      NearestFinder finder(*samples, 41);
+      for (const float extent : {0.0f, 1e-3f, 0.5f, 5.0f}) {
+        std::vector<Position> points(8);
+        for (Position& point : points) {
+          for (int axis = 0; axis < 3; ++axis)
+            point[axis] = extent * static_cast<float>(random.uniform());
+          point[0] += middle;
+        }
+        finder.expect(points.data(), points.size());
+        for (const Position& point : points) {
+          ASSERT_EQ(bruteForce(*samples, point, 41),
+                    indicesOf(finder.find(point, 1.0f)))
+              << distance << " " << extent;
+          const float radius = 0.6f * distance;
+          const auto row = finder.findWithin(point, radius);
+          std::vector<std::uint32_t> within, expected;
+          for (std::size_t i = 0; i < row.size; ++i)
+            if (row.sq_dists[i] <= radius * radius)
+              within.push_back(row.samples[i]);
+          for (const std::uint32_t index : bruteForce(*samples, point, 41))
+            if (sqDistance(samples->getPositions()[index], point) <= radius * radius)
+              expected.push_back(index);
+          ASSERT_EQ(expected, within) << distance << " " << extent;
+        }
+      }
+    }
+  }
+}
+
+/** Distances whose squares are 0 in float, or infinite: indices decide. */
+TEST(NearestFinder, SquaresBeyondFloat)
+{
+  for (const float scale : {1e-30f, 1e30f}) {
+    auto cloud = uvol_test::makeCloud("uniform", 3000, 9);
+    for (auto& point : *cloud)
+      point.getVector3fMap() *= scale;
+    const auto samples = buildSamples(*cloud);
+    NearestFinder finder(*samples, 20);
+    for (std::size_t i = 0; i < samples->size(); i += 100) {
+      const Position& point = samples->getPositions()[i];
+      ASSERT_EQ(bruteForce(*samples, point, 20), indicesOf(finder.find(point, scale)));
+    }
+  }
 }
 
 } // namespace

@@ -186,4 +186,23 @@ TEST(VoronoiCandidates, RefuseGridsThatAreTooLarge)
                  pcl_uvol::InvalidArgument);
 }
 
+/** All but two of 5000 samples lie in one cell: 5000 candidates each. */
+TEST(VoronoiCandidates, RefuseCrowdsAndTellTheNumber)
+{
+  auto cloud = makeCloud("uniform", 5000, 4);
+  for (auto& point : *cloud)
+    point.getVector3fMap() *= 1e-3f;
+  (*cloud)[0].getVector3fMap().setConstant(10.0f);
+  (*cloud)[1].getVector3fMap().setConstant(-10.0f);
+  const auto samples = buildSamples(*cloud);
+  Report report;
+  try {
+    const VoronoiCandidates candidates(*samples, {}, 0, report);
+    FAIL() << "no refusal";
+  }
+  catch (const pcl_uvol::InvalidArgument& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("candidates"));
+  }
+}
+
 } // namespace

@@ -121,6 +121,10 @@ TEST(FeatureTransform, IsNearestForAnySpacing)
   shape.cells = {{15, 14, 13}};
   for (const auto& spacing : {std::array<double, 3>{{0.1, 0.31, 1.7}},
                               std::array<double, 3>{{1e3, 1e-2, 1.0}},
+                              std::array<double, 3>{{1.0, 1.0, 3e-9}},
+                              std::array<double, 3>{{1.0, 1.3, 6e-12}},
+                              std::array<double, 3>{{1e-30, 1.0, 3e-30}},
+                              std::array<double, 3>{{1e-9, 1.0, 1e-25}},
                               std::array<double, 3>{{1e-20, 3e-20, 2e-20}}}) {
     shape.spacing = spacing;
     const auto sites = randomSites(shape, 30, 8);

@@ -64,17 +64,12 @@ struct Together {
     runRanks(ranks, [&](pcl_uvol::Communicator& communicator) {
       Report own;
       Samples samples;
-      const Samples all = readSamples(view,
-                                      {view.fields, "intensity"},
-                                      pcl_uvol::toPosition(settings.scale),
-                                      0,
-                                      1,
-                                      own);
+      const Samples all = readSamples(view, {view.fields, "intensity"}, {}, 0, 1, own);
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner(all.sources[i]) == communicator.rank())
           samples.append(all.span(i, 1));
       const auto found =
-          extractFromRanks(std::move(samples), settings, communicator, 1, own);
+          extractFromRanks(std::move(samples), settings, {}, communicator, 1, own);
       const std::lock_guard lock(mutex);
       report.merge(own);
       for (std::size_t i = 0; i < found.size(); ++i)

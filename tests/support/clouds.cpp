@@ -26,11 +26,12 @@ add(Cloud& cloud, double x, double y, double z)
 }
 
 void
-fillLattice(Cloud& cloud, std::size_t n)
+fillLattice(Cloud& cloud, std::size_t n, std::size_t ratio)
 {
-  const auto side = static_cast<std::size_t>(std::cbrt(static_cast<double>(n)) + 1e-9);
+  const auto side =
+      static_cast<std::size_t>(std::cbrt(static_cast<double>(ratio * n)) + 1e-9);
   const double step = 1.0 / static_cast<double>(side);
-  for (std::size_t k = 0; k < side; ++k)
+  for (std::size_t k = 0; k < side; k += ratio)
     for (std::size_t j = 0; j < side; ++j)
       for (std::size_t i = 0; i < side; ++i)
         add(cloud,
@@ -84,6 +85,7 @@ cloudShapes()
   static const std::vector<std::string> shapes{"uniform",
                                                "clustered",
                                                "lattice",
+                                               "slices",
                                                "planar",
                                                "linear",
                                                "oblique line",
@@ -100,7 +102,9 @@ makeCloud(const std::string& shape, std::size_t n, std::uint64_t seed)
   Cloud::Ptr cloud(new Cloud);
   Random random(seed);
   if (shape == "lattice")
-    fillLattice(*cloud, n);
+    fillLattice(*cloud, n, 1);
+  else if (shape == "slices") // five times as far from one another
+    fillLattice(*cloud, n, 5);
   else
     fillRandomly(*cloud, shape, n, random);
   return cloud;

@@ -139,6 +139,42 @@ TEST(Footprints, StayAtTheRimAndAtOutliers)
   EXPECT_LT(beyond_rim.back(), 3.0 * spacing);
 }
 
+/** A point alone in a round hole has a cell as wide as half the hole. */
+TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
+{
+  constexpr float hole = 12.0f; // radius in spacings
+  pcl::PointCloud<pcl::PointNormal> plane;
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<float> shift(-0.2f, 0.2f);
+  for (int y = -30; y <= 30; ++y)
+    for (int x = -30; x <= 30; ++x) {
+      const bool is_center = x == 0 && y == 0;
+      if (!is_center && std::hypot(x, y) < hole)
+        continue;
+      pcl::PointNormal point;
+      point.x = static_cast<float>(x) + (is_center ? 0.0f : shift(engine));
+      point.y = static_cast<float>(y) + (is_center ? 0.0f : shift(engine));
+      point.normal_z = 1.0f;
+      plane.push_back(point);
+    }
+  const Surface surface(plane);
+  const auto& [radii, fillers, on_rim, nearest] = surface.footprints;
+  std::size_t outlier = 0;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (surface.position(i).norm() < surface.position(outlier).norm())
+      outlier = i;
+  ASSERT_EQ(0.0f, surface.position(outlier).norm());
+  constexpr std::size_t compared = 8;
+  float largest = 0.0f;
+  for (std::size_t k = 0; k < compared; ++k)
+    largest = std::max(largest, radii[nearest[outlier][k]]);
+  const double unit = surface.points.samples->getScale()[0];
+  EXPECT_LT(largest, 1.5 * unit);
+  EXPECT_GT(largest, 0.5 * unit);
+  EXPECT_NEAR(3.0 * largest, radii[outlier], 1e-5 * largest);
+  EXPECT_LE(fillers[outlier], radii[outlier]);
+}
+
 TEST(Footprints, TellTheRimFromTheMiddle)
 {
   const Surface surface(makePlane(4000));

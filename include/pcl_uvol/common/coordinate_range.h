@@ -3,69 +3,64 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/number_range.h>
+#include <pcl_uvol/common/sketch.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
-/** \brief Takes coordinates one after another and tells the origin of them all. */
+/** \brief Takes points one after another and tells the origin of them all: the same for
+ * any order and division of them. */
 class PCL_UVOL_EXPORTS CoordinateRange {
 public:
-  /** \brief Take a coordinate of an axis (0 to 2); one that is not finite counts for
-   * nothing. */
+  using Point = std::array<double, 3>;
+
+  /** \brief Take a point; a coordinate that is not finite counts for nothing. */
   void
-  add(std::size_t axis, double value)
+  add(const Point& point)
   {
-    if (!std::isfinite(value))
+    bool is_finite = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::isfinite(point[axis]))
+        axes_[axis].add(point[axis]);
+      else
+        is_finite = false;
+    if (!is_finite)
       return;
-    Axis& range = axes_[axis];
-    range.low = std::min(range.low, value);
-    range.high = std::max(range.high, value);
-    const double error =
-        std::abs(static_cast<double>(static_cast<float>(value)) - value);
-    range.float_error = std::max(range.float_error, error);
+    ++count_;
+    sketch_.add(point);
   }
 
   /** \brief Take what another range has taken. */
   void
-  add(const CoordinateRange& other)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      Axis& range = axes_[axis];
-      range.low = std::min(range.low, other.axes_[axis].low);
-      range.high = std::max(range.high, other.axes_[axis].high);
-      range.float_error = std::max(range.float_error, other.axes_[axis].float_error);
-    }
-  }
+  add(const CoordinateRange& other);
 
-  /** \brief What setCoordinates() promises of an origin.
-   * \throws InvalidArgument for a coordinate beyond float */
-  std::array<double, 3>
-  origin() const;
+  /** \brief What setCoordinates() promises of an origin. A few points far from the
+   * others, such as (0, 0, 0) for a position that is not known, have no say.
+   * \throws InvalidArgument for coordinates beyond float */
+  Point
+  findOrigin() const;
+
+  /** \brief A sentence where float, relative to that origin, rounds coordinates by more
+   * than a thousandth of the distance between neighbours, which is estimated from some
+   * hundred points; else empty. */
+  std::string
+  describeRounding(const Point& origin) const;
 
 private:
-  struct Axis {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-    double float_error = 0.0; ///< largest distance from a coordinate to its float
+  /** One coordinate of the points of the sketch. */
+  std::vector<double>
+  getSketch(std::size_t axis) const;
 
-    double
-    extent() const
-    {
-      return high > low ? high - low : 0.0;
-    }
-
-    double
-    largest() const
-    {
-      return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.0;
-    }
-  };
-  std::array<Axis, 3> axes_;
+  std::array<NumberRange, 3> axes_;
+  Sketch<3> sketch_;
+  std::uint64_t count_ = 0; ///< finite points
 };
 
 } // namespace pcl_uvol

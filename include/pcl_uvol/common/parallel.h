@@ -17,7 +17,9 @@ namespace pcl_uvol {
 PCL_UVOL_EXPORTS unsigned
 resolveThreads(unsigned requested);
 
-/** \brief Call body(begin, end) for consecutive blocks of [0, count), in parallel.
+/** \brief Call body(begin, end) for consecutive blocks of [0, count), in parallel where
+ * that saves time: the caller's thread begins alone, and a team is opened when the
+ * blocks that are left are worth it.
  * \param block indices per call, >= 1; fixed, so that per-block results do not depend
  * on the number of threads
  *
@@ -32,8 +34,8 @@ parallelBlocks(std::size_t count,
 /** \brief Run a recursive computation that forks through TaskGroup::fork. */
 class PCL_UVOL_EXPORTS TaskGroup {
 public:
-  /** \brief Run root in a team of that many threads and return when it and everything
-   * it forked is done. */
+  /** \brief Run root, for whose forks a team of that many threads is opened, and return
+   * when it and everything it forked is done. */
   static void
   run(unsigned threads, const std::function<void()>& root);
 

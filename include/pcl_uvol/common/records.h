@@ -115,8 +115,9 @@ public:
     return needs_origin_;
   }
 
+  /** \brief Choose the origin of all coordinates. */
   void
-  setOrigin(const std::array<double, 3>& origin);
+  setOrigin(const CoordinateRange& range);
 
   /** \brief Add the coordinates of records. */
   void
@@ -135,6 +136,11 @@ private:
   bool floats_ = true; ///< x, y, z are copied as they are
   bool needs_origin_ = false;
 };
+
+/** \brief The origin of coordinates. \param notes get a sentence where float rounds
+ * them so much that it matters */
+PCL_UVOL_EXPORTS std::array<double, 3>
+findOrigin(const CoordinateRange& range, std::vector<std::string>& notes);
 
 /** \brief Write a coordinate to the front of a point. */
 inline void

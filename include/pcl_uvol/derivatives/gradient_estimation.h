@@ -136,7 +136,8 @@ public:
   }
 
   /** \brief One output point per input point or index. A point without finite
-   * coordinates or value gets NaN, and the output is then not dense. \throws
+   * coordinates or value gets NaN, as does an only sample, and the output is then not
+   * dense. \throws
    * InvalidArgument without an input cloud, for an unknown field, no usable sample, or
    * k out of range; the output is then untouched
    *

@@ -49,8 +49,9 @@ class SampleLog;
 /** \brief Samples on disk, in files without a name: they are gone with the process. */
 class PCL_UVOL_EXPORTS ScratchSamples {
 public:
-  /** \throws IOError if the folder takes no files */
-  explicit ScratchSamples(const OutOfCoreSettings& settings);
+  /** \param scale factors by which positions are stretched
+   * \throws IOError if the folder takes no files */
+  ScratchSamples(const OutOfCoreSettings& settings, const Position& scale);
   ScratchSamples(ScratchSamples&&) noexcept;
   ScratchSamples&
   operator=(ScratchSamples&&) noexcept;
@@ -63,11 +64,19 @@ public:
   std::uint64_t
   size() const;
 
+  /** \brief Bring all samples into one unit, once they are there.
+   * \param report gets the count "strays" and a warning of what is left out */
+  LengthUnit
+  normalize(Report& report);
+
   /** \brief What a store of pieces goes on with. */
   std::unique_ptr<SampleLog>
   takeLog() &&;
 
 private:
+  OutOfCoreSettings settings_;
+  Position scale_;
+  MagnitudeCounts magnitudes_;
   std::unique_ptr<SampleLog> log_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol {
@@ -39,6 +40,8 @@ struct PositionStatistics {
   /** Distance to the nearest other position: smallest, median, largest; 0 for fewer
    * than two positions. */
   double spacing_min = 0.0, spacing_median = 0.0, spacing_max = 0.0;
+  /** One sentence each: positions so far out that the others do not count them. */
+  std::vector<std::string> warnings;
 };
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is

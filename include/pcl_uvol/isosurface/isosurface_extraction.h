@@ -196,12 +196,13 @@ private:
  * Neighbours are approximate natural neighbours (thesis 2.2, 2.3), an isopoint belongs
  * to every edge whose ends lie on different sides of the isovalue (2.4). By default it
  * lies on the zero level of a polynomial of degree 3 or 2 fitted to its 40 nearest
- * samples, which also gives normal, mean curvature and error; where a fit does not
- * serve it stays where linear interpolation along the edge puts it, with the edge's
- * outside vector. A value equal to the isovalue counts as above. Linear isopoints that
- * fall together are merged. The tree is built once per cloud: further isovalues and
- * fields reuse it. Memory: about 60 bytes per sample besides the cloud. \tparam PointT
- * any registered point type with x, y, z, or pcl::PCLPointCloud2 */
+ * samples, where these lie in layers or lines the 40 nearest in a local metric, which
+ * also gives normal, mean curvature and error; where a fit does not serve it stays
+ * where linear interpolation along the edge puts it, with the edge's outside vector. A
+ * value equal to the isovalue counts as above. Linear isopoints that fall together are
+ * merged. The tree is built once per cloud: further isovalues and fields reuse it.
+ * Memory: about 60 bytes per sample besides the cloud. \tparam PointT any registered
+ * point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class IsosurfaceExtraction : public pcl::PCLBase<PointT>,
                              public IsosurfaceExtractionBase {

@@ -6,8 +6,10 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/value_frame.h>
 #include <pcl_uvol/distributed/piece_stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/length_unit.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -19,11 +21,13 @@
 
 namespace pcl_uvol {
 
-/** \brief Warn of an isovalue that no edge can cross, with the values there are. */
+/** \brief Warn of an isovalue that no edge can cross, with the values there are.
+ * \param range in the frame */
 PCL_UVOL_EXPORTS void
 warnIfOutside(double isovalue,
               const std::string& field,
               const NodeRanges::Range& range,
+              const ValueFrame& frame,
               Report& report);
 
 /** \brief An isopoint, and what it takes to tell it from those of other pieces. */
@@ -54,8 +58,13 @@ toPointIso(const GlobalIsopoint& isopoint, double isovalue);
  * disk; one list per isovalue. */
 class PCL_UVOL_EXPORTS IsosurfaceStage : public PieceStage {
 public:
-  /** \throws InvalidArgument for parameters that are none, see checkParameters */
-  explicit IsosurfaceStage(IsosurfaceParameters parameters);
+  /** \param parameters of the samples' scale
+   * \param unit that the samples are in
+   * \param frame that their values are in
+   * \throws InvalidArgument for parameters that are none, see checkParameters */
+  IsosurfaceStage(const IsosurfaceParameters& parameters,
+                  const LengthUnit& unit,
+                  const ValueFrame& frame);
 
   Position
   getScale() const override
@@ -110,7 +119,9 @@ public:
   }
 
 private:
-  IsosurfaceParameters parameters_;
+  IsosurfaceParameters parameters_; // as the samples are: in their unit and frame
+  std::vector<double> isovalues_;   // of the field
+  ValueFrame frame_;
   std::vector<std::vector<GlobalIsopoint>> received_;
 };
 

@@ -12,6 +12,7 @@
 #include <pcl/pcl_base.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -304,6 +305,14 @@ public:
     return summary_;
   }
 
+  /** \brief Of the last evolve(): the points whose values were taken, one per position,
+   * as indices into the cloud. */
+  const std::vector<std::uint32_t>&
+  getSources() const
+  {
+    return sources_;
+  }
+
 private:
   /** Runs with the cloud and the indices that are set. */
   LevelSet
@@ -312,6 +321,7 @@ private:
   std::size_t snapshot_steps_ = 0;
   SnapshotCallback snapshot_;
   LevelSetSummary summary_;
+  std::vector<std::uint32_t> sources_;
 };
 
 } // namespace pcl_uvol

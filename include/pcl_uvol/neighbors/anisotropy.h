@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stretching for samples that are spread very differently along the axes: ocean
-// profiles are 1000 km wide and 2 km deep.
+// Stretching for samples that lie denser along one axis than along others: slices of an
+// image, profiles of an ocean.
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
@@ -10,12 +10,15 @@
 
 namespace pcl_uvol {
 
-/** \brief Factors per axis that make the samples spread equally along all of them.
+/** \brief Factors per axis that make the spacing of the samples equal along all of
+ * them.
  *
- * The spread is the range between the 5th and the 95th percentile of the finite
- * coordinates, so that a few strays do not decide. The axis of the largest spread has
- * factor 1, an axis without spread as well. \throws InvalidArgument if no sample has
- * finite coordinates */
+ * The spacing is the median of what samples in all parts of the cloud have to their
+ * natural neighbours. The axis of the largest one has factor 1. Samples on a plane or a
+ * line have no spacing across; their spread is made equal instead, between the 5th and
+ * the 95th percentile of the finite coordinates, and an axis without spread has factor
+ * 1. Takes the time of a tree. \throws InvalidArgument if no sample has finite
+ * coordinates */
 PCL_UVOL_EXPORTS Eigen::Array3f
 equalizingScale(const CloudView& cloud);
 

@@ -110,6 +110,12 @@ struct KdCell {
   std::array<SplitPlane, 3> low, high;
 };
 
+/** \brief The smallest box around samples. A cell reaches across the gap beside it, a
+ * box does not. */
+struct KdBox {
+  Position low, high;
+};
+
 /** \brief Axis of the splits at each depth. */
 using AxisCycle = std::array<std::int8_t, 64>;
 
@@ -137,16 +143,19 @@ struct PCL_UVOL_EXPORTS NodeRanges {
   }
 };
 
-/** \brief The tree: splitting planes by node number, nothing else. Memory: 8 to 16
- * bytes per sample. It refers to positions in leaf order, which its owner (SampleSet)
- * keeps. */
+/** \brief The tree: by node number splitting planes, and boxes down to buckets. Memory:
+ * 8 to 16 bytes per sample for planes, 1.5 to 3 for boxes. It refers to positions in
+ * leaf order, which its owner (SampleSet) keeps. */
 class PCL_UVOL_EXPORTS KdTree {
 public:
+  /** \brief A subtree of so many samples is a bucket: looking at all of them costs less
+   * than looking for those that count (bench_nearest). */
+  static constexpr std::uint32_t bucket_samples = 32;
+
   /** \brief Sort the records into leaf order and set the planes.
-   * \param records at least one; finite positions
-   * \return false if two records have equal positions: the tree is then of no use,
-   * since their cells cannot be told apart. Every pair of equals is parted by some cut,
-   * where it stands on both sides of the plane, so the check costs nothing.
+   * \param records at least one; finite positions, without -0
+   * \return false if some records have equal positions: those then stand side by side,
+   * and there is no tree, since their cells could not be told apart
    * \param step is advanced by the number of records */
   bool
   build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step);
@@ -195,6 +204,20 @@ public:
   getPlane(const KdNode& node) const
   {
     return planes_[node.number];
+  }
+
+  static bool
+  isBucket(const KdNode& node)
+  {
+    return node.count <= bucket_samples;
+  }
+
+  /** \brief The box around the samples of the root, or of a child of a node that is no
+   * bucket. */
+  const KdBox&
+  getBox(const KdNode& node) const
+  {
+    return boxes_[node.number];
   }
 
   /** \brief The whole space. */
@@ -276,6 +299,7 @@ private:
   KdCell cell_ = unboundedCell();
   AxisCycle axis_at_depth_{};
   std::vector<SplitPlane> planes_;
+  std::vector<KdBox> boxes_;
 };
 
 } // namespace pcl_uvol

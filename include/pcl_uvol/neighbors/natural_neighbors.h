@@ -110,7 +110,8 @@ public:
     return parameters_.source;
   }
 
-  /** \brief One row per point of the input cloud, indices into the input cloud.
+  /** \brief One row per point of the input cloud, sorted by (squared distance, index),
+   * indices into the input cloud.
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
   compute(NeighborGraph& graph);

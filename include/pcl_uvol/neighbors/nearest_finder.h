@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The k nearest samples of points that lie anywhere, without an index of their own: the
-// bit-indexed kd-tree hands out the samples of a box, which a run of close points
-// shares.
+// boxes of the bit-indexed kd-tree tell where they may be, and points close to one
+// another share a copy of the samples around them.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
@@ -18,7 +18,11 @@ struct NearestKernels;
 
 /** \brief Nearest samples of one point after another; one object per thread.
  *
- * The answer depends on the point alone; the speed lives on points in spatial order.
+ * A point goes down the tree, the nearer half first, and leaves out what cannot hold
+ * one of its k nearest: right for any layout of the samples. Points close to one
+ * another would meet the same samples again and again: such a group shares a copy of
+ * all samples within some distance of it, from which each point selects its own. The
+ * answer depends on the point alone; the speed lives on points in spatial order.
  * Memory: some kilobytes. */
 class PCL_UVOL_EXPORTS NearestFinder {
 public:
@@ -34,8 +38,8 @@ public:
 
   /** \brief The k nearest, all samples where there are no more; of equally far ones
    * those of lower index. Valid until the next call. A sample at the point itself
-   * counts. \param length about the distance of a neighbour, > 0; it only sets where
-   * the first search starts */
+   * counts. \param length about the distance of a neighbour, > 0; it only sets
+   * where the first copy ends */
   Row
   find(const Position& point, float length);
 
@@ -44,58 +48,81 @@ public:
   Row
   findWithin(const Position& point, float radius);
 
-  /** \brief Prepare for points that are looked up next: close ones then share one box.
+  /** \brief Prepare for points that are looked up next: close ones then share one copy.
    */
   void
   expect(const Position* points, std::size_t count);
 
 private:
-  /** Make the box; false, and no box, if too many samples lie in it. */
-  bool
-  gather(const Position& low, const Position& high, float margin);
-
-  /** Make a box for a point, and for those expected with it where it is one of them. */
-  bool
-  gatherAround(const Position& point, float margin);
-
-  bool
-  gatherBelow(const KdTree& tree, const KdNode& node);
-
-  /** Of the samples and their halo. */
-  bool
-  gatherFromAll();
-
-  bool
-  searchInBox(const Position& point, float length);
-
-  /** Depth first through the tree, for any density. */
-  void
-  searchAlone(const Position& point);
-
-  /** \param sq_bound least squared distance of the node's cell
-   * \param offsets per axis, of the cell from the point */
-  void
-  descend(const Position& point,
-          const KdTree& tree,
-          const KdNode& node,
-          float sq_bound,
-          Position& offsets);
-
-  /** Distance to the next face of the box: all samples within it are candidates. */
-  float
-  marginAt(const Position& point) const;
-
-  void
-  appendInside(std::uint32_t begin, std::uint32_t end);
-
-  /** A squared distance that k candidates do not exceed, or more if the k-th has
-   * equals.
+  /** A sample on its way to the row: of equally far ones the lower index comes first.
    */
+  using Candidate = std::pair<float, std::uint32_t>;
+
+  /** What the points of a group share. */
+  enum class Copy {
+    None,     ///< not tried
+    Usual,    ///< samples within a distance that is mostly enough
+    TooLarge, ///< they are too many
+    Enough,   ///< all samples that one of the points needs
+    Crowded   ///< these are too many as well: each point is searched for on its own
+  };
+
+  void
+  startGroup(const KdBox& box);
+
+  bool
+  isInGroup(const Position& point) const;
+
+  /** Make the point one of the group, and the copy, if there is none, reach for a
+   * distance. */
+  void
+  prepare(const Position& point, float distance);
+
+  /** Copy what lies within a squared distance of the group; false if that is too much.
+   */
+  bool
+  copyWithin(float sq_limit);
+
+  bool
+  copyBelow(const KdTree& tree, const KdNode& node);
+
+  void
+  appendNear(std::uint32_t begin, std::uint32_t end);
+
+  /** Copy all that the points of the group need, by the neighbours found of one of
+   * them; false if that is too much, or there are no others. */
+  bool
+  copyForOthers();
+
+  /** The k nearest of the copy become the row; false if others may be nearer. */
+  bool
+  selectFromCopy(const Position& point);
+
+  /** A squared distance that k samples of the copy do not exceed, or more if the k-th
+   * has equals. */
   float
   limitOfNearest();
 
+  /** The k nearest up to a squared distance become the row. */
   void
-  select(const Position& point);
+  search(const Position& point, float sq_limit);
+
+  /** \param point as a box */
+  void
+  searchBelow(const KdBox& point, const KdTree& tree, const KdNode& node);
+
+  void
+  measureBucket(const Position& point, const KdNode& bucket);
+
+  /** Whether a sample may come before the last of the k. */
+  bool
+  mayHold(float sq_bound, const KdNode& node) const
+  {
+    return Candidate(sq_bound, node.begin) < last_;
+  }
+
+  void
+  makeRoom(std::size_t rows);
 
   Row
   found() const
@@ -108,20 +135,19 @@ private:
   const NearestKernels* kernels_;
   float reach_ = 0.0f; ///< distance of the farthest neighbour found last
 
-  // A box around points to come, which a point outside of it ends.
-  Position expected_low_{}, expected_high_{};
-  bool is_expecting_ = false;
+  KdBox group_{};
+  Copy copy_ = Copy::None;
+  float sq_limit_ = 0.0f; ///< all samples within it are in the copy
 
-  // Candidates: all samples in a box. Arrays keep their greatest size.
-  Position low_{}, high_{};
-  static constexpr float no_box = -1.0f;
-  float margin_ = no_box; ///< of the box around its points
-  std::size_t candidate_count_ = 0, found_count_ = 0;
-  std::vector<std::uint32_t> candidates_; ///< ascending
-  std::vector<float> x_[3], sq_dist_, ordered_;
+  // Arrays keep their greatest size.
+  std::size_t copied_count_ = 0, found_count_ = 0;
+  std::vector<std::uint32_t> copied_; ///< ascending
+  std::vector<float> x_[3], sq_dist_;
   std::vector<std::uint32_t> found_samples_;
   std::vector<float> found_sq_dist_;
-  std::vector<std::pair<float, std::uint32_t>> nearest_; ///< heap of a search alone
+
+  std::vector<Candidate> nearest_; ///< of a search: a heap
+  Candidate last_;                 ///< what a sample must come before
 };
 
 } // namespace pcl_uvol

@@ -28,9 +28,10 @@ computeNearestNeighbors(const SampleSet& samples,
                         Report& report);
 
 /** \brief The same by a search of the user's, whose input cloud becomes the samples in
- * leaf order. It is called from several threads at once, as by
- * pcl::NormalEstimationOMP, unless threads is 1; an approximate search may give fewer
- * than k. \throws InvalidArgument for k = 0 or a null search */
+ * leaf order, in the unit of the input unless float has no squares of such lengths. It
+ * is called from several threads at once, as by pcl::NormalEstimationOMP, unless
+ * threads is 1; an approximate search may give fewer than k. \throws InvalidArgument
+ * for k = 0 or a null search */
 PCL_UVOL_EXPORTS NeighborGraph
 computeNearestNeighbors(const SampleSet& samples,
                         std::size_t k,

@@ -76,7 +76,8 @@ struct VoronoiCandidateSettings {
 class PCL_UVOL_EXPORTS VoronoiCandidates : public NeighborCandidates {
 public:
   /** \param report gets the counts and times of VoronoiGrid, and the time of
-   * "adjacent_regions" \throws InvalidArgument for a grid that is too large */
+   * "adjacent_regions" \throws InvalidArgument for a grid that is too large, and where
+   * samples crowd so much that they have more than 2000 candidates in the mean */
   VoronoiCandidates(const SampleSet& samples,
                     const VoronoiCandidateSettings& settings,
                     unsigned threads,

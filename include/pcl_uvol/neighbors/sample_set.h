@@ -6,6 +6,8 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/neighbors/kd_tree.h>
+#include <pcl_uvol/neighbors/length_unit.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +19,12 @@ namespace pcl_uvol {
 
 /** \brief Finite, distinct samples in leaf order with the tree over them.
  *
+ * Samples are kept in a unit of length of their own, a power of two near their median
+ * distance from the origin: nothing inside needs to care for the unit of the input.
+ * getScale() and getUnit() lead back to it, exactly.
+ *
  * "Sample index" means leaf order, which depends on coordinates alone; getInputIndex
- * gives the index in the input cloud. Memory: 24 bytes per sample.
+ * gives the index in the input cloud. Memory: 26 to 36 bytes per sample.
  *
  * A set may be a piece of a larger one: it then holds, besides its own samples, some of
  * other pieces around them, its halo, each block of which has a tree of its own.
@@ -33,8 +39,12 @@ public:
     std::size_t size = 0;            ///< samples
     std::vector<KdTree> trees;       ///< placed, ascending
     std::size_t own = 0;             ///< the tree of the piece; the others are its halo
-    Position scale{{1.0f, 1.0f, 1.0f}};
+    LengthUnit unit;
   };
+
+  SampleSet(const SampleSet&) = delete;
+  SampleSet&
+  operator=(const SampleSet&) = delete;
 
   /** \brief A piece; it knows no input indices. */
   explicit SampleSet(Parts&& parts)
@@ -54,8 +64,12 @@ public:
    * \param use indices of the points to take, in any order; those with a non-finite
    * coordinate are left out and counted as "non_finite"
    * \param scale factors per axis: distances are measured in the stretched space
-   * \param report gets the counts "non_finite" and "duplicates" and the time of "tree"
-   * Exact duplicates become one sample, see getMembers. */
+   * \param report gets the counts "non_finite" and "duplicates" and the time of "tree";
+   * points so far out that float cannot measure distances to them are left out, with
+   * the count "strays" and a warning.
+   * Exact duplicates become one sample, see getMerged.
+   * \throws InvalidArgument if no sample is left, and for factors that take
+   * coordinates out of the range of float */
   static ConstPtr
   build(const float* xyz,
         std::size_t stride,
@@ -64,13 +78,22 @@ public:
         unsigned threads,
         Report& report);
 
+  /** \brief The same in a unit that is known, that of other samples, say. */
+  static ConstPtr
+  buildInUnit(const float* xyz,
+              std::size_t stride,
+              const std::vector<std::uint32_t>& use,
+              const LengthUnit& unit,
+              unsigned threads,
+              Report& report);
+
   std::size_t
   size() const
   {
     return parts_.size;
   }
 
-  /** \brief Positions in leaf order, stretched by the scale; there may be more of them
+  /** \brief Positions in leaf order, stretched by getScale(); there may be more of them
    * than samples. */
   const std::vector<Position>&
   getPositions() const
@@ -96,7 +119,14 @@ public:
   const Position&
   getScale() const
   {
-    return parts_.scale;
+    return parts_.unit.scale;
+  }
+
+  /** \brief The same, with the power of two among them that is not the caller's. */
+  const LengthUnit&
+  getUnit() const
+  {
+    return parts_.unit;
   }
 
   /** \brief Index in the input cloud of a sample: of several merged points the lowest.
@@ -110,7 +140,7 @@ public:
   /** \brief A sample that stands for several input points. */
   struct Merged {
     std::uint32_t sample;
-    std::vector<std::uint32_t> members; ///< input indices, ascending
+    NeighborGraph::Row members; ///< input indices, ascending; they live in the set
   };
 
   /** \brief All samples that stand for several input points, by sample index. */
@@ -126,6 +156,7 @@ private:
   Parts parts_;
   std::vector<std::uint32_t> input_indices_;
   std::vector<Merged> merged_;
+  std::vector<std::uint32_t> members_; ///< of all merged samples
 };
 
 } // namespace pcl_uvol

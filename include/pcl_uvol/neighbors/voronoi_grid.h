@@ -111,7 +111,9 @@ public:
 /** \brief The exact transform, axis by axis (Felzenszwalb and Huttenlocher 2012,
  * Meijster et al. 2000): of equally far sites the lower one. The cost is that of the
  * cells, whatever the number of sites. Squares of the spacings are rounded to the
- * 65,536th part of the smallest one; then all is exact. Memory: 4 bytes per cell. */
+ * 65,536th part of the smallest one, to coarser parts where 64 bits (128 where cells
+ * are flatter than 1 : 100,000) do not hold squared distances; then all is exact.
+ * Memory: 4 bytes per cell. */
 class PCL_UVOL_EXPORTS FeatureTransform : public NearestSites {
 public:
   std::vector<std::uint32_t>

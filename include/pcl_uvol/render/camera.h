@@ -17,6 +17,12 @@ struct BoundingSphere {
   double radius = 0.0;
 };
 
+/** \brief Clouds are drawn in their own unit of length, which is 1, but for those whose
+ * radius is beyond 2^-20 to 2^20: a power of two brings it near 1, so that squares of
+ * lengths are numbers in float. */
+PCL_UVOL_EXPORTS double
+lengthUnitOf(const BoundingSphere& bounds);
+
 /** \brief Perspective projection from a point, in the coordinates of the cloud. */
 struct PCL_UVOL_EXPORTS Camera {
   Eigen::Vector3d eye{0.0, 0.0, 1.0};

@@ -30,7 +30,9 @@ struct SurfaceBlock {
 
 /** \brief Points with normals and colours, in the leaf order of a kd-tree.
  *
- * Positions are relative to getCenter(). Memory: 36 bytes per point. */
+ * Coordinates and footprints are relative to the centre of getBounds() and in a unit
+ * that lengthUnitOf() gives for them, as those of a View are. Memory: 36 bytes per
+ * point. */
 class PCL_UVOL_EXPORTS SurfaceCloud {
 public:
   /** \brief What is drawn for a pixel, fetched at once. */
@@ -166,6 +168,7 @@ private:
   std::vector<float> footprints_, fillers_;
   float typical_footprint_ = 0.0f;
   BoundingSphere bounds_;
+  float length_factor_ = 1.0f; ///< from the samples' unit to that of drawing
   std::uint64_t revision_ = 0;
 };
 

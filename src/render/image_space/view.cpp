@@ -25,6 +25,7 @@ View::View(const Camera& camera,
            int image_height)
     : width(image_width)
     , height(image_height)
+    , unit(lengthUnitOf(bounds))
 {
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
     throw InvalidArgument("An image of " + std::to_string(width) + " x " +
@@ -32,7 +33,7 @@ View::View(const Camera& camera,
                           " pixels cannot be drawn: both numbers lie between 1 and " +
                           std::to_string(largest_size) + ".");
   const Eigen::Matrix3d turn = camera.rotation();
-  const Eigen::Vector3d shift = turn * (bounds.center - camera.eye);
+  const Eigen::Vector3d shift = unit * (turn * (bounds.center - camera.eye));
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       rotation[3 * row + column] = static_cast<float>(turn(row, column));
@@ -42,7 +43,7 @@ View::View(const Camera& camera,
   focal = static_cast<float>(0.5 * height / half);
   center_x = static_cast<float>(guard + 0.5 * width);
   center_y = static_cast<float>(guard + 0.5 * height);
-  const double farthest = shift.norm() + bounds.radius;
+  const double farthest = shift.norm() + unit * bounds.radius;
   far = static_cast<float>(far_room * (farthest > 0.0 ? farthest : 1.0));
   near = static_cast<float>(near_part * far);
 }
@@ -72,7 +73,7 @@ Frame::lightVector(const Light& light) const
     return p;
   const Eigen::Vector3d shift(
       view.translation[0], view.translation[1], view.translation[2]);
-  return p - cloud.getBounds().center + turnBack(shift);
+  return view.unit * (p - cloud.getBounds().center) + turnBack(shift);
 }
 
 } // namespace pcl_uvol

@@ -22,8 +22,9 @@ GradientEstimation<PointInT, PointOutT>::compute(pcl::PointCloud<PointOutT>& out
       organized ? this->input_->width : static_cast<std::uint32_t>(gradients.size());
   output.height = organized ? this->input_->height : 1;
   output.header = this->input_->header;
-  output.is_dense =
-      report_.getCount("non_finite") == 0 && report_.getCount("no_value") == 0;
+  output.is_dense = report_.getCount("non_finite") == 0 &&
+                    report_.getCount("no_value") == 0 &&
+                    report_.getCount("samples") > 1;
   for (std::size_t i = 0; i < gradients.size(); ++i) {
     output[i].gradient_x = gradients[i].gradient_x;
     output[i].gradient_y = gradients[i].gradient_y;

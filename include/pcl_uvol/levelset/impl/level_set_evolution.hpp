@@ -25,6 +25,7 @@ LevelSetEvolution<PointT>::evolveInput()
                                               threads_,
                                               report_);
   summary_ = level_set.summary;
+  sources_ = level_set.sources;
   return level_set;
 }
 

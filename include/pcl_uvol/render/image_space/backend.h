@@ -18,7 +18,8 @@ namespace pcl_uvol {
  * down, z forward, so that a point at (x, y, z) lies in the pixel
  * (floor(center_x + focal x / z), floor(center_y + focal y / z)) of the buffers. These
  * are larger than the image by a guard band on every side, so that filters find what is
- * just outside of the image. */
+ * just outside of the image. Lengths are in the unit that lengthUnitOf() gives for the
+ * cloud's bounds, as those of a SurfaceCloud are. */
 struct PCL_UVOL_EXPORTS View {
   /** Width of the guard band in pixels. */
   static constexpr int guard = 8;
@@ -27,6 +28,7 @@ struct PCL_UVOL_EXPORTS View {
   static constexpr int largest_size = 16384 - 2 * guard - 2;
 
   int width, height;        ///< of the image
+  double unit;              ///< lengths of the cloud times this are those of the view
   float rotation[9];        ///< from cloud to camera space, row by row
   float translation[3];     ///< the cloud's centre in camera space
   float focal;              ///< pixels

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isosurfaces of samples that lie denser along one direction than along others: how far
+// isopoints lie from the true surface, and how many know that they rest on samples.
+#include "support/stretched_samples.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Surface = pcl::PointCloud<PointIso>;
+
+void
+printRow(const std::string& shape, double ratio, int side)
+{
+  const auto n = static_cast<std::size_t>(side) * side * side;
+  const auto field = uvol_test::makeSmoothField("radial", n);
+  const auto samples = uvol_test::makeStretchedSamples(shape, ratio, side);
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(samples.sample(field, side, 1));
+  extraction.setIsoValue(field.isovalue);
+  Surface surface;
+  extraction.extract(surface); // builds the tree
+  const auto start = std::chrono::steady_clock::now();
+  extraction.extract(surface);
+  const std::chrono::duration<double, std::micro> spent =
+      std::chrono::steady_clock::now() - start;
+  const auto found = uvol_test::deviations(field, samples.inIndexSpace(surface));
+  // Where the errors are, which are lengths in space.
+  auto moved = field;
+  moved.value = [&](const Eigen::Vector3d& x) {
+    return field.value(samples.to_index(x));
+  };
+  const auto in_space = uvol_test::deviations(moved, surface);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    ratios.push_back(surface[i].error / in_space[i]);
+  const auto points = static_cast<double>(surface.size());
+  const auto covered =
+      std::count_if(ratios.begin(), ratios.end(), [](double r) { return r >= 1.0; });
+  const auto part = [&](const char* name) {
+    return 100.0 * static_cast<double>(extraction.getReport().getCount(name)) / points;
+  };
+  std::printf("%-9s %5.3g %7zu %9.2g %9.2g %6.1f %6.1f %6.1f %6.1f %6.2g %7.2f\n",
+              shape.c_str(),
+              ratio,
+              surface.size(),
+              uvol_test::mean(found),
+              uvol_test::quantile(found, 0.999),
+              part("linear_singular") + part("linear_step") + part("linear_far"),
+              part("bridged"),
+              part("rim"),
+              100.0 * static_cast<double>(covered) / points,
+              uvol_test::quantile(ratios, 0.5),
+              spent.count() / points);
+  std::fflush(stdout);
+}
+
+} // namespace
+
+/** stretched SIDE SHAPE... : one row per shape and ratio. */
+int
+main(int argc, char** argv)
+{
+  if (argc < 3) {
+    std::fputs("usage: stretched SIDE lattice|rotated|wall|curved|jittered|shaken...\n",
+               stderr);
+    return 2;
+  }
+  std::puts("# shape    ratio  points      mean    99.9_% linear_% bridged_% rim_% "
+            "covered_% error/deviation us/point");
+  for (int i = 2; i < argc; ++i)
+    for (const double ratio : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0, 30.0})
+      printRow(argv[i], ratio, std::atoi(argv[1]));
+  return 0;
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isopoints on fits against functions that fits follow exactly, and their error bars.
+#include "isopoint_setup.h"
+#include "src/derivatives/fit_kernel.h"
+#include "src/isosurface/smooth_roots.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using Eigen::Vector3d;
+using uvol_test::FieldSamples;
+
+/** Random places of a box; coordinates are whole steps from a corner. */
+std::vector<Position>
+randomPlaces(std::size_t count,
+             const Vector3d& corner,
+             double step,
+             int steps,
+             std::uint64_t seed = 1)
+{
+  std::mt19937_64 engine(seed);
+  std::vector<Position> places(count);
+  for (Position& place : places)
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = static_cast<float>(
+          corner[axis] +
+          step * static_cast<double>(engine() % static_cast<std::uint64_t>(steps)));
+  return places;
+}
+
+/** Linear isopoints, and what fits make of them. */
+struct Roots {
+  std::vector<PointIso> linear, points;
+  IsoEdges edges;
+  std::vector<RootFit> fits;
+
+  Roots(const FieldSamples& field, float isovalue, Outside outside = Outside::Lower)
+  {
+    const IsopointInput input = field.input(outside, Interpolation::Fit);
+    Report report;
+    const auto crossing = input.candidates.findCrossing(input.ranges, isovalue, 1);
+    for (const EdgeKey key : findEdges(input, crossing, isovalue, report)) {
+      linear.emplace_back();
+      edges.emplace_back();
+      placeIsopoint(input, key, isovalue, linear.back(), edges.back());
+    }
+    points = linear;
+    StepTimer step(report, "roots");
+    fits = fitRoots(input, isovalue, edges, points, step);
+  }
+};
+
+Vector3d
+positionOf(const PointIso& point)
+{
+  return point.getVector3fMap().cast<double>();
+}
+
+Vector3d
+normalOf(const PointIso& point)
+{
+  return point.getNormalVector3fMap().cast<double>();
+}
+
+/** x^T A x has the value 1 on an ellipsoid whose axes lie askew; of 64ths floats hold
+ * the values exactly. */
+TEST(SmoothRoots, OfAnEllipsoidAreAnEllipsoidWhateverTheStretch)
+{
+  Eigen::Matrix3d half_hessian;
+  half_hessian << 1.0, 0.25, 0.0, 0.25, 1.5, -0.25, 0.0, -0.25, 0.75;
+  const Eigen::Matrix3d hessian = 2.0 * half_hessian;
+  const auto places = randomPlaces(4000, Vector3d::Constant(-1.5), 1.0 / 64, 193);
+  const auto value = [&](const Vector3d& x) { return x.dot(half_hessian * x); };
+  for (const Position scale :
+       {Position{{1.0f, 1.0f, 1.0f}}, Position{{1.0f, 1.5f, 0.75f}}})
+    for (const Outside outside : {Outside::Lower, Outside::Higher}) {
+      const Roots roots(FieldSamples(places, value, scale), 1.0f, outside);
+      const double side = outside == Outside::Lower ? -1.0 : 1.0;
+      ASSERT_GT(roots.points.size(), 500u);
+      for (std::size_t i = 0; i < roots.points.size(); ++i) {
+        const PointIso& point = roots.points[i];
+        ASSERT_LE(roots.fits[i].outcome, RootOutcome::Quadratic);
+        const Vector3d x = positionOf(point), gradient = hessian * x;
+        const double slope = gradient.norm(),
+                     deviation = std::abs(value(x) - 1.0) / slope;
+        EXPECT_LE(deviation, 2e-7);
+        EXPECT_NEAR(0.0, (side * gradient / slope - normalOf(point)).norm(), 2e-6);
+        const Vector3d normal = gradient / slope;
+        const double curvature =
+            (hessian.trace() - normal.dot(hessian * normal)) / (2.0 * slope);
+        EXPECT_NEAR(side * curvature, point.mean_curvature, 1e-5);
+        // An estimate, but never less than what floats round.
+        EXPECT_GE(point.error, deviation);
+        EXPECT_LE(point.error, 1e-6);
+      }
+    }
+}
+
+/** At the coordinates of maps floats are half a metre apart: a plane that fits follow
+ * exactly is known no better. */
+TEST(SmoothRoots, ErrorsAtMapCoordinatesAreAtLeastTheStepOfFloats)
+{
+  const Vector3d corner(448000.0, 5402000.0, 96.0);
+  const auto places = randomPlaces(3000, corner, 8.0, 201);
+  const Vector3d gradient(0.25, -0.5, 0.125);
+  const auto height = [&](const Vector3d& x) { return gradient.dot(x - corner); };
+  const double isovalue = height(corner + Vector3d::Constant(801.0));
+  const Roots roots(FieldSamples(places, height), static_cast<float>(isovalue));
+  ASSERT_GT(roots.points.size(), 300u);
+  for (std::size_t i = 0; i < roots.points.size(); ++i) {
+    const PointIso& point = roots.points[i];
+    ASSERT_LE(roots.fits[i].outcome, RootOutcome::Quadratic);
+    const float step = std::nextafter(point.y, 1e9f) - point.y;
+    ASSERT_EQ(0.5f, step);
+    EXPECT_GE(point.error, step);
+    EXPECT_LE(point.error, 4.0f * step);
+    const double deviation = (height(positionOf(point)) - isovalue) / gradient.norm();
+    EXPECT_LE(std::abs(deviation), point.error);
+  }
+}
+
+/** Four standard errors of the fit to the forty nearest samples, the next one being
+ * where weights end. */
+TEST(SmoothRoots, ErrorIsFourStandardErrorsOfTheNearestForty)
+{
+  const auto places = randomPlaces(3000, Vector3d::Constant(-1.5), 1.0 / 1024, 3073);
+  std::mt19937_64 engine(2);
+  const FieldSamples field(places, [&](const Vector3d& x) {
+    return x.norm() + 0.01 * static_cast<double>(engine() % 1024) / 1024.0;
+  });
+  const float isovalue = 1.0f;
+  const Roots roots(field, isovalue);
+  const std::vector<Position>& positions = field.samples().getPositions();
+  const double unit = field.samples().getScale()[0];
+  constexpr std::size_t fitted = 40;
+  for (std::size_t i = 0; i < roots.points.size(); i += 50) {
+    const Vector3d center = positionOf(roots.linear[i]) * unit;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t j = 0; j < positions.size(); ++j)
+      order.emplace_back(
+          (Vector3d(positions[j][0], positions[j][1], positions[j][2]) - center).norm(),
+          j);
+    std::sort(order.begin(), order.end());
+    const double radius = order[fitted].first;
+    std::vector<FitSample> samples(fitted);
+    for (std::size_t j = 0; j < fitted; ++j) {
+      const Position& x = positions[order[j].second];
+      samples[j].x[0] = static_cast<float>((x[0] - center[0]) / radius);
+      samples[j].y[0] = static_cast<float>((x[1] - center[1]) / radius);
+      samples[j].z[0] = static_cast<float>((x[2] - center[2]) / radius);
+      samples[j].value[0] = field.values()[order[j].second] - isovalue;
+    }
+    const int weighted[fit_lanes] = {static_cast<int>(fitted)};
+    FitResult result;
+    baseline::fitZeroLevel(samples.data(), fitted, weighted, result);
+    ASSERT_NE(fit_failed, result.order[0]);
+    ASSERT_LE(roots.fits[i].outcome, RootOutcome::Quadratic);
+    const double error = 4.0 * radius * result.error[0] / unit;
+    EXPECT_NEAR(error, roots.points[i].error, 1e-3 * error);
+    EXPECT_NEAR(radius, roots.fits[i].radius, 1e-5 * radius);
+  }
+}
+
+/** Where no fit serves, the linear point stays, and its error is the way to the farther
+ * end of the edge. */
+TEST(SmoothRoots, LabelsAndPlanesOfSamplesKeepTheLinearPoint)
+{
+  auto flat = randomPlaces(1500, Vector3d::Constant(-1.5), 1.0 / 64, 193);
+  for (Position& place : flat)
+    place[2] = 0.25f;
+  const auto solid = randomPlaces(1500, Vector3d::Constant(-1.5), 1.0 / 64, 193);
+  const auto label = [](const Vector3d& x) { return x[0] + x[1] > 0.1 ? 1.0 : 0.0; };
+  const auto linear = [](const Vector3d& x) { return x[0] - x[1]; };
+  for (const auto& [places, value, outcome] :
+       {std::tuple<std::vector<Position>, FieldSamples::Function, RootOutcome>(
+            flat, linear, RootOutcome::Singular),
+        {solid, label, RootOutcome::Step}}) {
+    const Roots roots(FieldSamples(places, value), 0.5f);
+    ASSERT_GT(roots.points.size(), 30u);
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < roots.points.size(); ++i) {
+      const PointIso& point = roots.points[i];
+      expected += roots.fits[i].outcome == outcome ? 1 : 0;
+      if (roots.fits[i].outcome <= RootOutcome::Quadratic)
+        continue;
+      EXPECT_EQ(positionOf(roots.linear[i]), positionOf(point));
+      EXPECT_EQ(normalOf(roots.linear[i]), normalOf(point));
+      const float t = roots.edges[i].t;
+      EXPECT_EQ(std::max(t, 1.0f - t) * point.edge_length, point.error);
+      EXPECT_TRUE(std::isnan(point.mean_curvature));
+    }
+    // A border of labels may look like a slope where samples happen to lie so.
+    EXPECT_GE(expected, roots.points.size() * 9 / 10);
+  }
+}
+
+/** Two halves a wide gap apart: edges reach across it; beside it points know that they
+ * lie on a rim. */
+TEST(SmoothRoots, TellWhatTheyStandOn)
+{
+  auto places = randomPlaces(6000, Vector3d::Constant(-2.0), 1.0 / 64, 257);
+  for (Position& place : places)
+    place[0] += place[0] >= 0.0f ? 1.0f : -1.0f;
+  const FieldSamples across(places, [](const Vector3d& x) { return x[0]; });
+  for (const PointIso& point : Roots(across, 0.0f).points)
+    EXPECT_EQ(IsoSupport::Bridged, static_cast<IsoSupport>(point.support));
+  const FieldSamples along(places,
+                           [](const Vector3d& x) { return x[1] + 0.01 * x[2]; });
+  std::size_t middle = 0, measured = 0, rim = 0, open = 0;
+  for (const PointIso& point : Roots(along, 0.0f).points) {
+    // In spacings of about 0.22 from the four faces of the halves.
+    const double inside = std::min(
+        {std::abs(point.x) - 1.0, 3.0 - std::abs(point.x), 2.0 - std::abs(point.z)});
+    const bool is_measured =
+        point.support == static_cast<std::uint8_t>(IsoSupport::Measured);
+    if (inside > 0.6) {
+      ++middle;
+      measured += is_measured ? 1 : 0;
+    }
+    if (inside < 0.05) {
+      ++rim;
+      open += is_measured ? 0 : 1;
+    }
+  }
+  EXPECT_GT(middle, 100u);
+  EXPECT_GE(measured, middle * 98 / 100);
+  EXPECT_GT(rim, 10u);
+  EXPECT_GE(open, rim * 9 / 10);
+}
+
+} // namespace

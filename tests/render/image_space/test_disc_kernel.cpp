@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Discs in pixels against rays that meet their planes, in double precision.
+#include "pixel_setup.h"
+#include "src/render/image_space/disc_kernel.h"
+#include "support/simd_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using Eigen::Vector3d;
+using uvol_test::PixelRandom;
+using uvol_test::PixelRows;
+using uvol_test::PointArrays;
+using uvol_test::readDepth;
+using uvol_test::readPoint;
+using uvol_test::TestCamera;
+
+const KernelTable<const DiscKernels*> kernels{
+    &baseline::disc_kernels, &avx2::disc_kernels, &avx512::disc_kernels};
+
+constexpr int first_row = 8, last_row = 60;
+
+/** Where the ray through the middle of a pixel meets a disc. */
+struct Meeting {
+  double depth;
+  double part; ///< distance from the centre in radii
+  double facing;
+
+  Meeting(const TestCamera& camera,
+          const Vector3d& center,
+          const Vector3d& normal,
+          double radius,
+          int column,
+          int row)
+  {
+    const Projection& p = camera.projection;
+    const Vector3d c = camera.toCamera(center), n = camera.rotation * normal;
+    const Vector3d ray(
+        (column + 0.5 - p.center_x) / p.focal, (row + 0.5 - p.center_y) / p.focal, 1.0);
+    const double t = n.dot(c) / n.dot(ray);
+    const Vector3d place = t * ray;
+    facing = n.dot(c);
+    depth = place.norm() * p.per_far;
+    part = t > 0.0 && depth < 1.0 ? (place - c).norm() / radius : 1e6;
+  }
+};
+
+/** Discs of a few to some twenty pixels, none of them seen nearly edge-on. */
+PointArrays
+randomDiscs(const TestCamera& camera, std::size_t count)
+{
+  PixelRandom random(2);
+  PointArrays points;
+  while (points.size() < count) {
+    const Vector3d x(
+        random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(-1, 1));
+    const Vector3d normal = random.direction();
+    if (std::abs(normal.dot((camera.eye - x).normalized())) < 0.3)
+      continue;
+    const double size = random.between(0.0, 1.0);
+    points.add(x, normal, static_cast<float>(0.04 + 0.4 * size * size * size));
+  }
+  return points;
+}
+
+TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheDisc)
+{
+  const TestCamera camera;
+  const PointArrays points = randomDiscs(camera, 60);
+  for (const float back : {0.0f, 0.5f})
+    uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+      std::size_t covered = 0;
+      PixelRows all;
+      for (std::uint32_t i = 0; i < points.size(); ++i) {
+        PixelRows rows;
+        kernel->draw(camera.projection,
+                     points.view(1.0f),
+                     &i,
+                     1,
+                     back,
+                     rows.band(first_row, last_row));
+        for (int row = -1; row <= PixelRows::height; ++row)
+          for (int column = -1; column <= PixelRows::width; ++column) {
+            const PixelKey key = rows.at(column, row);
+            const Meeting meeting(camera,
+                                  points.place(i),
+                                  points.normal(i),
+                                  points.radii[i],
+                                  column,
+                                  row);
+            const bool in_band = row >= first_row && row < last_row && column >= 0 &&
+                                 column < PixelRows::width;
+            // On its border rounding decides.
+            if (in_band && std::abs(meeting.part - 1.0) < 2e-3)
+              continue;
+            ASSERT_EQ(in_band && meeting.part < 1.0, key != background_key)
+                << i << ": " << column << ", " << row;
+            if (key == background_key)
+              continue;
+            ++covered;
+            EXPECT_EQ(i, readPoint(key));
+            EXPECT_NEAR(
+                meeting.depth + back * points.radii[i] / 8.0, readDepth(key), 2e-6);
+          }
+        for (std::size_t k = 0; k < rows.keys.size(); ++k)
+          all.keys[k] = std::min(all.keys[k], rows.keys[k]);
+      }
+      EXPECT_GT(covered, 1000u);
+      // Side by side they are the same, and the nearer one stays.
+      std::vector<std::uint32_t> discs(points.size());
+      std::iota(discs.begin(), discs.end(), 0u);
+      PixelRows together;
+      kernel->draw(camera.projection,
+                   points.view(1.0f),
+                   discs.data(),
+                   discs.size(),
+                   back,
+                   together.band(first_row, last_row));
+      EXPECT_EQ(all.keys, together.keys);
+    });
+}
+
+/** Sums of a pixel: normal, colour, weight. */
+struct Sums {
+  double values[7] = {};
+  bool is_clear = true;
+};
+
+TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
+{
+  TestCamera camera;
+  camera.projection.two_sided = true;
+  const PointArrays points = randomDiscs(camera, 40);
+  constexpr float stretch = 1.5f;
+  std::vector<std::uint32_t> looks, discs;
+  PixelRandom random(5);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    looks.push_back(points.normals[i]);
+    looks.push_back(random.below(1u << 24) | 0xff000000);
+    discs.push_back(i);
+  }
+  PixelRows rows;
+  for (int row = 0; row < PixelRows::height; ++row)
+    for (int column = 0; column < PixelRows::width; ++column)
+      rows.first()[row * PixelRows::stride + column] =
+          uvol_test::makeKey(random.between(0.4, 0.6), 0);
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    std::vector<float> values(blended_values * rows.keys.size(), -7.0f);
+    std::vector<std::uint8_t> marks(rows.keys.size() / blend_segment);
+    constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
+    static_assert(first % blend_segment == 0);
+    kernel->blend(
+        camera.projection,
+        points.view(stretch),
+        looks.data(),
+        discs.data(),
+        discs.size(),
+        rows.band(first_row, last_row),
+        {values.data() + blended_values * first, marks.data() + first / blend_segment});
+    std::size_t blended = 0;
+    for (int row = first_row; row < last_row; ++row)
+      for (int column = 0; column < PixelRows::width; ++column) {
+        Sums sums;
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+          const double radius = stretch * points.radii[i], room = radius / 8.0;
+          const Meeting meeting(
+              camera, points.place(i), points.normal(i), radius, column, row);
+          const double behind =
+              std::abs(meeting.depth - readDepth(rows.at(column, row)));
+          if (meeting.part >= 1.0)
+            continue;
+          sums.is_clear = sums.is_clear && std::abs(behind - room) > 1e-5;
+          if (behind > room)
+            continue;
+          const double rest = 1.0 - meeting.part * meeting.part, weight = rest * rest;
+          const Vector3d normal =
+              (meeting.facing > 0.0 ? -1.0 : 1.0) * points.normal(i);
+          for (int k = 0; k < 3; ++k) {
+            sums.values[k] += weight * normal[k];
+            sums.values[3 + k] += weight * (looks[2 * i + 1] >> (8 * k) & 0xff);
+          }
+          sums.values[6] += weight;
+        }
+        const std::ptrdiff_t pixel = row * PixelRows::stride + column;
+        const bool is_marked =
+            marks[static_cast<std::size_t>(first / blend_segment +
+                                           BlendSums::segmentOf(pixel))] != 0;
+        if (!sums.is_clear || (!is_marked && sums.values[6] < 1e-4))
+          continue;
+        ASSERT_TRUE(is_marked);
+        blended += sums.values[6] > 0.0 ? 1 : 0;
+        for (int k = 0; k < 7; ++k)
+          EXPECT_NEAR(
+              sums.values[k],
+              values[static_cast<std::size_t>(blended_values * (first + pixel) + k)],
+              k < 3 || k == 6 ? 1e-4 : 2e-2);
+      }
+    EXPECT_GT(blended, 500u);
+  });
+}
+
+} // namespace

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points in pixels against projection in double precision.
+#include "pixel_setup.h"
+#include "src/render/image_space/projection_kernel.h"
+#include "support/simd_levels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using Eigen::Vector3d;
+using uvol_test::PixelRandom;
+using uvol_test::PixelRows;
+using uvol_test::PointArrays;
+using uvol_test::readDepth;
+using uvol_test::readPoint;
+using uvol_test::TestCamera;
+
+const KernelTable<ProjectionKernel> kernels{
+    baseline::projectPoints, avx2::projectPoints, avx512::projectPoints};
+
+/** Farther from any decision than single precision blurs it. */
+constexpr double clear = 5e-3;
+
+/** A point as the camera sees it. */
+struct SeenPoint {
+  Vector3d place; ///< in camera space
+  double column, row, facing;
+
+  SeenPoint(const TestCamera& camera, const Vector3d& x, const Vector3d& normal)
+      : place(camera.toCamera(x))
+      , column(camera.projection.center_x +
+               camera.projection.focal * place.x() / place.z())
+      , row(camera.projection.center_y +
+            camera.projection.focal * place.y() / place.z())
+      , facing(normal.dot(camera.eye - x))
+  {
+  }
+
+  bool
+  isClear(const TestCamera& camera) const
+  {
+    return std::abs(column - std::round(column)) > clear &&
+           std::abs(row - std::round(row)) > clear && std::abs(facing) > clear &&
+           std::abs(place.z() - camera.projection.near) > clear;
+  }
+};
+
+constexpr std::uint32_t point_count = 250;
+
+/** Some in front of the eye, some behind it; every other one hides the one before. */
+PointArrays
+randomPoints(const TestCamera& camera)
+{
+  PixelRandom random(1);
+  PointArrays points;
+  const auto isClear = [&](const Vector3d& x, const Vector3d& normal) {
+    return SeenPoint(camera, x, normal).isClear(camera);
+  };
+  while (points.size() < point_count) {
+    const Vector3d x(
+        random.between(-2, 2), random.between(-2, 2), random.between(-4, 6)),
+        hiding = camera.eye + 0.8 * (x - camera.eye), normal = random.direction();
+    if (!isClear(x, normal) || !isClear(hiding, normal))
+      continue;
+    for (const Vector3d& place : {x, hiding}) {
+      points.add(place, normal, random.between(0.001, 0.15));
+      points.footprints.back() += random.between(0.0, 0.05);
+    }
+  }
+  return points;
+}
+
+TEST(ProjectionKernel, PixelsHoldTheNearestPointThatIsSeen)
+{
+  TestCamera camera;
+  const PointArrays points = randomPoints(camera);
+  for (const bool culls : {false, true})
+    uvol_test::forLevels(kernels, [&](ProjectionKernel kernel) {
+      camera.projection.cull_back_faces = culls;
+      PixelRows rows, expected;
+      ProjectedPoints view = points.view(1.0f);
+      view.radii = nullptr;
+      constexpr int first_row = 10, last_row = 60;
+      std::vector<std::uint32_t> discs(projected_points);
+      EXPECT_EQ(0u,
+                kernel(camera.projection,
+                       view,
+                       3,
+                       point_count - 2,
+                       rows.band(first_row, last_row),
+                       discs.data()));
+      std::size_t drawn = 0;
+      for (std::uint32_t i = 3; i < point_count - 2; ++i) {
+        const SeenPoint seen(camera, points.place(i), points.normal(i));
+        const double column = std::floor(seen.column), row = std::floor(seen.row);
+        if (seen.place.z() < camera.projection.near || (culls && seen.facing < 0.0) ||
+            !(column >= 0 && column < PixelRows::width && row >= first_row &&
+              row < last_row))
+          continue;
+        PixelKey& pixel = expected.first()[static_cast<int>(row) * PixelRows::stride +
+                                           static_cast<int>(column)];
+        const double depth = seen.place.norm() / 8.0;
+        pixel = std::min(pixel, uvol_test::makeKey(static_cast<float>(depth), i));
+        ++drawn;
+      }
+      EXPECT_GT(drawn, 10u);
+      for (std::size_t i = 0; i < rows.keys.size(); ++i) {
+        EXPECT_EQ(readPoint(expected.keys[i]), readPoint(rows.keys[i]));
+        if (expected.keys[i] != background_key) {
+          EXPECT_NEAR(readDepth(expected.keys[i]), readDepth(rows.keys[i]), 1e-6);
+        }
+      }
+    });
+}
+
+/** Which points are discs is exact; which of them reach the band, on the safe side. */
+TEST(ProjectionKernel, DiscsAreThoseLargerThanAPixelThatMayReachTheBand)
+{
+  const TestCamera camera;
+  const Projection& p = camera.projection;
+  const PointArrays points = randomPoints(camera);
+  constexpr float stretch = 1.5f;
+  constexpr int first_row = 20, last_row = 40;
+  uvol_test::forLevels(kernels, [&](ProjectionKernel kernel) {
+    PixelRows rows;
+    std::vector<std::uint32_t> discs(projected_points);
+    discs.resize(kernel(p,
+                        points.view(stretch),
+                        0,
+                        point_count,
+                        rows.band(first_row, last_row),
+                        discs.data()));
+    ASSERT_TRUE(std::is_sorted(discs.begin(), discs.end()));
+    const std::set<std::uint32_t> found(discs.begin(), discs.end());
+    std::size_t all = 0;
+    for (std::uint32_t i = 0; i < point_count; ++i) {
+      const SeenPoint seen(camera, points.place(i), points.normal(i));
+      const double per_length = p.focal / seen.place.z();
+      const double radius = points.footprints[i] * per_length > p.largest_filler
+                                ? points.footprints[i]
+                                : points.radii[i];
+      const double pixels = radius * per_length;
+      if (seen.place.z() < p.near || pixels < p.smallest_footprint - clear) {
+        EXPECT_EQ(0u, found.count(i)) << i;
+        continue;
+      }
+      ++all;
+      // A ball around the disc, seen from the side that makes it larger.
+      const double nearest = seen.place.z() - stretch * radius;
+      if (nearest > p.near && pixels > p.smallest_footprint + clear) {
+        const double reach = p.focal * stretch * radius / nearest;
+        const bool is_inside = seen.column > 0 && seen.column < PixelRows::width &&
+                               seen.row > first_row && seen.row < last_row;
+        const double slope_x = seen.place.x() / seen.place.z(),
+                     slope_y = seen.place.y() / seen.place.z();
+        const double beyond_x = std::max(-seen.column, seen.column - PixelRows::width),
+                     beyond_y = std::max(first_row - seen.row, seen.row - last_row);
+        if (is_inside || (beyond_x < 0.9 * reach && beyond_y < 0.9 * reach)) {
+          EXPECT_EQ(1u, found.count(i)) << i;
+        }
+        if (beyond_x > reach * (1.0 + slope_x * slope_x) + clear ||
+            beyond_y > reach * (1.0 + slope_y * slope_y) + clear) {
+          EXPECT_EQ(0u, found.count(i)) << i;
+        }
+      }
+    }
+    EXPECT_GT(found.size(), 5u);
+    EXPECT_LT(found.size(), all);
+  });
+}
+
+} // namespace

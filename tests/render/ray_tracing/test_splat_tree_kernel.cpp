@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays through a tree of discs against all discs one by one.
+#include "src/render/ray_tracing/splat_tree_kernel.h"
+#include "src/render/ray_tracing/tree_builder.h"
+#include "support/simd_levels.h"
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using Eigen::Vector3d;
+
+const KernelTable<const SplatTreeKernels*> kernels{&baseline::splat_tree_kernels,
+                                                   &avx2::splat_tree_kernels,
+                                                   &avx512::splat_tree_kernels};
+
+/** Random discs in the unit cube, and their tree. */
+struct Discs {
+  WideTree tree;
+  std::vector<TreeLeaf> leaves;
+  std::vector<std::uint32_t> filled; ///< places of discs
+
+  explicit Discs(std::size_t count)
+  {
+    std::mt19937_64 engine(count);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), size(0.02, 0.2);
+    std::vector<ItemBox> boxes;
+    std::vector<Vector3d> centers, normals;
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < count; ++i) {
+      centers.emplace_back(place(engine), place(engine), place(engine));
+      normals.push_back(
+          Vector3d(place(engine), place(engine), place(engine)).normalized());
+      radii.push_back(size(engine));
+      ItemBox box{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const double n = normals.back()[axis];
+        const double half = radii.back() * std::sqrt(1.0 - n * n) + 1e-5;
+        box.low[axis] = static_cast<float>(centers.back()[axis] - half);
+        box.high[axis] = static_cast<float>(centers.back()[axis] + half);
+      }
+      boxes.push_back(box);
+    }
+    tree = buildWideTree(boxes, 1);
+    leaves.resize(tree.leaf_begin.size() - 1);
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+      for (std::uint32_t i = 0; i < tree_width; ++i) {
+        leaves[leaf].sq_radius[i] = -1.0f;
+        if (tree.leaf_begin[leaf] + i >= tree.leaf_begin[leaf + 1])
+          continue;
+        const std::uint32_t item = tree.items[tree.leaf_begin[leaf] + i];
+        for (int axis = 0; axis < 3; ++axis) {
+          leaves[leaf].center[axis][i] = static_cast<float>(centers[item][axis]);
+          leaves[leaf].normal[axis][i] = static_cast<float>(normals[item][axis]);
+        }
+        leaves[leaf].sq_radius[i] = static_cast<float>(radii[item] * radii[item]);
+        filled.push_back(static_cast<std::uint32_t>(leaf) * tree_width + i);
+      }
+  }
+
+  TreeArrays
+  arrays() const
+  {
+    return {tree.nodes.data(), leaves.data()};
+  }
+};
+
+/** Where a ray meets the plane of a disc. */
+struct Meeting {
+  double distance, sq_offset, radius;
+
+  Meeting(const Discs& discs, const TreeRay& ray, std::uint32_t splat)
+  {
+    const TreeLeaf& leaf = discs.leaves[splat / tree_width];
+    const std::uint32_t i = splat % tree_width;
+    Vector3d center, normal, origin, direction;
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis] = leaf.center[axis][i];
+      normal[axis] = leaf.normal[axis][i];
+      origin[axis] = ray.origin[axis];
+      direction[axis] = ray.direction[axis];
+    }
+    distance = normal.dot(center - origin) / normal.dot(direction);
+    sq_offset = (origin + distance * direction - center).squaredNorm();
+    radius = std::sqrt(static_cast<double>(leaf.sq_radius[i]));
+  }
+
+  /** Negative on the border, where rounding decides. */
+  double
+  margin(const TreeRay& ray) const
+  {
+    return std::min({radius - std::sqrt(sq_offset),
+                     distance - ray.near,
+                     static_cast<double>(ray.far) - distance});
+  }
+};
+
+std::vector<TreeRay>
+randomRays(std::size_t count)
+{
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  std::vector<TreeRay> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector3d direction(place(engine), place(engine), place(engine));
+    if (i % 5 == 0)
+      direction[static_cast<Eigen::Index>(i / 5 % 3)] = 0.0;
+    if (i % 20 == 0)
+      direction = Vector3d::Unit(static_cast<Eigen::Index>(i / 20 % 3));
+    direction.normalize();
+    TreeRay ray{};
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.origin[axis] = static_cast<float>(place(engine));
+      ray.direction[axis] = static_cast<float>(direction[axis]);
+    }
+    ray.near = i % 3 == 0 ? 0.3f : 0.0f;
+    ray.far = i % 4 == 0 ? 0.8f : std::numeric_limits<float>::infinity();
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+constexpr double rounding = 1e-4;
+
+TEST(SplatTreeKernel, CollectsAllThatBruteForceFinds)
+{
+  constexpr float part = 0.5f;
+  for (const std::size_t count : {1, 15, 40, 700}) {
+    const Discs discs(count);
+    ASSERT_EQ(count, discs.filled.size());
+    std::size_t met = 0;
+    for (const TreeRay& ray : randomRays(300)) {
+      double limit = ray.far; // behind it nothing needs to be found
+      bool is_clear = true;
+      for (const std::uint32_t splat : discs.filled) {
+        const Meeting meeting(discs, ray, splat);
+        is_clear = is_clear && std::abs(meeting.margin(ray)) > rounding;
+        if (meeting.margin(ray) > 0.0)
+          limit = std::min(limit, meeting.distance + part * meeting.radius);
+      }
+      if (!is_clear)
+        continue;
+      uvol_test::forLevels(kernels, [&](const SplatTreeKernels* kernel) {
+        std::vector<SplatHit> hits(64);
+        hits.resize(
+            kernel->collect(discs.arrays(), ray, part, hits.data(), hits.size()));
+        ASSERT_LE(hits.size(), 64u);
+        for (const std::uint32_t splat : discs.filled) {
+          const Meeting meeting(discs, ray, splat);
+          const auto found =
+              std::find_if(hits.begin(), hits.end(), [&](const SplatHit& hit) {
+                return hit.splat == splat;
+              });
+          if (meeting.margin(ray) < 0.0) {
+            EXPECT_EQ(hits.end(), found);
+          }
+          else if (meeting.distance < limit - rounding) {
+            ASSERT_NE(hits.end(), found);
+            EXPECT_NEAR(meeting.distance, found->distance, rounding);
+            EXPECT_NEAR(meeting.sq_offset, found->sq_offset, rounding);
+          }
+        }
+        EXPECT_EQ(!hits.empty(), kernel->isBlocked(discs.arrays(), ray));
+        if (hits.size() > 1) {
+          std::vector<SplatHit> few(hits.size() - 1);
+          EXPECT_GT(kernel->collect(discs.arrays(), ray, part, few.data(), few.size()),
+                    few.size());
+        }
+        met += hits.size();
+      });
+    }
+    EXPECT_GE(met, count / 20);
+  }
+}
+
+/** What lies farther behind a disc than a part of its radius is not looked for. */
+TEST(SplatTreeKernel, LeavesOutWhatLiesFarBehind)
+{
+  const Discs discs(700);
+  std::size_t all = 0, near = 0;
+  for (const TreeRay& ray : randomRays(300)) {
+    std::vector<SplatHit> hits(700);
+    const SplatTreeKernels& kernel = baseline::splat_tree_kernels;
+    near += kernel.collect(discs.arrays(), ray, 0.5f, hits.data(), hits.size());
+    all += kernel.collect(discs.arrays(), ray, 1e6f, hits.data(), hits.size());
+  }
+  EXPECT_LT(2 * near, all);
+}
+
+TEST(TreeBuilder, EveryItemIsInOneLeafAndWithinTheBoxesAbove)
+{
+  const Discs discs(700);
+  std::vector<std::uint32_t> items = discs.tree.items;
+  std::sort(items.begin(), items.end());
+  for (std::uint32_t i = 0; i < items.size(); ++i)
+    EXPECT_EQ(i, items[i]);
+  // About as many leaves as full ones would be.
+  EXPECT_LT(discs.leaves.size(), 3 * 700 / tree_width);
+}
+
+} // namespace
