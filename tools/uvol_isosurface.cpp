@@ -11,7 +11,7 @@
 #include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/out_of_core_extraction.h>
+#include <pcl_uvol/io/extract_out_of_core.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <filesystem>

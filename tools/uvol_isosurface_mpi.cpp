@@ -5,12 +5,13 @@
 #include "common/point_files.h"
 #include "common/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/rank_report.h>
 #include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/distributed/fetch_points.h>
+#include <pcl_uvol/distributed/merge_reports.h>
 #include <pcl_uvol/io/rank_files.h>
-#include <pcl_uvol/isosurface/rank_extraction.h>
-#include <pcl_uvol/isosurface/rank_rows.h>
-#include <pcl_uvol/mpi/mpi_ranks.h>
+#include <pcl_uvol/isosurface/edge_ends.h>
+#include <pcl_uvol/mpi/mpi_communicator.h>
+#include <pcl_uvol/pipeline/extract_from_ranks.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <vtkMPIController.h>
@@ -84,17 +85,18 @@ finishParameters(Arguments& arguments)
 }
 
 pcl_uvol::Dataset
-load(const Arguments& arguments, pcl_uvol::RankGroup& ranks, Report& report)
+load(const Arguments& arguments, pcl_uvol::Communicator& communicator, Report& report)
 {
   const StepTimer timer(report, "read");
-  pcl_uvol::Dataset part = pcl_uvol::loadPart(
-      pcl_uvol::findPieces(arguments.inputs), arguments.makeLoadOptions(), ranks);
+  pcl_uvol::Dataset part = pcl_uvol::loadPart(pcl_uvol::findPieces(arguments.inputs),
+                                              arguments.makeLoadOptions(),
+                                              communicator);
   report.warnings = part.notes;
   report.count("points", part.cloud.width);
   if (!arguments.where.empty())
     report.count("removed_by_where", pcl_uvol::selectRows(part, arguments.where));
   std::vector<std::uint64_t> left{part.cloud.width};
-  ranks.sum(left);
+  communicator.allReduce(left);
   if (left[0] == 0)
     throw pcl_uvol::InvalidArgument(
         joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
@@ -105,23 +107,24 @@ load(const Arguments& arguments, pcl_uvol::RankGroup& ranks, Report& report)
 pcl_uvol::Dataset
 makeOutput(const Arguments& arguments,
            const pcl_uvol::Dataset& part,
-           std::uint64_t first_row,
+           std::uint64_t first_index,
            const Isopoints& isopoints,
            unsigned threads,
-           pcl_uvol::RankGroup& ranks,
+           pcl_uvol::Communicator& communicator,
            Report& report)
 {
-  auto rows = pcl_uvol::fetchRows(part.cloud, first_row, isopoints, ranks, report);
+  pcl_uvol::EdgeEnds ends = pcl_uvol::findEdgeEnds(isopoints);
   pcl::PointCloud<pcl_uvol::PointIso> points;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     for (const pcl_uvol::GlobalIsopoint& isopoint : isopoints[i])
       points.push_back(
           toPointIso(isopoint, arguments.parameters.isosurface.isovalues[i]));
   pcl_uvol::Dataset samples = uvol_tools::withoutCloud(part);
-  samples.cloud = std::move(rows.cloud);
+  samples.cloud =
+      pcl_uvol::fetchPoints(part.cloud, first_index, ends.points, communicator, report);
   auto result = pcl_uvol::finishIsosurface(samples,
                                            std::move(points),
-                                           std::move(rows.edges),
+                                           std::move(ends.edges),
                                            arguments.parameters,
                                            threads,
                                            std::move(report));
@@ -133,60 +136,62 @@ void
 save(const Arguments& arguments,
      const std::string& field,
      const pcl_uvol::Dataset& output,
-     pcl_uvol::RankGroup& ranks,
+     pcl_uvol::Communicator& communicator,
      Report& report)
 {
   const StepTimer timer(report, "write");
   if (arguments.inPieces())
-    return pcl_uvol::savePieces(arguments.output, output, ranks);
-  if (ranks.rank() == 0) {
+    return pcl_uvol::savePieces(arguments.output, output, communicator);
+  if (communicator.rank() == 0) {
     pcl_uvol::SaveOptions options;
     options.ascii = arguments.ascii;
     options.comments = {"isosurface of " + field + " at " +
                         joined(arguments.parameters.isosurface.isovalues)};
     pcl_uvol::saveDataset(arguments.output, output, options);
   }
-  ranks.meet();
+  communicator.barrier();
 }
 
 /** \return the field that was taken */
 std::string
 extract(const Arguments& arguments,
         unsigned threads,
-        pcl_uvol::RankGroup& ranks,
+        pcl_uvol::Communicator& communicator,
         Report& report)
 {
   const StepTimer timer(report, "total");
-  const pcl_uvol::Dataset part = load(arguments, ranks, report);
+  const pcl_uvol::Dataset part = load(arguments, communicator, report);
   pcl_uvol::IsosurfaceParameters parameters = arguments.parameters.isosurface;
   if (parameters.field.empty())
     parameters.field = pcl_uvol::ScalarField::defaultName(part.cloud.fields);
   const std::string& field = parameters.field;
   if (!arguments.inPieces())
     pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
-  const std::uint64_t first_row = pcl_uvol::findFirstRow(part.cloud.width, ranks);
+  const std::uint64_t first_index =
+      pcl_uvol::findFirstIndex(part.cloud.width, communicator);
   const auto view = pcl_uvol::viewOf(part.cloud);
   const pcl_uvol::ScalarField scalar(view.fields, field);
-  const auto frame = pcl_uvol::findValueFrame(view, scalar, ranks, threads);
+  const auto frame = pcl_uvol::findValueFrame(view, scalar, communicator, threads);
   Isopoints isopoints = pcl_uvol::extractFromRanks(
-      pcl_uvol::readSamples(view, scalar, frame, first_row, threads, report),
+      pcl_uvol::readSamples(view, scalar, frame, first_index, threads, report),
       parameters,
       frame,
-      ranks,
+      communicator,
       threads,
       report);
   if (!arguments.inPieces())
-    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), ranks, threads);
+    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), communicator, threads);
   save(arguments,
        field,
-       makeOutput(arguments, part, first_row, isopoints, threads, ranks, report),
-       ranks,
+       makeOutput(
+           arguments, part, first_index, isopoints, threads, communicator, report),
+       communicator,
        report);
   return field;
 }
 
 int
-run(int argc, char** argv, pcl_uvol::RankGroup& ranks)
+run(int argc, char** argv, pcl_uvol::Communicator& communicator)
 {
   Arguments arguments;
   Options options(
@@ -208,20 +213,22 @@ run(int argc, char** argv, pcl_uvol::RankGroup& ranks)
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;
-  if (ranks.rank() == 0)
+  if (communicator.rank() == 0)
     report.progress = std::ref(bar.emplace(arguments.progress));
   const std::string field =
-      extract(arguments, arguments.threads(options), ranks, report);
+      extract(arguments, arguments.threads(options), communicator, report);
   bar.reset();
-  const Report together = mergeReports(
-      report, ranks, {"bytes_dealt_out", "bytes_exchanged", "bytes_of_fields"});
-  if (ranks.rank() == 0)
+  const Report together =
+      mergeReports(report,
+                   communicator,
+                   {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
+  if (communicator.rank() == 0)
     uvol_tools::printReport(
         options,
         together,
         {{"input", joined(arguments.inputs)},
          {"output", arguments.output},
-         {"processes", std::to_string(ranks.size())},
+         {"processes", std::to_string(communicator.size())},
          {"field", field},
          {"isovalues", joined(arguments.parameters.isosurface.isovalues)},
          {"scale", joined(arguments.parameters.isosurface.scale)},
@@ -239,19 +246,19 @@ main(int argc, char** argv)
   controller->Initialize(&argc, &argv);
   int exit_code = 0;
   {
-    pcl_uvol::MpiRanks ranks(*controller);
+    pcl_uvol::MpiCommunicator communicator(*controller);
     // Only the first process has anything to say, if all goes well.
     std::ostringstream silence;
     std::streambuf* const out = std::cout.rdbuf();
-    if (ranks.rank() != 0)
+    if (communicator.rank() != 0)
       std::cout.rdbuf(silence.rdbuf());
     const uvol_tools::Outcome outcome =
-        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, ranks); });
+        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, communicator); });
     std::cout.rdbuf(out);
-    const std::size_t failed = ranks.agree(outcome.exit_code != 0);
-    if (failed == ranks.rank())
+    const std::size_t failed = communicator.agree(outcome.exit_code != 0);
+    if (failed == communicator.rank())
       std::cerr << tool << ": " << outcome.sentence << '\n';
-    exit_code = failed == ranks.size() ? 0 : std::max(outcome.exit_code, 1);
+    exit_code = failed == communicator.size() ? 0 : std::max(outcome.exit_code, 1);
   }
   controller->Finalize();
   return exit_code;

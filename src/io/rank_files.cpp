@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/byte_stream.h"
 #include "files.h"
 #include "formats.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
+#include <pcl_uvol/distributed/byte_stream.h>
 #include <pcl_uvol/io/point_stream.h>
 #include <pcl_uvol/io/rank_files.h>
 
@@ -49,19 +49,24 @@ checkCount(std::uint64_t count)
 
 /** A share of a number of things. */
 std::uint64_t
-shareBegin(std::uint64_t count, std::uint64_t rank, const RankGroup& ranks)
+shareBegin(std::uint64_t count, std::uint64_t rank, const Communicator& communicator)
 {
-  return count / ranks.size() * rank + count % ranks.size() * rank / ranks.size();
+  return count / communicator.size() * rank +
+         count % communicator.size() * rank / communicator.size();
 }
 
 Dataset
-loadRange(const std::string& path, const LoadOptions& options, const RankGroup& ranks)
+loadRange(const std::string& path,
+          const LoadOptions& options,
+          const Communicator& communicator)
 {
   PointStream stream(path, options);
   if (stream.size() == 0)
     throw InvalidArgument(path + " has no points.");
-  const std::uint64_t begin = shareBegin(stream.size(), ranks.rank(), ranks),
-                      end = shareBegin(stream.size(), ranks.rank() + 1, ranks);
+  const std::uint64_t begin =
+                          shareBegin(stream.size(), communicator.rank(), communicator),
+                      end = shareBegin(
+                          stream.size(), communicator.rank() + 1, communicator);
   checkCount(end - begin);
   Dataset part = stream.getHeader();
   stream.seek(begin);
@@ -154,8 +159,8 @@ struct Layout {
 /** Pieces that one process reads, as one cloud. */
 class PieceCollector {
 public:
-  explicit PieceCollector(RankGroup& ranks)
-      : ranks_(ranks)
+  explicit PieceCollector(Communicator& communicator)
+      : communicator_(communicator)
   {
   }
 
@@ -182,7 +187,7 @@ public:
   Dataset
   finish(const std::vector<std::string>& paths)
   {
-    for (const Bytes& message : ranks_.gatherAll(layout_.toMessage()))
+    for (const Bytes& message : communicator_.allGather(layout_.toMessage()))
       layout_.join(Layout(message));
     if (layout_.path.empty())
       throw InvalidArgument(paths.size() == 1
@@ -224,7 +229,7 @@ private:
     std::vector<CoordinateRange> own(1);
     forPoints([&](const Point& point, const std::uint8_t*) { own[0].add(point); });
     CoordinateRange range;
-    for (const CoordinateRange& other : gatherItems(ranks_, own))
+    for (const CoordinateRange& other : allGatherItems(communicator_, own))
       range.add(other);
     part_.origin = findOrigin(range, part_.notes);
     forPoints([&](const Point& point, std::uint8_t* bytes) {
@@ -233,7 +238,7 @@ private:
     });
   }
 
-  RankGroup& ranks_;
+  Communicator& communicator_;
   Dataset part_;
   Layout layout_;
   std::vector<std::pair<std::size_t, std::array<double, 3>>>
@@ -243,11 +248,11 @@ private:
 Dataset
 loadPieces(const std::vector<std::string>& paths,
            const LoadOptions& options,
-           RankGroup& ranks)
+           Communicator& communicator)
 {
-  PieceCollector collector(ranks);
-  const auto begin = shareBegin(paths.size(), ranks.rank(), ranks),
-             end = shareBegin(paths.size(), ranks.rank() + 1, ranks);
+  PieceCollector collector(communicator);
+  const auto begin = shareBegin(paths.size(), communicator.rank(), communicator),
+             end = shareBegin(paths.size(), communicator.rank() + 1, communicator);
   for (std::size_t i = begin; i < end; ++i)
     collector.add(paths[i], loadDataset(paths[i], options));
   return collector.finish(paths);
@@ -303,14 +308,14 @@ findPieces(const std::vector<std::string>& paths)
 Dataset
 loadPart(const std::vector<std::string>& paths,
          const LoadOptions& options,
-         RankGroup& ranks)
+         Communicator& communicator)
 {
   if (paths.empty())
     throw InvalidArgument("No file is given to be read.");
   if (paths.size() > 1 || io::formatOf(paths[0], options) == io::FileFormat::Vtk)
-    return loadPieces(paths, options, ranks);
-  Dataset part = loadRange(paths[0], options, ranks);
-  ranks.meet();
+    return loadPieces(paths, options, communicator);
+  Dataset part = loadRange(paths[0], options, communicator);
+  communicator.barrier();
   return part;
 }
 
@@ -332,27 +337,27 @@ listPieces(const std::string& path, std::size_t ranks)
 }
 
 void
-savePieces(const std::string& path, const Dataset& part, RankGroup& ranks)
+savePieces(const std::string& path, const Dataset& part, Communicator& communicator)
 {
-  const std::vector<std::string> pieces = listPieces(path, ranks.size());
-  const std::string& own = pieces[ranks.rank()];
+  const std::vector<std::string> pieces = listPieces(path, communicator.size());
+  const std::string& own = pieces[communicator.rank()];
   bool is_there = false;
   try {
     writeAtomically(own, [&](const std::string& file) {
       io::writeVtp(file, own, part);
-      ranks.meet(); // whoever cannot write keeps all from taking their places
+      communicator.barrier(); // whoever cannot write keeps all from taking their places
     });
     is_there = true;
-    ranks.meet();
-    if (ranks.rank() == 0) {
-      const std::vector<std::string> old = findOldPieces(path, ranks.size());
+    communicator.barrier();
+    if (communicator.rank() == 0) {
+      const std::vector<std::string> old = findOldPieces(path, communicator.size());
       writeAtomically(path, [&](const std::string& file) {
         io::writePieceList(file, path, part, pieces);
       });
       for (const std::string& piece : old)
         ::unlink(piece.c_str());
     }
-    ranks.meet();
+    communicator.barrier();
   }
   catch (...) {
     if (is_there)

@@ -5,6 +5,7 @@
 #include <pcl_uvol/isosurface/piece_isopoints.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -45,21 +46,51 @@ setResult(GlobalIsopoint& isopoint, const PointIso& point)
   isopoint.support = point.support;
 }
 
-} // namespace
+/** The isopoints of one piece. */
+class PieceIsopoints : public PieceTask {
+public:
+  PieceIsopoints(const Piece& piece,
+                 const IsosurfaceParameters& settings,
+                 unsigned threads,
+                 Report& report);
 
-PointIso
-toPointIso(const GlobalIsopoint& isopoint, double isovalue)
-{
-  PointIso point;
-  std::copy(isopoint.position.x, isopoint.position.x + 3, point.data);
-  std::copy(isopoint.normal.x, isopoint.normal.x + 3, point.data_n);
-  point.isovalue = static_cast<float>(isovalue);
-  point.mean_curvature = isopoint.mean_curvature;
-  point.error = isopoint.error;
-  point.edge_length = isopoint.edge_length;
-  point.support = isopoint.support;
-  return point;
-}
+  /** They are small at first, and grow as long as the nearest samples may lie beyond
+   * them: a far one may turn out not to matter. */
+  std::vector<Ball>
+  getPendingBalls() const override;
+
+  void
+  resolvePending() override;
+
+  void
+  giveRecords(const RecordSink& sink) const override;
+
+private:
+  /** An isopoint whose fit may rest on samples that the piece does not have. */
+  struct Pending {
+    std::size_t isovalue, index;
+    Ball ball; ///< that is asked for
+  };
+
+  /** The linear isopoints of one isovalue. */
+  void
+  find(const IsopointInput& input, std::size_t isovalue);
+
+  /** Fit some of them; those that this does not settle become pending.
+   * \param known radii of balls around them all samples of which the piece has */
+  void
+  fit(const IsopointInput& input,
+      std::size_t isovalue,
+      const std::vector<std::size_t>& indices,
+      const std::vector<float>& known);
+
+  const Piece& piece_;
+  const IsosurfaceParameters& settings_;
+  unsigned threads_;
+  Report& report_;
+  std::vector<std::vector<GlobalIsopoint>> found_;
+  std::vector<Pending> pending_;
+};
 
 PieceIsopoints::PieceIsopoints(const Piece& piece,
                                const IsosurfaceParameters& settings,
@@ -146,27 +177,27 @@ PieceIsopoints::fit(const IsopointInput& input,
     isopoint.outcome = static_cast<std::uint8_t>(fits[i].outcome);
     Ball ball{stretched(isopoint.linear, toPosition(settings_.scale)),
               fits[i].radius * slack};
-    if (ball.radius <= known[i] || liesWithin(ball, piece_.getCell()))
+    if (ball.radius <= known[i] || piece_.getCell().contains(ball))
       continue;
     ball.radius = known[i] > 0.0f ? std::min(ball.radius, 2.0f * known[i])
                                   : first_part * fits[i].nearest_radius;
-    open_.push_back({isovalue, indices[i], ball});
+    pending_.push_back({isovalue, indices[i], ball});
   }
 }
 
 std::vector<Ball>
-PieceIsopoints::getOpenBalls() const
+PieceIsopoints::getPendingBalls() const
 {
   std::vector<Ball> balls;
-  for (const Open& open : open_)
-    balls.push_back(open.ball);
+  for (const Pending& one : pending_)
+    balls.push_back(one.ball);
   return balls;
 }
 
 void
-PieceIsopoints::settle()
+PieceIsopoints::resolvePending()
 {
-  const std::vector<Open> open = std::exchange(open_, {});
+  const std::vector<Pending> pending = std::exchange(pending_, {});
   const NodeRanges none{};
   const TouchingCells candidates(piece_.getSamples());
   const IsopointInput input{piece_.getSamples(),
@@ -180,7 +211,7 @@ PieceIsopoints::settle()
   for (std::size_t isovalue = 0; isovalue < found_.size(); ++isovalue) {
     std::vector<std::size_t> indices;
     std::vector<float> known;
-    for (const Open& one : open)
+    for (const Pending& one : pending)
       if (one.isovalue == isovalue) {
         indices.push_back(one.index);
         known.push_back(one.ball.radius);
@@ -189,6 +220,15 @@ PieceIsopoints::settle()
   }
 }
 
+void
+PieceIsopoints::giveRecords(const RecordSink& sink) const
+{
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    sink(i, found_[i].data(), found_[i].size());
+}
+
+/** Order isopoints of one isovalue, leave one for each edge, and of those that coincide
+ * the first. */
 void
 mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
                Interpolation interpolation,
@@ -226,6 +266,81 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
   isopoints.resize(kept);
   if (smooth)
     countRoots(outcomes, supports, report);
+}
+
+} // namespace
+
+PointIso
+toPointIso(const GlobalIsopoint& isopoint, double isovalue)
+{
+  PointIso point;
+  std::copy(isopoint.position.x, isopoint.position.x + 3, point.data);
+  std::copy(isopoint.normal.x, isopoint.normal.x + 3, point.data_n);
+  point.isovalue = static_cast<float>(isovalue);
+  point.mean_curvature = isopoint.mean_curvature;
+  point.error = isopoint.error;
+  point.edge_length = isopoint.edge_length;
+  point.support = isopoint.support;
+  return point;
+}
+
+IsosurfaceStage::IsosurfaceStage(const IsosurfaceParameters& parameters,
+                                 const LengthUnit& unit,
+                                 const ValueFrame& frame)
+    : parameters_(parameters)
+    , isovalues_(parameters.isovalues)
+    , frame_(frame)
+    , received_(parameters.isovalues.size())
+{
+  checkParameters(parameters);
+  parameters_.scale = {unit.scale[0], unit.scale[1], unit.scale[2]};
+  for (double& isovalue : parameters_.isovalues)
+    isovalue = frame.apply(isovalue);
+}
+
+void
+IsosurfaceStage::checkValues(const NodeRanges::Range& range, Report& report) const
+{
+  for (const double isovalue : isovalues_)
+    warnIfOutside(isovalue, parameters_.field, range, frame_, report);
+}
+
+bool
+IsosurfaceStage::canFindIn(const NodeRanges::Range& range) const
+{
+  return std::any_of(
+      parameters_.isovalues.begin(), parameters_.isovalues.end(), [&](double isovalue) {
+        const auto rounded = static_cast<float>(isovalue);
+        return range.min < rounded && rounded <= range.max;
+      });
+}
+
+std::unique_ptr<PieceTask>
+IsosurfaceStage::start(const Piece& piece, unsigned threads, Report& report) const
+{
+  return std::make_unique<PieceIsopoints>(piece, parameters_, threads, report);
+}
+
+Position
+IsosurfaceStage::findPlace(const void* record) const
+{
+  GlobalIsopoint isopoint;
+  std::memcpy(&isopoint, record, sizeof(isopoint));
+  return stretched(isopoint.linear, toPosition(parameters_.scale));
+}
+
+void
+IsosurfaceStage::receive(std::size_t list,
+                         std::size_t count,
+                         const std::function<void(void*)>& read,
+                         unsigned threads,
+                         Report& report)
+{
+  std::vector<GlobalIsopoint>& isopoints = received_[list];
+  isopoints.resize(count);
+  read(isopoints.data());
+  mergeIsopoints(isopoints, parameters_.interpolation, threads, report);
+  report.count("isopoints", isopoints.size());
 }
 
 } // namespace pcl_uvol

@@ -2,7 +2,7 @@
 // What a process does with its share of the samples, by itself: the levels of the
 // decomposition, which every process works through for all of its samples. One thread.
 #include "radial_cloud.h"
-#include <pcl_uvol/neighbors/decomposition.h>
+#include <pcl_uvol/distributed/decomposition.h>
 
 #include <benchmark/benchmark.h>
 
@@ -30,7 +30,7 @@ decompose(benchmark::State& state)
 {
   const auto& all = positions();
   const int levels = static_cast<int>(state.range(0));
-  pcl_uvol::SingleRank alone;
+  pcl_uvol::SelfCommunicator alone;
   std::size_t passes = 0;
   for (auto _ : state) {
     passes = 0;
@@ -39,7 +39,7 @@ decompose(benchmark::State& state)
       return all.data() + begin;
     };
     const pcl_uvol::Decomposition decomposition({samples, read}, levels, alone, 1);
-    benchmark::DoNotOptimize(decomposition.pieceOf(all[0]));
+    benchmark::DoNotOptimize(decomposition.findPiece(all[0]));
   }
   const auto seconds_per = [](double count) {
     return benchmark::Counter(count,
@@ -57,7 +57,7 @@ void
 findPieces(benchmark::State& state)
 {
   const auto& all = positions();
-  pcl_uvol::SingleRank alone;
+  pcl_uvol::SelfCommunicator alone;
   const pcl_uvol::Decomposition decomposition(
       {samples,
        [&](std::uint64_t begin, std::size_t, pcl_uvol::Position*) {
@@ -68,11 +68,11 @@ findPieces(benchmark::State& state)
       1);
   for (auto _ : state)
     for (const pcl_uvol::Position& position : all)
-      benchmark::DoNotOptimize(decomposition.pieceOf(position));
+      benchmark::DoNotOptimize(decomposition.findPiece(position));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
 
-BENCHMARK(decompose)->DenseRange(2, 14, 3)->Unit(benchmark::kMillisecond);
+BENCHMARK(decompose)->DenseRange(2, 14, 3)->Arg(7)->Unit(benchmark::kMillisecond);
 BENCHMARK(findPieces)->DenseRange(2, 14, 6)->Unit(benchmark::kMillisecond);
 
 } // namespace

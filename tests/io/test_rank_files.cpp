@@ -25,8 +25,8 @@ struct Parts {
   Parts(const std::vector<std::string>& paths, std::size_t ranks)
       : parts(ranks)
   {
-    runRanks(ranks, [&](RankGroup& group) {
-      parts[group.rank()] = loadPart(findPieces(paths), {}, group);
+    runRanks(ranks, [&](Communicator& communicator) {
+      parts[communicator.rank()] = loadPart(findPieces(paths), {}, communicator);
     });
   }
 
@@ -126,8 +126,8 @@ TEST(RankFiles, WritePiecesThatAreReadBack)
                                    {"big", Type::INT64, 3}},
                                   5 * rank,
                                   rank));
-  runRanks(3,
-           [&](RankGroup& ranks) { savePieces(path, written[ranks.rank()], ranks); });
+  runRanks(
+      3, [&](Communicator& ranks) { savePieces(path, written[ranks.rank()], ranks); });
   EXPECT_EQ(
       (std::vector<std::string>{"out.pvtp", "out_0.vtp", "out_1.vtp", "out_2.vtp"}),
       folder.list());
@@ -202,7 +202,7 @@ TEST(RankFiles, RefuseWhatDoesNotFitTogether)
 TEST(RankFiles, RefuseDamagedLists)
 {
   const TemporaryFolder folder;
-  runRanks(2, [&](RankGroup& ranks) {
+  runRanks(2, [&](Communicator& ranks) {
     savePieces(folder / "out.pvtp", line(3, 0.0), ranks);
   });
   const std::string list = readFile(folder / "out.pvtp");
@@ -231,7 +231,7 @@ TEST(RankFiles, LeaveNothingIfOneCannotWrite)
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / taken);
     EXPECT_THROW(runRanks(3,
-                          [&](RankGroup& ranks) {
+                          [&](Communicator& ranks) {
                             savePieces(folder / "out.pvtp", line(3, 0.0), ranks);
                           }),
                  std::exception);
@@ -243,8 +243,8 @@ TEST(RankFiles, LeaveWhatWasThereIfOneCannotWrite)
 {
   const TemporaryFolder folder;
   const auto save = [&](std::size_t ranks, double value) {
-    runRanks(ranks, [&](RankGroup& group) {
-      savePieces(folder / "out.pvtp", line(3, 0.0, value), group);
+    runRanks(ranks, [&](Communicator& communicator) {
+      savePieces(folder / "out.pvtp", line(3, 0.0, value), communicator);
     });
   };
   const auto contents = [&] {

@@ -9,10 +9,10 @@
 #include <pcl_uvol/common/records.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/out_of_core_extraction.h>
+#include <pcl_uvol/io/extract_out_of_core.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/isosurface/rank_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/extract_from_ranks.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -330,14 +330,16 @@ TEST_P(Units, RanksAndDisksGiveTheSame)
   const auto view = pcl_uvol::viewOf(*cloud);
   std::mutex mutex;
   Isopoints found;
-  uvol_test::runRanks(3, [&](pcl_uvol::RankGroup& ranks) {
+  uvol_test::runRanks(3, [&](pcl_uvol::Communicator& communicator) {
     Report report;
     const auto all = readSamples(view, {view.fields, "intensity"}, {}, 0, 1, report);
     pcl_uvol::Samples own;
-    for (std::size_t i = ranks.rank(); i < all.size(); i += ranks.size())
+    for (std::size_t i = communicator.rank(); i < all.size(); i += communicator.size())
       own.append(all.span(i, 1));
     const auto parts = gatherIsopoints(
-        extractFromRanks(std::move(own), settings, {}, ranks, 1, report), ranks, 1);
+        extractFromRanks(std::move(own), settings, {}, communicator, 1, report),
+        communicator,
+        1);
     const std::lock_guard lock(mutex);
     for (const auto& part : parts)
       for (const auto& isopoint : part)

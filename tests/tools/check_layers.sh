@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$1"
 
-declare -A level=([common]=0 [neighbors]=1 [derivatives]=2 [isosurface]=3 [levelset]=4
+declare -A level=([common]=0 [neighbors]=1 [distributed]=2 [derivatives]=2 [isosurface]=3 [levelset]=4
   [surface]=4 [multivariate]=4 [render]=5 [pipeline]=6 [filters]=7 [io]=8 [gl]=9 [vtk]=10 [mpi]=10)
 breaches=0
 for module in "${!level[@]}"; do

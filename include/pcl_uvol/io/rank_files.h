@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/rank_group.h>
+#include <pcl_uvol/distributed/communicator.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <string>
@@ -31,7 +31,7 @@ findPieces(const std::vector<std::string>& paths);
 PCL_UVOL_EXPORTS Dataset
 loadPart(const std::vector<std::string>& paths,
          const LoadOptions& options,
-         RankGroup& ranks);
+         Communicator& communicator);
 
 /** \brief The pieces that so many processes write for a .pvtp: name_<rank>.vtp. */
 PCL_UVOL_EXPORTS std::vector<std::string>
@@ -42,7 +42,7 @@ listPieces(const std::string& path, std::size_t ranks);
  * Pieces that the .pvtp listed before and that fewer processes do not write go.
  * \throws IOError */
 PCL_UVOL_EXPORTS void
-savePieces(const std::string& path, const Dataset& part, RankGroup& ranks);
+savePieces(const std::string& path, const Dataset& part, Communicator& communicator);
 
 /** \brief Throw IOError unless savePieces can write there: to be called before work
  * whose result would be lost. */

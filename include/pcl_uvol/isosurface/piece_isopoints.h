@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The isopoints of one piece of a decomposed data set, exactly as an extraction from
+// The isopoints of the pieces of a decomposed data set, exactly as an extraction from
 // all samples at once gives them.
 #pragma once
 
@@ -7,18 +7,19 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/common/value_frame.h>
+#include <pcl_uvol/distributed/piece_stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/piece.h>
+#include <pcl_uvol/neighbors/length_unit.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace pcl_uvol {
-
-struct IsopointInput;
 
 /** \brief Warn of an isovalue that no edge can cross, with the values there are.
  * \param range in the frame */
@@ -53,73 +54,75 @@ isBefore(const GlobalIsopoint& a, const GlobalIsopoint& b)
 PCL_UVOL_EXPORTS PointIso
 toPointIso(const GlobalIsopoint& isopoint, double isovalue);
 
-/** \brief Isopoints of all edges from the samples of a piece; those to other pieces are
- * found there as well. */
-class PCL_UVOL_EXPORTS PieceIsopoints {
+/** \brief The extraction as a stage that runs piece by piece, on many processes or a
+ * disk; one list per isovalue. */
+class PCL_UVOL_EXPORTS IsosurfaceStage : public PieceStage {
 public:
-  /** \param piece with all bricks that touch one of its own which an edge that is
-   * crossed may begin in: all that touch its cell are enough; must outlive this object
-   * \param settings must outlive it; its scale is that of the piece
-   * \param report gets the times of IsosurfaceExtraction */
-  PieceIsopoints(const Piece& piece,
-                 const IsosurfaceParameters& settings,
-                 unsigned threads,
-                 Report& report);
+  /** \param parameters of the samples' scale
+   * \param unit that the samples are in
+   * \param frame that their values are in
+   * \throws InvalidArgument for parameters that are none, see checkParameters */
+  IsosurfaceStage(const IsosurfaceParameters& parameters,
+                  const LengthUnit& unit,
+                  const ValueFrame& frame);
 
-  /** \brief Balls around isopoints that are not settled, since their fits may rest on
-   * samples beyond the piece: the piece needs all bricks that meet them. In the
-   * stretched space. They are small at first, and grow as long as the nearest samples
-   * may lie beyond them: a far one may turn out not to matter. */
-  std::vector<Ball>
-  getOpenBalls() const;
+  Position
+  getScale() const override
+  {
+    return toPosition(parameters_.scale);
+  }
 
-  /** \brief Fit again, now that the piece has these bricks; to be repeated until no
-   * ball is open. */
+  std::size_t
+  countLists() const override
+  {
+    return parameters_.isovalues.size();
+  }
+
+  std::size_t
+  getRecordSize() const override
+  {
+    return sizeof(GlobalIsopoint);
+  }
+
+  /** \brief Warn of isovalues that no edge can cross. */
   void
-  settle();
+  checkValues(const NodeRanges::Range& range, Report& report) const override;
 
-  /** \brief Per isovalue. */
+  bool
+  canFindIn(const NodeRanges::Range& range) const override;
+
+  /** \brief Find the isopoints of all edges from the samples of a piece; those to other
+   * pieces are found there as well.
+   * \param report gets the times of IsosurfaceExtraction */
+  std::unique_ptr<PieceTask>
+  start(const Piece& piece, unsigned threads, Report& report) const override;
+
+  Position
+  findPlace(const void* record) const override;
+
+  /** \brief Order isopoints, leave one for each edge, and of those that coincide the
+   * first.
+   * \param report gets the counts "edges", "coincident", "isopoints" and, with smooth
+   * interpolation, those of the roots, see IsosurfaceExtraction */
+  void
+  receive(std::size_t list,
+          std::size_t count,
+          const std::function<void(void* records)>& read,
+          unsigned threads,
+          Report& report) override;
+
+  /** \brief What was received, per isovalue, ordered by edges. */
   std::vector<std::vector<GlobalIsopoint>>&&
   take() &&
   {
-    return std::move(found_);
+    return std::move(received_);
   }
 
 private:
-  /** An isopoint that is not settled. */
-  struct Open {
-    std::size_t isovalue, index;
-    Ball ball; ///< that is asked for
-  };
-
-  /** The linear isopoints of one isovalue. */
-  void
-  find(const IsopointInput& input, std::size_t isovalue);
-
-  /** Fit some of them; those that are not settled by it join the open ones.
-   * \param known radii of balls around them all samples of which the piece has */
-  void
-  fit(const IsopointInput& input,
-      std::size_t isovalue,
-      const std::vector<std::size_t>& indices,
-      const std::vector<float>& known);
-
-  const Piece& piece_;
-  const IsosurfaceParameters& settings_;
-  unsigned threads_;
-  Report& report_;
-  std::vector<std::vector<GlobalIsopoint>> found_;
-  std::vector<Open> open_;
+  IsosurfaceParameters parameters_; // as the samples are: in their unit and frame
+  std::vector<double> isovalues_;   // of the field
+  ValueFrame frame_;
+  std::vector<std::vector<GlobalIsopoint>> received_;
 };
-
-/** \brief Order isopoints of one isovalue, found in several pieces, leave one for each
- * edge, and of those that coincide the first.
- * \param report gets the counts "edges", "coincident" and, with smooth interpolation,
- * those of the roots, see IsosurfaceExtraction */
-PCL_UVOL_EXPORTS void
-mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
-               Interpolation interpolation,
-               unsigned threads,
-               Report& report);
 
 } // namespace pcl_uvol

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/distributed/byte_stream.h>
+#include <pcl_uvol/distributed/merge_reports.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+void
+put(ByteWriter& writer, const std::string& text)
+{
+  writer.put(std::vector<char>(text.begin(), text.end()));
+}
+
+std::string
+getText(ByteReader& reader)
+{
+  std::vector<char> text;
+  reader.get(text);
+  return {text.begin(), text.end()};
+}
+
+Bytes
+toMessage(const Report& report)
+{
+  Bytes message;
+  ByteWriter writer(message);
+  const auto putAll = [&](const auto& entries) {
+    writer.put(entries.size());
+    for (const auto& [name, value] : entries) {
+      put(writer, name);
+      writer.put(value);
+    }
+  };
+  putAll(report.counts);
+  putAll(report.milliseconds);
+  writer.put(report.warnings.size());
+  for (const std::string& warning : report.warnings)
+    put(writer, warning);
+  return message;
+}
+
+Report
+fromMessage(const Bytes& message)
+{
+  Report report;
+  ByteReader reader(message);
+  for (auto count = reader.get<std::size_t>(); count > 0; --count) {
+    const std::string name = getText(reader);
+    report.count(name, reader.get<std::uint64_t>());
+  }
+  for (auto count = reader.get<std::size_t>(); count > 0; --count) {
+    const std::string step = getText(reader);
+    report.time(step, reader.get<double>());
+  }
+  for (auto count = reader.get<std::size_t>(); count > 0; --count)
+    report.warnings.push_back(getText(reader));
+  return report;
+}
+
+/** Let the largest value of a name stand. */
+template <typename T>
+void
+keepLargest(std::vector<std::pair<std::string, T>>& entries,
+            const std::string& name,
+            T value)
+{
+  const auto same = std::find_if(entries.begin(), entries.end(), [&](const auto& one) {
+    return one.first == name;
+  });
+  if (same == entries.end())
+    entries.emplace_back(name, value);
+  else
+    same->second = std::max(same->second, value);
+}
+
+} // namespace
+
+Report
+mergeReports(const Report& report,
+             Communicator& communicator,
+             const std::vector<std::string>& largest)
+{
+  Report merged;
+  std::vector<std::pair<std::string, std::uint64_t>> most;
+  for (const Bytes& message : communicator.allGather(toMessage(report))) {
+    const Report other = fromMessage(message);
+    for (const auto& [name, value] : other.counts)
+      merged.count(name, value);
+    for (const std::string& name : largest)
+      keepLargest(most, "largest_" + name, other.getCount(name));
+    for (const auto& [step, value] : other.milliseconds)
+      keepLargest(merged.milliseconds, step, value);
+    for (const std::string& warning : other.warnings)
+      if (std::find(merged.warnings.begin(), merged.warnings.end(), warning) ==
+          merged.warnings.end())
+        merged.warnings.push_back(warning);
+  }
+  merged.counts.insert(merged.counts.end(), most.begin(), most.end());
+  return merged;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/distributed/byte_stream.h>
+#include <pcl_uvol/distributed/run_stage.h>
+#include <pcl_uvol/pipeline/extract_from_ranks.h>
+
+#include <utility>
+
+namespace pcl_uvol {
+
+std::vector<std::vector<GlobalIsopoint>>
+extractFromRanks(Samples&& samples,
+                 const IsosurfaceParameters& settings,
+                 const ValueFrame& frame,
+                 Communicator& communicator,
+                 unsigned threads,
+                 Report& report)
+{
+  checkParameters(settings);
+  const LengthUnit unit = normalizeTogether(
+      samples, toPosition(settings.scale), communicator, threads, report);
+  IsosurfaceStage stage(settings, unit, frame);
+  runOnRanks(stage, std::move(samples), communicator, threads, report);
+  return std::move(stage).take();
+}
+
+std::vector<std::vector<GlobalIsopoint>>
+gatherIsopoints(std::vector<std::vector<GlobalIsopoint>>&& isopoints,
+                Communicator& communicator,
+                unsigned threads)
+{
+  std::vector<Bytes> messages(communicator.size());
+  for (auto& part : isopoints) {
+    ByteWriter(messages[0]).put(part);
+    part = {};
+  }
+  for (const Bytes& bytes : communicator.allToAll(std::move(messages)))
+    for (ByteReader reader(bytes); !reader.atEnd();)
+      for (auto& part : isopoints)
+        reader.get(part);
+  for (auto& part : isopoints)
+    parallelSort(part.begin(), part.end(), threads, isBefore);
+  return std::move(isopoints);
+}
+
+} // namespace pcl_uvol
