@@ -209,7 +209,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   finishParameters(arguments);
   if (arguments.inPieces())
     uvol_tools::checkDistinct(pcl_uvol::findPieces(arguments.inputs),
-                              pcl_uvol::listPieces(arguments.output, ranks.size()));
+                              pcl_uvol::listPieces(arguments.output, communicator.size()));
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;
