@@ -20,8 +20,9 @@ constexpr double place_extent = 0x1p-20;
 
 /** Of the distance between neighbours: what nobody needs to know of. */
 constexpr double unnoticed_rounding = 1e-3;
-/** Points that distances are measured among, and as many fewer for a second look. */
-constexpr std::size_t measured_points = 512, fewer = 4;
+/** Points that distances are measured among, and as many times fewer for a second look.
+ */
+constexpr std::size_t measured_points = 1024, fewer = 8;
 /** One point in eight may be far from the others. */
 constexpr std::size_t far_part = 8;
 
@@ -56,12 +57,13 @@ estimateSpacing(const std::vector<CoordinateRange::Point>& sketch, std::uint64_t
 {
   const std::size_t count = std::min(sketch.size(), measured_points);
   const double spacing = medianNearest(sketch, count);
-  if (count == sketch.size() || count < measured_points)
-    return spacing;
-  // As the dimension-th root of their number: points may fill space, a sheet or a line.
+  if (count < measured_points)
+    return spacing; // those are all there are
+  // As the root of their number: points fill a line, a sheet or space.
   const double growth = medianNearest(sketch, count / fewer) / spacing;
   const double dimension =
-      growth > 1.0 ? std::clamp(std::log(static_cast<double>(fewer)) / std::log(growth),
+      growth > 1.0 ? std::clamp(std::round(std::log(static_cast<double>(fewer)) /
+                                           std::log(growth)),
                                 1.0,
                                 3.0)
                    : 3.0;
