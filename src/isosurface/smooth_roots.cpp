@@ -41,6 +41,10 @@ constexpr double step_residual = 0.06, step_span = 0.6;
  * own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
+/** Of the edge's length in the samples' own space: so far a fit in another metric may
+ * shift a root, where values jump (the core of a planet) as where they do not. */
+constexpr double farthest_from_edge = 0.5;
+
 /** Different whole numbers among the fitted samples that are labels. Quantised data on
  * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
  * little. */
@@ -242,8 +246,10 @@ private:
           surroundings[lane].support == IsoSupport::Bridged ||
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
-      fits[i].outcome = outcome;
       leaveMetric(metrics[lane], lane, result);
+      if (isFarFromEdge(result, lane, surroundings[lane], edges[i]))
+        continue;
+      fits[i].outcome = outcome;
       finish(result, lane, surroundings[lane], true, edges[i], points[i]);
     }
   }
@@ -425,6 +431,20 @@ private:
       return RootOutcome::Far;
     return result.order[lane] == fit_cubic ? RootOutcome::Cubic
                                            : RootOutcome::Quadratic;
+  }
+
+  /** A short way in a metric may be a long one beside the edge it starts from. */
+  bool
+  isFarFromEdge(const FitResult& result,
+                std::size_t lane,
+                const Surroundings& surroundings,
+                const IsoEdge& edge) const
+  {
+    const auto& positions = input_.samples.getPositions();
+    const double shift = std::hypot(
+        result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
+    return surroundings.radius * shift >
+           farthest_from_edge * distance(positions[edge.first], positions[edge.second]);
   }
 
   /** Turn the result of a lane back from a metric, to the space it was made in. */

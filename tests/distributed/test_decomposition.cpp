@@ -86,8 +86,7 @@ samplesOf(const Positions& positions)
   std::vector<std::uint32_t> all(positions.size());
   std::iota(all.begin(), all.end(), 0u);
   Report report;
-  return pcl_uvol::SampleSet::build(
-      positions[0].x, 3, all, {{1.0f, 1.0f, 1.0f}}, 0, report);
+  return pcl_uvol::SampleSet::buildInUnit(positions[0].x, 3, all, {}, 0, report);
 }
 
 void

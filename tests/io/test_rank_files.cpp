@@ -209,8 +209,8 @@ TEST(RankFiles, RefuseDamagedLists)
   const std::string bad = folder / "bad.pvtp";
   writeFile(bad, list.substr(0, list.size() / 2));
   expectComplaint("it is truncated", complaintOf({bad}, 1));
-  for (const std::string& text : {std::string("no XML"),
-                                  std::string("<VTKFile type=\"PPolyData\"/>")}) {
+  for (const std::string& text :
+       {std::string("no XML"), std::string("<VTKFile type=\"PPolyData\"/>")}) {
     writeFile(bad, text);
     expectComplaint("no list of pieces", complaintOf({bad}, 1));
   }

@@ -139,7 +139,7 @@ TEST_F(SceneErrors, QuotesAndWhatIsNoText)
   std::string umlauts;
   for (int i = 0; i < 40; ++i)
     umlauts += "\xC3\xA4";
-  expectError("a" + umlauts, "1:1: unknown word 'a" + umlauts.substr(0, 38) + "...'");
+  expectError("a" + umlauts, "1:1: unknown word 'a" + umlauts.substr(0, 78) + "...'");
   for (const char* const text : {"size 1 1\n\x01", "sphere\n1\x1b[2J", "a\n\x0c"}) {
     const std::string message = messageOf<IOError>([&] { load(text); });
     EXPECT_EQ(message.find("Cannot read '" + path_ + "', line 2: it is no text"), 0u)

@@ -186,7 +186,8 @@ TEST(NaturalNeighbors, ManyDuplicatesGiveTheTreeOfTheDistinctOnes)
       EXPECT_TRUE(std::is_sorted(merged.members.begin(), merged.members.end()));
       EXPECT_EQ(*merged.members.begin(), samples->getInputIndex(merged.sample));
       for (const auto member : merged.members)
-        ASSERT_EQ(cloud[member].x, samples->getPositions()[merged.sample][0]);
+        ASSERT_EQ(cloud[member].x * samples->getUnit().factor,
+                  samples->getPositions()[merged.sample][0]);
     }
     EXPECT_EQ(cloud.size(), members);
   }

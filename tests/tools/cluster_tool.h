@@ -92,7 +92,7 @@ inline std::string
 spaceTable()
 {
   return tableOf("x,y,z,a,b,c,d,h,id,truth", [](const Sample& s) {
-    return joined(s.place) + ',' + joined(s.attributes) + ",0.5," +
+    return joined(s.place) + ',' + joined(s.attributes) + ",3.5," +
            std::to_string(s.index) + ',' + std::to_string(s.cluster);
   });
 }

@@ -123,10 +123,11 @@ TEST_P(MemoryForecast, RefusesWhatDoesNotFit)
   std::filesystem::resize_file(folder_ / GetParam().input, 64000001000u);
   const auto result = run("ulimit -v 8000000; ");
   EXPECT_EQ(1, result.exit_code) << result.err;
-  const std::regex sentence(std::string(GetParam().tool) +
-                            ": [A-Z][a-z -]+ of 4000000000 points needs ([0-9.]+) "
-                            "([GT]B) of memory, and only "
-                            "([0-9.]+) GB are available\\.\n");
+  const std::regex sentence(
+      std::string(GetParam().tool) +
+      ": [^:]*: [A-Z][a-z -]+ of 4000000000 points needs ([0-9.]+) "
+      "([GT]B) of memory, and only "
+      "([0-9.]+) GB are available\\.\n");
   std::smatch match;
   ASSERT_TRUE(std::regex_match(result.err, match, sentence)) << result.err;
   EXPECT_LT(std::stod(match[3]), 8.2);
