@@ -70,7 +70,7 @@ declare(Options& options, Arguments& arguments)
                  "choose the clusters at that distance of attributes (default: by "
                  "persistence)");
   options.flag("single", arguments.single, "all points may be one cluster");
-  options.text("tree", "out.csv", arguments.tree, "write the tree of clusters");
+  options.output("tree", "out.csv", arguments.tree, "write the tree of clusters");
   options.text("label",
                "name",
                arguments.label,

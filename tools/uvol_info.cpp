@@ -105,6 +105,42 @@ chosenField(const Arguments& arguments, const pcl_uvol::Dataset& dataset)
   }
 }
 
+/** More than these numbers per point nobody reads one by one. */
+constexpr std::size_t most_listed = 200;
+
+std::string
+listFields(const std::vector<pcl::PCLPointField>& fields)
+{
+  std::string list;
+  for (std::size_t i = 0; i < std::min(fields.size(), most_listed); ++i)
+    list += (i > 0 ? ", " : "") + pcl_uvol::describeFields({fields[i]});
+  return fields.size() > most_listed
+             ? list + " and " + std::to_string(fields.size() - most_listed) + " more"
+             : list;
+}
+
+/** What each number of a point ranges over. */
+void
+addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
+{
+  std::size_t numbers = 0;
+  for (const auto& field : dataset.cloud.fields)
+    if (field.name != "x" && field.name != "y" && field.name != "z")
+      for (std::size_t k = 0; k < field.count; ++k) {
+        if (++numbers > most_listed)
+          continue;
+        const std::string name =
+            field.count > 1 ? field.name + "[" + std::to_string(k) + "]" : field.name;
+        facts.emplace_back(
+            name,
+            rangeOf(pcl_uvol::describeValues(pcl_uvol::valuesOf(
+                dataset, pcl_uvol::ScalarField(dataset.cloud.fields, name)))));
+      }
+  if (numbers > most_listed)
+    facts.emplace_back("further numbers per point",
+                       std::to_string(numbers - most_listed));
+}
+
 Facts
 describeCloud(const Arguments& arguments, unsigned threads, Report& report)
 {
@@ -118,8 +154,7 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
   report.warnings = dataset.notes;
   if (!arguments.where.empty())
     report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
-  Facts facts{{"file", arguments.input},
-              {"fields", pcl_uvol::describeFields(dataset.cloud.fields)}};
+  Facts facts{{"file", arguments.input}, {"fields", listFields(dataset.cloud.fields)}};
   report.count("points", dataset.cloud.width);
   const std::string chosen = chosenField(arguments, dataset);
   if (dataset.cloud.width == 0) {
@@ -142,16 +177,7 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
   }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
-  for (const auto& field : dataset.cloud.fields)
-    if (field.name != "x" && field.name != "y" && field.name != "z")
-      for (std::size_t k = 0; k < field.count; ++k) {
-        const std::string name =
-            field.count > 1 ? field.name + "[" + std::to_string(k) + "]" : field.name;
-        facts.emplace_back(
-            name,
-            rangeOf(pcl_uvol::describeValues(pcl_uvol::valuesOf(
-                dataset, pcl_uvol::ScalarField(dataset.cloud.fields, name)))));
-      }
+  addRanges(dataset, facts);
   if (!chosen.empty()) {
     const auto statistics = pcl_uvol::describeValues(pcl_uvol::valuesOf(
         dataset, pcl_uvol::ScalarField(dataset.cloud.fields, chosen)));

@@ -207,6 +207,9 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   if (!options.parse(argc, argv))
     return 0;
   finishParameters(arguments);
+  if (arguments.inPieces())
+    uvol_tools::checkDistinct(pcl_uvol::findPieces(arguments.inputs),
+                              pcl_uvol::listPieces(arguments.output, ranks.size()));
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;

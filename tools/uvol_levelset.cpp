@@ -115,8 +115,8 @@ declare(Options& options, Arguments& arguments)
                   1,
                   many,
                   "write the zero level every so many steps, as out_00010.ply");
-  options.text("csv", "out.csv", arguments.table, "write a table of all steps");
-  options.text("plot", "out.png", arguments.plot, "draw how it converged");
+  options.output("csv", "out.csv", arguments.table, "write a table of all steps");
+  options.output("plot", "out.png", arguments.plot, "draw how it converged");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 

@@ -46,8 +46,9 @@ declare(Options& options, Arguments& arguments)
       arguments.label,
       "field that tells the clusters, negative for noise (default: label, else "
       "they are found by density)");
-  options.text("axes", "out.csv", arguments.axes, "write the axis of every attribute");
-  options.text(
+  options.output(
+      "axes", "out.csv", arguments.axes, "write the axis of every attribute");
+  options.output(
       "png", "out.png", arguments.picture, "draw the points, by cluster, and the axes");
   options.choice("view",
                  {"iso", "front", "back", "left", "right", "top", "bottom"},

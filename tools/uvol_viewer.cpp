@@ -35,10 +35,10 @@ declare(uvol_tools::Options& options, Arguments& arguments)
                  -largest,
                  largest,
                  "isovalue to start with (default the middle of the range)");
-  options.text("screenshot",
-               "out.png",
-               arguments.screenshot,
-               "save what the window shows first, and close it");
+  options.output("screenshot",
+                 "out.png",
+                 arguments.screenshot,
+                 "save what the window shows first, and close it");
 }
 
 void

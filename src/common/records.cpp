@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From records as they lie in files to datasets.
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace pcl_uvol {
@@ -61,12 +63,18 @@ namedFields(Fields fields, std::vector<std::string>& notes)
   for (const auto& field : fields)
     names.push_back(isPadding(field) ? std::string() : field.name);
   makeUnique(names);
+  constexpr std::size_t most_notes = 10;
+  std::size_t renamed = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] != fields[i].name && !names[i].empty())
-      notes.push_back("A further field '" + fields[i].name + "' is called '" +
-                      names[i] + "'.");
+      if (++renamed <= most_notes)
+        notes.push_back("A further field " + quoteText(fields[i].name) + " is called " +
+                        quoteText(names[i]) + ".");
     fields[i].name = names[i];
   }
+  if (renamed > most_notes)
+    notes.push_back(std::to_string(renamed - most_notes) +
+                    " more fields are told apart in the same way.");
   return fields;
 }
 
@@ -324,13 +332,15 @@ void
 makeUnique(std::vector<std::string>& names)
 {
   std::unordered_set<std::string> taken(names.begin(), names.end()), seen;
+  std::unordered_map<std::string, std::size_t> numbers; // the last one tried
   for (auto& name : names) {
     if (name.empty() || seen.insert(name).second)
       continue;
+    std::size_t& number = numbers.try_emplace(name, 1).first->second;
     std::string other;
-    for (int number = 2;
-         !taken.insert(other = name + '_' + std::to_string(number)).second;)
-      ++number;
+    do
+      other = name + '_' + std::to_string(++number);
+    while (!taken.insert(other).second);
     name = other;
     seen.insert(name);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Field expressions resolved against the fields of a cloud.
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ componentOf(const pcl::PCLPointField& field, std::size_t index)
 [[noreturn]] void
 throwUnknown(const Fields& fields, const std::string& name)
 {
-  throw InvalidArgument("There is no field '" + name + "'; the fields are " +
+  throw InvalidArgument("There is no field " + quoteText(name) + "; the fields are " +
                         describeFields(fields) + ".");
 }
 
@@ -126,13 +127,16 @@ scalarComponent(const Fields& fields, const std::string& expression)
   if (parsed.ec != std::errc() || parsed.ptr != last)
     throw InvalidArgument("The component in '" + expression +
                           "' is not a number from 0, as in vel[1].");
-  const auto components =
-      allComponents(fields, trimmed(std::string_view(expression).substr(0, bracket)));
-  if (index >= components.size())
+  const std::string name = trimmed(std::string_view(expression).substr(0, bracket));
+  const auto* const field = findField(fields, name);
+  const auto parts = // of one field there may be very many
+      field ? std::vector<FieldComponent>() : allComponents(fields, name);
+  const std::size_t count = field ? componentCount(*field) : parts.size();
+  if (index >= count)
     throw InvalidArgument("The component in '" + expression +
                           "' is too large: it may be 0 to " +
-                          std::to_string(components.size() - 1) + ".");
-  return components[index];
+                          std::to_string(count - 1) + ".");
+  return field ? componentOf(*field, index) : parts[index];
 }
 
 bool
@@ -259,11 +263,14 @@ ScalarField::isInteger() const
 std::string
 describeFields(const Fields& fields)
 {
+  constexpr std::size_t most_bytes = 200; // sentences stay sentences
   std::string text;
   for (const auto& field : fields) {
+    if (text.size() > most_bytes)
+      return text + " and " + std::to_string(&fields.back() - &field + 1) + " more";
     if (!text.empty())
       text += ", ";
-    text += field.name + " (" + typeInfo(field.datatype).name;
+    text += shortenText(field.name) + " (" + typeInfo(field.datatype).name;
     if (componentCount(field) > 1)
       text += " x " + std::to_string(field.count);
     text += ')';

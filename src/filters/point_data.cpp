@@ -2,6 +2,7 @@
 // From VTK's arrays to records of points and back.
 #include "point_arrays.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/records.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/filters/point_data.h>
@@ -146,7 +147,8 @@ PointCollector::addNumbers(const std::string& name, vtkDataArray& array)
   else {
     const bool taken = axisOf(name) >= 0 || name == "_";
     if (taken)
-      info_.notes.push_back("The array '" + name + "' is called '" + name + "_2'.");
+      info_.notes.push_back("The array " + quoteText(name) + " is called " +
+                            quoteText(name + "_2") + ".");
     append(taken ? name + "_2" : name,
            plain,
            static_cast<std::size_t>(plain.GetNumberOfComponents()));
@@ -166,7 +168,7 @@ PointCollector::addPointData()
     auto* const numbers = vtkDataArray::SafeDownCast(array);
     if (array->GetNumberOfTuples() != data_.GetNumberOfPoints() ||
         array->GetNumberOfComponents() < 1)
-      info_.notes.push_back("The array '" + name + "' has " +
+      info_.notes.push_back("The array " + quoteText(name) + " has " +
                             std::to_string(array->GetNumberOfTuples()) +
                             " tuples for " + std::to_string(data_.GetNumberOfPoints()) +
                             " points and is left out.");
@@ -316,8 +318,8 @@ toPointCloud(vtkDataSet* data)
   PointArrays points = collectPoints(*data);
   for (const auto& array : points.others)
     points.dataset.notes.push_back(
-        "The array '" + std::string(array->GetName() ? array->GetName() : "") +
-        "' holds no numbers but is a " + array->GetClassName() + " and is left out.");
+        "The array " + quoteText(array->GetName() ? array->GetName() : "") +
+        " holds no numbers but is a " + array->GetClassName() + " and is left out.");
   return std::move(points.dataset);
 }
 

@@ -3,19 +3,116 @@
 #include "files.h"
 #include <pcl_uvol/io/dataset.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
+#include <charconv>
+#include <climits>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <memory>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
 namespace pcl_uvol {
 namespace {
+
+namespace fs = std::filesystem;
+
+/** Names of unfinished files where a signal handler finds them: no locks, no memory
+ * that grows. More files than that at a time are not removed by handlers. */
+class PartNames {
+public:
+  /** \return the slot, -1 without one */
+  int
+  add(const std::string& name)
+  {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      State free = State::Free;
+      if (name.size() < PATH_MAX &&
+          slots_[i].state.compare_exchange_strong(free, State::Changing)) {
+        name.copy(slots_[i].name, PATH_MAX - 1);
+        slots_[i].name[name.size()] = '\0';
+        slots_[i].state = State::Taken;
+        return static_cast<int>(i);
+      }
+    }
+    return -1;
+  }
+
+  void
+  release(int slot)
+  {
+    if (slot >= 0)
+      slots_[static_cast<std::size_t>(slot)].state = State::Free;
+  }
+
+  void
+  unlinkAll() const
+  {
+    for (const Slot& slot : slots_)
+      if (slot.state == State::Taken)
+        ::unlink(slot.name);
+  }
+
+private:
+  enum class State { Free, Changing, Taken };
+  struct Slot {
+    std::atomic<State> state{State::Free};
+    char name[PATH_MAX];
+  };
+  std::array<Slot, 8> slots_;
+};
+
+PartNames part_names;
+
+std::string
+hostName()
+{
+  char name[HOST_NAME_MAX + 1] = "host";
+  ::gethostname(name, sizeof(name) - 1);
+  return name;
+}
+
+/** ".out.csv.node7.": what unfinished files of a target begin with. The host is part of
+ * it, because folders are shared by hosts that count their processes on their own. */
+std::string
+partPrefix(const fs::path& target)
+{
+  constexpr std::size_t most_bytes = 120; // names of files have 255
+  return '.' + target.filename().string().substr(0, most_bytes) + '.' +
+         hostName().substr(0, most_bytes / 2) + '.';
+}
+
+constexpr const char* part_ending = ".part";
+
+/** Remove the unfinished files of a target whose processes are gone; whoever lives
+ * holds a lock on his. */
+void
+removeLeftParts(const fs::path& target, const fs::path& folder)
+{
+  const std::string prefix = partPrefix(target), ending = part_ending;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() <= prefix.size() + ending.size() ||
+        name.compare(0, prefix.size(), prefix) != 0 ||
+        name.compare(name.size() - ending.size(), ending.size(), ending) != 0)
+      continue;
+    pid_t process = 0;
+    std::from_chars(name.data() + prefix.size(), name.data() + name.size(), process);
+    if (process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH)
+      continue;
+    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry->path().c_str());
+    ::close(descriptor);
+  }
+}
 
 /** A file that is nobody's until it is whole. Where the file system allows it has no
  * name, so that even a killed process leaves nothing behind; elsewhere it has a name of
@@ -24,14 +121,15 @@ class UnfinishedFile {
 public:
   /** \param target the file that it shall become
    * \param name the name that errors give */
-  UnfinishedFile(std::string target, std::string name);
+  UnfinishedFile(const std::string& target, std::string name);
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile&
   operator=(const UnfinishedFile&) = delete;
   ~UnfinishedFile()
   {
-    if (!linked_as_.empty())
-      ::unlink(linked_as_.c_str());
+    if (!part_.empty())
+      ::unlink(part_.c_str());
+    part_names.release(slot_);
     ::close(descriptor_);
   }
 
@@ -39,8 +137,7 @@ public:
   std::string
   getPath() const
   {
-    return linked_as_.empty() ? "/proc/self/fd/" + std::to_string(descriptor_)
-                              : linked_as_;
+    return part_.empty() ? "/proc/self/fd/" + std::to_string(descriptor_) : part_;
   }
 
   /** Flush it to the disk and let it replace the target. */
@@ -54,67 +151,127 @@ private:
     io::throwUnwritable(name_, std::strerror(errno));
   }
 
-  std::string
-  freshName() const
-  {
-    static std::atomic<unsigned> serial{0};
-    return target_ + '.' + std::to_string(::getpid()) + '-' + std::to_string(serial++) +
-           ".tmp";
-  }
+  template <typename Create>
+  void
+  createPart(const Create& create);
+  void
+  openPart();
+  void
+  flush() const;
 
-  std::string target_, name_, linked_as_;
-  int descriptor_ = -1;
+  fs::path target_, folder_;
+  std::string name_, part_;
+  int descriptor_ = -1, slot_ = -1;
 };
 
-UnfinishedFile::UnfinishedFile(std::string target, std::string name)
-    : target_(std::move(target))
+UnfinishedFile::UnfinishedFile(const std::string& target, std::string name)
+    : target_(target)
+    , folder_(target_.has_parent_path() ? target_.parent_path() : fs::path("."))
     , name_(std::move(name))
 {
-  std::string folder = std::filesystem::path(target_).parent_path().string();
-  if (folder.empty())
-    folder = ".";
+  removeLeftParts(target_, folder_);
   if (::access("/proc/self/fd", X_OK) == 0)
-    descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-  while (descriptor_ < 0) {
-    linked_as_ = freshName();
-    descriptor_ =
-        ::open(linked_as_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST)
-      fail();
-  }
+    descriptor_ = ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (descriptor_ < 0)
+    openPart();
   struct stat status {};
   if (::stat(target_.c_str(), &status) == 0) // a replaced file keeps its permissions
     ::fchmod(descriptor_, status.st_mode & 07777);
 }
 
+/** Calls create(name) with names that nobody has until it gives true; errno says why it
+ * does not. */
+template <typename Create>
 void
-UnfinishedFile::finish()
+UnfinishedFile::createPart(const Create& create)
+{
+  const std::string start =
+      (folder_ / partPrefix(target_)).string() + std::to_string(::getpid());
+  for (int serial = 0; part_.empty(); ++serial) { // threads may write one file at once
+    const std::string part =
+        start + (serial > 0 ? '-' + std::to_string(serial) : std::string()) +
+        part_ending;
+    slot_ = part_names.add(part);
+    if (create(part)) {
+      part_ = part;
+      return;
+    }
+    part_names.release(slot_);
+    slot_ = -1;
+    if (errno != EEXIST)
+      return;
+  }
+}
+
+void
+UnfinishedFile::openPart()
+{
+  createPart([this](const std::string& part) {
+    descriptor_ = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor_ >= 0;
+  });
+  if (part_.empty())
+    fail();
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+}
+
+void
+UnfinishedFile::flush() const
 {
   if (::fsync(descriptor_) != 0 && errno != EINVAL) // some file systems know no fsync
     fail();
-  while (linked_as_.empty()) { // linking cannot replace a file, renaming can
-    const std::string path = getPath(), fresh = freshName();
-    if (::linkat(AT_FDCWD, path.c_str(), AT_FDCWD, fresh.c_str(), AT_SYMLINK_FOLLOW) ==
-        0)
-      linked_as_ = fresh;
-    else if (errno != EEXIST)
-      fail();
-  }
-  if (::rename(linked_as_.c_str(), target_.c_str()) != 0)
-    fail();
-  linked_as_.clear();
 }
 
-/** The file behind symbolic links, so that a link stays a link. */
-std::string
-resolveLinks(const std::string& path)
+void
+UnfinishedFile::finish()
 {
-  const std::unique_ptr<char, decltype(&std::free)> real(
-      ::realpath(path.c_str(), nullptr), &std::free);
-  return real ? real.get() : path;
+  flush();
+  if (part_.empty()) { // linking cannot replace a file, renaming can
+    const std::string nameless = getPath();
+    createPart([&nameless](const std::string& part) {
+      return ::linkat(AT_FDCWD,
+                      nameless.c_str(),
+                      AT_FDCWD,
+                      part.c_str(),
+                      AT_SYMLINK_FOLLOW) == 0;
+    });
+    if (part_.empty()) { // some file systems do not let it have a name
+      const int from = descriptor_;
+      openPart();
+      std::error_code error;
+      fs::copy_file(nameless, part_, fs::copy_options::overwrite_existing, error);
+      ::close(from);
+      if (error)
+        io::throwUnwritable(name_, error.message());
+      flush();
+    }
+  }
+  if (::rename(part_.c_str(), target_.c_str()) != 0)
+    fail();
+  part_.clear();
 }
 
 } // namespace
+
+std::string
+resolveLinks(const std::string& path)
+{
+  constexpr int most_links = 40; // as the system
+  std::error_code error;
+  fs::path file = path;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(file, error));
+       ++i)
+    file = file.parent_path() / fs::read_symlink(file, error);
+  fs::path folder = file.parent_path();
+  folder = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  return error ? path : (folder / file.filename()).string();
+}
+
+void
+removeUnfinishedFiles()
+{
+  part_names.unlinkAll();
+}
 
 void
 writeAtomically(const std::string& path,

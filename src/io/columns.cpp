@@ -5,6 +5,7 @@
 #include "files.h"
 #include "numbers.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -104,7 +105,7 @@ makeWords(std::vector<std::string>& names, std::vector<std::string>& comments)
   makeUnique(names);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] != originals[i])
-      comments.push_back("field " + names[i] + " is '" + originals[i] + "'");
+      comments.push_back("field " + names[i] + " is '" + printable(originals[i]) + "'");
 }
 
 void

@@ -12,6 +12,12 @@ namespace {
 /** Fits a cache of the second level, and calls of the system cost nothing beside it. */
 constexpr std::size_t block_bytes = std::size_t(1) << 18;
 
+bool
+isBlank(char c)
+{
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
 } // namespace
 
 FileCursor::FileCursor(const std::string& path, Content content)
@@ -111,6 +117,50 @@ FileCursor::nextWords(std::vector<std::string_view>& words)
     if (!words.empty())
       return true;
   }
+  return false;
+}
+
+bool
+FileCursor::nextWord(std::string_view& word)
+{
+  if (!skipBlanks())
+    return false;
+  std::size_t bytes = 1;
+  do
+    while (begin_ + bytes < end_ && !isBlank(buffer_[begin_ + bytes]))
+      ++bytes;
+  while (begin_ + bytes == end_ && fill());
+  word = std::string_view(buffer_.data() + begin_, bytes);
+  begin_ += bytes;
+  return true;
+}
+
+bool
+FileCursor::skipTo(char byte)
+{
+  do {
+    const char* const from = buffer_.data() + begin_;
+    const auto* const found =
+        static_cast<const char*>(std::memchr(from, byte, end_ - begin_));
+    if (found) {
+      begin_ += static_cast<std::size_t>(found - from);
+      return true;
+    }
+    begin_ = end_;
+  } while (fill());
+  return false;
+}
+
+bool
+FileCursor::skipBlanks()
+{
+  do
+    for (; begin_ < end_; ++begin_) {
+      if (!isBlank(buffer_[begin_]))
+        return true;
+      line_ += buffer_[begin_] == '\n';
+    }
+  while (fill());
   return false;
 }
 

@@ -66,6 +66,19 @@ public:
   bool
   nextWords(std::vector<std::string_view>& words);
 
+  /** \brief The next word between blanks and ends of lines, valid until the next call.
+   * \return false after the last word */
+  bool
+  nextWord(std::string_view& word);
+
+  /** \brief Go in front of the next byte of that value, or of no blank.
+   * \return false, and the end of the file, if there is none @{ */
+  bool
+  skipTo(char byte);
+  bool
+  skipBlanks();
+  /** @} */
+
 private:
   bool
   fill();

@@ -3,6 +3,8 @@
 #include "files.h"
 
 #include "numbers.h"
+#include <pcl_uvol/common/printable.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -23,20 +25,20 @@ constexpr std::size_t block_bytes = std::size_t(1) << 20;
 void
 throwUnreadable(const std::string& path, const std::string& reason)
 {
-  throw IOError("Cannot read '" + path + "': " + reason + ".");
+  throw IOError("Cannot read '" + printable(path) + "': " + printable(reason) + ".");
 }
 
 void
 throwUnreadable(const std::string& path, std::size_t line, const std::string& reason)
 {
-  throw IOError("Cannot read '" + path + "', line " + std::to_string(line) + ": " +
-                reason + ".");
+  throw IOError("Cannot read '" + printable(path) + "', line " + std::to_string(line) +
+                ": " + printable(reason) + ".");
 }
 
 void
 throwUnwritable(const std::string& path, const std::string& reason)
 {
-  throw IOError("Cannot write '" + path + "': " + reason + ".");
+  throw IOError("Cannot write '" + printable(path) + "': " + printable(reason) + ".");
 }
 
 std::string
@@ -52,7 +54,7 @@ checkWritable(const std::string& path)
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
     throwUnwritable(path, "it is a directory");
-  fs::path folder = fs::path(path).parent_path();
+  fs::path folder = fs::path(resolveLinks(path)).parent_path();
   if (folder.empty())
     folder = ".";
   const fs::file_status status = fs::status(folder, ignored);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,9 @@ reading(const std::string& path, const Reader& read)
     throw IOError("Cannot read '" + path + "': " + error.message());
   }
   catch (const std::bad_alloc&) {
+    throwUnreadable(path, "there is not enough memory for it");
+  }
+  catch (const std::length_error&) { // of a vector longer than any memory
     throwUnreadable(path, "there is not enough memory for it");
   }
 }

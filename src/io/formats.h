@@ -3,9 +3,11 @@
 #pragma once
 
 #include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,11 @@ readPcd(const std::string& path);
 Dataset
 readPly(const std::string& path);
 
+/** \brief The faces of a PLY as fans of triangles. \throws IOError for one that names
+ * a vertex that is not there */
+std::vector<Triangle>
+readPlyTriangles(const std::string& path, std::uint64_t vertices);
+
 /** \brief Text with a header line; the separator is found in it. */
 Dataset
 readText(const std::string& path, const LoadOptions& options);
@@ -41,6 +48,16 @@ readText(const std::string& path, const LoadOptions& options);
 Dataset
 readVtk(const std::string& path);
 /** @} */
+
+/** \brief A PCD whose points are compressed, as its header tells. */
+struct CompressedInfo {
+  RecordInfo info;
+  std::uint64_t packed_bytes;
+};
+
+/** \brief Nothing for a PCD that is not compressed. \throws IOError */
+std::optional<CompressedInfo>
+findCompressed(const std::string& path);
 
 /** \brief The files that a .pvtp lists. \throws IOError if it is none */
 std::vector<std::string>

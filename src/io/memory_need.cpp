@@ -4,25 +4,34 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/memory_need.h>
 
+#include <algorithm>
+
 namespace pcl_uvol {
 namespace {
 
 /** Of a stream, as PointStream says. */
 constexpr double stream_bytes = 2e6;
 
+/** \param packed_bytes of compressed points, 0: they are read as a stream */
 PromisedCloud
-promiseOf(io::PointReader& reader)
+promiseOf(const RecordInfo& info, std::uint64_t packed_bytes)
 {
-  const RecordInfo& info = reader.getSource().getInfo();
+  const RecordLayout layout(info, recordBytes(info.fields));
   PromisedCloud cloud;
   cloud.points = info.count;
-  cloud.point_step = reader.getLayout().getHeader().cloud.point_step;
+  cloud.point_step = layout.getHeader().cloud.point_step;
   checkSize(cloud.points, cloud.point_step);
   const auto points = static_cast<double>(cloud.points);
+  const double records = static_cast<double>(recordBytes(info.fields)) * points;
   cloud.reading.kept = static_cast<double>(cloud.point_step) * points;
-  cloud.reading.peak = cloud.reading.kept + stream_bytes;
-  if (reader.getLayout().needsOrigin()) // all records are held, until it is known
-    cloud.reading.peak += static_cast<double>(recordBytes(info.fields)) * points;
+  if (packed_bytes > 0) // packed, unpacked and sorted into records; then as points
+    cloud.reading.peak = records + std::max(records + static_cast<double>(packed_bytes),
+                                            cloud.reading.kept);
+  else {
+    cloud.reading.peak = cloud.reading.kept + stream_bytes;
+    if (layout.needsOrigin()) // all records are held, until it is known
+      cloud.reading.peak += records;
+  }
   return cloud;
 }
 
@@ -35,9 +44,12 @@ promisedCloud(const std::string& path)
     const io::FileFormat format = io::formatOf(path, {});
     if (format != io::FileFormat::Pcd && format != io::FileFormat::Ply)
       return std::nullopt;
-    io::PointReader reader(format == io::FileFormat::Pcd ? io::openPcd(path)
-                                                         : io::openPly(path));
-    return promiseOf(reader);
+    if (format == io::FileFormat::Pcd)
+      if (const auto compressed = io::findCompressed(path))
+        return promiseOf(compressed->info, compressed->packed_bytes);
+    const auto source =
+        format == io::FileFormat::Pcd ? io::openPcd(path) : io::openPly(path);
+    return promiseOf(source->getInfo(), 0);
   }
   catch (const Exception&) {
     return std::nullopt;

@@ -10,9 +10,6 @@
 #include <pcl_uvol/io/mesh.h>
 
 #include <Eigen/Geometry>
-#include <pcl/PolygonMesh.h>
-#include <pcl/console/print.h>
-#include <pcl/io/ply_io.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,50 +26,11 @@ vertexOf(const Mesh& mesh, std::size_t triangle, std::size_t corner)
   return {vertex[0], vertex[1], vertex[2]};
 }
 
-/** Switches PCL's own messages off for its lifetime. */
-class QuietPcl {
-public:
-  QuietPcl()
-      : level_(pcl::console::getVerbosityLevel())
-  {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
-  }
-  QuietPcl(const QuietPcl&) = delete;
-  QuietPcl&
-  operator=(const QuietPcl&) = delete;
-  ~QuietPcl()
-  {
-    pcl::console::setVerbosityLevel(level_);
-  }
-
-private:
-  pcl::console::VERBOSITY_LEVEL level_;
-};
-
-/** By PCL, because VTK's reader crashes on truncated files. */
-std::vector<pcl::Vertices>
-readPolygons(const std::string& path)
-{
-  const QuietPcl quiet;
-  pcl::PolygonMesh mesh;
-  int result = -1;
-  try {
-    result = pcl::PLYReader().read(path, mesh);
-  }
-  catch (const pcl::PCLException&) {
-    // told like every other failure
-  }
-  if (result != 0)
-    io::throwUnreadable(path, "its faces are truncated or damaged");
-  return std::move(mesh.polygons);
-}
-
 } // namespace
 
 Mesh
 loadMesh(const std::string& path)
 {
-  // Our reader checks the vertices, and keeps the digits of large coordinates.
   const io::InputFile file(path);
   if (file.head(3) != "ply")
     io::throwUnreadable(path, "meshes are read from PLY files, and this is none");
@@ -83,16 +41,7 @@ loadMesh(const std::string& path)
   mesh.vertices.resize(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i)
     std::copy_n(cloud.xyz(i), 3, mesh.vertices[i].begin());
-  for (const pcl::Vertices& polygon : readPolygons(path)) {
-    const auto& corners = polygon.vertices;
-    for (const auto corner : corners)
-      if (static_cast<std::size_t>(corner) >= mesh.vertices.size())
-        io::throwUnreadable(path, "a face names a vertex that is not there");
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      mesh.triangles.push_back({{static_cast<std::uint32_t>(corners[0]),
-                                 static_cast<std::uint32_t>(corners[k - 1]),
-                                 static_cast<std::uint32_t>(corners[k])}});
-  }
+  mesh.triangles = io::readPlyTriangles(path, cloud.count);
   if (mesh.triangles.empty())
     io::throwUnreadable(path, "it has no faces to spread points over");
   return mesh;

@@ -6,11 +6,13 @@
 #include "formats.h"
 #include "numbers.h"
 #include "record_source.h"
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <pcl/io/lzf.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
@@ -90,7 +92,7 @@ HeaderParser::countIn(const Words& words) const
 {
   std::uint64_t value = 0;
   if (words.size() != 2 || !parseCount(words[1], value))
-    throwUnreadable(path_, line_, std::string(words[0]) + " is no count");
+    throwUnreadable(path_, line_, quoteText(words[0]) + " is no count");
   return value;
 }
 
@@ -156,15 +158,16 @@ HeaderParser::finish() const
     const std::uint8_t datatype = datatypeOf(types_[i], sizes_[i]);
     if (datatype == 0)
       throwUnreadable(path_,
-                      "the field '" + names_[i] + "' has the type " + types_[i] +
-                          " of size " + sizes_[i] +
+                      "the field " + quoteText(names_[i]) + " has the type " +
+                          quoteText(types_[i]) + " of size " + quoteText(sizes_[i]) +
                           "; allowed are F of 4 and 8, I and U of 1, 2, 4 and 8");
     std::uint64_t count = 1;
     if (!counts_.empty() &&
         (!parseCount(counts_[i], count) || count < 1 || count > most_components))
       throwUnreadable(path_,
-                      "the field '" + names_[i] + "' has the COUNT " + counts_[i] +
-                          "; allowed is 1 to " + std::to_string(most_components));
+                      "the field " + quoteText(names_[i]) + " has the COUNT " +
+                          quoteText(counts_[i]) + "; allowed is 1 to " +
+                          std::to_string(most_components));
     bytes += count * datatypeSize(datatype);
     if (bytes > std::numeric_limits<pcl::uindex_t>::max())
       throwUnreadable(path_, "the fields of its header are too large");
@@ -208,17 +211,18 @@ throwTruncated(const std::string& path, std::uint64_t count, std::uint64_t left)
                       std::to_string(left) + " bytes follow");
 }
 
-pcl::PCLPointCloud2
-readCompressed(const InputFile& file, const std::string& path, const Header& header)
+/** Bytes of the packed and of the unpacked points, as far as the file can hold them. */
+std::array<std::uint32_t, 2>
+compressedSizes(const InputFile& file, const std::string& path, const Header& header)
 {
-  std::uint64_t body = header.body;
+  const std::uint64_t body = header.body;
   const std::uint64_t left = file.getSize() - body, count = header.info.count;
   const std::uint64_t step = recordBytes(header.info.fields);
-  std::uint32_t sizes[2] = {0, 0};
+  std::array<std::uint32_t, 2> sizes{};
   if (count > 0) {
     if (left < sizeof(sizes))
       throwTruncated(path, count, left);
-    file.read(body, sizes, sizeof(sizes));
+    file.read(body, sizes.data(), sizeof(sizes));
     if (sizes[0] > left - sizeof(sizes) || count > sizes[0] * most_expansion / step)
       throwTruncated(path, count, left);
     if (sizes[1] != count * step)
@@ -227,11 +231,20 @@ readCompressed(const InputFile& file, const std::string& path, const Header& hea
                           " bytes, but its header promises " +
                           std::to_string(count * step));
   }
+  return sizes;
+}
+
+pcl::PCLPointCloud2
+readCompressed(const InputFile& file, const std::string& path, const Header& header)
+{
+  const std::array<std::uint32_t, 2> sizes = compressedSizes(file, path, header);
+  const std::uint64_t count = header.info.count;
+  const std::uint64_t step = recordBytes(header.info.fields);
   auto records = makeRecords(header.info.fields, count);
   if (count == 0)
     return records;
   std::vector<std::uint8_t> packed(sizes[0]), unpacked(sizes[1]);
-  file.read(body + sizeof(sizes), packed.data(), packed.size());
+  file.read(header.body + sizeof(sizes), packed.data(), packed.size());
   if (pcl::lzfDecompress(packed.data(), sizes[0], unpacked.data(), sizes[1]) !=
       sizes[1])
     throwUnreadable(path, "its compressed data are damaged");
@@ -307,7 +320,7 @@ AsciiSource::readRecord(std::uint8_t* record)
       if (!parseNumber(*word, field.datatype, record + field.offset + i * bytes))
         throwUnreadable(path_,
                         cursor_->tell().line,
-                        "'" + std::string(*word) + "' is no number for the field " +
+                        quoteText(*word) + " is no number for the field " +
                             describeFields({field}));
   }
 }
@@ -385,6 +398,17 @@ openPcd(const std::string& path)
   if (header.encoding == Encoding::Compressed)
     throwNoStream(path, "points compressed as binary_compressed");
   return makeSource(path, std::move(cursor), header);
+}
+
+std::optional<CompressedInfo>
+findCompressed(const std::string& path)
+{
+  FileCursor cursor(path);
+  const Header header = readHeader(cursor, path);
+  if (header.encoding != Encoding::Compressed)
+    return std::nullopt;
+  return CompressedInfo{header.info,
+                        compressedSizes(cursor.getFile(), path, header)[0]};
 }
 
 void

@@ -5,6 +5,7 @@
 #include "numbers.h"
 #include "ply_types.h"
 #include "record_source.h"
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
@@ -98,15 +99,15 @@ HeaderParser::takeProperty(const Words& words)
     type = 3;
     if (property.length_type == 0 || property.length_type == Type::FLOAT32 ||
         property.length_type == Type::FLOAT64)
-      throwInLine("'" + std::string(words[2]) + "' is no type for a list's length");
+      throwInLine(quoteText(words[2]) + " is no type for a list's length");
   }
   if (words.size() != type + 2)
     throwInLine("a property needs a type and a name");
   property.datatype = plyDatatype(words[type]);
   property.name = words[type + 1];
   if (property.datatype == 0)
-    throwInLine("the property '" + property.name + "' has the type '" +
-                std::string(words[type]) + "', which PLY does not have");
+    throwInLine("the property " + quoteText(property.name) + " has the type " +
+                quoteText(words[type]) + ", which PLY does not have");
   header_.elements.back().properties.push_back(property);
 }
 
@@ -167,7 +168,7 @@ throwTruncated(const std::string& path, const Element& element)
   throwUnreadable(path,
                   "it is truncated or damaged: its header promises " +
                       std::to_string(element.count) + " of the element " +
-                      element.name + ", but the file ends before");
+                      quoteText(element.name) + ", but the file ends before");
 }
 
 /** Before any memory is taken: do that many bytes follow at all? */
@@ -243,7 +244,8 @@ BinaryElement::skip(const Property& property)
     take(property.length_type, bytes);
     length = FieldComponent{0, property.length_type}.read(bytes);
     if (length < 0)
-      throwUnreadable(path_, "a list '" + property.name + "' has a negative length");
+      throwUnreadable(path_,
+                      "a list " + quoteText(property.name) + " has a negative length");
   }
   skip(static_cast<std::uint64_t>(length) * datatypeSize(property.datatype));
 }
@@ -332,14 +334,14 @@ AsciiSource::readRecord(std::uint8_t* record)
     std::uint64_t length = 0;
     if (property.length_type) {
       if (!parseCount(text, length) || length > words_.size() - word)
-        throwInLine("'" + std::string(text) + "' is no length of the list '" +
-                    property.name + "'");
+        throwInLine(quoteText(text) + " is no length of the list " +
+                    quoteText(property.name));
       word += length;
       continue;
     }
     if (!parseNumber(text, property.datatype, record))
-      throwInLine("'" + std::string(text) + "' is no number for the property " +
-                  property.name + " (" + plyTypeName(property.datatype) + ")");
+      throwInLine(quoteText(text) + " is no number for the property " + property.name +
+                  " (" + plyTypeName(property.datatype) + ")");
     record += datatypeSize(property.datatype);
   }
   if (word != words_.size())
@@ -369,6 +371,110 @@ skipElement(const std::string& path,
   }
 }
 
+/** Takes the corners of faces as fans of triangles. */
+class FaceReader {
+public:
+  /** \param vertices how many there are */
+  FaceReader(const std::string& path,
+             FileCursor& cursor,
+             const Element& face,
+             Format format,
+             std::uint64_t vertices)
+      : path_(path)
+      , cursor_(cursor)
+      , face_(face)
+      , is_text_(format == Format::Ascii)
+      , vertices_(static_cast<double>(vertices))
+      , binary_(path, cursor, face, format == Format::BigEndian)
+  {
+  }
+
+  std::vector<Triangle>
+  read()
+  {
+    for (std::uint64_t i = 0; i < face_.count; ++i) {
+      if (is_text_ && !cursor_.nextWords(words_))
+        throwTruncated(path_, face_);
+      word_ = 0;
+      for (const Property& property : face_.properties)
+        takeProperty(property);
+    }
+    return std::move(triangles_);
+  }
+
+private:
+  void
+  takeProperty(const Property& property);
+  double
+  takeNumber(std::uint8_t datatype);
+
+  const std::string& path_;
+  FileCursor& cursor_;
+  const Element& face_;
+  const bool is_text_;
+  const double vertices_;
+  BinaryElement binary_;
+  Words words_;
+  std::size_t word_ = 0;
+  std::vector<Triangle> triangles_;
+};
+
+double
+FaceReader::takeNumber(std::uint8_t datatype)
+{
+  std::uint8_t bytes[8];
+  if (!is_text_)
+    binary_.take(datatype, bytes);
+  else if (word_ == words_.size())
+    throwUnreadable(path_, cursor_.tell().line, "there are too few numbers");
+  else if (!parseNumber(words_[word_++], datatype, bytes))
+    throwUnreadable(path_,
+                    cursor_.tell().line,
+                    quoteText(words_[word_ - 1]) + " is no number for a face");
+  return FieldComponent{0, datatype}.read(bytes);
+}
+
+void
+FaceReader::takeProperty(const Property& property)
+{
+  const double length = property.length_type ? takeNumber(property.length_type) : 1.0;
+  const bool corners = property.length_type && (property.name == "vertex_indices" ||
+                                                property.name == "vertex_index");
+  Triangle triangle{};
+  for (double k = 0.0; k < length; ++k) {
+    const double number = takeNumber(property.datatype);
+    if (!corners)
+      continue;
+    if (!(number >= 0.0 && number < vertices_))
+      throwUnreadable(path_, "a face names a vertex that is not there");
+    triangle[1] = triangle[2];
+    triangle[2] = static_cast<std::uint32_t>(number);
+    if (k == 0.0)
+      triangle[0] = triangle[2];
+    if (k >= 2.0)
+      triangles_.push_back(triangle);
+  }
+}
+
+/** Reads the header and goes in front of the first element of that name.
+ * \return null if there is none */
+const Element*
+findElement(const std::string& path,
+            FileCursor& cursor,
+            const std::string& name,
+            Header& header)
+{
+  header = HeaderParser(path, cursor).parse();
+  for (const Element& element : header.elements) {
+    if (element.name == name) {
+      checkCount(path, element, header.format, cursor.left());
+      return &element;
+    }
+    skipElement(path, cursor, element, header.format);
+  }
+  return nullptr;
+}
+
 RecordInfo
 infoOf(const std::string& path, const Element& vertex)
 {
@@ -378,8 +484,8 @@ infoOf(const std::string& path, const Element& vertex)
     if (property.length_type == 0)
       appendField(info.fields, property.name, property.datatype);
     else
-      info.notes.push_back("The list property '" + property.name +
-                           "' of the vertices is left out.");
+      info.notes.push_back("The list property " + quoteText(property.name) +
+                           " of the vertices is left out.");
   if (info.fields.empty())
     throwUnreadable(path, "its vertices have no coordinates");
   renameFields(info.fields, ply_normals, cloud_normals);
@@ -392,17 +498,13 @@ std::unique_ptr<RecordSource>
 openPly(const std::string& path)
 {
   auto cursor = std::make_unique<FileCursor>(path);
-  const auto [format, elements] = HeaderParser(path, *cursor).parse();
-  const auto is_vertex = [](const Element& e) { return e.name == "vertex"; };
-  const auto vertex = std::find_if(elements.begin(), elements.end(), is_vertex);
-  if (vertex == elements.end())
+  Header header;
+  const Element* const vertex = findElement(path, *cursor, "vertex", header);
+  if (!vertex)
     throwUnreadable(path, "it has no element 'vertex'");
-  for (auto element = elements.begin(); element != vertex; ++element)
-    skipElement(path, *cursor, *element, format);
-  checkCount(path, *vertex, format, cursor->left());
   RecordInfo info = infoOf(path, *vertex);
-  const bool swapped = format == Format::BigEndian;
-  if (format == Format::Ascii)
+  const bool swapped = header.format == Format::BigEndian;
+  if (header.format == Format::Ascii)
     return std::make_unique<AsciiSource>(
         path, std::move(cursor), std::move(info), *vertex);
   if (vertex->hasLists())
@@ -416,6 +518,17 @@ Dataset
 readPly(const std::string& path)
 {
   return readWhole(openPly(path));
+}
+
+std::vector<Triangle>
+readPlyTriangles(const std::string& path, std::uint64_t vertices)
+{
+  FileCursor cursor(path);
+  Header header;
+  const Element* const face = findElement(path, cursor, "face", header);
+  if (!face)
+    return {};
+  return FaceReader(path, cursor, *face, header.format, vertices).read();
 }
 
 } // namespace io

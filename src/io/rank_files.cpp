@@ -267,6 +267,24 @@ pieceName(const std::string& path, std::size_t rank)
   return name.string() + '_' + std::to_string(rank) + ".vtp";
 }
 
+/** Pieces that a list names, and that fewer processes do not write again. */
+std::vector<std::string>
+findOldPieces(const std::string& path, std::size_t ranks)
+{
+  std::vector<std::string> old;
+  try {
+    const std::vector<std::string> listed = io::readPieceList(path);
+    for (std::size_t rank = ranks; rank < listed.size(); ++rank)
+      if (const std::string piece = pieceName(path, rank);
+          std::find(listed.begin(), listed.end(), piece) != listed.end())
+        old.push_back(piece);
+  }
+  catch (const IOError&) {
+    // There is no list, or it is none of ours.
+  }
+  return old;
+}
+
 } // namespace
 
 std::vector<std::string>
@@ -309,12 +327,19 @@ checkSavePieces(const std::string& path)
   io::checkWritable(path);
 }
 
+std::vector<std::string>
+listPieces(const std::string& path, std::size_t ranks)
+{
+  std::vector<std::string> pieces;
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    pieces.push_back(pieceName(path, rank));
+  return pieces;
+}
+
 void
 savePieces(const std::string& path, const Dataset& part, Communicator& communicator)
 {
-  std::vector<std::string> pieces;
-  for (std::size_t rank = 0; rank < communicator.size(); ++rank)
-    pieces.push_back(pieceName(path, rank));
+  const std::vector<std::string> pieces = listPieces(path, communicator.size());
   const std::string& own = pieces[communicator.rank()];
   bool is_there = false;
   try {
@@ -324,10 +349,14 @@ savePieces(const std::string& path, const Dataset& part, Communicator& communica
     });
     is_there = true;
     communicator.barrier();
-    if (communicator.rank() == 0)
+    if (communicator.rank() == 0) {
+      const std::vector<std::string> old = findOldPieces(path, communicator.size());
       writeAtomically(path, [&](const std::string& file) {
         io::writePieceList(file, path, part, pieces);
       });
+      for (const std::string& piece : old)
+        ::unlink(piece.c_str());
+    }
     communicator.barrier();
   }
   catch (...) {

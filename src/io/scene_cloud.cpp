@@ -2,6 +2,7 @@
 #include "scene_cloud.h"
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/render/point_colors.h>
 
@@ -39,7 +40,7 @@ coverPoints(const CloudItem& item,
     return findSplats(view, item.parameters, item.has_parameters, threads, report);
   });
   if (splats.cloud.empty())
-    throwAt(item.place, "none of the splats in " + shown(item.name) + " is usable");
+    throwAt(item.place, "none of the splats in " + quoteText(item.name) + " is usable");
   return splats;
 }
 
@@ -121,7 +122,7 @@ placeSplats(const CloudItem& item,
     const double side = cloud.box.sizes().maxCoeff();
     if (!(side > 0.0))
       throwAt(item.place,
-              "all points of " + shown(item.name) +
+              "all points of " + quoteText(item.name) +
                   " lie at one place, which cannot be fitted to a size");
     scale = placement.fit_size / side;
     from = -cloud.box.center();
@@ -138,11 +139,11 @@ placeSplats(const CloudItem& item,
     splat.getTangentVector3fMap() = turned(splat.getTangentVector3fMap());
     splat.radius = static_cast<float>(scale * splat.radius);
     splat.error = static_cast<float>(scale * splat.error);
-    if (!splat.getVector3fMap().allFinite() || !std::isfinite(splat.radius) ||
-        !(splat.radius > 0.0f))
-      throwAt(item.place,
-              "a splat of " + shown(item.name) +
-                  " becomes larger or smaller than float can hold");
+    if (!isDrawable(splat))
+      throwAt(
+          item.place,
+          "a splat of " + quoteText(item.name) +
+              " becomes larger or smaller than float can hold, or goes beyond 1e18");
   }
 }
 

@@ -4,6 +4,7 @@
 #include "scene_cloud.h"
 #include "scene_words.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/io/scene_file.h>
 
 #include <Eigen/Geometry>
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 using io::CloudItem;
 using io::SceneItem;
 using io::ScenePlace;
-using io::shown;
 
 constexpr double radians_per_degree = 3.14159265358979323846 / 180.0;
 
@@ -125,6 +125,7 @@ private:
 
   const std::string folder_;
   std::vector<std::string> files_; ///< each included by the one before
+  std::size_t included_ = 0;       ///< in all
   SceneFile scene_;                ///< in the coordinates of the files
   std::vector<CloudItem> clouds_;
   std::map<std::string, std::pair<RayMaterial, ScenePlace>> materials_;
@@ -176,7 +177,7 @@ SceneReader::readItem(SceneItem& item)
     (this->*kind.read)(item);
     return;
   }
-  item.fail("unknown word " + shown(name) + "; items are " + io::listOf(names));
+  item.fail("unknown word " + quoteText(name) + "; items are " + io::listOf(names));
 }
 
 void
@@ -234,7 +235,7 @@ SceneReader::readShadows(SceneItem& item)
 {
   const std::string state = item.word("on or off");
   if (state != "on" && state != "off")
-    item.fail(shown(state) + " is neither on nor off");
+    item.fail(quoteText(state) + " is neither on nor off");
   item.finish();
   scene_.settings.shadows = state == "on";
 }
@@ -255,7 +256,7 @@ SceneReader::readLight(SceneItem& item)
   const std::string kind = item.word("point, directional or camera");
   Light light;
   if (kind != "point" && kind != "directional" && kind != "camera")
-    item.fail("unknown word " + shown(kind) +
+    item.fail("unknown word " + quoteText(kind) +
               "; lights are point, directional and camera");
   light.kind = kind == "point" ? Light::Kind::Point : Light::Kind::Directional;
   light.follows_camera = kind == "camera";
@@ -274,7 +275,7 @@ SceneReader::readMaterial(SceneItem& item)
   const std::string name = item.word("the name of a material");
   const ScenePlace place = item.place();
   if (const auto before = materials_.find(name); before != materials_.end())
-    item.fail("the material " + shown(name) + " is defined already, at " +
+    item.fail("the material " + quoteText(name) + " is defined already, at " +
               before->second.second.text());
   RayMaterial made;
   const auto factor = [&item](double& target) {
@@ -294,7 +295,7 @@ SceneReader::readMaterial(SceneItem& item)
        {"index n", [&] { made.refractive_index = item.number(io::positive); }}});
   if (made.reflectivity + made.transparency > 1.0)
     io::throwAt(place,
-                "the material " + shown(name) +
+                "the material " + quoteText(name) +
                     " reflects and lets through more than all light: reflect and "
                     "transparent are 1 together at most");
   materials_[name] = {made, place};
@@ -309,7 +310,7 @@ SceneReader::takeMaterial(SceneItem& item) const
   std::vector<std::string> names;
   for (const auto& known : materials_)
     names.push_back(known.first);
-  item.fail("unknown material " + shown(name) +
+  item.fail("unknown material " + quoteText(name) +
             (names.empty() ? "; none is defined in front of this line"
                            : "; known ones are " + io::listOf(names)));
 }
@@ -420,6 +421,11 @@ SceneReader::readInclude(SceneItem& item)
   const ScenePlace place = item.place();
   item.finish();
   const std::string text = io::callAt(place, [&] { return readText(path); });
+  constexpr std::size_t most_included = 1000;
+  if (++included_ > most_included)
+    io::throwAt(place,
+                "more than " + std::to_string(most_included) +
+                    " files are included, many of them again and again");
   const auto same = std::find_if(files_.begin(), files_.end(), [&](const auto& file) {
     std::error_code ignored;
     return fs::equivalent(file, path, ignored);

@@ -2,6 +2,7 @@
 #include "scene_words.h"
 
 #include "numbers.h"
+#include <pcl_uvol/common/printable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@
 namespace pcl_uvol {
 namespace io {
 namespace {
-
-/** Characters of a word that a message shows. */
-constexpr std::size_t longest_shown = 40;
 
 /** Characters of a line: names of files are the longest words there are. */
 constexpr std::size_t longest_line = 10000;
@@ -35,17 +33,6 @@ throwAt(const ScenePlace& place, const std::string& reason)
 {
   const bool has_dot = !reason.empty() && reason.back() == '.';
   throw IOError(place.text() + ": " + reason + (has_dot ? "" : "."));
-}
-
-std::string
-shown(const std::string& word)
-{
-  if (word.size() <= longest_shown)
-    return "'" + word + "'";
-  std::size_t end = longest_shown;
-  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0) == 0x80)
-    --end; // not in the middle of a character of UTF-8
-  return "'" + word.substr(0, end) + "...'";
 }
 
 std::string
@@ -135,9 +122,10 @@ SceneItem::number(const NumberRange& range)
   const bool is_inside = range.has_ends ? value >= range.low && value <= range.high
                                         : value > range.low && value < range.high;
   if (!is_number || !is_inside)
-    fail(shown(text) + " is not " + range.text + "; write '" + form_ + "'");
+    fail(quoteText(text) + " is not " + range.text + "; write '" + form_ + "'");
   if (std::abs(value) > largest_number)
-    fail(shown(text) + " is farther from 0 than 1e30, the largest number of a scene");
+    fail(quoteText(text) +
+         " is farther from 0 than 1e30, the largest number of a scene");
   return value;
 }
 
@@ -150,7 +138,7 @@ SceneItem::whole(int low, int high)
   std::uint64_t value = 0;
   if (!parseCount(text, value) || value < static_cast<std::uint64_t>(low) ||
       value > static_cast<std::uint64_t>(high))
-    fail(shown(text) + " is not " + what + "; write '" + form_ + "'");
+    fail(quoteText(text) + " is not " + what + "; write '" + form_ + "'");
   return static_cast<int>(value);
 }
 
@@ -197,7 +185,7 @@ SceneItem::options(const std::vector<Option>& known,
       std::vector<std::string> forms;
       for (const Option& other : known)
         forms.push_back(other.form);
-      fail("unknown word " + shown(name) + "; options of " + item + " are " +
+      fail("unknown word " + quoteText(name) + "; options of " + item + " are " +
            listOf(forms));
     }
     if (hasOption(name))
@@ -224,7 +212,7 @@ SceneItem::finish()
   if (atEnd())
     return;
   const std::string& text = words_[taken_++].text;
-  fail("unexpected word " + shown(text) + "; write '" + form_ + "'");
+  fail("unexpected word " + quoteText(text) + "; write '" + form_ + "'");
 }
 
 } // namespace io

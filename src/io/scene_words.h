@@ -45,10 +45,6 @@ callAt(const ScenePlace& place, Function&& function)
   }
 }
 
-/** \brief A word for a message: in quotes, and not longer than a message can bear. */
-std::string
-shown(const std::string& word);
-
 /** \brief What a number may be. */
 struct NumberRange {
   double low, high;

@@ -3,18 +3,24 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/table_file.h>
 
+#include <algorithm>
+#include <cstring>
+
 namespace pcl_uvol {
 
 std::string
 quotedCell(const std::string& name)
 {
-  if (name.find_first_of(",;\"\t\r\n#") == std::string::npos)
+  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+    return (c >= '\0' && c < ' ') || std::strchr(",;\"#", c) != nullptr;
+  });
+  if (plain)
     return name;
   std::string text = "\"";
   for (const char c : name) {
     if (c == '"')
       text += '"';
-    text += c == '\n' || c == '\r' ? ' ' : c;
+    text += c == '\n' || c == '\r' || c == '\0' ? ' ' : c; // lines and texts end there
   }
   return text + '"';
 }

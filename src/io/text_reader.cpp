@@ -5,6 +5,7 @@
 #include "numbers.h"
 #include "record_source.h"
 #include "text_rows.h"
+#include <pcl_uvol/common/printable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,20 +166,31 @@ TextTable::startColumns(std::string_view header, std::size_t line)
   std::vector<std::string> names;
   for (const std::string_view cell : cells) {
     std::string name(trimmed(cell));
-    for (std::size_t at = 0; (at = name.find("\"\"", at)) != std::string::npos; ++at)
-      name.erase(at, 1);
+    std::size_t kept = 0; // of two quotes one
+    for (std::size_t at = 0; at < name.size(); ++at) {
+      name[kept++] = name[at];
+      at += name.compare(at, 2, "\"\"") == 0;
+    }
+    name.resize(kept);
     if (name.empty())
       name = "column_" + std::to_string(names.size());
     names.push_back(name);
   }
   const std::vector<std::string> originals = names;
   makeUnique(names);
+  constexpr std::size_t most_notes = 10;
+  std::size_t renamed = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] != originals[i])
-      notes_.push_back("Line " + std::to_string(line) + " names '" + originals[i] +
-                       "' again: that column is called '" + names[i] + "'.");
+      if (++renamed <= most_notes)
+        notes_.push_back("Line " + std::to_string(line) + " names " +
+                         quoteText(originals[i]) + " again: that column is called " +
+                         quoteText(names[i]) + ".");
     appendColumn(names[i]);
   }
+  if (renamed > most_notes)
+    notes_.push_back(std::to_string(renamed - most_notes) +
+                     " more columns are told apart in the same way.");
 }
 
 void
@@ -284,8 +296,9 @@ TextTable::findCoordinates()
                         " columns, and coordinates need three; are they separated by "
                         "comma, semicolon, tab or blanks?");
   notes_.push_back("The header names no x, y, z: the first three columns (" +
-                   columns_[0].name + ", " + columns_[1].name + ", " +
-                   columns_[2].name + ") are the coordinates.");
+                   shortenText(columns_[0].name) + ", " +
+                   shortenText(columns_[1].name) + ", " +
+                   shortenText(columns_[2].name) + ") are the coordinates.");
   return found;
 }
 
@@ -386,16 +399,16 @@ TextTable::describe()
     if (column.texts > 0 && !names)
       throwUnreadable(path_,
                       column.first_text_line,
-                      "'" + column.first_text + "' in column '" + column.name +
-                          "' is no number");
+                      quoteText(column.first_text) + " in column " +
+                          quoteText(column.name) + " is no number");
     if (names) {
-      info.notes.push_back("The column '" + column.name +
-                           "' holds names, not numbers, and is left out.");
+      info.notes.push_back("The column " + quoteText(column.name) +
+                           " holds names, not numbers, and is left out.");
       continue;
     }
     if (column.inexact)
-      info.notes.push_back("The column '" + column.name +
-                           "' holds integers beyond 2^53, which lose digits.");
+      info.notes.push_back("The column " + quoteText(column.name) +
+                           " holds integers beyond 2^53, which lose digits.");
     appendField(info.fields,
                 column.name,
                 coordinate ? std::uint8_t{Type::FLOAT64} : datatypeOf(column));

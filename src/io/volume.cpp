@@ -1,50 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volumes by Teem and VTK, turned so that all axes ascend.
+// Volumes, turned so that all axes ascend.
 #include "files.h"
-#include "vtk_messages.h"
+#include "volume_data.h"
+#include "vtk_readers.h"
 #include <pcl_uvol/io/volume.h>
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMetaImageReader.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkStructuredPoints.h>
-#include <vtkStructuredPointsReader.h>
-#include <vtkXMLImageDataReader.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
-#include <memory>
-#include <sstream>
-#include <teem/nrrd.h>
 
 namespace pcl_uvol {
 
 namespace {
-
-constexpr double oblique = 1e-6; // tangent of the angle up to which axes are parallel
-
-std::string
-endingOf(const std::string& path)
-{
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
-  return ending;
-}
-
-[[noreturn]] void
-throwOblique(const std::string& path)
-{
-  io::throwUnreadable(path,
-                      "its axes are not parallel to x, y and z in this order, resample "
-                      "it to such axes first");
-}
 
 /** Let axes of negative spacing run the other way. */
 void
@@ -67,80 +38,6 @@ makeAscending(const std::string& path, Volume& volume)
   }
 }
 
-/** Teem's last error without its trace, which is one line per function. */
-std::string
-teemError()
-{
-  const std::unique_ptr<char, decltype(&std::free)> trace(biffGetDone(NRRD),
-                                                          &std::free);
-  std::string text = trace ? trace.get() : "";
-  while (!text.empty() && text.back() == '\n')
-    text.pop_back();
-  const std::size_t line = text.rfind('\n');
-  return line == std::string::npos ? text : text.substr(line + 1);
-}
-
-Volume
-readNrrd(const std::string& path)
-{
-  const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);
-  nrrdStateVerboseIO = 0;
-  if (nrrdLoad(nrrd.get(), path.c_str(), nullptr) != 0)
-    io::throwUnreadable(path, "Teem says: " + teemError());
-  if (nrrd->dim != 3 || nrrd->type == nrrdTypeBlock)
-    io::throwUnreadable(path, "it is not a volume of one number per point in 3-D");
-  Volume volume;
-  const bool in_space = nrrd->spaceDim == 3;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    volume.dims[axis] = nrrd->axis[axis].size;
-    if (const double spacing = nrrd->axis[axis].spacing; std::isfinite(spacing))
-      volume.spacing[axis] = spacing;
-    const double* const direction = nrrd->axis[axis].spaceDirection;
-    if (in_space && std::isfinite(direction[axis])) {
-      for (unsigned other = 0; other < 3; ++other)
-        if (other != axis &&
-            !(std::abs(direction[other]) <= oblique * std::abs(direction[axis])))
-          throwOblique(path);
-      volume.spacing[axis] = direction[axis];
-    }
-    if (in_space && std::isfinite(nrrd->spaceOrigin[axis]))
-      volume.origin[axis] = nrrd->spaceOrigin[axis];
-  }
-  volume.values.resize(nrrdElementNumber(nrrd.get()));
-  const auto lookup = nrrdDLookup[nrrd->type];
-  for (std::size_t i = 0; i < volume.values.size(); ++i)
-    volume.values[i] = static_cast<float>(lookup(nrrd->data, i));
-  return volume;
-}
-
-/** Keeps what is written to std::cerr: MetaIO tells of truncated data there only. */
-class ErrorStream {
-public:
-  ErrorStream()
-      : previous_(std::cerr.rdbuf(text_.rdbuf()))
-  {
-  }
-  ErrorStream(const ErrorStream&) = delete;
-  ErrorStream&
-  operator=(const ErrorStream&) = delete;
-  ~ErrorStream()
-  {
-    std::cerr.rdbuf(previous_);
-  }
-
-  /** The first line; empty if there was none. */
-  std::string
-  getLine() const
-  {
-    const std::string text = text_.str();
-    return text.substr(0, text.find_first_of("\r\n"));
-  }
-
-private:
-  std::ostringstream text_;
-  std::streambuf* previous_;
-};
-
 Volume
 volumeOf(const std::string& path, vtkImageData& image)
 {
@@ -152,7 +49,7 @@ volumeOf(const std::string& path, vtkImageData& image)
       scalars->GetNumberOfTuples() != image.GetNumberOfPoints())
     io::throwUnreadable(path, "it holds no volume of one number per point");
   if (!image.GetDirectionMatrix()->IsIdentity())
-    throwOblique(path);
+    io::throwOblique(path);
   Volume volume;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
@@ -165,56 +62,39 @@ volumeOf(const std::string& path, vtkImageData& image)
   for (std::size_t i = 0; i < volume.values.size(); ++i)
     volume.values[i] =
         static_cast<float>(scalars->GetTuple1(static_cast<vtkIdType>(i)));
-  // The name that VTK gives to the scalars of a MetaImage says nothing.
-  if (scalars->GetName() != nullptr && std::string(scalars->GetName()) != "MetaImage")
+  if (scalars->GetName() != nullptr)
     volume.name = scalars->GetName();
   return volume;
-}
-
-template <typename Reader>
-Volume
-readByVtk(const std::string& path)
-{
-  const io::VtkMessages messages;
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  std::string complaint;
-  {
-    const ErrorStream errors;
-    reader->Update();
-    complaint = errors.getLine();
-  }
-  if (!complaint.empty())
-    io::throwUnreadable(path, "MetaIO says: " + complaint);
-  if (!messages.getError().empty())
-    io::throwUnreadable(path, "VTK says: " + messages.getError());
-  if (reader->GetErrorCode() != 0)
-    io::throwUnreadable(path, "VTK cannot make sense of it");
-  return volumeOf(path, *reader->GetOutput());
 }
 
 Volume
 readVolume(const std::string& path, const std::string& ending)
 {
   if (ending == ".nrrd" || ending == ".nhdr")
-    return readNrrd(path);
-  if (ending == ".vti")
-    return readByVtk<vtkXMLImageDataReader>(path);
+    return io::readNrrd(path);
   if (ending == ".mha" || ending == ".mhd")
-    return readByVtk<vtkMetaImageReader>(path);
-  if (ending == ".vtk")
-    return readByVtk<vtkStructuredPointsReader>(path);
-  io::throwUnreadable(path,
-                      "volumes are read from .nrrd, .nhdr, .vti, .mha, .mhd and .vtk");
+    return io::readMetaImage(path);
+  if (ending != ".vti" && ending != ".vtk")
+    io::throwUnreadable(
+        path, "volumes are read from .nrrd, .nhdr, .vti, .mha, .mhd and .vtk");
+  const auto content =
+      ending == ".vti" ? io::readVtkXml(path) : io::readVtkLegacy(path);
+  auto* const image = vtkImageData::SafeDownCast(content.data);
+  if (!image)
+    io::throwUnreadable(path, "it holds no volume but points");
+  return volumeOf(path, *image);
 }
 
-/** The header of a legacy VTK file names the kind of its data in one of five lines. */
 bool
 isStructuredPoints(const std::string& path)
 {
-  constexpr std::uint64_t header_bytes = 1024; // a title has at most 256
-  return io::InputFile(path).head(header_bytes).find("STRUCTURED_POINTS") !=
-         std::string::npos;
+  try {
+    return io::findLegacyKind(path) == "structured_points";
+  }
+  catch (const IOError&) {
+    const io::InputFile exists(path);
+    return false; // what is wrong with it, reading says
+  }
 }
 
 } // namespace
@@ -257,7 +137,7 @@ Volume::upper() const
 bool
 isVolumeFile(const std::string& path)
 {
-  const std::string ending = endingOf(path);
+  const std::string ending = io::endingOf(path);
   return ending == ".nrrd" || ending == ".nhdr" || ending == ".vti" ||
          ending == ".mha" || ending == ".mhd" ||
          (ending == ".vtk" && isStructuredPoints(path));
@@ -269,9 +149,11 @@ loadVolume(const std::string& path)
   { // missing, empty or a directory: said in our words
     const io::InputFile exists(path);
   }
-  Volume volume = readVolume(path, endingOf(path));
-  makeAscending(path, volume);
-  return volume;
+  return io::reading(path, [&] {
+    Volume volume = readVolume(path, io::endingOf(path));
+    makeAscending(path, volume);
+    return volume;
+  });
 }
 
 } // namespace pcl_uvol

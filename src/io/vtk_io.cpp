@@ -1,96 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points with their point data by VTK's readers and writers.
+// Points with their point data in VTK's files.
 #include "files.h"
 #include "formats.h"
 #include "vtk_messages.h"
+#include "vtk_readers.h"
+#include "xml_scanner.h"
+#include <pcl_uvol/common/printable.h>
+#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/filters/point_data.h>
 
-#include <vtkDataReader.h>
-#include <vtkDataSet.h>
-#include <vtkGenericDataObjectReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLDataElement.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLStructuredGridReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
-#include <vtkXMLUtilities.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
-#include <type_traits>
 
 namespace pcl_uvol {
 namespace io {
 namespace {
-
-template <typename Reader>
-vtkSmartPointer<vtkDataObject>
-readBy(const std::string& path)
-{
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  if constexpr (std::is_base_of_v<vtkDataReader, Reader>) {
-    // Legacy files: without these the reader takes the first array of each kind only.
-    reader->ReadAllScalarsOn();
-    reader->ReadAllVectorsOn();
-    reader->ReadAllNormalsOn();
-    reader->ReadAllTensorsOn();
-    reader->ReadAllTCoordsOn();
-    reader->ReadAllColorScalarsOn();
-    reader->ReadAllFieldsOn();
-  }
-  reader->Update();
-  if (reader->GetErrorCode() != 0)
-    return nullptr;
-  return reader->GetOutputDataObject(0);
-}
-
-/** VTK does not miss the end of a truncated file if it had found the points before. */
-void
-checkEnd(const InputFile& file, const std::string& path)
-{
-  const std::uint64_t size = std::min<std::uint64_t>(file.getSize(), 256);
-  std::string end(size, '\0');
-  file.read(file.getSize() - size, end.data(), end.size());
-  if (end.find("</VTKFile>") == std::string::npos)
-    throwUnreadable(path,
-                    "it is truncated or no VTK file: it does not end with </VTKFile>");
-}
-
-vtkSmartPointer<vtkDataSet>
-readPoints(const std::string& path, const std::string& ending)
-{
-  const InputFile file(path);
-  if (ending != ".vtk")
-    checkEnd(file, path);
-  vtkSmartPointer<vtkDataObject> object;
-  std::string error;
-  {
-    const VtkMessages messages;
-    if (ending == ".vtp")
-      object = readBy<vtkXMLPolyDataReader>(path);
-    else if (ending == ".vtu")
-      object = readBy<vtkXMLUnstructuredGridReader>(path);
-    else if (ending == ".vts")
-      object = readBy<vtkXMLStructuredGridReader>(path);
-    else
-      object = readBy<vtkGenericDataObjectReader>(path);
-    error = messages.getError();
-  }
-  if (!error.empty())
-    throwUnreadable(path, "VTK says: " + error);
-  if (!object)
-    throwUnreadable(path, "VTK cannot make sense of it");
-  auto* const points = vtkDataSet::SafeDownCast(object);
-  if (!points)
-    throwUnreadable(path,
-                    "it holds no points but " + std::string(object->GetClassName()));
-  return points;
-}
 
 /** "Float32", as VTK's XML files call it. */
 std::string
@@ -126,35 +55,77 @@ addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
   element->SetIntAttribute("NumberOfComponents", array.GetNumberOfComponents());
 }
 
+/** A text as the value of an attribute, which VTK writes as it is. Bytes that are no
+ * UTF-8 are taken for Latin-1; control characters, which XML cannot hold, become '_'.
+ */
+std::string
+attributeOf(const std::string& text)
+{
+  std::string value;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t bytes = 1;
+    while (bytes < 4 && !isPrintable(std::string_view(text).substr(at, bytes)))
+      ++bytes;
+    const char c = text[at];
+    const auto byte = static_cast<unsigned char>(c);
+    if (!isPrintable(std::string_view(text).substr(at, bytes))) {
+      bytes = 1;
+      if (byte >= 0xa0)
+        value += {static_cast<char>(0xc0 | byte >> 6),
+                  static_cast<char>(0x80 | (byte & 0x3f))};
+      else
+        value += '_';
+    }
+    else if (c == '&')
+      value += "&amp;";
+    else if (c == '<')
+      value += "&lt;";
+    else if (c == '>')
+      value += "&gt;";
+    else if (c == '"')
+      value += "&quot;";
+    else
+      value += text.substr(at, bytes);
+    at += bytes;
+  }
+  return value;
+}
+
+/** A cloud as VTK data with names as XML has them, each of them once. */
+vtkSmartPointer<vtkPolyData>
+makeWritable(const Dataset& dataset)
+{
+  auto data = fromPointCloud(dataset);
+  auto* const arrays = data->GetPointData();
+  std::vector<std::string> names;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    names.push_back(attributeOf(arrays->GetArrayName(i)));
+  makeUnique(names);
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    arrays->GetArray(i)->SetName(names[static_cast<std::size_t>(i)].c_str());
+  return data;
+}
+
 } // namespace
 
 std::vector<std::string>
 readPieceList(const std::string& path)
 {
-  const InputFile file(path);
-  const auto throwNoList = [&] {
-    throwUnreadable(path, "it is truncated or no list of pieces of polygonal data");
-  };
-  vtkSmartPointer<vtkXMLDataElement> root;
-  {
-    const VtkMessages messages;
-    std::istringstream text(file.head(file.getSize()));
-    root.TakeReference(vtkXMLUtilities::ReadElementFromStream(text));
-  }
-  vtkXMLDataElement* const list =
-      root ? root->FindNestedElementWithName("PPolyData") : nullptr;
-  if (list == nullptr)
-    throwNoList();
+  XmlScanner scanner(path);
+  XmlTag tag;
   std::vector<std::string> pieces;
-  for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
-    vtkXMLDataElement* const element = list->GetNestedElement(i);
-    if (std::string(element->GetName()) != "Piece")
+  bool is_list = false;
+  while (scanner.next(tag)) {
+    is_list = is_list || tag.name == "PPolyData";
+    if (!is_list || tag.closes || tag.name != "Piece")
       continue;
-    const char* const source = element->GetAttribute("Source");
-    if (source == nullptr)
-      throwNoList();
-    pieces.push_back((std::filesystem::path(path).parent_path() / source).string());
+    const std::string* const source = tag.find("Source");
+    if (!source)
+      throwUnreadable(path, "it is no list of pieces: one of them has no Source");
+    pieces.push_back((std::filesystem::path(path).parent_path() / *source).string());
   }
+  if (!is_list || !scanner.getOpen().empty())
+    throwUnreadable(path, "it is truncated or no list of pieces of polygonal data");
   if (pieces.empty())
     throwUnreadable(path, "it lists no pieces");
   return pieces;
@@ -166,7 +137,7 @@ writePieceList(const std::string& file,
                const Dataset& dataset,
                const std::vector<std::string>& pieces)
 {
-  const auto data = fromPointCloud(dataset);
+  const auto data = makeWritable(dataset);
   const auto root = addElement("VTKFile", nullptr);
   root->SetAttribute("type", "PPolyData");
   root->SetAttribute("version", "1.0");
@@ -182,8 +153,9 @@ writePieceList(const std::string& file,
   addArray(*data->GetPoints()->GetData(), "Points", addElement("PPoints", list));
   for (const std::string& piece : pieces)
     addElement("Piece", list)
-        ->SetAttribute("Source",
-                       std::filesystem::path(piece).filename().string().c_str());
+        ->SetAttribute(
+            "Source",
+            attributeOf(std::filesystem::path(piece).filename().string()).c_str());
   std::ofstream out(file);
   root->PrintXML(out, vtkIndent());
   if (!out.flush())
@@ -193,14 +165,17 @@ writePieceList(const std::string& file,
 Dataset
 readVtk(const std::string& path)
 {
-  const auto points = readPoints(path, endingOf(path));
-  return toPointCloud(points);
+  const auto content =
+      endingOf(path) == ".vtk" ? readVtkLegacy(path) : readVtkXml(path);
+  Dataset dataset = toPointCloud(content.data);
+  dataset.notes.insert(dataset.notes.end(), content.notes.begin(), content.notes.end());
+  return dataset;
 }
 
 void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset)
 {
-  const auto data = fromPointCloud(dataset);
+  const auto data = makeWritable(dataset);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writeXml(*writer, file, path);

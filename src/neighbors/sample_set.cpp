@@ -5,7 +5,6 @@
 #include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace pcl_uvol {

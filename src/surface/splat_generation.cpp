@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace pcl_uvol {
 
@@ -268,6 +269,18 @@ hasSplats(const CloudView& cloud)
   });
 }
 
+bool
+isDrawable(const PointSplat& splat)
+{
+  const auto is_within = [](float value) {
+    return std::abs(value) <= most_splat_reach;
+  };
+  return splat.getVector3fMap().unaryExpr(is_within).all() &&
+         splat.getNormalVector3fMap().allFinite() &&
+         !splat.getNormalVector3fMap().isZero(0.0f) && splat.radius > 0.0f &&
+         is_within(splat.radius);
+}
+
 Splats
 readSplats(const CloudView& cloud, Report& report)
 {
@@ -299,14 +312,22 @@ readSplats(const CloudView& cloud, Report& report)
             .stableNormalized();
     const bool is_finite = std::all_of(
         v.begin(), v.end(), [](float value) { return std::isfinite(value); });
-    if (!is_finite || !(splat.radius > 0.0f) || splat.getNormalVector3fMap().isZero() ||
-        splat.getTangentVector3fMap().isZero())
+    if (!is_finite || !isDrawable(splat) || splat.getTangentVector3fMap().isZero())
       continue;
     splats.cloud.push_back(splat);
     splats.sources.push_back(i);
   }
   report.count("splats", splats.cloud.size());
-  report.count("bad_splats", cloud.count - splats.cloud.size());
+  const std::size_t bad = cloud.count - splats.cloud.size();
+  report.count("bad_splats", bad);
+  if (bad > 0) {
+    std::ostringstream warning;
+    warning << bad << " of " << cloud.count
+            << " splats are left out: they are not finite, have no normal, tangent or "
+               "radius, or are larger or farther away than "
+            << most_splat_reach << '.';
+    report.warnings.push_back(warning.str());
+  }
   return splats;
 }
 

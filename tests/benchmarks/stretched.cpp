@@ -13,7 +13,7 @@
 
 namespace {
 
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 
 void
 printRow(const std::string& shape, double ratio, int side)

@@ -207,8 +207,9 @@ TEST(RankFiles, RefuseDamagedLists)
   });
   const std::string list = readFile(folder / "out.pvtp");
   const std::string bad = folder / "bad.pvtp";
-  for (const std::string& text : {list.substr(0, list.size() / 2),
-                                  std::string("no XML"),
+  writeFile(bad, list.substr(0, list.size() / 2));
+  expectComplaint("it is truncated", complaintOf({bad}, 1));
+  for (const std::string& text : {std::string("no XML"),
                                   std::string("<VTKFile type=\"PPolyData\"/>")}) {
     writeFile(bad, text);
     expectComplaint("no list of pieces", complaintOf({bad}, 1));

@@ -427,7 +427,7 @@ TEST(Strays, HarmNoStage)
   const auto view = pcl_uvol::viewOf(*cloud);
   Report report;
   const auto gradients =
-      pcl_uvol::estimateGradients(view, all, "intensity", {}, report);
+      pcl_uvol::detail::estimateGradients(view, all, {}, nullptr, 0, report);
   EXPECT_TRUE(std::isnan(gradients[7].gradient_x));
   EXPECT_EQ(2u, report.getCount("strays"));
   const auto level_set = evolveField(view, "intensity", radius);
@@ -586,8 +586,11 @@ TEST(Values, GradientsAndLevelSetsFollow)
   const auto evolve = [&](double offset) {
     const Dataset dataset = withDoubles(*cloud, [&](double f) { return f + offset; });
     Report report;
-    return pcl_uvol::evolveLevelSet(
-               pcl_uvol::viewOf(dataset.cloud), all, "f", radius + offset, {}, report)
+    pcl_uvol::LevelSetParameters parameters;
+    parameters.field = "f";
+    parameters.isovalue = radius + offset;
+    return pcl_uvol::detail::evolveLevelSet(
+               pcl_uvol::viewOf(dataset.cloud), all, parameters, 0, nullptr, 0, report)
         .phi;
   };
   const auto phi = evolve(0.0), far_phi = evolve(1e7);

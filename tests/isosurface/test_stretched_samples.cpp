@@ -17,7 +17,7 @@ namespace {
 
 using pcl_uvol::IsoSupport;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
-using Surface = pcl::PointCloud<PointIso>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
 using Extraction = pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI>;
 using uvol_test::makeStretchedSamples;
 using uvol_test::SmoothField;
@@ -58,7 +58,7 @@ partWith(IsoSupport support, const Surface& surface)
 {
   return static_cast<double>(std::count_if(surface.begin(),
                                            surface.end(),
-                                           [&](const PointIso& point) {
+                                           [&](const pcl_uvol::PointIso& point) {
                                              return point.support ==
                                                     static_cast<std::uint8_t>(support);
                                            })) /
@@ -142,7 +142,7 @@ TEST(StretchedSamples, HaveTheCurvatureOfTheSpace)
         cloud->push_back(point);
       }
   std::size_t measured = 0;
-  for (const PointIso& point : extract(cloud, radius))
+  for (const pcl_uvol::PointIso& point : extract(cloud, radius))
     if (point.support == static_cast<std::uint8_t>(IsoSupport::Measured)) {
       ++measured;
       // values are lower inside, which is outside therefore
@@ -160,7 +160,7 @@ TEST(StretchedSamples, GiveTheSameBytesOnAnyThreadsAndInAnyOrder)
     return other.size() == one.size() &&
            std::memcmp(other.points.data(),
                        one.points.data(),
-                       sizeof(PointIso) * one.size()) == 0;
+                       sizeof(pcl_uvol::PointIso) * one.size()) == 0;
   };
   EXPECT_TRUE(isSame(extract(cloud, field.isovalue, 3)));
   Cloud::Ptr shuffled(new Cloud(*cloud));

@@ -27,48 +27,61 @@ eighths(std::size_t count, std::uint64_t seed)
   return values;
 }
 
-TEST(NearestKernel, KeepsWhatLiesInAClosedBox)
+/** Squared distance of a position to a box; eighths are not rounded. */
+float
+sqGap(const float* position, const float* low, const float* high)
+{
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float gap =
+        std::max({low[axis] - position[axis], position[axis] - high[axis], 0.0f});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+TEST(NearestKernel, KeepsWhatLiesNearABoxItsFacesAndTheLimitIncluded)
 {
   constexpr std::uint32_t count = 103;
   const auto positions = eighths(3 * count, 1);
   const float low[3] = {0.125f, 0.25f, 0.0f}, high[3] = {0.75f, 0.875f, 0.625f};
-  for (const std::uint32_t begin : {0u, 5u, 90u})
-    for (const std::uint32_t end : {begin, begin + 1, begin + 13, count}) {
-      std::vector<std::uint32_t> expected;
-      for (std::uint32_t i = begin; i < end; ++i) {
-        bool is_inside = true;
-        for (std::uint32_t axis = 0; axis < 3; ++axis)
-          is_inside = is_inside && positions[3 * i + axis] >= low[axis] &&
-                      positions[3 * i + axis] <= high[axis];
-        if (is_inside)
-          expected.push_back(i);
-      }
-      uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
-        std::vector<float> x[3];
-        for (auto& coordinate : x)
-          coordinate.resize(count + kernel_room);
-        std::vector<std::uint32_t> indices(count + kernel_room);
-        const std::size_t kept =
-            kernel->keepInside(positions.data(),
+  for (const float sq_limit : {0.0f, 2.0f / 64.0f, 0.05f})
+    for (const std::uint32_t begin : {0u, 5u, 90u})
+      for (const std::uint32_t end : {begin, begin + 1, begin + 13, count}) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = begin; i < end; ++i)
+          if (sqGap(&positions[3 * i], low, high) <= sq_limit)
+            expected.push_back(i);
+        uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
+          std::vector<float> x[3];
+          for (auto& coordinate : x)
+            coordinate.resize(count + kernel_room);
+          std::vector<std::uint32_t> indices(count + kernel_room);
+          const std::size_t kept =
+              kernel->keepNear(positions.data(),
                                begin,
                                end,
                                low,
                                high,
+                               sq_limit,
                                {x[0].data(), x[1].data(), x[2].data(), indices.data()});
-        ASSERT_EQ(expected.size(), kept);
-        for (std::size_t i = 0; i < kept; ++i) {
-          EXPECT_EQ(expected[i], indices[i]);
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            EXPECT_EQ(positions[3 * expected[i] + axis], x[axis][i]);
-        }
-      });
-    }
+          ASSERT_EQ(expected.size(), kept);
+          for (std::size_t i = 0; i < kept; ++i) {
+            EXPECT_EQ(expected[i], indices[i]);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+              EXPECT_EQ(positions[3 * expected[i] + axis], x[axis][i]);
+          }
+        });
+      }
 }
 
 TEST(NearestKernel, MeasuresSquaredDistances)
 {
   const auto x = eighths(50, 2), y = eighths(50, 3), z = eighths(50, 4);
   const float point[3] = {0.25f, -1.0f, 3.5f};
+  std::vector<float> positions;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    positions.insert(positions.end(), {x[i], y[i], z[i]});
   uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
     std::vector<float> sq_dist(x.size() + kernel_room);
     kernel->measure(x.data(), y.data(), z.data(), x.size(), point, sq_dist.data());
@@ -77,7 +90,28 @@ TEST(NearestKernel, MeasuresSquaredDistances)
       const double dx = x[i] - 0.25, dy = y[i] + 1.0, dz = z[i] - 3.5;
       EXPECT_EQ(dx * dx + dy * dy + dz * dz, sq_dist[i]);
     }
+    constexpr std::uint32_t begin = 3, end = 41;
+    std::vector<float> of_run(x.size() + kernel_room);
+    kernel->measureRun(positions.data(), begin, end, point, of_run.data());
+    for (std::uint32_t i = begin; i < end; ++i)
+      EXPECT_EQ(sq_dist[i], of_run[i - begin]);
   });
+}
+
+TEST(NearestKernel, MeasuresARunOfPositions)
+{
+  const auto positions = eighths(3 * 50, 6);
+  const float point[3] = {0.25f, -1.0f, 3.5f};
+  for (const std::uint32_t begin : {0u, 3u, 49u})
+    uvol_test::forLevels(kernels, [&](const NearestKernels* kernel) {
+      std::vector<float> sq_dist(50 + kernel_room);
+      kernel->measureRun(positions.data(), begin, 50, point, sq_dist.data());
+      for (std::uint32_t i = begin; i < 50; ++i) {
+        const double dx = positions[3 * i] - 0.25, dy = positions[3 * i + 1] + 1.0,
+                     dz = positions[3 * i + 2] - 3.5;
+        EXPECT_EQ(dx * dx + dy * dy + dz * dz, sq_dist[i - begin]);
+      }
+    });
 }
 
 TEST(NearestKernel, CountsAndKeepsValuesUpToALimit)

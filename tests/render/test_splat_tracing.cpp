@@ -4,6 +4,7 @@
 #include "render/tracer_setup.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <algorithm>
@@ -201,6 +202,21 @@ sphereOfSplats(std::size_t points, double delta, double lambda)
   object.splats =
       pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
   return object;
+}
+
+TEST(SplatTracing, SplatsAtTheLimitOfTheirReachAreATree)
+{
+  constexpr double reach = pcl_uvol::most_splat_reach;
+  std::vector<pcl_uvol::PointSplat> splats;
+  for (int i = 0; i < 500; ++i)
+    splats.push_back(discAt({0.0, reach / 500.0 * i, 0.0}, {0, 0, 1}, 0.1 * reach));
+  const Camera camera =
+      looking({0.0, 0.5 * reach, reach}, {0.0, 0.5 * reach, 0.0}, 1.0, {0, 1, 0});
+  const Image image = trace(sceneOf(splats, std::vector<Rgba>(500, red)), camera, 32);
+  EXPECT_FALSE(image.color.empty());
+  splats[7].y = 2.5e37f; // whose box would be infinite
+  EXPECT_THROW(trace(sceneOf(splats, std::vector<Rgba>(500, red)), camera, 32),
+               pcl_uvol::InvalidArgument);
 }
 
 TEST(SplatTracing, ASphereHasNoHoles)

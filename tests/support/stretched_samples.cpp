@@ -86,11 +86,11 @@ StretchedSamples::sample(const SmoothField& field, int side, std::uint64_t seed)
   return cloud;
 }
 
-pcl::PointCloud<PointIso>
-StretchedSamples::inIndexSpace(const pcl::PointCloud<PointIso>& surface) const
+pcl::PointCloud<pcl_uvol::PointIso>
+StretchedSamples::inIndexSpace(const pcl::PointCloud<pcl_uvol::PointIso>& surface) const
 {
-  pcl::PointCloud<PointIso> moved(surface);
-  for (PointIso& point : moved)
+  pcl::PointCloud<pcl_uvol::PointIso> moved(surface);
+  for (pcl_uvol::PointIso& point : moved)
     point.getVector3fMap() =
         to_index(point.getVector3fMap().cast<double>()).cast<float>();
   return moved;

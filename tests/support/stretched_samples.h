@@ -25,8 +25,8 @@ struct StretchedSamples {
   sample(const SmoothField& field, int side, std::uint64_t seed) const;
 
   /** \brief Isopoints in the index space: their positions alone. */
-  pcl::PointCloud<PointIso>
-  inIndexSpace(const pcl::PointCloud<PointIso>& surface) const;
+  pcl::PointCloud<pcl_uvol::PointIso>
+  inIndexSpace(const pcl::PointCloud<pcl_uvol::PointIso>& surface) const;
 };
 
 /** \brief Cells of 1 : 1 : ratio.

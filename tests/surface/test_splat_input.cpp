@@ -432,6 +432,24 @@ TEST(ReadSplats, LeavesOutWhatIsNoDisc)
   expectUsable(read.cloud);
 }
 
+/** Products of lengths between splats have to stay within float. */
+TEST(ReadSplats, LeavesOutWhatIsTooFarOrTooLarge)
+{
+  SplatCloud splats = makeSplats(makeSphere(100, 1), 1e-3, 0.0);
+  splats[1].y = 2.5e37f;
+  splats[2].radius = 1e37f;
+  splats[3].z = -1.01f * pcl_uvol::most_splat_reach;
+  splats[4].x = pcl_uvol::most_splat_reach;
+  splats[5].radius = pcl_uvol::most_splat_reach;
+  Report report;
+  const auto read = pcl_uvol::readSplats(pcl_uvol::viewOf(splats), report);
+  EXPECT_EQ(report.getCount("bad_splats"), 3u);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(0u, report.warnings[0].find("3 of 100 splats are left out"));
+  ASSERT_EQ(read.sources.size(), 97u);
+  EXPECT_EQ(read.sources[1], 4u);
+}
+
 TEST(ReadSplats, NeedsAllFields)
 {
   EXPECT_TRUE(pcl_uvol::hasSplats(pcl_uvol::viewOf(SplatCloud(1, 1))));

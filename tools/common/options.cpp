@@ -12,6 +12,8 @@ namespace uvol_tools {
 
 namespace {
 
+std::string named_file; // a tool has one command line
+
 /** The whole text as a number; false for anything else, such as 1.5m or nothing. */
 template <typename T>
 bool
@@ -146,6 +148,16 @@ Options::text(const std::string& name,
   options_.push_back({name, placeholder, help, [&target](const std::string& value) {
                         target = value;
                       }});
+}
+
+void
+Options::output(const std::string& name,
+                const std::string& placeholder,
+                std::string& target,
+                const std::string& help)
+{
+  text(name, placeholder, target, help);
+  options_.back().written = &target;
 }
 
 void
@@ -319,7 +331,24 @@ Options::parse(int argc, const char* const* argv)
     option.assign(arguments[++i]);
   }
   assignFiles(files);
+  named_file = files.empty() ? std::string() : files.front();
+  checkFiles(files);
   return true;
+}
+
+void
+Options::checkFiles(const std::vector<std::string>& files) const
+{
+  std::vector<std::string> inputs = files, outputs;
+  const std::size_t last = std::min(files.size(), positionals_.size());
+  if (last > 0 && positionals_[last - 1].name == "out") {
+    outputs.push_back(files.back());
+    inputs.pop_back();
+  }
+  for (const Option& option : options_)
+    if (option.given && option.written)
+      outputs.push_back(*option.written);
+  checkDistinct(inputs, outputs);
 }
 
 void
@@ -361,6 +390,12 @@ Options::printHelp() const
   }
   print("-h", "print this");
   print("-version", "print the version");
+}
+
+const std::string&
+namedFile()
+{
+  return named_file;
 }
 
 std::uint64_t

@@ -29,7 +29,8 @@ public:
    * \param purpose one or two sentences for -h */
   Options(std::string tool, std::string synopsis, std::string purpose);
 
-  /** \brief Positional arguments, in this order; optional ones last. */
+  /** \brief Positional arguments, in this order; optional ones last. The last one is
+   * written if it is called "out", the others are read. */
   void
   file(const std::string& name, std::string& target, bool required = true);
   /** \brief One or more of them, before all others. */
@@ -47,6 +48,12 @@ public:
        const std::string& placeholder,
        std::string& target,
        const std::string& help);
+  /** \brief A file to be written. */
+  void
+  output(const std::string& name,
+         const std::string& placeholder,
+         std::string& target,
+         const std::string& help);
   /** \brief One of several words. */
   void
   choice(const std::string& name,
@@ -98,7 +105,8 @@ public:
           const std::string& help);
 
   /** \brief Parse; -h and -version print and return false (the tool then returns 0).
-   * \throws UsageError */
+   * \throws UsageError, also where a file would be read and written, or written twice
+   */
   bool
   parse(int argc, const char* const* argv);
 
@@ -125,6 +133,7 @@ private:
     bool* flag = nullptr;
     bool flag_value = true;
     bool given = false;
+    const std::string* written = nullptr; // the target that names a file to be written
   };
   struct Positional {
     std::string name;
@@ -150,6 +159,9 @@ private:
   assignFiles(const std::vector<std::string>& files) const;
 
   void
+  checkFiles(const std::vector<std::string>& files) const;
+
+  void
   printHelp() const;
 
   std::string tool_, synopsis_, purpose_;
@@ -158,6 +170,13 @@ private:
   std::uint64_t threads_ = 0;
   bool json_ = false;
 };
+
+/** \brief No file may be read and written, or written twice, by whatever names: links
+ * and ways to a folder are followed.
+ * \throws UsageError that names the file */
+void
+checkDistinct(const std::vector<std::string>& inputs,
+              const std::vector<std::string>& outputs);
 
 /** \brief Finite numbers joined by commas, as an option's value; count 0 takes one or
  * more.
@@ -174,6 +193,11 @@ printReport(const Options& options,
             const pcl_uvol::Report& report,
             const std::vector<std::pair<std::string, std::string>>& facts = {},
             bool plain = false);
+
+/** \brief The first file of the command line that was parsed, for sentences that name
+ * none. */
+const std::string&
+namedFile();
 
 /** \brief How a tool's body ended. */
 struct Outcome {

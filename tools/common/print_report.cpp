@@ -2,6 +2,7 @@
 // A tool's report for people (PCL's colours on a terminal, plain in a pipe) and
 // programs.
 #include "common/options.h"
+#include <pcl_uvol/common/printable.h>
 
 #include <iomanip>
 #include <iostream>
@@ -11,6 +12,8 @@
 namespace uvol_tools {
 
 namespace {
+
+using pcl_uvol::printable;
 
 /** Switches the terminal's colour for its lifetime; nothing in a pipe. */
 class Colour {
@@ -75,7 +78,7 @@ printReport(const Options& options,
   }
   const bool in_colour = !plain && isatty(STDOUT_FILENO) != 0;
   for (const auto& [name, value] : facts)
-    std::cout << name << ": " << value << '\n';
+    std::cout << printable(name) << ": " << printable(value) << '\n';
   for (const auto& [name, value] : report.counts)
     printRow(name, value, "", in_colour);
   std::cout << std::fixed << std::setprecision(1);
@@ -84,7 +87,7 @@ printReport(const Options& options,
   for (const std::string& warning : report.warnings) {
     const Colour colour(
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
-    std::cerr << "Warning: " << warning << '\n';
+    std::cerr << "Warning: " << printable(warning) << '\n';
   }
 }
 

@@ -30,7 +30,7 @@ public:
     return Eigen::Array3d(factors_.data()).cast<float>();
   }
 
-  /** \brief Of a cloud: with auto the one that makes the spread equal along all axes.
+  /** \brief Of a cloud: with auto the one that makes the spacing equal along all axes.
    */
   Eigen::Array3f
   scaleOf(const pcl_uvol::CloudView& cloud) const;

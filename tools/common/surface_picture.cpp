@@ -17,10 +17,10 @@ constexpr double pixel_bytes = 50.0;
 void
 SurfacePicture::declare(Options& options)
 {
-  options.text("png",
-               "out.png",
-               path_,
-               "draw the isosurface as well; the options below are for the picture");
+  options.output("png",
+                 "out.png",
+                 path_,
+                 "draw the isosurface as well; the options below are for the picture");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
   rays_.declareRays(options);

@@ -63,10 +63,23 @@ selectRows(Dataset& dataset, const std::string& where);
 
 /** \brief Write a file so that it appears whole or not at all: the writer gets the name
  * of a temporary file beside it, which is flushed, checked and renamed when the writer
- * returns, and removed when it throws. \throws IOError naming path (not the temporary)
- * when it cannot be created or completed */
+ * returns, and removed when it throws. Where the file system has files without a name
+ * that is one; elsewhere it is called .NAME.HOST.PID.part, and those of processes that
+ * are gone are removed. Links are followed, also to a file that is not there yet.
+ * \throws IOError naming path (not the temporary) when it cannot be created or
+ * completed */
 PCL_UVOL_EXPORTS void
 writeAtomically(const std::string& path,
                 const std::function<void(const std::string& temporary_path)>& writer);
+
+/** \brief Remove the temporary files that this process has: for handlers of signals
+ * that end it. Nothing but calls that are allowed there. */
+PCL_UVOL_EXPORTS void
+removeUnfinishedFiles();
+
+/** \brief The file that a name stands for: its links followed, also to a file that is
+ * not there yet; the name itself where its folder is not there. */
+PCL_UVOL_EXPORTS std::string
+resolveLinks(const std::string& path);
 
 } // namespace pcl_uvol

@@ -19,8 +19,8 @@ struct PCL_UVOL_EXPORTS PromisedCloud {
   MemoryNeed reading;         ///< of loadDataset; the cloud is kept
 };
 
-/** \brief What the header of a .pcd or .ply file promises. Nothing for compressed PCD
- * and other formats, whose size shows when they are read, and for files that cannot be
+/** \brief What the header of a .pcd or .ply file promises. Nothing for
+ * other formats, whose size shows when they are read, and for files that cannot be
  * read or hold less than they promise: reading says what is wrong with them. */
 PCL_UVOL_EXPORTS std::optional<PromisedCloud>
 promisedCloud(const std::string& path);

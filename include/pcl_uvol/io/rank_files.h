@@ -33,8 +33,13 @@ loadPart(const std::vector<std::string>& paths,
          const LoadOptions& options,
          Communicator& communicator);
 
+/** \brief The pieces that so many processes write for a .pvtp: name_<rank>.vtp. */
+PCL_UVOL_EXPORTS std::vector<std::string>
+listPieces(const std::string& path, std::size_t ranks);
+
 /** \brief Write a .pvtp, and beside it the points of each process as name_<rank>.vtp.
  * All files appear or, if a process fails, none. Fields are those of all processes.
+ * Pieces that the .pvtp listed before and that fewer processes do not write go.
  * \throws IOError */
 PCL_UVOL_EXPORTS void
 savePieces(const std::string& path, const Dataset& part, Communicator& communicator);

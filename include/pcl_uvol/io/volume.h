@@ -35,11 +35,10 @@ struct PCL_UVOL_EXPORTS Volume {
 PCL_UVOL_EXPORTS bool
 isVolumeFile(const std::string& path);
 
-/** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip; data attached or
- * not) by Teem, .vti, .mha, .mhd and structured points in .vtk by VTK. Axes that
- * descend are turned. \throws IOError in one sentence that names the file, also where
- * the axes are not parallel to x, y and z (the TransformMatrix of a MetaImage is
- * beyond VTK and left out) */
+/** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip), .mha and .mhd (raw,
+ * ascii, zipped), both with their data attached, beside them or in slices, .vti, and
+ * structured points in .vtk. Axes that descend are turned. \throws IOError in one
+ * sentence that names the file, also where the axes are not parallel to x, y and z */
 PCL_UVOL_EXPORTS Volume
 loadVolume(const std::string& path);
 

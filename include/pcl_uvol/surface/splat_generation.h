@@ -73,8 +73,17 @@ generateSplats(const CloudView& cloud,
 PCL_UVOL_EXPORTS bool
 hasSplats(const CloudView& cloud);
 
-/** \brief The splats that a cloud holds; those that are not finite, or without radius,
- * normal or tangent, are left out and counted as "bad_splats". */
+/** \brief The farthest coordinate and the largest radius of splats: float holds the
+ * products of lengths that such coordinates have between them. */
+constexpr float most_splat_reach = 1e18f;
+
+/** \brief True for a splat that rays can meet: it is finite, has a normal and a radius
+ * above 0, and lies within most_splat_reach. */
+PCL_UVOL_EXPORTS bool
+isDrawable(const PointSplat& splat);
+
+/** \brief The splats that a cloud holds; those that are not drawable, or without a
+ * tangent, are left out, counted as "bad_splats" and named in a warning. */
 PCL_UVOL_EXPORTS Splats
 readSplats(const CloudView& cloud, Report& report);
 

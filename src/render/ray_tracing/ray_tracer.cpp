@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
+#include <pcl_uvol/surface/splat_generation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,11 +47,9 @@ checkSplats(const SplatObject& object)
                           " splats has " + std::to_string(object.colors.size()) +
                           " colours.");
   for (const PointSplat& splat : *object.splats)
-    if (!splat.getVector3fMap().allFinite() ||
-        !splat.getNormalVector3fMap().allFinite() || !(splat.radius > 0.0f) ||
-        !std::isfinite(splat.radius))
-      throw InvalidArgument("An object has a splat that is not finite, or without a "
-                            "radius.");
+    if (!isDrawable(splat))
+      throw InvalidArgument("An object has a splat that is not finite, without normal "
+                            "or radius, or farther away than 1e18.");
 }
 
 void

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads MetaImage: MetaIO, which VTK has, reads behind its buffers where headers lie.
+#include "file_cursor.h"
+#include "numbers.h"
+#include "volume_data.h"
+#include <pcl_uvol/common/printable.h>
+
+#include <pcl/PCLPointField.h>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Type = pcl::PCLPointField;
+using Words = std::vector<std::string_view>;
+
+std::uint8_t
+datatypeOf(std::string_view name)
+{
+  constexpr struct {
+    std::string_view name;
+    Type::PointFieldTypes datatype;
+  } types[] = {{"MET_CHAR", Type::INT8},
+               {"MET_UCHAR", Type::UINT8},
+               {"MET_SHORT", Type::INT16},
+               {"MET_USHORT", Type::UINT16},
+               {"MET_INT", Type::INT32},
+               {"MET_UINT", Type::UINT32},
+               {"MET_LONG", Type::INT32}, // of four bytes in files
+               {"MET_ULONG", Type::UINT32},
+               {"MET_LONG_LONG", Type::INT64},
+               {"MET_ULONG_LONG", Type::UINT64},
+               {"MET_FLOAT", Type::FLOAT32},
+               {"MET_DOUBLE", Type::FLOAT64}};
+  for (const auto& type : types)
+    if (type.name == name)
+      return static_cast<std::uint8_t>(type.datatype);
+  return 0;
+}
+
+/** Takes lines of the form "Key = value" up to ElementDataFile. */
+class HeaderParser {
+public:
+  explicit HeaderParser(const std::string& path)
+      : path_(path)
+      , cursor_(path)
+  {
+  }
+
+  Volume
+  read();
+
+private:
+  void
+  take(std::string_view key, std::string_view value);
+  bool
+  isTrue(std::string_view value) const;
+  std::vector<double>
+  numbersIn(std::size_t count) const;
+  void
+  takeFiles(std::string_view value);
+  void
+  finish();
+
+  [[noreturn]] void
+  throwInLine(const std::string& reason) const
+  {
+    throwUnreadable(path_, cursor_.tell().line, reason);
+  }
+
+  const std::string path_;
+  FileCursor cursor_;
+  Words words_; ///< of the value
+  Volume volume_;
+  VolumeData data_;
+  std::uint64_t dimensions_ = 0, channels_ = 1;
+  bool has_spacing_ = false, has_sizes_ = false, compressed_ = false;
+  std::vector<double> matrix_;
+};
+
+bool
+HeaderParser::isTrue(std::string_view value) const
+{
+  const std::string lower = lowerCase(value);
+  if (lower != "true" && lower != "false" && lower != "1" && lower != "0")
+    throwInLine(quoteText(value) + " is neither True nor False");
+  return lower == "true" || lower == "1";
+}
+
+std::vector<double>
+HeaderParser::numbersIn(std::size_t count) const
+{
+  std::vector<double> numbers(count);
+  if (words_.size() != count)
+    throwInLine("there are " + std::to_string(words_.size()) + " numbers where " +
+                std::to_string(count) + " belong");
+  for (std::size_t i = 0; i < count; ++i)
+    if (!parseNumber(words_[i], numbers[i]))
+      throwInLine(quoteText(words_[i]) + " is no number");
+  return numbers;
+}
+
+void
+HeaderParser::take(std::string_view key, std::string_view value)
+{
+  if (key == "NDims") {
+    if (!parseCount(value, dimensions_) || dimensions_ < 2 || dimensions_ > 3)
+      throwInLine("it is not a volume of one number per point in 3-D");
+  }
+  else if (key == "DimSize") {
+    if (words_.size() == 2 && dimensions_ == 2)
+      words_.push_back("1");
+    setDims(path_, words_, volume_);
+    has_sizes_ = true;
+  }
+  else if (key == "ElementSpacing" || (key == "ElementSize" && !has_spacing_)) {
+    const auto spacing = numbersIn(dimensions_);
+    std::copy(spacing.begin(), spacing.end(), volume_.spacing.begin());
+    has_spacing_ = has_spacing_ || key == "ElementSpacing";
+  }
+  else if (key == "Offset" || key == "Position" || key == "Origin") {
+    const auto origin = numbersIn(dimensions_);
+    std::copy(origin.begin(), origin.end(), volume_.origin.begin());
+  }
+  else if (key == "TransformMatrix" || key == "Rotation" || key == "Orientation")
+    matrix_ = numbersIn(dimensions_ * dimensions_);
+  else if (key == "ElementNumberOfChannels") {
+    if (!parseCount(value, channels_) || channels_ != 1)
+      throwInLine("it has " + quoteText(value) + " numbers per point, and one belongs");
+  }
+  else if (key == "ElementType") {
+    data_.datatype = datatypeOf(value);
+    if (data_.datatype == 0)
+      throwInLine(quoteText(value) + " is no type of numbers");
+  }
+  else if (key == "BinaryData")
+    data_.encoding =
+        isTrue(value) ? VolumeData::Encoding::Raw : VolumeData::Encoding::Ascii;
+  else if (key == "CompressedData")
+    compressed_ = isTrue(value);
+  else if (key == "BinaryDataByteOrderMSB" || key == "ElementByteOrderMSB")
+    data_.big_endian = isTrue(value);
+  else if (key == "HeaderSize") {
+    data_.at_end = value == "-1";
+    if (!data_.at_end && !parseCount(value, data_.skipped_bytes))
+      throwInLine(quoteText(value) + " is no size of a header");
+  }
+}
+
+void
+HeaderParser::takeFiles(std::string_view value)
+{
+  if (value == "LOCAL") {
+    data_.files = {path_};
+    data_.offset = cursor_.tell().offset;
+    data_.skipped_bytes = 0;
+  }
+  else if (words_.size() > 1 && words_[0] == "LIST") {
+    std::string_view line;
+    while (cursor_.nextLine(line))
+      if (!trimmed(line).empty())
+        data_.files.push_back(besideFile(path_, trimmed(line)));
+  }
+  else if (value.find('%') != value.npos)
+    data_.files = filesOfPattern(path_, words_);
+  else
+    data_.files = {besideFile(path_, value)};
+}
+
+void
+HeaderParser::finish()
+{
+  if (!has_sizes_ || data_.datatype == 0)
+    throwUnreadable(path_, "its header lacks NDims, DimSize or ElementType");
+  if (compressed_)
+    data_.encoding = VolumeData::Encoding::Zipped;
+  for (std::size_t axis = 0; axis < 3 && !matrix_.empty(); ++axis) {
+    std::array<double, 3> direction{};
+    direction[axis] = 1.0;
+    if (axis < dimensions_)
+      std::copy_n(matrix_.begin() + static_cast<int>(axis * dimensions_),
+                  dimensions_,
+                  direction.begin());
+    for (double& component : direction)
+      component *= volume_.spacing[axis];
+    setDirection(path_, axis, direction, volume_);
+  }
+}
+
+Volume
+HeaderParser::read()
+{
+  std::string_view line;
+  while (cursor_.nextLine(line)) {
+    if (trimmed(line).empty())
+      continue;
+    const std::size_t equals = line.find_first_of("=:");
+    if (equals == line.npos)
+      throwInLine("this is no line of a MetaImage header");
+    const std::string key(trimmed(line.substr(0, equals)));
+    const std::string value(trimmed(line.substr(equals + 1)));
+    splitWords(value, words_);
+    if (key == "ElementDataFile" && !words_.empty()) {
+      takeFiles(value);
+      finish();
+      readValues(path_, data_, volume_);
+      return std::move(volume_);
+    }
+    take(key, value);
+  }
+  throwUnreadable(path_, "its header has no ElementDataFile");
+}
+
+} // namespace
+
+Volume
+readMetaImage(const std::string& path)
+{
+  return HeaderParser(path).read();
+}
+
+} // namespace io
+} // namespace pcl_uvol

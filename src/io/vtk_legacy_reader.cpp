@@ -1,0 +1,574 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads legacy .vtk: points, lattices and the data of their points. Cells are passed
+// over by their counts, which nothing else depends on.
+#include "numbers.h"
+#include "vtk_arrays.h"
+#include "vtk_readers.h"
+#include <pcl_uvol/common/printable.h>
+#include <pcl_uvol/common/scalar_field.h>
+
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Words = std::vector<std::string_view>;
+using Array = vtkSmartPointer<vtkDataArray>;
+
+const VtkType byte_type = *findLegacyType("unsigned_char");
+const VtkType int_type = *findLegacyType("int");
+
+/** Names are written with %20 for a blank and the like. */
+std::string
+decodedName(std::string_view text)
+{
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+  };
+  std::string name;
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text[at] == '%' && at + 2 < text.size() && digit(text[at + 1]) >= 0 &&
+        digit(text[at + 2]) >= 0) {
+      name += static_cast<char>(16 * digit(text[at + 1]) + digit(text[at + 2]));
+      at += 2;
+    }
+    else
+      name += text[at];
+  return name;
+}
+
+/** The four lines in front of the data. */
+struct Header {
+  bool binary = false;
+  std::string kind; ///< in lower case
+};
+
+Header
+takeHeader(const std::string& path, FileCursor& cursor)
+{
+  std::string_view line;
+  if (!cursor.nextLine(line) || line.substr(0, 14) != "# vtk DataFile")
+    throwUnreadable(path,
+                    "it is no VTK file: its first line does not begin with '# "
+                    "vtk DataFile'");
+  cursor.nextLine(line); // the title
+  Words words;
+  Header header;
+  const std::string format =
+      cursor.nextWords(words) ? lowerCase(words[0]) : std::string();
+  if (format != "ascii" && format != "binary")
+    throwUnreadable(path, 3, "neither ASCII nor BINARY stands there");
+  header.binary = format == "binary";
+  if (!cursor.nextWords(words) || words.size() != 2 || lowerCase(words[0]) != "dataset")
+    throwUnreadable(
+        path, cursor.tell().line, "it has no DATASET, but only such files hold points");
+  header.kind = lowerCase(words[1]);
+  return header;
+}
+
+class LegacyReader {
+public:
+  explicit LegacyReader(const std::string& path)
+      : path_(path)
+      , cursor_(path)
+  {
+  }
+
+  VtkContent
+  read();
+
+private:
+  enum class Data { None, Points, Cells };
+
+  bool
+  takeGeometry(const std::string& key);
+  bool
+  takeCells(const std::string& key);
+  bool
+  takeAttribute(const std::string& key);
+  void
+  takeScalars();
+  void
+  takeColors();
+  void
+  takeField();
+  void
+  skipMetadata();
+  void
+  skipTexts(std::uint64_t count);
+  Array
+  readArray(std::string_view type,
+            const std::string& name,
+            std::uint64_t components,
+            std::uint64_t tuples);
+  void
+  skipNumbers(const VtkType& type, std::uint64_t count);
+  void
+  keep(const Array& array);
+  void
+  takeData(Data data);
+  std::uint64_t
+  count(std::size_t word) const;
+  std::uint64_t
+  tuples() const
+  {
+    return data_ == Data::Points ? points_ : cells_;
+  }
+  vtkSmartPointer<vtkDataSet>
+  makeGeometry() const;
+
+  [[noreturn]] void
+  fail(const std::string& reason) const
+  {
+    throwUnreadable(path_, cursor_.tell().line, reason);
+  }
+
+  /** A word of the line; a line has as many as its keyword needs. */
+  std::string_view
+  word(std::size_t i) const
+  {
+    if (i >= words_.size())
+      fail("words are missing behind " + quoteText(words_[0]));
+    return words_[i];
+  }
+
+  const std::string& path_;
+  FileCursor cursor_;
+  Header header_;
+  std::vector<std::string> words_; ///< of the line; kept while the cursor goes on
+  Data data_ = Data::None;
+  std::uint64_t points_ = 0, cells_ = 0;
+  std::optional<std::array<std::uint64_t, 3>> dims_;
+  std::array<double, 3> origin_{{0.0, 0.0, 0.0}}, spacing_{{1.0, 1.0, 1.0}};
+  std::array<Array, 3> axes_;
+  Array coordinates_;
+  std::vector<Array> arrays_;
+  Array scalars_, normals_;
+  bool has_cell_data_ = false;
+  std::vector<std::string> notes_;
+};
+
+std::uint64_t
+LegacyReader::count(std::size_t i) const
+{
+  std::uint64_t value = 0;
+  if (!parseCount(word(i), value))
+    fail(quoteText(word(i)) + " is no count");
+  return value;
+}
+
+void
+LegacyReader::skipNumbers(const VtkType& type, std::uint64_t count)
+{
+  const std::uint64_t size = datatypeSize(type.datatype);
+  if (header_.binary) {
+    if (count > cursor_.left() / size)
+      fail("it is truncated or damaged: " + std::to_string(count) +
+           " numbers are promised, but only " + std::to_string(cursor_.left()) +
+           " bytes follow");
+    cursor_.skip(size * count);
+    return;
+  }
+  std::string_view ignored;
+  for (std::uint64_t i = 0; i < count; ++i)
+    if (!cursor_.nextWord(ignored))
+      fail("it is truncated: numbers are missing at its end");
+}
+
+Array
+LegacyReader::readArray(std::string_view type_name,
+                        const std::string& name,
+                        std::uint64_t components,
+                        std::uint64_t tuples)
+{
+  const bool bits = type_name == "bit";
+  const VtkType* type = bits ? &byte_type : findLegacyType(type_name);
+  if (!type)
+    fail("the array " + quoteText(name) + " has the type " + quoteText(type_name) +
+         ", which is not read");
+  const std::uint64_t size = header_.binary ? datatypeSize(type->datatype) : 2;
+  checkPromise(path_,
+               name,
+               components,
+               tuples,
+               size,
+               (cursor_.left() + 1) * (bits && header_.binary ? 8 : 1));
+  const Array array = makeArray(*type, name, components, tuples);
+  const std::uint64_t numbers = components * tuples;
+  std::uint8_t* const bytes = bytesOf(*array);
+  if (!header_.binary)
+    readTexts(path_,
+              cursor_,
+              std::numeric_limits<std::uint64_t>::max(),
+              type->datatype,
+              numbers,
+              bytes);
+  else if (bits) {
+    const auto packed_bytes = static_cast<std::size_t>((numbers + 7) / 8);
+    const char* const packed = cursor_.take(packed_bytes);
+    if (!packed)
+      fail("it is truncated: bits are missing at its end");
+    for (std::uint64_t i = 0; i < numbers; ++i)
+      bytes[i] = static_cast<std::uint8_t>(packed[i / 8] >> (7 - i % 8) & 1);
+  }
+  else {
+    if (numbers > cursor_.left() / size)
+      fail("it is truncated: numbers are missing at its end");
+    cursor_.getFile().read(cursor_.tell().offset, bytes, numbers * size);
+    cursor_.skip(numbers * size);
+    swapBytes(bytes, size, numbers); // the files are big-endian
+  }
+  if (type_name == "vtkidtype") { // written as int
+    const Array ids =
+        makeArray(*findLegacyType("vtktypeint64"), name, components, tuples);
+    ids->DeepCopy(array);
+    return ids;
+  }
+  return array;
+}
+
+/** Texts have a line each, or their length in front. */
+void
+LegacyReader::skipTexts(std::uint64_t count)
+{
+  std::string_view ignored;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (!header_.binary) {
+      if (!cursor_.nextLine(ignored))
+        fail("it is truncated: texts are missing at its end");
+      continue;
+    }
+    // The two highest bits tell how many bytes the length has: 8, 4, 2, 1.
+    const char* at = cursor_.take(1);
+    std::uint64_t length = at ? static_cast<unsigned char>(*at) & 0x3f : 0;
+    const int more = at ? (8 >> (static_cast<unsigned char>(*at) >> 6)) - 1 : 0;
+    for (int byte = 0; byte < more && at; ++byte)
+      if ((at = cursor_.take(1)) != nullptr)
+        length = length << 8 | static_cast<unsigned char>(*at);
+    if (!at || !cursor_.skip(length))
+      fail("it is truncated: texts are missing at its end");
+  }
+}
+
+/** Lines up to an empty one. */
+void
+LegacyReader::skipMetadata()
+{
+  std::string_view line;
+  while (cursor_.nextLine(line) && !trimmed(line).empty())
+    continue;
+}
+
+void
+LegacyReader::keep(const Array& array)
+{
+  if (data_ == Data::Points)
+    arrays_.push_back(array);
+  has_cell_data_ = has_cell_data_ || data_ == Data::Cells;
+}
+
+/** DIMENSIONS, POINTS, ... \return false for another keyword */
+bool
+LegacyReader::takeGeometry(const std::string& key)
+{
+  const auto numbers = [this] {
+    std::array<double, 3> values{};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!parseNumber(word(i + 1), values[i]))
+        fail(quoteText(word(i + 1)) + " is no number");
+    return values;
+  };
+  if (key == "dimensions") {
+    constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+    dims_ = {count(1), count(2), count(3)};
+    std::uint64_t product = 1;
+    for (const std::uint64_t size : *dims_) {
+      if (size > most || (size > 0 && product > (std::uint64_t(1) << 62) / size))
+        fail("the grid has too many points");
+      product *= size;
+    }
+    points_ = product;
+  }
+  else if (key == "spacing" || key == "aspect_ratio")
+    spacing_ = numbers();
+  else if (key == "origin")
+    origin_ = numbers();
+  else if (key == "points") {
+    const std::uint64_t points = count(1);
+    if (dims_ && points != points_)
+      fail("there are " + std::to_string(points) + " points for a grid of " +
+           std::to_string(points_));
+    points_ = points;
+    coordinates_ = readArray(lowerCase(word(2)), "Points", 3, points);
+  }
+  else if (key.size() == 13 && key.substr(1) == "_coordinates" && key[0] >= 'x' &&
+           key[0] <= 'z') {
+    Array& axis = axes_[static_cast<std::size_t>(key[0] - 'x')];
+    axis = readArray(lowerCase(word(2)), key, 1, count(1));
+  }
+  else
+    return false;
+  return true;
+}
+
+/** \return false for another keyword */
+bool
+LegacyReader::takeCells(const std::string& key)
+{
+  if (key == "cell_types") {
+    skipNumbers(int_type, count(1));
+    return true;
+  }
+  if (key != "cells" && key != "vertices" && key != "lines" && key != "polygons" &&
+      key != "triangle_strips")
+    return false;
+  const std::uint64_t sizes[] = {count(1), count(2)};
+  const auto place = cursor_.tell();
+  std::string_view first;
+  const bool lists = cursor_.nextWord(first) && lowerCase(first) == "offsets";
+  cursor_.seek(place);
+  if (!lists) { // all in one list, as before version 5
+    skipNumbers(int_type, sizes[1]);
+    return true;
+  }
+  for (const std::uint64_t size : sizes) {
+    Words words;
+    const bool has_type = cursor_.nextWords(words) && words.size() == 2;
+    const VtkType* const type = findLegacyType(has_type ? lowerCase(words[1]) : "");
+    if (!type)
+      fail("OFFSETS or CONNECTIVITY of the cells are missing");
+    skipNumbers(*type, size);
+  }
+  return true;
+}
+
+void
+LegacyReader::takeScalars()
+{
+  const std::string name = decodedName(word(1)), type = lowerCase(word(2));
+  const std::uint64_t components = words_.size() > 3 ? count(3) : 1;
+  Words words;
+  const auto place = cursor_.tell();
+  if (!cursor_.nextWords(words) || lowerCase(words[0]) != "lookup_table")
+    cursor_.seek(place);
+  const Array array = readArray(type, name, components, tuples());
+  keep(array);
+  if (data_ == Data::Points && !scalars_)
+    scalars_ = array;
+}
+
+/** Colours are bytes, as text numbers from 0 to 1. */
+void
+LegacyReader::takeColors()
+{
+  const std::string name = decodedName(word(1));
+  const std::uint64_t components = count(2);
+  Array array;
+  if (header_.binary)
+    array = readArray("unsigned_char", name, components, tuples());
+  else {
+    const Array values = readArray("float", name, components, tuples());
+    array = makeArray(byte_type, name, components, tuples());
+    for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i) {
+      const double value = values->GetVariantValue(i).ToDouble();
+      bytesOf(*array)[i] =
+          static_cast<std::uint8_t>(std::clamp(255.0 * value + 0.5, 0.0, 255.0));
+    }
+  }
+  keep(array);
+  if (data_ == Data::Points && !scalars_)
+    scalars_ = array;
+}
+
+/** Arrays of any number, which are data of points or cells, or of the whole. */
+void
+LegacyReader::takeField()
+{
+  const std::uint64_t arrays = count(2);
+  for (std::uint64_t i = 0; i < arrays; ++i) {
+    Words words;
+    if (!cursor_.nextWords(words))
+      fail("it is truncated: arrays of a FIELD are missing");
+    if (lowerCase(words[0]) == "metadata") {
+      skipMetadata();
+      --i;
+      continue;
+    }
+    words_.assign(words.begin(), words.end());
+    const std::string name = decodedName(word(0)), type = lowerCase(word(3));
+    const std::uint64_t components = count(1), tuples = count(2);
+    if (type == "string") {
+      if (components > 0 && tuples > cursor_.left() / components)
+        fail("it is truncated: texts are missing at its end");
+      skipTexts(components * tuples);
+      if (data_ == Data::Points)
+        notes_.push_back(describeTexts(name));
+    }
+    else if (components > 0 && tuples > 0)
+      keep(readArray(type, name, components, tuples));
+  }
+}
+
+/** Data of points or cells. \return false for another keyword */
+bool
+LegacyReader::takeAttribute(const std::string& key)
+{
+  if (key == "field") {
+    takeField();
+    return true;
+  }
+  if (data_ == Data::None)
+    return false;
+  constexpr std::pair<std::string_view, std::uint64_t> kinds[] = {{"vectors", 3},
+                                                                  {"normals", 3},
+                                                                  {"tensors", 9},
+                                                                  {"tensors6", 6},
+                                                                  {"global_ids", 1},
+                                                                  {"pedigree_ids", 1},
+                                                                  {"edge_flags", 1}};
+  for (const auto& [kind, components] : kinds)
+    if (key == kind) {
+      const Array array =
+          readArray(lowerCase(word(2)), decodedName(word(1)), components, tuples());
+      keep(array);
+      if (key == "normals" && data_ == Data::Points && !normals_)
+        normals_ = array;
+      return true;
+    }
+  if (key == "scalars")
+    takeScalars();
+  else if (key == "color_scalars")
+    takeColors();
+  else if (key == "texture_coordinates")
+    keep(readArray(lowerCase(word(3)), decodedName(word(1)), count(2), tuples()));
+  else if (key == "lookup_table") {
+    const std::uint64_t rows = count(2);
+    if (rows > cursor_.left())
+      fail("it is truncated: a table of colours is missing");
+    skipNumbers(byte_type, 4 * rows);
+  }
+  else
+    return false;
+  return true;
+}
+
+void
+LegacyReader::takeData(Data data)
+{
+  data_ = data;
+  if (data == Data::Cells)
+    cells_ = count(1);
+  else if (count(1) != points_)
+    fail("there are data of " + std::to_string(count(1)) + " points for " +
+         std::to_string(points_) + " points");
+}
+
+vtkSmartPointer<vtkDataSet>
+LegacyReader::makeGeometry() const
+{
+  if (header_.kind == "structured_points" || header_.kind == "rectilinear_grid") {
+    if (!dims_)
+      throwUnreadable(path_, "its grid has no DIMENSIONS");
+    const auto dims = [this](std::size_t axis) {
+      return static_cast<int>((*dims_)[axis]);
+    };
+    if (header_.kind == "structured_points") {
+      auto image = vtkSmartPointer<vtkImageData>::New();
+      image->SetDimensions(dims(0), dims(1), dims(2));
+      image->SetOrigin(origin_.data());
+      image->SetSpacing(spacing_.data());
+      return image;
+    }
+    auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!axes_[axis] || axes_[axis]->GetNumberOfTuples() != dims(axis))
+        throwUnreadable(path_,
+                        "its grid has not as many " +
+                            std::string(1, static_cast<char>('X' + axis)) +
+                            "_COORDINATES as DIMENSIONS say");
+    grid->SetDimensions(dims(0), dims(1), dims(2));
+    grid->SetXCoordinates(axes_[0]);
+    grid->SetYCoordinates(axes_[1]);
+    grid->SetZCoordinates(axes_[2]);
+    return grid;
+  }
+  if (!coordinates_)
+    throwUnreadable(path_, "it has no POINTS");
+  auto set = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates_);
+  set->SetPoints(points);
+  return set;
+}
+
+VtkContent
+LegacyReader::read()
+{
+  header_ = takeHeader(path_, cursor_);
+  constexpr std::string_view kinds[] = {"structured_points",
+                                        "structured_grid",
+                                        "rectilinear_grid",
+                                        "polydata",
+                                        "unstructured_grid"};
+  if (std::find(std::begin(kinds), std::end(kinds), header_.kind) == std::end(kinds))
+    fail("it holds no points but " + quoteText(header_.kind));
+  Words words;
+  while (cursor_.nextWords(words)) {
+    words_.assign(words.begin(), words.end());
+    const std::string key = lowerCase(words_[0]);
+    if (key == "point_data")
+      takeData(Data::Points);
+    else if (key == "cell_data")
+      takeData(Data::Cells);
+    else if (key == "metadata")
+      skipMetadata();
+    else if (!takeGeometry(key) && !takeCells(key) && !takeAttribute(key))
+      fail(quoteText(words_[0]) + " is no keyword of its data");
+  }
+  VtkContent content{makeGeometry(), std::move(notes_)};
+  auto& point_data = *content.data->GetPointData();
+  for (const Array& array : arrays_)
+    point_data.AddArray(array);
+  if (scalars_)
+    point_data.SetScalars(scalars_);
+  if (normals_)
+    point_data.SetNormals(normals_);
+  if (has_cell_data_)
+    content.data->GetCellData()->AddArray(vtkSmartPointer<vtkFloatArray>::New());
+  checkLattice(path_, *content.data);
+  return content;
+}
+
+} // namespace
+
+VtkContent
+readVtkLegacy(const std::string& path)
+{
+  return LegacyReader(path).read();
+}
+
+std::string
+findLegacyKind(const std::string& path)
+{
+  FileCursor cursor(path);
+  return takeHeader(path, cursor).kind;
+}
+
+} // namespace io
+} // namespace pcl_uvol

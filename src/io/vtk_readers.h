@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points and images of VTK's files, read here: VTK's own readers believe the counts of
+// damaged files.
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief What a file holds, and what is left out. */
+struct VtkContent {
+  vtkSmartPointer<vtkDataSet> data;
+  std::vector<std::string> notes;
+};
+
+/** \brief The points of a .vtp, .vtu or .vts with their data, or the image of a .vti;
+ * cells are not looked at. \throws IOError */
+VtkContent
+readVtkXml(const std::string& path);
+
+/** \brief The same of a .vtk: images and rectilinear grids as such. \throws IOError */
+VtkContent
+readVtkLegacy(const std::string& path);
+
+/** \brief The note on an array that holds no numbers. */
+std::string
+describeTexts(const std::string& name);
+
+/** \throws IOError for a lattice without numbers at its points: nothing but memory
+ * bounds how many points it has */
+void
+checkLattice(const std::string& path, vtkDataSet& data);
+
+/** \brief What stands behind DATASET in a .vtk, in lower case. \throws IOError if it
+ * is none */
+std::string
+findLegacyKind(const std::string& path);
+
+} // namespace io
+} // namespace pcl_uvol

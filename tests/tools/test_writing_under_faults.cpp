@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a tool leaves where files have names from the start, where it is killed, and
+// where its output is one of its inputs.
+#include "support/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+namespace {
+
+using uvol_test::CommandResult;
+using uvol_test::readFile;
+using uvol_test::runCommand;
+using uvol_test::writeFile;
+namespace fs = std::filesystem;
+
+class WritingUnderFaults : public testing::Test {
+protected:
+  WritingUnderFaults()
+  {
+    writeFile(in_, "x,y,z,f\n0,0,0,0\n1,0,0,1\n0,1,0,1\n0,0,1,1\n1,1,1,2\n");
+  }
+
+  void
+  SetUp() override
+  {
+    if (uvol_test::isSanitized())
+      GTEST_SKIP() << "a sanitizer has to be loaded first";
+  }
+
+  CommandResult
+  generate(const std::string& faults) const
+  {
+    return runCommand("LD_PRELOAD=" PCL_UVOL_FAULTS " UVOL_FAULTS=" + faults +
+                      " uvol_generate '" + out_ + "' -n 50");
+  }
+
+  uvol_test::TemporaryFolder folder_;
+  const std::string in_ = folder_ / "in.csv", out_ = folder_ / "out.csv";
+};
+
+TEST_F(WritingUnderFaults, FilesWithNamesAreComplete)
+{
+  ASSERT_EQ(0, runCommand("uvol_generate '" + out_ + "' -n 50").exit_code);
+  const std::string expected = readFile(out_);
+  for (const char* const faults : {"nameless", "link"}) {
+    fs::remove(out_);
+    const auto result = generate(faults);
+    EXPECT_EQ(0, result.exit_code) << faults << result.err;
+    EXPECT_EQ(expected, readFile(out_)) << faults;
+    EXPECT_EQ((std::vector<std::string>{"in.csv", "out.csv"}), folder_.list());
+  }
+}
+
+TEST_F(WritingUnderFaults, SignalsTakeUnfinishedFilesAway)
+{
+  writeFile(out_, "old");
+  EXPECT_NE(0, generate("nameless,term").exit_code);
+  EXPECT_EQ("old", readFile(out_));
+  EXPECT_EQ((std::vector<std::string>{"in.csv", "out.csv"}), folder_.list());
+}
+
+TEST_F(WritingUnderFaults, TheNextRunTakesAwayWhatAKilledOneLeft)
+{
+  EXPECT_NE(0, generate("nameless,kill").exit_code);
+  const auto left = folder_.list();
+  ASSERT_EQ(2u, left.size());
+  EXPECT_EQ(0u, left[0].find(".out.csv.")) << left[0];
+  EXPECT_EQ(".part", left[0].substr(left[0].size() - 5));
+  // Files of processes that live, of other hosts and of other targets stay.
+  const std::string lives =
+      left[0].substr(0, left[0].find_last_of('.', left[0].size() - 6)) + ".1.part";
+  const std::vector<std::string> others{
+      lives, ".out.csv.elsewhere.1.part", ".out.part"};
+  for (const std::string& other : others)
+    writeFile(folder_ / other, "");
+  EXPECT_EQ(0, generate("none").exit_code);
+  auto expected = others;
+  expected.insert(expected.end(), {"in.csv", "out.csv"});
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(expected, folder_.list());
+}
+
+TEST(FilesOfTools, NoOutputIsAnInputOrAnotherOutput)
+{
+  const uvol_test::TemporaryFolder folder;
+  const std::string in = folder / "in.csv";
+  const std::string text = "x,y,z,f\n0,0,0,0\n1,0,0,1\n0,1,0,1\n0,0,1,1\n1,1,1,2\n";
+  writeFile(in, text);
+  fs::create_symlink("in.csv", folder / "link.csv");
+  fs::create_hard_link(in, folder / "hard.csv");
+  fs::create_symlink(".", folder / "here");
+  fs::create_symlink("new.csv", folder / "dangling.csv");
+  const std::string path = folder / "";
+  for (const std::string command : {"uvol_isosurface IN IN -iso 0.5",
+                                    "uvol_isosurface IN DIRlink.csv -iso 0.5",
+                                    "uvol_isosurface IN DIRhard.csv -iso 0.5",
+                                    "uvol_isosurface DIRhere/in.csv IN -iso 0.5",
+                                    "uvol_cluster IN DIRout.csv -tree IN",
+                                    "uvol_cluster IN DIRnew.csv -tree DIRdangling.csv",
+                                    "uvol_cluster IN DIRout.csv -tree DIRhere/out.csv",
+                                    "uvol_levelset IN DIRout.csv -iso 0.5 -csv IN",
+                                    "uvol_project IN DIRout.csv -axes IN",
+                                    "uvol_project IN DIRout.csv -axes DIRout.csv"}) {
+    std::string line = command;
+    for (const auto& [name, value] :
+         {std::pair<std::string, std::string>{"IN", in}, {"DIR", path}})
+      for (std::size_t at = 0; (at = line.find(name, at)) != std::string::npos;
+           at += value.size())
+        line.replace(at, name.size(), value);
+    const auto result = runCommand(line);
+    EXPECT_EQ(2, result.exit_code) << line << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+    EXPECT_EQ(text, readFile(in)) << line;
+  }
+  EXPECT_EQ((std::vector<std::string>{
+                "dangling.csv", "hard.csv", "here", "in.csv", "link.csv"}),
+            folder.list());
+}
+
+TEST(FilesOfTools, DanglingLinksAreFollowed)
+{
+  const uvol_test::TemporaryFolder folder;
+  fs::create_directory(folder / "there");
+  fs::create_symlink("there/new.csv", folder / "link.csv");
+  ASSERT_EQ(0,
+            runCommand("uvol_generate '" + (folder / "link.csv") + "' -n 5").exit_code);
+  EXPECT_TRUE(fs::is_symlink(folder / "link.csv"));
+  EXPECT_TRUE(fs::is_regular_file(folder / "there/new.csv"));
+}
+
+} // namespace
