@@ -208,8 +208,9 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
     return 0;
   finishParameters(arguments);
   if (arguments.inPieces())
-    uvol_tools::checkDistinct(pcl_uvol::findPieces(arguments.inputs),
-                              pcl_uvol::listPieces(arguments.output, ranks.size()));
+    uvol_tools::checkDistinct(
+        pcl_uvol::findPieces(arguments.inputs),
+        pcl_uvol::listPieces(arguments.output, communicator.size()));
 
   Report report;
   std::optional<uvol_tools::ProgressBar> bar;
