@@ -86,7 +86,10 @@ forkInTeam(const std::function<void()>& left, const std::function<void()>& right
 unsigned
 resolveThreads(unsigned requested)
 {
-  return requested == 0 ? static_cast<unsigned>(omp_get_max_threads()) : requested;
+  constexpr unsigned least_bound = 64;
+  const auto processors = static_cast<unsigned>(omp_get_num_procs());
+  return requested == 0 ? static_cast<unsigned>(omp_get_max_threads())
+                        : std::min(requested, std::max(least_bound, 4 * processors));
 }
 
 void
@@ -105,7 +108,8 @@ parallelBlocks(std::size_t count,
       run_block(b);
     return;
   }
-  const std::ptrdiff_t done = runAlone(blocks, run_block);
+  // Blocks of one item are tasks, one per thread, say: there is nothing to divide.
+  const std::ptrdiff_t done = block == 1 ? 0 : runAlone(blocks, run_block);
   const auto team = static_cast<int>(std::min<std::size_t>(
       resolveThreads(threads), static_cast<std::size_t>(blocks - done)));
   if (team == 0)

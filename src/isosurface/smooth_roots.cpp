@@ -41,9 +41,10 @@ constexpr double step_residual = 0.06, step_span = 0.6;
  * own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
-/** Of the edge's length in the samples' own space: so far a fit in another metric may
- * shift a root, where values jump (the core of a planet) as where they do not. */
-constexpr double farthest_from_edge = 0.5;
+/** Of the edge's length in the samples' own space: farther from an edge across which
+ * values jump, as at the core of a planet, no fit in another metric may shift a root.
+ */
+constexpr double farthest_from_jump = 0.75;
 
 /** Different whole numbers among the fitted samples that are labels. Quantised data on
  * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
@@ -247,7 +248,7 @@ private:
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
       leaveMetric(metrics[lane], lane, result);
-      if (isFarFromEdge(result, lane, surroundings[lane], edges[i]))
+      if (isFarFromJump(result, lane, surroundings[lane], edges[i]))
         continue;
       fits[i].outcome = outcome;
       finish(result, lane, surroundings[lane], true, edges[i], points[i]);
@@ -435,7 +436,7 @@ private:
 
   /** A short way in a metric may be a long one beside the edge it starts from. */
   bool
-  isFarFromEdge(const FitResult& result,
+  isFarFromJump(const FitResult& result,
                 std::size_t lane,
                 const Surroundings& surroundings,
                 const IsoEdge& edge) const
@@ -443,8 +444,10 @@ private:
     const auto& positions = input_.samples.getPositions();
     const double shift = std::hypot(
         result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
-    return surroundings.radius * shift >
-           farthest_from_edge * distance(positions[edge.first], positions[edge.second]);
+    return surroundings.edge_span > step_span &&
+           surroundings.radius * shift >
+               farthest_from_jump *
+                   distance(positions[edge.first], positions[edge.second]);
   }
 
   /** Turn the result of a lane back from a metric, to the space it was made in. */

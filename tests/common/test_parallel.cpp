@@ -62,6 +62,20 @@ TEST(Parallel, NoBlockBeginsAfterAnException)
   EXPECT_LT(begun, 50);
 }
 
+TEST(Parallel, AnyNumberOfThreadsCanBeAskedFor)
+{
+  for (const unsigned threads : {100000u, static_cast<unsigned>(-1)}) {
+    EXPECT_GE(4096u, pcl_uvol::resolveThreads(threads));
+    std::atomic<std::size_t> done{0};
+    pcl_uvol::parallelBlocks(
+        100000, 1, threads, [&](std::size_t begin, std::size_t end) {
+          done += end - begin;
+        });
+    EXPECT_EQ(100000u, done);
+  }
+  EXPECT_EQ(7u, pcl_uvol::resolveThreads(7));
+}
+
 /** Blocks that take no time stay with the caller's thread; those that do are shared,
  * and every one is run once. */
 TEST(Parallel, TeamsAreOpenedForWorkOnly)

@@ -13,7 +13,8 @@
 
 namespace pcl_uvol {
 
-/** \brief The number of threads a stage uses: 0 stands for all that OpenMP offers. */
+/** \brief The number of threads a stage uses: 0 stands for all that OpenMP offers; more
+ * than 4 per processor, or 64 where that is more, count as that many. */
 PCL_UVOL_EXPORTS unsigned
 resolveThreads(unsigned requested);
 
