@@ -27,6 +27,9 @@ constexpr double drawn_rate = 8.0;
 constexpr double most_drawn = 1u << 21;
 constexpr double most_drawn_per_node = 256.0;
 
+/** Positions that a process keeps from one pass to the next at most: 25 MB. */
+constexpr std::size_t most_kept_of_all = 1u << 21;
+
 /** A median lies farther from that of s drawn positions, in sqrt(s) of these, once in
  * 2000 nodes: 3.5 standard deviations. */
 constexpr double bound_distance = 1.75;
@@ -300,7 +303,7 @@ private:
       tallies[0] = beyond_;
     std::vector<std::vector<NodePosition>> chosen(threads_);
     std::vector<std::vector<Position>> kept(threads_);
-    const std::size_t most_kept = drawn_limit_ / threads_;
+    const std::size_t most_kept = most_kept_of_all / threads_;
     const auto count = [&](auto thread, auto index, const Position& position) {
       const std::size_t node = findNode(position, depth_, axes_, planes_) - nodes;
       const Median& median = medians_[node];

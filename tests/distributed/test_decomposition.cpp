@@ -209,7 +209,7 @@ TEST(Decompositions, AreTheTopOfTheTree)
 }
 
 /** At the last two of eight levels more samples lie between the bounds than may be
- * drawn: they are kept, not looked for again, which would take eleven passes. */
+ * drawn: they are kept, not looked for again, which would take twelve passes. */
 TEST(Decompositions, KeepWhatIsLeftOfAPass)
 {
   const Positions positions = makePositions(300000, [](std::uint64_t i) {
