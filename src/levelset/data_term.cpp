@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "data_term.h"
 
+#include "constants.h"
 #include "evolution_kernel.h"
+#include "quadratic_terms.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
@@ -10,24 +12,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pcl_uvol {
 
 namespace {
 
 constexpr std::size_t block_groups = 64, block_fits = 64;
-
-/** Of the median slope. */
-constexpr float least_slope = 0.1f;
-
-/** Neighbour by neighbour, slopes of the surface reach as far as the band. */
-constexpr int spreading_passes = 5;
-
-/** Fits that tell the noise, and samples in each: twice the terms of a quadratic leave
- * enough degrees of freedom. */
-constexpr std::size_t noise_fits = 4096, noise_samples = 27;
-constexpr int quadratic_terms = 10;
 
 const KernelTable<const EvolutionKernels*> kernel_table{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
@@ -147,7 +140,7 @@ spreadSlopes(const Band& band,
   std::vector<float> spread(band.places(), 0.0f);
   for (const std::uint32_t center : surface)
     spread[center] = slopes[center];
-  for (int pass = 0; pass < spreading_passes; ++pass) {
+  for (int pass = 0; pass < level_set.spreading_passes; ++pass) {
     const std::vector<float> known = spread;
     std::vector<std::uint32_t> count(band.places(), 0);
     const auto add = [&](std::size_t to, std::size_t from) {
@@ -196,20 +189,84 @@ extendSlopes(const Band& band, std::vector<float>& slopes)
     slopes[place] /= static_cast<float>(count[place]);
 }
 
+/** Standard deviation of a field per slope, by how samples differ from their nearest
+ * neighbours beyond what the gradients at both tell: the closer half of such pairs. */
+double
+findNoiseOfPairs(const Band& band,
+                 const std::vector<std::uint32_t>& centers,
+                 const SampleSet& samples,
+                 const std::vector<float>& f,
+                 const std::vector<float>& slopes,
+                 unsigned threads)
+{
+  struct Pair {
+    double distance, difference;
+  };
+  // Of normal deviates, the median size; a pair has two.
+  constexpr double median_size = 0.6745, of_two = 1.4142135623731;
+  const Gradients gradients(band, f, threads);
+  const StencilView stencils = band.stencils.view();
+  std::vector<Pair> pairs;
+  for (const std::uint32_t center : centers) {
+    const std::uint32_t* const row =
+        stencils.indicesOf(center / stencil_lanes) + center % stencil_lanes;
+    const Position& x = samples.getPositions()[band.centers[center]];
+    const auto sq_distance = [&](const Position& y) {
+      double sum = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+        sum += std::pow(static_cast<double>(y[axis]) - x[axis], 2);
+      return sum;
+    };
+    std::uint32_t nearest = center;
+    double sq_nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < stencils.neighbors; ++j) {
+      const std::uint32_t place = row[j * stencil_lanes];
+      if (place >= band.centers.size() || place == center)
+        continue;
+      const double sq = sq_distance(samples.getPositions()[band.centers[place]]);
+      if (sq < sq_nearest) {
+        sq_nearest = sq;
+        nearest = place;
+      }
+    }
+    if (nearest == center)
+      continue;
+    const Position& y = samples.getPositions()[band.centers[nearest]];
+    double difference = static_cast<double>(f[nearest]) - f[center];
+    for (int axis = 0; axis < 3; ++axis)
+      for (const std::uint32_t end : {center, nearest})
+        difference -= 0.5 * gradients.normal[axis][end] * gradients.slope[end] *
+                      (static_cast<double>(y[axis]) - x[axis]);
+    pairs.push_back({sq_nearest, std::abs(difference) / slopes[center]});
+  }
+  if (pairs.empty())
+    return 0.0;
+  const auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() / 2);
+  std::nth_element(
+      pairs.begin(), middle, pairs.end(), [](const Pair& a, const Pair& b) {
+        return std::make_pair(a.distance, a.difference) <
+               std::make_pair(b.distance, b.difference);
+      });
+  std::vector<double> differences;
+  for (auto pair = pairs.begin(); pair <= middle; ++pair)
+    differences.push_back(pair->difference);
+  return medianOf(std::move(differences)) / (median_size * of_two);
+}
+
 /** Standard deviation of a field about quadratics, per slope; the median over some of
  * the centres. */
 double
-findNoise(const Band& band,
-          const std::vector<std::uint32_t>& centers,
-          const SampleSet& samples,
-          const std::vector<float>& f,
-          const std::vector<float>& slopes,
-          unsigned threads)
+findNoiseOfFits(const Band& band,
+                const std::vector<std::uint32_t>& centers,
+                const SampleSet& samples,
+                const std::vector<float>& f,
+                const std::vector<float>& slopes,
+                unsigned threads)
 {
-  const std::size_t count = std::min(noise_fits, centers.size());
+  const std::size_t count = std::min(level_set.noise_fits, centers.size());
   std::vector<double> noises(count, 0.0);
   parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
-    NearestFinder finder(samples, noise_samples);
+    NearestFinder finder(samples, level_set.noise_samples);
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t center = centers[i * centers.size() / count];
       const Position& x = samples.getPositions()[band.centers[center]];
@@ -222,12 +279,8 @@ findNoise(const Band& band,
       const double reach = band.stencils.getReach()[center];
       for (std::size_t j = 0; j < row.size; ++j) {
         const Position& y = samples.getPositions()[row.samples[j]];
-        double u[3];
-        for (int axis = 0; axis < 3; ++axis)
-          u[axis] = (static_cast<double>(y[axis]) - x[axis]) / reach;
         const auto r = static_cast<Eigen::Index>(j);
-        a.row(r) << 1.0, u[0], u[1], u[2], u[0] * u[0], u[0] * u[1], u[0] * u[2],
-            u[1] * u[1], u[1] * u[2], u[2] * u[2];
+        a.row(r) = quadraticTerms(x, y, reach);
         b[r] = f[row.samples[j]];
       }
       const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(a);
@@ -239,7 +292,54 @@ findNoise(const Band& band,
   return medianOf(std::move(noises));
 }
 
+/** How steep a function is. */
+struct SurfaceSlopes {
+  std::vector<std::uint32_t> surface; ///< centres
+  std::vector<float> own;             ///< by place, none below a part of the median
+  std::vector<float> spread;          ///< by place, those at the surface beside it
+  float median;                       ///< at the surface
+};
+
+SurfaceSlopes
+findSurfaceSlopes(const Band& band, const std::vector<float>& values, unsigned threads)
+{
+  SurfaceSlopes slopes;
+  slopes.own = findSlopes(band, values, threads);
+  slopes.surface = findSurface(band, values);
+  std::vector<float> known;
+  known.reserve(slopes.surface.size());
+  for (const std::uint32_t center : slopes.surface)
+    known.push_back(slopes.own[center]);
+  slopes.median = medianOf(std::move(known));
+  extendSlopes(band, slopes.own);
+  for (float& slope : slopes.own)
+    slope = std::max(slope, level_set.least_slope * slopes.median);
+  slopes.spread = spreadSlopes(band, slopes.surface, slopes.own, slopes.median);
+  return slopes;
+}
+
+/** Values become distances at the surface and about that beside it. */
+void
+divideBySlopes(const SurfaceSlopes& slopes, std::vector<float>& values)
+{
+  for (std::size_t place = 0; place < values.size(); ++place)
+    values[place] /= 0.5f * (slopes.own[place] + slopes.spread[place]);
+}
+
 } // namespace
+
+double
+measureSlopeError(const Band& band, const std::vector<float>& phi, unsigned threads)
+{
+  return findSlopeError(band, findSurface(band, phi), phi, threads);
+}
+
+std::vector<float>
+scaleToDistance(const Band& band, std::vector<float> phi, unsigned threads)
+{
+  divideBySlopes(findSurfaceSlopes(band, phi, threads), phi);
+  return phi;
+}
 
 DataTerm
 makeDataTerm(const Band& band,
@@ -252,28 +352,20 @@ makeDataTerm(const Band& band,
   std::vector<float> values(band.places(), 0.0f);
   band.forPlaces(
       [&](std::size_t place, std::uint32_t sample) { values[place] = f[sample]; });
-  std::vector<float> slopes = findSlopes(band, values, threads);
-  const auto surface = findSurface(band, values);
-  std::vector<float> known;
-  known.reserve(surface.size());
-  for (const std::uint32_t center : surface)
-    known.push_back(slopes[center]);
-  const float median = medianOf(std::move(known));
-  extendSlopes(band, slopes);
-  for (float& slope : slopes)
-    slope = std::max(slope, least_slope * median);
-  const std::vector<float> spread = spreadSlopes(band, surface, slopes, median);
+  const SurfaceSlopes slopes = findSurfaceSlopes(band, values, threads);
+  const double of_fits = findNoiseOfFits(
+                   band, slopes.surface, samples, f, slopes.own, threads),
+               of_pairs = findNoiseOfPairs(
+                   band, slopes.surface, samples, values, slopes.own, threads);
   DataTerm term;
-  term.slope = median;
-  term.noise = findNoise(band, surface, samples, f, slopes, threads);
-  term.target = std::move(values);
+  term.slope = slopes.median;
+  term.noise = of_pairs < level_set.misfit_part * of_fits ? of_pairs : of_fits;
   term.trust.assign(band.centerPlaces(), 0.0f);
-  for (std::size_t place = 0; place < band.places(); ++place) {
-    term.target[place] /= 0.5f * (slopes[place] + spread[place]);
-    if (place < band.centers.size())
-      term.trust[place] = std::min(1.0f, std::pow(slopes[place] / spread[place], 2.0f));
-  }
-  term.slope_error = findSlopeError(band, surface, term.target, threads);
+  for (std::size_t i = 0; i < band.centers.size(); ++i)
+    term.trust[i] = std::min(1.0f, std::pow(slopes.own[i] / slopes.spread[i], 2.0f));
+  divideBySlopes(slopes, values);
+  term.target = std::move(values);
+  term.slope_error = findSlopeError(band, slopes.surface, term.target, threads);
   return term;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolver.h"
 
+#include "constants.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
 
@@ -15,44 +16,6 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_groups = 64, block_places = 16384;
-
-/** Of the step that the stencil's weights allow. */
-constexpr double safety = 0.9;
-
-/** In spacings: the data pull no more than from that far away. It bounds the speed of a
- * surface that is not where it belongs yet, and the pull of outliers. */
-constexpr double most_pull = 1.0;
-
-/** Steps are so many times shorter where the surface travels at that speed: central
- * differences let its waves grow by as little. */
-constexpr double travel_factor = 6.0;
-
-/** Slopes count as no greater for the pull of the data: where samples lie nearly on a
- * line or a plane, they are anything. */
-constexpr double steepest = 1.5;
-
-/** In median spacings: samples that lie farther apart are not smoothed over more. */
-constexpr double longest_spacing = 2.0;
-
-/** Samples with shorter steps than that part of most others' take steps that are too
- * long for them, of a flow that is as much weaker: they end at the same, and later. */
-constexpr double shortest_step = 1.0 / 64.0;
-
-/** Of the samples, those whose steps are the longest. */
-constexpr double long_steps = 0.1;
-
-/** Mean slopes count as no smaller: where the function is flat, its curvature is
- * anything. */
-constexpr float least_mean_slope = 0.1f;
-
-/** So do mean weights of the data. */
-constexpr float least_trust = 1e-3f;
-
-/** Steps until the averages, which change slowly, are taken anew. */
-constexpr std::size_t reference_steps = 4;
-
-/** Of the term that keeps the slope at 1 (thesis 3.4), against the others' 1. */
-constexpr double diffusion_weight = 0.5;
 
 /** The rate of the longest steps with which steps of powers of two below take the least
  * work in all. \param rates ascending */
@@ -117,7 +80,7 @@ Evolver::Evolver(const Band& band,
               ? 0.0f
               : static_cast<float>(
                     std::pow(std::min(spacingOf(band.stencils.getReach()[i], neighbors),
-                                      longest_spacing * spacing),
+                                      level_set.longest_spacing * spacing),
                              2));
   }
   chooseSteps();
@@ -146,8 +109,10 @@ Evolver::chooseSteps()
     const double gap = std::abs(term_.target[i] - phi_[i]) / spacing_;
     const double attraction =
         parameters_.bound == StepBound::Cfl
-            ? std::sqrt(3.0) * gap / nearest
-            : steepest * (1.0 + travel_factor * std::min(1.0, gap * gap));
+            // The thesis's condition forgets that the pull fades on the way.
+            ? std::max(1.0, std::sqrt(3.0) * gap / nearest)
+            : level_set.steepest *
+                  (1.0 + level_set.travel_factor * std::min(1.0, gap * gap));
     const double smoothing =
         parameters_.bound == StepBound::Cfl
             ? 6.0 / (nearest * nearest)
@@ -155,7 +120,7 @@ Evolver::chooseSteps()
                                    ? 26.0 / std::pow(band_.stencils.getReach()[i], 2)
                                    : band_.stencils.getStiffness()[i]);
     const double diffusion = parameters_.reinitialization == Reinitialization::Diffusion
-                                 ? diffusion_weight
+                                 ? level_set.diffusion_weight
                                  : 0.0;
     rate[i / stencil_lanes] =
         std::max(rate[i / stencil_lanes],
@@ -167,9 +132,9 @@ Evolver::chooseSteps()
   std::sort(sorted.begin(), sorted.end());
   double slowest = sorted.back();
   if (parameters_.integration == Integration::Asynchronous) {
-    const double most =
-        sorted[static_cast<std::size_t>(long_steps * static_cast<double>(groups - 1))] /
-        shortest_step;
+    const double most = sorted[static_cast<std::size_t>(
+                            level_set.long_steps * static_cast<double>(groups - 1))] /
+                        level_set.shortest_step;
     for (double& one : sorted)
       one = std::min(one, most);
     slowest = leastWork(sorted);
@@ -179,7 +144,7 @@ Evolver::chooseSteps()
         ++class_of_[group];
     }
   }
-  step_ = safety / slowest;
+  step_ = level_set.safety / slowest;
   const std::size_t count = *std::max_element(class_of_.begin(), class_of_.end()) + 1u;
   classes_.resize(count);
   for (std::size_t group = 0; group < groups; ++group) {
@@ -218,7 +183,7 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
   const float* const normals[3] = {
       normals_[0].data(), normals_[1].data(), normals_[2].data()};
   const double to_distance = parameters_.reinitialization == Reinitialization::Diffusion
-                                 ? diffusion_weight
+                                 ? level_set.diffusion_weight
                                  : 0.0;
   parallelBlocks(groups.size(), block_groups, threads_, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -229,8 +194,8 @@ Evolver::evaluate(const std::vector<std::uint32_t>& groups,
                                term_.trust.data(),
                                reference_.empty() ? nullptr : reference_.data(),
                                sq_length_.data(),
-                               static_cast<float>(most_pull * spacing_),
-                               static_cast<float>(steepest),
+                               static_cast<float>(level_set.most_pull * spacing_),
+                               static_cast<float>(level_set.steepest),
                                static_cast<float>(mu_ * dt),
                                static_cast<float>((1.0 - mu_) * dt),
                                static_cast<float>(to_distance * dt),
@@ -265,12 +230,12 @@ Evolver::commit(const std::vector<std::uint32_t>& groups, float time)
 void
 Evolver::updateReference()
 {
-  if (reference_.empty() || steps_ % reference_steps != 0)
+  if (reference_.empty() || steps_ % level_set.reference_steps != 0)
     return;
   if (steps_ == 0)
     evaluate(classes_.front().groups, 0.0f, 0.0);
   // Of curvature times slope: where the function is flat, its curvature is anything.
-  averageTwice(curvature_, slope_, least_mean_slope, reference_);
+  averageTwice(curvature_, slope_, level_set.least_mean_slope, reference_);
 }
 
 void
@@ -295,23 +260,6 @@ Evolver::averageTwice(const std::vector<float>& values,
   forCenters(
       [&](std::size_t i) { sums_[0][i] /= std::max(sums_[1][i], least_weight); });
   average({stencils, centers, 1, {sums_[0].data()}, {means.data()}});
-}
-
-double
-Evolver::findPattern()
-{
-  std::vector<float> pull(centers_), means(centers_);
-  forCenters(
-      [&](std::size_t i) { pull[i] = term_.trust[i] * (term_.target[i] - phi_[i]); });
-  averageTwice(pull, term_.trust, least_trust, means);
-  double squares = 0.0;
-  std::size_t near = 0;
-  for (std::size_t i = 0; i < band_.centers.size(); ++i)
-    if (isNear(i)) {
-      squares += static_cast<double>(means[i]) * means[i];
-      ++near;
-    }
-  return near > 0 ? std::sqrt(squares / static_cast<double>(near)) / spacing_ : 0.0;
 }
 
 void

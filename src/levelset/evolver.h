@@ -54,12 +54,6 @@ public:
   LevelSetStep
   advance();
 
-  /** \brief Root mean square, in spacings, of the data's pull at the zero level once it
-   * is averaged over about three spacings: noise leaves little of itself, a surface
-   * that was smoothed away more. */
-  double
-  findPattern();
-
   /** \brief By place. */
   const std::vector<float>&
   getPhi() const
@@ -99,14 +93,6 @@ private:
                const std::vector<float>& weights,
                float least_weight,
                std::vector<float>& means);
-
-  /** Whether a centre is within a spacing of the zero level, also where the function is
-   * flat; not a number is. */
-  bool
-  isNear(std::size_t center) const
-  {
-    return !(std::abs(phi_[center]) > spacing_ * std::min(1.0f, slope_[center]));
-  }
 
   /** Call visit(place) for all places of centres, in parallel. */
   template <typename Visit>

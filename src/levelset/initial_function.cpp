@@ -49,16 +49,25 @@ InitialFunction::field(const std::string& name)
 }
 
 double
-InitialFunction::computeDistance(const Eigen::Vector3d& x) const
+InitialFunction::computeDistance(const Eigen::Vector3d& x,
+                                 const Eigen::Array3d& scale) const
 {
-  if (kind == InitialKind::Sphere)
-    return radius - (x - first.matrix()).norm();
+  if (kind == InitialKind::Sphere) {
+    // Stretched, it is an ellipsoid: to first order.
+    const Eigen::Array3d from_center = x.array() - first;
+    const double distance = from_center.matrix().norm();
+    const double slope = distance > 0.0
+                             ? (from_center / scale).matrix().norm() / distance
+                             : 1.0 / scale.minCoeff();
+    return (radius - distance) / slope;
+  }
   if (kind == InitialKind::Box) {
-    const Eigen::Array3d beyond = (first - x.array()).max(x.array() - second);
+    const Eigen::Array3d beyond = scale * (first - x.array()).max(x.array() - second);
     const double outside = beyond.max(0.0).matrix().norm();
     return outside > 0.0 ? -outside : -beyond.maxCoeff();
   }
-  return (first.matrix() - x).dot(second.matrix().normalized());
+  return (first - x.array()).matrix().dot(second.matrix()) /
+         (second / scale).matrix().norm();
 }
 
 void

@@ -2,6 +2,7 @@
 #include "reinitialization.h"
 
 #include "../isosurface/isopoints.h"
+#include "constants.h"
 #include "evolution_kernel.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
@@ -16,13 +17,6 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_groups = 64, block_places = 1024;
-
-/** In spacings: nearer isopoints stand for the plane through them. */
-constexpr float planar_distance = 1.5f;
-
-/** Relaxation: part of the step that the viscosity allows, its viscosity in spacings,
- * and the time until what starts at the zero level has crossed a stencil. */
-constexpr double relaxation_safety = 0.5, viscosity = 0.3, relaxation_time = 6.0;
 
 const KernelTable<const EvolutionKernels*> kernel_table{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
@@ -80,17 +74,34 @@ distanceToZeroLevel(const Band& band,
   }
   const auto surface = SampleSet::buildInUnit(
       positions.front().x, 3, all, LengthUnit{}, threads, ignored);
-  const auto planar = static_cast<float>(planar_distance * spacing);
+  const bool is_even = scale[0] == scale[1] && scale[1] == scale[2];
+  // How much the surface bends away from its tangent plane, both ways alike.
+  const auto bending = [&](const PointIso& point) {
+    const double most = 0.5 / spacing;
+    const double curvature = point.mean_curvature / scale[0];
+    return is_even && std::isfinite(curvature) ? std::clamp(curvature, -most, most)
+                                               : 0.0;
+  };
+  const auto planar = static_cast<float>(level_set.planar_distance * spacing);
   const auto measure = [&](NearestFinder& finder, std::size_t place, auto sample) {
     const Position& x = samples.getPositions()[sample];
     const auto row = finder.find(x, static_cast<float>(spacing));
     const float length = std::sqrt(row.sq_dists[0]);
-    const Eigen::Vector3f& normal = normals[surface->getInputIndex(row.samples[0])];
+    const std::uint32_t isopoint = surface->getInputIndex(row.samples[0]);
+    const Eigen::Vector3f& normal = normals[isopoint];
     const Position& foot = surface->getPositions()[row.samples[0]];
     float along = 0.0f;
     for (int axis = 0; axis < 3; ++axis)
       along += (x[axis] - foot[axis]) * normal[axis];
-    distance[place] = length < planar ? along : std::copysign(length, phi[sample]);
+    if (length < planar) {
+      const double curvature = bending(isopoints[isopoint]),
+                   sq_across = std::max(
+                       0.0, static_cast<double>(row.sq_dists[0]) - along * along);
+      distance[place] = static_cast<float>(
+          along + 0.5 * curvature * sq_across / std::max(0.5, 1.0 + curvature * along));
+    }
+    else
+      distance[place] = std::copysign(length, phi[sample]);
   };
   parallelBlocks(band.centers.size(), block_places, threads, [&](auto begin, auto end) {
     NearestFinder finder(*surface, 1);
@@ -114,23 +125,25 @@ relaxToDistance(const Band& band,
   const auto& stiffness = band.stencils.getStiffness();
   const double stiffest = *std::max_element(stiffness.begin(), stiffness.end());
   // The trace of the Hessian has at most twice the weight of curvature.
-  const double dt = relaxation_safety / (1.0 + 2.0 * viscosity * spacing * spacing *
-                                                   stiffest); // in spacings
+  const double dt =
+      level_set.relaxation_safety /
+      (1.0 + 2.0 * level_set.viscosity * spacing * spacing * stiffest); // in spacings
   const auto h = static_cast<float>(spacing);
   std::vector<float> now = phi, next = phi, slope(band.centerPlaces()),
                      sign(band.centerPlaces());
   for (std::size_t i = 0; i < sign.size(); ++i)
     sign[i] = phi[i] / std::sqrt(phi[i] * phi[i] + h * h);
-  const auto steps = static_cast<int>(std::ceil(relaxation_time / dt));
+  const auto steps = static_cast<int>(std::ceil(level_set.relaxation_time / dt));
   for (int i = 0; i < steps; ++i) {
     band.extrapolate(now);
-    const DistanceStep step{band.stencils.view(),
-                            now.data(),
-                            sign.data(),
-                            static_cast<float>(dt * spacing),
-                            static_cast<float>(dt * viscosity * spacing * spacing),
-                            next.data(),
-                            slope.data()};
+    const DistanceStep step{
+        band.stencils.view(),
+        now.data(),
+        sign.data(),
+        static_cast<float>(dt * spacing),
+        static_cast<float>(dt * level_set.viscosity * spacing * spacing),
+        next.data(),
+        slope.data()};
     parallelBlocks(
         band.stencils.groups(), block_groups, threads, [&](auto begin, auto end) {
           kernel_table.get()->relaxToDistance(step, begin, end);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces of noisy samples: direct, after a local mean or a local fit of the
-// values, and by level sets.
+// values, and by level sets; and what level sets make of shapes that smoothing may take
+// away.
 #include "support/clouds.h"
 #include "support/noisy_shapes.h"
 #include <pcl_uvol/common/parallel.h>
@@ -11,8 +12,12 @@
 
 #include <Eigen/QR>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -118,9 +123,131 @@ evolveAndPrint(const NoisyCloud& noisy, const Setting& setting)
   std::fflush(stdout);
 }
 
+/** What the table tells of one way to the surface: root mean squares over some clouds.
+ */
+struct Deviation {
+  double rms = 0.0;
+  double mu = 0.0;
+  std::size_t points = 0, steps = 0;
+  double milliseconds = 0.0;
+};
+
+using Clouds = std::vector<NoisyCloud>;
+
+/** \param surface_of a cloud; tells the rest of the deviation as well */
+template <typename SurfaceOf>
+Deviation
+averageOf(const Clouds& clouds, const SurfaceOf& surface_of)
+{
+  Deviation all;
+  double squares = 0.0;
+  for (const NoisyCloud& noisy : clouds) {
+    const Surface surface = surface_of(noisy, all);
+    const auto quality = uvol_test::measure(noisy, surface);
+    squares += surface.empty() ? std::numeric_limits<double>::infinity()
+                               : quality.rms * quality.rms;
+    all.points += surface.size();
+  }
+  all.rms = std::sqrt(squares / static_cast<double>(clouds.size()));
+  return all;
+}
+
+/** \param mu none: automatic */
+Deviation
+smooth(const Clouds& clouds, std::optional<double> mu)
+{
+  return averageOf(clouds, [&](const NoisyCloud& noisy, Deviation& told) {
+    pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
+    evolution.setInputCloud(noisy.cloud);
+    evolution.setIsoValue(0.0);
+    if (mu)
+      evolution.setMu(*mu);
+    std::vector<float> phi;
+    evolution.evolve(phi);
+    const Cloud::Ptr level(new Cloud(*noisy.cloud));
+    for (std::size_t i = 0; i < phi.size(); ++i)
+      (*level)[i].intensity = phi[i];
+    told.mu += evolution.getSummary().mu / static_cast<double>(clouds.size());
+    told.steps += evolution.getSummary().steps.size();
+    told.milliseconds += evolution.getReport().milliseconds.back().second;
+    return uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit);
+  });
+}
+
+void
+printComparison(const std::string& name, const Clouds& clouds)
+{
+  const Deviation direct = averageOf(clouds, [](const NoisyCloud& noisy, Deviation&) {
+    return uvol_test::isopoints(noisy.cloud, pcl_uvol::Interpolation::Fit);
+  });
+  const Deviation automatic = smooth(clouds, std::nullopt);
+  Deviation best;
+  best.rms = std::numeric_limits<double>::infinity();
+  if (!std::getenv("NOISE_FAST"))
+    for (const double mu :
+         {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.09, 0.06, 0.04, 0.03, 0.02, 0.01}) {
+      const Deviation fixed = smooth(clouds, mu);
+      if (fixed.rms < best.rms)
+        best = fixed;
+    }
+  std::printf(
+      "| %s | %.4f | %.4f, mu %.3f | %.4f, mu %.2f | %.2f | %.2f | %zu | %.0f | "
+      "%zu, %zu |\n",
+      name.c_str(),
+      direct.rms,
+      automatic.rms,
+      automatic.mu,
+      best.rms,
+      best.mu,
+      automatic.rms / best.rms,
+      automatic.rms / direct.rms,
+      automatic.steps / clouds.size(),
+      automatic.milliseconds / static_cast<double>(clouds.size()),
+      direct.points,
+      automatic.points);
+  std::fflush(stdout);
+}
+
+void
+printTable(const std::string& word)
+{
+  constexpr std::uint64_t seeds = 4;
+  std::puts("| shape | direct | automatic mu | best fixed mu | automatic / best | "
+            "automatic / direct | steps | ms | isopoints, direct and automatic |\n"
+            "|---|---|---|---|---|---|---|---|---|");
+  const struct {
+    const char* shape;
+    double size;
+  } shapes[] = {{"sphere", 2.0},
+                {"sphere", 3.0},
+                {"sphere", 4.0},
+                {"cylinder", 2.0},
+                {"cylinder", 3.0},
+                {"sheet", 4.0},
+                {"sheet", 6.0},
+                {"waves", 6.0},
+                {"waves", 9.0},
+                {"torus", 4.0},
+                {"torus", 6.0},
+                {"sphere", 10.0}};
+  for (const auto& [shape, size] : shapes)
+    for (const double noise : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+      char name[80];
+      std::snprintf(name, sizeof name, "%s %g, noise %.1f", shape, size, noise);
+      if (std::string(name).find(word) == std::string::npos)
+        continue;
+      Clouds clouds;
+      for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+        clouds.push_back(uvol_test::makeNoisyCloud(
+            uvol_test::makeSmallShape(shape, size), noise, seed));
+      printComparison(name, clouds);
+    }
+}
+
 } // namespace
 
-/** noise SHAPE uniform|clustered PERCENT MU...: one row per method; a negative MU
+/** noise table [WORD]: the rows whose names hold the word.
+ * noise SHAPE uniform|clustered PERCENT MU...: one row per method; a negative MU
  * stands for the automatic one. */
 int
 main(int argc, char** argv)
@@ -128,10 +255,14 @@ main(int argc, char** argv)
   using pcl_uvol::CurvatureFlow;
   using pcl_uvol::FitScheme;
   using pcl_uvol::Interpolation;
+  if (argc >= 2 && std::string(argv[1]) == "table") {
+    printTable(argc > 2 ? argv[2] : "");
+    return 0;
+  }
   if (argc < 4) {
-    std::fputs(
-        "usage: noise sphere|torus|two_spheres uniform|clustered PERCENT MU...\n",
-        stderr);
+    std::fputs("usage: noise table [WORD]\n       noise sphere|torus|two_spheres "
+               "uniform|clustered PERCENT MU...\n",
+               stderr);
     return 2;
   }
   const auto noisy = uvol_test::makeNoisyCloud(

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double radius = 22.0;
 
-/** Room around a shape, in spacings. */
-constexpr double room = 8.0;
+/** Room around a shape, in spacings, and around what is measured of it. */
+constexpr double room = 8.0, rim = 3.0;
 
 /** Isopoints closer than that belong to one component. */
 constexpr double link = 2.0;
@@ -26,6 +26,8 @@ countComponents(const pcl::PointCloud<pcl_uvol::PointIso>& surface)
   const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
   for (const pcl_uvol::PointIso& point : surface)
     points->push_back({point.x, point.y, point.z});
+  if (points->empty())
+    return 0;
   pcl::search::KdTree<pcl::PointXYZ> search;
   search.setInputCloud(points);
   std::vector<bool> known(points->size(), false);
@@ -84,17 +86,46 @@ makeShape(const std::string& name)
           }};
 }
 
+Shape
+makeSmallShape(const std::string& name, double size)
+{
+  constexpr double pi = 3.14159265358979, half_side = 14.0;
+  if (name == "sphere")
+    return {"sphere", size + room, 1, [size](const Eigen::Vector3d& x) {
+              return size - x.norm();
+            }};
+  if (name == "cylinder")
+    return {"cylinder", half_side, 1, [size](const Eigen::Vector3d& x) {
+              return size - std::hypot(x[0], x[1]);
+            }};
+  if (name == "sheet")
+    return {"sheet", half_side, 2, [size](const Eigen::Vector3d& x) {
+              return 0.5 * size - std::abs(x[2]);
+            }};
+  if (name == "torus")
+    return {"torus", 3.5 * size + room, 1, [size](const Eigen::Vector3d& x) {
+              return size - std::hypot(std::hypot(x[0], x[1]) - 2.5 * size, x[2]);
+            }};
+  const double height = size / 12.0, k = 2.0 * pi / size;
+  return {"waves", half_side, 1, [height, k](const Eigen::Vector3d& x) {
+            const double a = k * x[0], b = k * x[1];
+            const double slope =
+                height * k *
+                std::hypot(std::cos(a) * std::sin(b), std::sin(a) * std::cos(b));
+            return (height * std::sin(a) * std::sin(b) - x[2]) / std::hypot(1.0, slope);
+          }};
+}
+
+namespace {
+
 NoisyCloud
-makeNoisyCloud(const std::string& name,
-               bool clustered,
-               double noise,
-               std::uint64_t seed)
+drawSamples(const Shape& shape, bool clustered, double noise, std::uint64_t seed)
 {
   constexpr double pi = 3.14159265358979;
   NoisyCloud noisy{
-      makeShape(name),
+      shape,
       clustered,
-      noise * radius,
+      noise,
       pcl::PointCloud<pcl::PointXYZI>::Ptr(new pcl::PointCloud<pcl::PointXYZI>)};
   const double extent = noisy.shape.extent;
   std::mt19937_64 random(seed);
@@ -125,6 +156,23 @@ makeNoisyCloud(const std::string& name,
   return noisy;
 }
 
+} // namespace
+
+NoisyCloud
+makeNoisyCloud(const Shape& shape, double noise, std::uint64_t seed)
+{
+  return drawSamples(shape, false, noise, seed);
+}
+
+NoisyCloud
+makeNoisyCloud(const std::string& name,
+               bool clustered,
+               double noise,
+               std::uint64_t seed)
+{
+  return drawSamples(makeShape(name), clustered, noise * radius, seed);
+}
+
 pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
           pcl_uvol::Interpolation interpolation)
@@ -142,9 +190,12 @@ SurfaceQuality
 measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {
   constexpr double degrees = 180.0 / 3.14159265358979;
-  double sum = 0.0, squares = 0.0, angles = 0.0;
+  double sum = 0.0, squares = 0.0, angles = 0.0, count = 0.0;
   for (const pcl_uvol::PointIso& point : surface) {
     const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
+    if (x.cwiseAbs().maxCoeff() > noisy.shape.extent - rim)
+      continue;
+    ++count;
     const double inside = noisy.shape.distance(x);
     const Eigen::Vector3d outwards = -gradientOf(noisy.shape, x);
     const Eigen::Vector3d normal = point.getNormalVector3fMap().cast<double>();
@@ -154,7 +205,6 @@ measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surf
     squares += inside * inside;
     angles += angle * angle;
   }
-  const auto count = static_cast<double>(surface.size());
   return {std::sqrt(squares / count),
           sum / count,
           std::sqrt(angles / count),

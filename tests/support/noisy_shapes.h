@@ -29,6 +29,12 @@ struct Shape {
 Shape
 makeShape(const std::string& name);
 
+/** \brief A shape that smoothing may take away: `sphere` or `cylinder` of that radius,
+ * `sheet` of that thickness, `torus` whose tube has that radius, `waves` of that length
+ * and a sixth of it high. */
+Shape
+makeSmallShape(const std::string& name, double size);
+
 /** \brief Samples of about spacing 1 at the surface; intensity: the distance with
  * Gaussian noise. */
 struct NoisyCloud {
@@ -37,6 +43,10 @@ struct NoisyCloud {
   double noise; ///< standard deviation
   pcl::PointCloud<pcl::PointXYZI>::Ptr cloud;
 };
+
+/** \brief Uniform samples about a shape. \param noise in spacings */
+NoisyCloud
+makeNoisyCloud(const Shape& shape, double noise, std::uint64_t seed);
 
 /** \param clustered with a density that falls with the squared distance from the centre
  * \param noise part of the radius 22 */
@@ -51,7 +61,8 @@ pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
           pcl_uvol::Interpolation interpolation);
 
-/** \brief Of isopoints, against the true surface. */
+/** \brief Of isopoints, against the true surface; those near the border of the cube do
+ * not count. */
 struct SurfaceQuality {
   double rms;             ///< of the deviation
   double shift;           ///< its mean; positive: the surface has shrunk

@@ -67,9 +67,13 @@ struct PCL_UVOL_EXPORTS InitialFunction {
     return kind != InitialKind::Values && kind != InitialKind::Field;
   }
 
-  /** \brief Distance of a place to the shape, positive inside. */
+  /** \brief Distance of a place to the shape, positive inside.
+   *
+   * \param scale factors per axis: the distance in the stretched space; that to a
+   * sphere is then one to first order, exact at its surface */
   double
-  computeDistance(const Eigen::Vector3d& x) const;
+  computeDistance(const Eigen::Vector3d& x,
+                  const Eigen::Array3d& scale = Eigen::Array3d::Ones()) const;
 
   /** \throws InvalidArgument for a shape that is none */
   void

@@ -114,9 +114,8 @@ public:
     return parameters_.mu;
   }
 
-  /** \brief Choose mu by the noise of the data, and raise it whenever the data pull
-   * the surface in one direction over several spacings: smoothing has taken away what
-   * is no noise. */
+  /** \brief Smooth as far as the expected deviation from the true surface falls, and
+   * not at all where it would not; see LevelSetParameters::mu. */
   void
   setAutomaticMu()
   {
@@ -289,7 +288,9 @@ public:
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, band_samples, isotropic_fits, steps, updates (times that a
-   * sample was advanced), band_updates, reinitializations, mu_raised. */
+   * sample was advanced), band_updates, reinitializations, outliers (values unlike
+   * those of all neighbours, which are replaced), lost_samples (farther from the
+   * surface than noise explains, and on its other side in the end). */
   void
   evolve(std::vector<float>& phi);
 

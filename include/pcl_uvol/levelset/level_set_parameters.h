@@ -99,9 +99,12 @@ struct LevelSetSummary {
   double spacing = 0.0; ///< median spacing of the samples near the surface: the unit of
                         ///< length
   double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, as the
-                        ///< residuals of local fits tell it
-  double mu = 0.0;      ///< as given, or chosen by the noise and, if smoothing takes
-                        ///< more away than that, raised on the way
+                        ///< residuals of local fits tell it, or close pairs of samples
+  double mu = 0.0;      ///< as given, or the last one of those that were chosen
+  bool smoothed = true; ///< false where an automatic mu found nothing to smooth: phi is
+                        ///< the field itself as a distance, and there are no steps
+  /** The zero level rests, or the steps of an automatic mu are done; never where it has
+   * vanished. */
   bool converged = false;
   std::vector<LevelSetStep> steps;
 };
@@ -117,9 +120,10 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** In units of the field; there is no default. */
   double isovalue = std::numeric_limits<double>::quiet_NaN();
   /** Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0 only
-   * smooths. None: chosen by the noise of the data, and raised whenever the data pull
-   * the surface in one direction over several spacings, where smoothing has taken away
-   * what is no noise. */
+   * smooths. None, from the values: smaller and smaller weights one after another, as
+   * long as the expected deviation from the true surface falls (Stein's unbiased risk
+   * estimate), and no smoothing at all where it would not fall by a sixth. None, from
+   * another start: the last of these weights. */
   std::optional<double> mu;
   FitScheme scheme = FitScheme::Quadratic;
   CurvatureFlow flow = CurvatureFlow::Relative;

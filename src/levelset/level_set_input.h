@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a level set is made from: samples, values near 1, a function to start from.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/levelset/level_set_parameters.h>
+#include <pcl_uvol/neighbors/sample_set.h>
+
+#include <pcl/types.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The samples of a cloud and their values. */
+struct LevelSetInput {
+  SampleSet::ConstPtr samples;
+  std::vector<float> f; ///< minus the isovalue, by sample, see tameValues()
+  std::vector<std::uint32_t> sources;  ///< by sample, the points that they are of
+  std::vector<std::uint32_t> crossing; ///< samples next to the zero level of f
+  double spacing; ///< the median one of these, in the unit of the samples
+};
+
+/** \throws InvalidArgument for parameters out of range */
+void
+checkParameters(const LevelSetParameters& parameters);
+
+/** \brief Read what LevelSetEvolution::evolve() takes. \throws InvalidArgument as that
+ */
+LevelSetInput
+readInput(const CloudView& cloud,
+          const pcl::Indices& indices,
+          const LevelSetParameters& parameters,
+          unsigned threads,
+          Report& report);
+
+/** \brief The function at the start where it is a shape or a field, by sample and in
+ * the unit of the samples; empty where f itself is. \throws InvalidArgument for a field
+ * that is not finite everywhere */
+std::vector<float>
+readInitialValues(const CloudView& cloud,
+                  const LevelSetInput& input,
+                  const LevelSetParameters& parameters);
+
+} // namespace pcl_uvol

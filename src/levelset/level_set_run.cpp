@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "band.h"
+#include "constants.h"
+#include "data_term.h"
+#include "evolver.h"
+#include "level_set_input.h"
+#include "mu_choice.h"
+#include "reinitialization.h"
+#include "robust_values.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/number_range.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Of a whole run, for its progress. */
+constexpr std::uint64_t progress_parts = 1000;
+
+/** Beyond it a function of some samples has diverged. */
+double
+findLargestPhi(const SampleSet& samples)
+{
+  Position low = samples.getPositions()[0], high = low;
+  for (const Position& x : samples.getPositions())
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], x[axis]);
+      high[axis] = std::max(high[axis], x[axis]);
+    }
+  return level_set.most_extents *
+         std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+/** What helps against divergence, of the parameters that are not the stable ones. */
+std::string
+adviseStability(const LevelSetParameters& parameters)
+{
+  if (parameters.scheme == FitScheme::Linear)
+    return "use the quadratic scheme";
+  if (parameters.bound == StepBound::Cfl)
+    return "bound the steps by the stencils";
+  if (parameters.reinitialization == Reinitialization::Diffusion)
+    return "reinitialise by distance";
+  if (parameters.initial.kind != InitialKind::Values)
+    return "start from the values";
+  return "give a larger mu, or extract the isosurface without smoothing";
+}
+
+/** One run, from the samples to phi. */
+class LevelSetRun {
+public:
+  LevelSetRun(const CloudView& cloud,
+              LevelSetInput&& input,
+              const LevelSetParameters& parameters,
+              std::size_t snapshot_steps,
+              const SnapshotCallback& snapshot,
+              unsigned threads,
+              Report& report)
+      : parameters_(parameters)
+      , snapshot_steps_(snapshot_steps)
+      , snapshot_(snapshot)
+      , threads_(threads)
+      , report_(report)
+      , cloud_size_(cloud.count)
+      , input_(std::move(input))
+      , samples_(*input_.samples)
+      , spacing_(input_.spacing)
+      , largest_phi_(findLargestPhi(samples_))
+  {
+    summary_.spacing = samples_.getUnit().toInput(spacing_);
+    start(readInitialValues(cloud, input_, parameters));
+  }
+
+  LevelSet
+  run()
+  {
+    {
+      StepTimer timer(report_, "evolution", progress_parts);
+      std::uint64_t told = 0;
+      for (std::size_t i = 0; i < parameters_.max_steps && !summary_.converged; ++i) {
+        advance();
+        const std::uint64_t done = std::max(told, partsDone());
+        timer.advance(done - told);
+        told = done;
+        if (snapshot_steps_ > 0 && summary_.steps.size() % snapshot_steps_ == 0)
+          snapshot_(summary_, phiOfCloud(current()));
+      }
+      timer.advance(progress_parts - told);
+    }
+    finish();
+    report_.count("steps", summary_.steps.size());
+    report_.count("band_samples", band_->centers.size());
+    return {phiOfCloud(phi_), std::move(input_.sources), summary_};
+  }
+
+private:
+  /** By input index, in the input's unit of length. \param phi by sample */
+  std::vector<float>
+  phiOfCloud(std::vector<float> values) const
+  {
+    for (float& value : values)
+      value = static_cast<float>(samples_.getUnit().toInput(value));
+    std::vector<float> phi(cloud_size_, std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < samples_.size(); ++i)
+      phi[samples_.getInputIndex(i)] = values[i];
+    for (const SampleSet::Merged& merged : samples_.getMerged())
+      for (const std::uint32_t member : merged.members)
+        phi[member] = values[merged.sample];
+    return phi;
+  }
+
+  /** The band, its data term, the weights and the values it starts with. */
+  void
+  start(std::vector<float>&& initial)
+  {
+    const bool has_own_start = !initial.empty();
+    if (!has_own_start || !parameters_.mu)
+      makeBand(input_.crossing);
+    chooseStages(has_own_start);
+    if (has_own_start) {
+      phi_ = std::move(initial);
+      const auto crossing = findCrossing(samples_, phi_, threads_);
+      if (crossing.empty())
+        throw InvalidArgument("The function that the level set starts from has no zero "
+                              "level among the samples.");
+      makeBand(crossing);
+      if (parameters_.mu)
+        summary_.noise = term_.noise / spacing_;
+      makeDistance(level_set.most_slope_error, [&] { return makeDistanceOfBand(); });
+    }
+    else {
+      // Far from the surface the sign is all that counts.
+      phi_ = input_.f;
+      for (float& value : phi_)
+        value = static_cast<float>(value / term_.slope);
+      if (summary_.smoothed)
+        band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
+          phi_[sample] = term_.target[place];
+        });
+    }
+    makeEvolver();
+  }
+
+  /** \param has_own_start it starts somewhere else: there is no way from the data */
+  void
+  chooseStages(bool has_own_start)
+  {
+    constexpr double ever = std::numeric_limits<double>::infinity();
+    if (parameters_.mu) {
+      if (!has_own_start)
+        summary_.noise = term_.noise / spacing_;
+      stages_ = {{*parameters_.mu, ever}};
+    }
+    else {
+      summary_.noise = term_.noise / spacing_;
+      stages_ =
+          chooseMu(*band_, samples_, term_, parameters_, spacing_, threads_, report_);
+      if (has_own_start)
+        stages_ = {{stages_.empty() ? 1.0 : stages_.back().mu, ever}};
+    }
+    summary_.smoothed = !stages_.empty();
+    summary_.converged = stages_.empty();
+    summary_.mu = stages_.empty() ? 1.0 : stages_.front().mu;
+  }
+
+  bool
+  isLastStage() const
+  {
+    return stage_ + 1 == stages_.size();
+  }
+
+  /** Whether a weight acts until the surface rests. */
+  bool
+  isOpenStage() const
+  {
+    return std::isinf(stages_[stage_].time);
+  }
+
+  void
+  makeBand(const std::vector<std::uint32_t>& crossing)
+  {
+    evolver_.reset();
+    band_.reset(); // before the new one takes as much again
+    relaxation_band_.reset();
+    band_ = makeBandOf(parameters_.scheme, crossing, report_);
+    crossing_ = crossing;
+    term_ = makeDataTerm(*band_, samples_, input_.f, threads_, report_);
+  }
+
+  Band
+  makeBandOf(FitScheme scheme,
+             const std::vector<std::uint32_t>& crossing,
+             Report& report) const
+  {
+    return pcl_uvol::makeBand(samples_,
+                              crossing,
+                              parameters_.band_width * spacing_,
+                              scheme,
+                              parameters_.k,
+                              threads_,
+                              report);
+  }
+
+  /** The function by place of the band. */
+  std::vector<float>
+  phiOfBand() const
+  {
+    std::vector<float> phi(band_->places(), 0.0f);
+    band_->forPlaces(
+        [&](std::size_t place, std::uint32_t sample) { phi[place] = phi_[sample]; });
+    return phi;
+  }
+
+  void
+  makeEvolver()
+  {
+    evolver_.emplace(
+        *band_, parameters_, threads_, spacing_, summary_.mu, phiOfBand(), term_);
+  }
+
+  void
+  advance()
+  {
+    LevelSetStep step = evolver_->advance();
+    report_.count("updates", evolver_->getUpdates());
+    const double before = summary_.steps.empty() ? 0.0 : summary_.steps.back().time;
+    step.time = before + evolver_->getStep();
+    checkDivergence(step);
+    summary_.steps.push_back(step);
+    stage_time_ += evolver_->getStep();
+    const bool is_over = isOpenStage() ? step.change < parameters_.tolerance
+                                       : stage_time_ >= stages_[stage_].time;
+    summary_.converged = is_over && isLastStage();
+    if (summary_.converged)
+      return;
+    if (is_over)
+      startNextStage();
+    const std::size_t count = summary_.steps.size();
+    if (count % level_set.reinitialization_steps == 0 && isOpenStage() &&
+        step.slope_error > level_set.most_slope_error + term_.slope_error)
+      reinitializeUnlessUndone();
+    if (!band_->distance.empty() && count % level_set.band_steps == 0)
+      followZeroLevel();
+  }
+
+  void
+  startNextStage()
+  {
+    ++stage_;
+    stage_time_ = 0.0;
+    summary_.mu = stages_[stage_].mu;
+    phi_ = current();
+    makeEvolver();
+  }
+
+  /** How far the run is: changes fall about exponentially. */
+  std::uint64_t
+  partsDone() const
+  {
+    const auto& steps = summary_.steps;
+    const double by_steps =
+        static_cast<double>(steps.size()) / static_cast<double>(parameters_.max_steps);
+    const double to_go = std::log(steps.back().change / parameters_.tolerance),
+                 all = std::log(steps.front().change / parameters_.tolerance);
+    const double by_change = all > 0.0 ? 1.0 - to_go / all : 0.0;
+    return static_cast<std::uint64_t>(
+        progress_parts * std::clamp(std::max(by_steps, by_change), 0.0, 1.0));
+  }
+
+  void
+  checkDivergence(const LevelSetStep& step) const
+  {
+    if (evolver_->isBounded(largest_phi_) && std::isfinite(step.change))
+      return;
+    throw Diverged("The level set diverged in step " +
+                   std::to_string(summary_.steps.size() + 1) + ": " +
+                   adviseStability(parameters_) + ".");
+  }
+
+  /** Where the data bring their own slope back at once, distances and data would undo
+   * each other for ever. */
+  void
+  reinitializeUnlessUndone()
+  {
+    const std::size_t count = summary_.steps.size();
+    if (summary_.mu > 0.0 && last_reinitialization_ > 0 &&
+        count - last_reinitialization_ <= level_set.reinitialization_steps)
+      is_undone_ = true;
+    if (is_undone_ || parameters_.reinitialization == Reinitialization::None ||
+        parameters_.reinitialization == Reinitialization::Diffusion)
+      return;
+    phi_ = current();
+    evolver_->setPhi(makeDistanceOfBand());
+    summary_.steps.back().reinitialized = true;
+    last_reinitialization_ = count;
+  }
+
+  /** The distance to the zero level, by place. */
+  std::vector<float>
+  makeDistanceOfBand()
+  {
+    report_.count("reinitializations", 1);
+    if (parameters_.reinitialization != Reinitialization::Eikonal)
+      return distanceToZeroLevel(*band_, samples_, phi_, spacing_, threads_, report_);
+    if (parameters_.scheme == FitScheme::Quadratic)
+      return relaxToDistance(*band_, phiOfBand(), spacing_, threads_);
+    // Its viscosity needs second derivatives, of the same samples at the same places.
+    if (!relaxation_band_) {
+      Report ignored;
+      relaxation_band_ = makeBandOf(FitScheme::Quadratic, crossing_, ignored);
+    }
+    return relaxToDistance(*relaxation_band_, phiOfBand(), spacing_, threads_);
+  }
+
+  /** Where the slope of phi_ is off by more, take another function with its zero level.
+   * \param make_distance by place */
+  template <typename MakeDistance>
+  void
+  makeDistance(double most_slope_error, const MakeDistance& make_distance)
+  {
+    if (parameters_.reinitialization == Reinitialization::None ||
+        measureSlopeError(*band_, phiOfBand(), threads_) <= most_slope_error)
+      return;
+    const std::vector<float> distance = make_distance();
+    for (std::size_t i = 0; i < band_->centers.size(); ++i)
+      phi_[band_->centers[i]] = distance[i];
+  }
+
+  /** A new band where the zero level has come near the border of the old one: a sample
+   * there has changed its side. */
+  void
+  followZeroLevel()
+  {
+    const double border = (parameters_.band_width - level_set.band_margin) * spacing_;
+    const std::vector<float>& phi = evolver_->getPhi();
+    bool is_near = false;
+    for (std::size_t i = 0; i < band_->centers.size() && !is_near; ++i)
+      is_near = band_->distance[i] > border &&
+                (phi[i] < 0.0f) != (phi_[band_->centers[i]] < 0.0f);
+    if (!is_near)
+      return;
+    phi_ = current();
+    const std::vector<std::uint32_t> crossing = findCrossing(samples_, phi_, threads_);
+    if (crossing.empty())
+      return;
+    const std::vector<std::uint32_t> old = std::move(band_->centers);
+    makeBand(crossing);
+    // What has not been advanced yet is no farther away than the crossing samples.
+    for (std::size_t i = 0; i < band_->centers.size(); ++i) {
+      const std::uint32_t sample = band_->centers[i];
+      if (!std::binary_search(old.begin(), old.end(), sample))
+        phi_[sample] = std::copysign(
+            std::min(std::abs(phi_[sample]), band_->distance[i]), phi_[sample]);
+    }
+    makeEvolver();
+    report_.count("band_updates", 1);
+  }
+
+  /** By sample. */
+  std::vector<float>
+  current() const
+  {
+    std::vector<float> values = phi_;
+    for (std::size_t i = 0; i < band_->centers.size(); ++i)
+      values[band_->centers[i]] = evolver_->getPhi()[i];
+    return values;
+  }
+
+  /** What is left to do and to say after the last step. */
+  void
+  finish()
+  {
+    phi_ = current();
+    if (findCrossing(samples_, phi_, threads_).empty()) {
+      summary_.converged = false;
+      report_.warnings.push_back("The level set of " + parameters_.field +
+                                 " at the isovalue " +
+                                 describeNumbers({parameters_.isovalue})[0] +
+                                 " has vanished: smoothing took the whole surface "
+                                 "away. A larger mu keeps it.");
+      return;
+    }
+    if (!summary_.converged)
+      warnOfStepLimit();
+    if (parameters_.initial.kind == InitialKind::Values && summary_.smoothed)
+      reportLostFeatures();
+    // Isopoints would move the surface by what fits of them leave.
+    makeDistance(level_set.final_slope_error,
+                 [&] { return scaleToDistance(*band_, phiOfBand(), threads_); });
+  }
+
+  /** Samples that the data put clearly on one side, and that are on the other one. */
+  void
+  reportLostFeatures()
+  {
+    const double least = std::max(level_set.feature_length * spacing_,
+                                  level_set.feature_noise * term_.noise);
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < band_->centers.size(); ++i)
+      lost += std::abs(term_.target[i]) > least &&
+              (term_.target[i] < 0.0f) != (phi_[band_->centers[i]] < 0.0f);
+    report_.count("lost_samples", lost);
+    if (static_cast<double>(lost) <
+        level_set.lost_share * static_cast<double>(input_.crossing.size()))
+      return;
+    std::ostringstream text;
+    text.precision(2);
+    text
+        << "Smoothing has taken features away: " << lost
+        << " samples that lie farther from the isovalue "
+        << describeNumbers({parameters_.isovalue})[0]
+        << " than noise explains are on the other side of the surface now. A larger mu "
+           "than "
+        << summary_.mu << " keeps more of them.";
+    report_.warnings.push_back(text.str());
+  }
+
+  void
+  warnOfStepLimit()
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << "The level set has not converged after " << summary_.steps.size()
+         << " steps: it still moves by " << summary_.steps.back().change
+         << " spacings per unit of time.";
+    report_.warnings.push_back(text.str());
+  }
+
+  const LevelSetParameters& parameters_;
+  std::size_t snapshot_steps_;
+  const SnapshotCallback& snapshot_;
+  unsigned threads_;
+  LevelSetSummary summary_;
+  Report& report_;
+  std::size_t cloud_size_;
+  LevelSetInput input_;
+  const SampleSet& samples_;
+  double spacing_; ///< in the samples' unit, as all that follows
+  double largest_phi_;
+  std::vector<float> phi_; ///< by sample; in the band as it was when that was made
+  std::vector<std::uint32_t> crossing_; ///< that the band was made around
+  std::optional<Band> band_, relaxation_band_;
+  DataTerm term_;
+  std::vector<MuStage> stages_;
+  std::size_t stage_ = 0;
+  double stage_time_ = 0.0;
+  std::size_t last_reinitialization_ = 0; ///< step
+  bool is_undone_ = false;
+  std::optional<Evolver> evolver_;
+};
+
+} // namespace
+
+LevelSet
+detail::evolveLevelSet(const CloudView& cloud,
+                       const pcl::Indices& indices,
+                       const LevelSetParameters& parameters,
+                       std::size_t snapshot_steps,
+                       const SnapshotCallback& snapshot,
+                       unsigned threads,
+                       Report& report)
+{
+  checkParameters(parameters);
+  return LevelSetRun(cloud,
+                     readInput(cloud, indices, parameters, threads, report),
+                     parameters,
+                     snapshot_steps,
+                     snapshot,
+                     threads,
+                     report)
+      .run();
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mu_choice.h"
+
+#include "constants.h"
+#include "evolver.h"
+#include "quadratic_terms.h"
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_fits = 64;
+
+/** 1 or -1 at random, by sample, so that the order of the input does not matter
+ * (Steele, Lea, Flood 2014: SplitMix64). */
+float
+drawSign(std::uint32_t sample)
+{
+  std::uint64_t bits = sample + 0x9e3779b97f4a7c15u;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  return ((bits >> 31) & 1u) != 0 ? 1.0f : -1.0f;
+}
+
+/** The value of a fit at a centre as a weighted sum over samples around it. */
+struct FitWeights {
+  std::uint32_t center;
+  std::vector<std::uint32_t> places;
+  std::vector<float> weights;
+
+  double
+  apply(const std::vector<float>& values) const
+  {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      sum += static_cast<double>(weights[i]) * values[places[i]];
+    return sum;
+  }
+};
+
+/** The place of a sample, if it has one in the band. */
+std::optional<std::uint32_t>
+findPlace(const Band& band, std::uint32_t sample)
+{
+  const auto find = [&](const std::vector<std::uint32_t>& samples,
+                        std::size_t first) -> std::optional<std::uint32_t> {
+    const auto found = std::lower_bound(samples.begin(), samples.end(), sample);
+    if (found == samples.end() || *found != sample)
+      return std::nullopt;
+    return static_cast<std::uint32_t>(first) +
+           static_cast<std::uint32_t>(found - samples.begin());
+  };
+  const auto center = find(band.centers, 0);
+  return center ? center : find(band.others, band.centerPlaces());
+}
+
+/** Quadratic, weighted by (1 - d^2 / h^2)^2, as that of an isopoint. */
+FitWeights
+fitAt(const Band& band,
+      const SampleSet& samples,
+      std::uint32_t center,
+      const NearestFinder::Row& row)
+{
+  constexpr double beyond = 1.05, ridge = 1e-9;
+  const Position& x = samples.getPositions()[band.centers[center]];
+  const double reach =
+      beyond * std::sqrt(*std::max_element(row.sq_dists, row.sq_dists + row.size));
+  const auto count = static_cast<Eigen::Index>(row.size);
+  Eigen::Matrix<double, Eigen::Dynamic, quadratic_terms> terms(count, quadratic_terms);
+  Eigen::VectorXd weights(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    terms.row(i) = quadraticTerms(x, samples.getPositions()[row.samples[i]], reach);
+    const double rest = 1.0 - row.sq_dists[i] / (reach * reach);
+    weights[i] = rest * rest;
+  }
+  // Samples in a plane leave terms open: the ridge takes the smallest.
+  Eigen::Matrix<double, quadratic_terms, quadratic_terms> normal =
+      terms.transpose() * weights.asDiagonal() * terms;
+  normal.diagonal().array() += ridge * normal.trace();
+  using Terms = Eigen::Matrix<double, quadratic_terms, 1>;
+  const Terms value = normal.ldlt().solve(Terms::Unit(0));
+  const Eigen::VectorXd of_samples = weights.asDiagonal() * (terms * value);
+  FitWeights fit{center, {}, {}};
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (const auto place = findPlace(band, row.samples[i])) {
+      fit.places.push_back(*place);
+      fit.weights.push_back(static_cast<float>(of_samples[i]));
+    }
+  return fit;
+}
+
+/** Fits at some of the centres within a spacing of the zero level. */
+std::vector<FitWeights>
+fitNear(const Band& band,
+        const SampleSet& samples,
+        const std::vector<float>& phi,
+        double spacing,
+        unsigned threads)
+{
+  std::vector<std::uint32_t> near;
+  for (std::size_t i = 0; i < band.centers.size(); ++i)
+    if (std::abs(phi[i]) < spacing)
+      near.push_back(static_cast<std::uint32_t>(i));
+  const std::size_t count = std::min(level_set.most_looked_at, near.size());
+  std::vector<FitWeights> fits(count);
+  parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
+    NearestFinder finder(samples, std::min(level_set.look_samples, samples.size()));
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t center = near[i * near.size() / count];
+      const auto row = finder.find(samples.getPositions()[band.centers[center]],
+                                   band.stencils.getReach()[center]);
+      fits[i] = fitAt(band, samples, center, row);
+    }
+  });
+  return fits;
+}
+
+/** The data and a copy with known noise on it, smoothed alike. */
+class Search {
+public:
+  Search(const Band& band,
+         const SampleSet& samples,
+         const DataTerm& term,
+         const LevelSetParameters& parameters,
+         double spacing,
+         unsigned threads)
+      : band_(band)
+      , samples_(samples)
+      , term_(term)
+      , probe_(term)
+      , parameters_(parameters)
+      , spacing_(spacing)
+      , threads_(threads)
+      , shift_(static_cast<float>(level_set.probe_part * term.noise))
+      , best_risk_(std::numeric_limits<double>::infinity())
+  {
+    parameters_.integration = Integration::Asynchronous;
+    for (std::size_t i = 0; i < band.centers.size(); ++i)
+      probe_.target[i] += shift_ * drawSign(band.centers[i]);
+    phi_ = term.target;
+    probed_ = probe_.target;
+  }
+
+  std::vector<MuStage>
+  run()
+  {
+    for (double mu = level_set.mu_ratio;
+         mu > level_set.least_mu && misses_ < level_set.patience;
+         mu *= level_set.mu_ratio)
+      tryWeight(mu);
+    stages_.resize(best_stages_);
+    if (!stages_.empty())
+      stages_.back().time = best_time_;
+    return best_risk_ < level_set.worthwhile * direct_risk_ ? stages_
+                                                            : std::vector<MuStage>{};
+  }
+
+private:
+  void
+  tryWeight(double mu)
+  {
+    Evolver evolver(band_, parameters_, threads_, spacing_, mu, phi_, term_);
+    Evolver other(band_, parameters_, threads_, spacing_, mu, probed_, probe_);
+    stages_.push_back({mu, 0.0});
+    bool is_calm = false;
+    for (std::size_t step = 1; !is_calm && misses_ < level_set.patience; ++step) {
+      const double change = evolver.advance().change;
+      other.advance();
+      stages_.back().time += evolver.getStep();
+      // Not a number is no calm either, and ends the search.
+      is_calm = !(change >= level_set.calm) || step == level_set.steps_of_weight;
+      if (step % level_set.look_steps != 0 && !is_calm)
+        continue;
+      if (fits_.empty())
+        start(evolver.getPhi());
+      look(evolver.getPhi(), other.getPhi());
+    }
+    phi_ = evolver.getPhi();
+    probed_ = other.getPhi();
+  }
+
+  /** Where to look is told by what is a little smoother than the data: these would
+   * choose those of their samples whose noise brings them near the surface. */
+  void
+  start(const std::vector<float>& smoother)
+  {
+    fits_ = fitNear(band_, samples_, smoother, spacing_, threads_);
+    direct_risk_ = estimateRisk(term_.target, probe_.target);
+  }
+
+  void
+  look(const std::vector<float>& phi, const std::vector<float>& probed)
+  {
+    const double risk = estimateRisk(phi, probed);
+    ++misses_;
+    if (!(risk < best_risk_))
+      return;
+    misses_ = 0;
+    best_risk_ = risk;
+    best_stages_ = stages_.size();
+    best_time_ = stages_.back().time;
+  }
+
+  /** Expected mean square deviation of fits, in squared lengths. */
+  double
+  estimateRisk(const std::vector<float>& phi, const std::vector<float>& probed) const
+  {
+    double removed = 0.0, left = 0.0;
+    for (const FitWeights& fit : fits_) {
+      const double value = fit.apply(phi);
+      removed += std::pow(term_.target[fit.center] - value, 2);
+      left +=
+          drawSign(band_.centers[fit.center]) * (fit.apply(probed) - value) / shift_;
+    }
+    const double variance = term_.noise * term_.noise;
+    return (removed + 2.0 * variance * left) / static_cast<double>(fits_.size()) -
+           variance;
+  }
+
+  const Band& band_;
+  const SampleSet& samples_;
+  const DataTerm& term_;
+  DataTerm probe_;
+  LevelSetParameters parameters_;
+  double spacing_;
+  unsigned threads_;
+  float shift_;
+  std::vector<float> phi_, probed_;
+  std::vector<FitWeights> fits_;
+  std::vector<MuStage> stages_; ///< all that were tried
+  double direct_risk_ = 0.0, best_risk_, best_time_ = 0.0;
+  std::size_t best_stages_ = 0;
+  int misses_ = 0;
+};
+
+} // namespace
+
+std::vector<MuStage>
+chooseMu(const Band& band,
+         const SampleSet& samples,
+         const DataTerm& term,
+         const LevelSetParameters& parameters,
+         double spacing,
+         unsigned threads,
+         Report& report)
+{
+  const StepTimer timer(report, "mu");
+  if (term.noise < level_set.invisible_noise * spacing)
+    return {};
+  return Search(band, samples, term, parameters, spacing, threads).run();
+}
+
+} // namespace pcl_uvol

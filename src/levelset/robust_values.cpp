@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robust_values.h"
+
+#include "constants.h"
+#include <pcl_uvol/common/parallel.h>
+#include <pcl_uvol/neighbors/nearest_finder.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_samples = 256;
+
+float
+medianOf(std::vector<float>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Of |f| at some samples; those at the isovalue itself tell nothing. */
+float
+medianSize(const std::vector<float>& f, const std::vector<std::uint32_t>& samples)
+{
+  std::vector<float> sizes;
+  for (const std::uint32_t sample : samples)
+    if (f[sample] != 0.0f)
+      sizes.push_back(std::abs(f[sample]));
+  return medianOf(sizes);
+}
+
+/** A value that stands alone, and what its neighbours say instead. */
+struct Spike {
+  std::uint32_t sample;
+  float replacement;
+};
+
+/** The median of the neighbours where the value is a spike among them, else the value.
+ * \param others values of the neighbours; changed */
+float
+settle(float own, std::vector<float>& others)
+{
+  const float median = medianOf(others);
+  const float halfway = 0.5f * own + 0.5f * median;
+  const auto companions = std::count_if(others.begin(), others.end(), [&](float other) {
+    return own > median ? other > halfway : other < halfway;
+  });
+  if (static_cast<std::size_t>(companions) > level_set.most_companions)
+    return own;
+  for (float& other : others)
+    other = std::abs(other - median);
+  return std::abs(own - median) > level_set.spike_deviations * medianOf(others) ? median
+                                                                                : own;
+}
+
+std::vector<Spike>
+findSpikes(const SampleSet& samples,
+           const std::vector<float>& f,
+           const std::vector<std::uint32_t>& among,
+           std::size_t k,
+           unsigned threads)
+{
+  return parallelGather<Spike>(
+      among.size(), block_samples, threads, [&](auto begin, auto end, auto& found) {
+        NearestFinder finder(samples, k + 1);
+        std::vector<float> others;
+        float length = 1.0f;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto row = finder.find(samples.getPositions()[among[i]], length);
+          length = std::sqrt(*std::max_element(row.sq_dists, row.sq_dists + row.size));
+          others.clear();
+          for (std::size_t j = 0; j < row.size; ++j)
+            if (row.samples[j] != among[i])
+              others.push_back(f[row.samples[j]]);
+          const float value = settle(f[among[i]], others);
+          if (value != f[among[i]])
+            found.push_back({among[i], value});
+        }
+      });
+}
+
+void
+warnOfSpikes(std::size_t spikes, std::size_t crossing, Report& report)
+{
+  report.count("outliers", spikes);
+  if (static_cast<double>(spikes) <=
+      level_set.told_outliers * static_cast<double>(crossing))
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << spikes << " samples ("
+       << 100.0 * static_cast<double>(spikes) / static_cast<double>(crossing)
+       << " % of those next to the surface) have values unlike those of all their "
+          "neighbours: the level set takes them for outliers and counts the median of "
+          "the neighbours instead.";
+  report.warnings.push_back(text.str());
+}
+
+} // namespace
+
+std::vector<std::uint32_t>
+findCrossing(const SampleSet& samples,
+             const std::vector<float>& values,
+             unsigned threads)
+{
+  const KdTree& tree = samples.getTree();
+  return tree.findCrossing(
+      samples.getPositions(), tree.computeRanges(values, threads), 0.0f, threads);
+}
+
+std::vector<std::uint32_t>
+tameValues(const SampleSet& samples,
+           std::vector<float>& f,
+           std::size_t k,
+           unsigned threads,
+           Report& report)
+{
+  auto crossing = findCrossing(samples, f, threads);
+  const auto spikes = findSpikes(samples, f, crossing, k, threads);
+  warnOfSpikes(spikes.size(), crossing.size(), report);
+  for (const Spike& spike : spikes)
+    f[spike.sample] = spike.replacement;
+  if (!spikes.empty())
+    crossing = findCrossing(samples, f, threads);
+  if (crossing.empty())
+    return crossing;
+  const float median = medianSize(f, crossing);
+  const int exponent = -std::ilogb(median);
+  const float limit = level_set.farthest_value * std::ldexp(median, exponent);
+  for (float& value : f)
+    value = std::clamp(std::ldexp(value, exponent), -limit, limit);
+  return crossing;
+}
+
+} // namespace pcl_uvol
