@@ -9,6 +9,7 @@
 #include "common/surface_picture.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/memory.h>
+#include <pcl_uvol/common/number_range.h>
 #include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/extract_out_of_core.h>
@@ -65,8 +66,8 @@ declare(Options& options, Arguments& arguments)
   options.text("mu",
                "m|auto",
                arguments.mu,
-               "with -smooth: weight of the data against smoothness, 0 to 1; auto: by "
-               "the noise");
+               "with -smooth: weight of the data against smoothness, 0 to 1; auto: "
+               "smooth as far as the expected deviation falls");
   options.integer(
       "steps", arguments.steps, 1, 1000000, "with -smooth: time steps at most");
   options.choice("normals",
@@ -284,9 +285,13 @@ run(int argc, char** argv)
       {"scale", joined(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
       {"estimated error", describeErrors(result.errors)}};
-  for (const pcl_uvol::LevelSetSummary& summary : result.level_sets)
-    for (const auto& fact :
-         uvol_tools::describe(summary, !arguments.parameters.level_set.mu))
+  for (std::size_t i = 0; i < result.level_sets.size(); ++i)
+    for (const auto& fact : uvol_tools::describe(
+             result.level_sets[i],
+             !arguments.parameters.level_set.mu,
+             isovalues.size() > 1
+                 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
+                 : ""))
       facts.push_back(fact);
   if (arguments.picture.isAskedFor())
     facts.emplace_back("backend",

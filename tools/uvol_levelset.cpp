@@ -18,6 +18,7 @@
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -58,11 +59,12 @@ declare(Options& options, Arguments& arguments)
                arguments.parameters.field,
                "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
                "else the only candidate)");
-  options.text("mu",
-               "m|auto",
-               arguments.mu,
-               "weight of the data against smoothness, 0 to 1; auto: by the noise, "
-               "more where smoothing takes details away");
+  options.text(
+      "mu",
+      "m|auto",
+      arguments.mu,
+      "weight of the data against smoothness, 0 to 1; auto: smooth as far as the "
+      "expected deviation falls");
   options.choice("scheme",
                  arguments.parameters.scheme,
                  "local fits; linear: the thesis's, unstable on noise");
@@ -142,6 +144,17 @@ makeInitialFunction(const Options& options, const Arguments& arguments)
   if (options.given("start"))
     return InitialFunction::field(arguments.start_field);
   return {};
+}
+
+/** The same shape where coordinates count from an origin. */
+InitialFunction
+shift(InitialFunction initial, const std::array<double, 3>& origin)
+{
+  const Eigen::Array3d by(origin[0], origin[1], origin[2]);
+  initial.first -= by;
+  if (initial.kind == pcl_uvol::InitialKind::Box)
+    initial.second -= by;
+  return initial;
 }
 
 /** The parameters that the options ask for, but for what depends on the samples. */
@@ -283,6 +296,7 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.scale = scale.scaleOf(view);
+  parameters.initial = shift(parameters.initial, dataset.origin);
   if (parameters.field.empty())
     parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
   memory.checkCloud(dataset,

@@ -52,8 +52,9 @@ struct LevelSetConstants {
   std::size_t steps_of_weight = 60;
   /** Steps between two looks at the expected deviation. */
   std::size_t look_steps = 4;
-  /** Looks without a better one that end the search. */
-  int patience = 4;
+  /** Looks without a better one that end a weight, and weights that end the search: the
+   * estimate fluctuates, by more where surfaces are small. */
+  std::size_t patience = 2;
   /** Samples near the surface that are looked at, at most. */
   std::size_t most_looked_at = 2048;
   /** Samples in the fits that look, as many as isopoints are fitted to. */

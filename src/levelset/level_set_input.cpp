@@ -6,6 +6,8 @@
 #include "constants.h"
 #include "robust_values.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/number_range.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +27,9 @@ refuseIsovalue(const LevelSetParameters& parameters,
 {
   const auto texts =
       describeNumbers({parameters.isovalue, frame.toInput(low), frame.toInput(high)});
-  throw InvalidArgument("The isovalue " + texts[0] + " does not part the values of " +
-                        parameters.field + ", which are in [" + texts[1] + ", " +
-                        texts[2] + "]: there is no surface to evolve.");
+  throw NoLevelSet("The isovalue " + texts[0] + " does not part the values of " +
+                   parameters.field + ", which are in [" + texts[1] + ", " + texts[2] +
+                   "]: there is no surface to evolve.");
 }
 
 std::vector<float>

@@ -330,8 +330,9 @@ private:
         measureSlopeError(*band_, phiOfBand(), threads_) <= most_slope_error)
       return;
     const std::vector<float> distance = make_distance();
-    for (std::size_t i = 0; i < band_->centers.size(); ++i)
-      phi_[band_->centers[i]] = distance[i];
+    band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
+      phi_[sample] = distance[place];
+    });
   }
 
   /** A new band where the zero level has come near the border of the old one: a sample
@@ -428,7 +429,8 @@ private:
   {
     std::ostringstream text;
     text.precision(2);
-    text << "The level set has not converged after " << summary_.steps.size()
+    text << "The level set at " << describeNumbers({parameters_.isovalue})[0]
+         << " has not converged after " << summary_.steps.size()
          << " steps: it still moves by " << summary_.steps.back().change
          << " spacings per unit of time.";
     report_.warnings.push_back(text.str());

@@ -154,7 +154,7 @@ public:
   run()
   {
     for (double mu = level_set.mu_ratio;
-         mu > level_set.least_mu && misses_ < level_set.patience;
+         mu > level_set.least_mu && stages_.size() - best_stages_ < level_set.patience;
          mu *= level_set.mu_ratio)
       tryWeight(mu);
     stages_.resize(best_stages_);
@@ -172,6 +172,7 @@ private:
     Evolver other(band_, parameters_, threads_, spacing_, mu, probed_, probe_);
     stages_.push_back({mu, 0.0});
     bool is_calm = false;
+    misses_ = 0;
     for (std::size_t step = 1; !is_calm && misses_ < level_set.patience; ++step) {
       const double change = evolver.advance().change;
       other.advance();
@@ -239,7 +240,7 @@ private:
   std::vector<MuStage> stages_; ///< all that were tried
   double direct_risk_ = 0.0, best_risk_, best_time_ = 0.0;
   std::size_t best_stages_ = 0;
-  int misses_ = 0;
+  std::size_t misses_ = 0; ///< looks at this weight since the best one
 };
 
 } // namespace

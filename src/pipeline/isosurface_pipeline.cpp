@@ -157,7 +157,7 @@ IsosurfacePipeline::run()
   std::vector<LevelSetSummary> level_sets;
   Isopoints found = parameters.smooth
                         ? extractLevelSets(parameters.isosurface, level_sets)
-                        : extract(parameters.isosurface);
+                        : extract(parameters.isosurface, report_);
   IsosurfaceResult result = finishIsosurface(*samples_,
                                              std::move(found.points),
                                              std::move(found.edges),
@@ -189,14 +189,14 @@ mergeLater(Report& report, Report stage)
 } // namespace
 
 IsosurfacePipeline::Isopoints
-IsosurfacePipeline::extract(const IsosurfaceParameters& parameters)
+IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& report)
 {
   extraction_.setParameters(parameters);
   extraction_.setNumberOfThreads(threads_);
-  extraction_.setProgressCallback(report_.progress);
+  extraction_.setProgressCallback(report.progress);
   Isopoints found;
   extraction_.extract(found.points);
-  report_.merge(extraction_.getReport());
+  report.merge(extraction_.getReport());
   found.edges = extraction_.getEdges();
   return found;
 }
@@ -215,32 +215,49 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
   evolution.setScale(parameters.scale);
   evolution.setOutside(parameters.outside);
   Isopoints all;
+  bool is_first = true;
+  const auto tell = [&](const Report& stage) {
+    if (is_first)
+      report_.merge(stage);
+    else
+      mergeLater(report_, stage);
+    is_first = false;
+  };
   for (const double isovalue : parameters.isovalues) {
     evolution.setIsoValue(isovalue);
+    IsosurfaceParameters of_isovalue = parameters;
+    of_isovalue.isovalues = {isovalue};
+    summaries.emplace_back();
+    summaries.back().smoothed = false;
     std::vector<float> phi;
-    evolution.evolve(phi);
-    if (summaries.empty())
-      report_.merge(evolution.getReport());
-    else
-      mergeLater(report_, evolution.getReport());
-    summaries.push_back(evolution.getSummary());
-    IsosurfaceParameters of_phi = parameters;
-    of_phi.isovalues = {isovalue};
-    // Of points at one position only the one that phi was made from: edges name it.
-    std::vector<float> of_sources(phi.size(), std::numeric_limits<float>::quiet_NaN());
-    for (const std::uint32_t source : evolution.getSources())
-      of_sources[source] = phi[source];
+    try {
+      evolution.evolve(phi);
+      summaries.back() = evolution.getSummary();
+      tell(evolution.getReport());
+    }
+    catch (const NoLevelSet&) {
+      // Extraction says what is wrong with the isovalue, and goes on.
+    }
     Isopoints found;
     Report zero_level;
     zero_level.progress = report_.progress;
-    extractZeroLevel(viewOf(samples_->cloud),
-                     of_sources,
-                     of_phi,
-                     threads_,
-                     found.points,
-                     found.edges,
-                     zero_level);
-    mergeLater(report_, std::move(zero_level));
+    if (summaries.back().smoothed) {
+      // Of points at one position only the one that phi was made from: edges name it.
+      std::vector<float> of_sources(phi.size(),
+                                    std::numeric_limits<float>::quiet_NaN());
+      for (const std::uint32_t source : evolution.getSources())
+        of_sources[source] = phi[source];
+      extractZeroLevel(viewOf(samples_->cloud),
+                       of_sources,
+                       of_isovalue,
+                       threads_,
+                       found.points,
+                       found.edges,
+                       zero_level);
+    }
+    else
+      found = extract(of_isovalue, zero_level);
+    tell(zero_level);
     all.points += found.points;
     all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
   }

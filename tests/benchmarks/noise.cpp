@@ -152,24 +152,34 @@ averageOf(const Clouds& clouds, const SurfaceOf& surface_of)
   return all;
 }
 
-/** \param mu none: automatic */
+/** \param mu none: automatic \param length, value units that the samples are given in
+ */
 Deviation
-smooth(const Clouds& clouds, std::optional<double> mu)
+smooth(const Clouds& clouds,
+       std::optional<double> mu,
+       double length = 1.0,
+       double value = 1.0)
 {
   return averageOf(clouds, [&](const NoisyCloud& noisy, Deviation& told) {
+    const Cloud::Ptr given(new Cloud(*noisy.cloud)), level(new Cloud(*noisy.cloud));
+    for (auto& point : *given) {
+      for (int axis = 0; axis < 3; ++axis)
+        point.data[axis] = static_cast<float>(length * point.data[axis]);
+      point.intensity = static_cast<float>(value * point.intensity);
+    }
     pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
-    evolution.setInputCloud(noisy.cloud);
+    evolution.setInputCloud(given);
     evolution.setIsoValue(0.0);
     if (mu)
       evolution.setMu(*mu);
     std::vector<float> phi;
     evolution.evolve(phi);
-    const Cloud::Ptr level(new Cloud(*noisy.cloud));
     for (std::size_t i = 0; i < phi.size(); ++i)
-      (*level)[i].intensity = phi[i];
+      (*level)[i].intensity = static_cast<float>(phi[i] / length);
     told.mu += evolution.getSummary().mu / static_cast<double>(clouds.size());
     told.steps += evolution.getSummary().steps.size();
-    told.milliseconds += evolution.getReport().milliseconds.back().second;
+    for (const auto& [step, spent] : evolution.getReport().milliseconds)
+      told.milliseconds += spent;
     return uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit);
   });
 }
@@ -184,8 +194,7 @@ printComparison(const std::string& name, const Clouds& clouds)
   Deviation best;
   best.rms = std::numeric_limits<double>::infinity();
   if (!std::getenv("NOISE_FAST"))
-    for (const double mu :
-         {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.09, 0.06, 0.04, 0.03, 0.02, 0.01}) {
+    for (const double mu : {0.7, 0.5, 0.35, 0.25, 0.18, 0.12, 0.06, 0.03, 0.015}) {
       const Deviation fixed = smooth(clouds, mu);
       if (fixed.rms < best.rms)
         best = fixed;
@@ -208,10 +217,20 @@ printComparison(const std::string& name, const Clouds& clouds)
   std::fflush(stdout);
 }
 
+Clouds
+draw(const char* shape, double size, double noise)
+{
+  constexpr std::uint64_t seeds = 2;
+  Clouds clouds;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    clouds.push_back(
+        uvol_test::makeNoisyCloud(uvol_test::makeSmallShape(shape, size), noise, seed));
+  return clouds;
+}
+
 void
 printTable(const std::string& word)
 {
-  constexpr std::uint64_t seeds = 4;
   std::puts("| shape | direct | automatic mu | best fixed mu | automatic / best | "
             "automatic / direct | steps | ms | isopoints, direct and automatic |\n"
             "|---|---|---|---|---|---|---|---|---|");
@@ -227,26 +246,47 @@ printTable(const std::string& word)
                 {"sheet", 6.0},
                 {"waves", 6.0},
                 {"waves", 9.0},
-                {"torus", 4.0},
-                {"torus", 6.0},
-                {"sphere", 10.0}};
+                {"torus", 4.0}};
   for (const auto& [shape, size] : shapes)
-    for (const double noise : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+    for (const double noise : {0.0, 0.1, 0.3, 1.0}) {
       char name[80];
       std::snprintf(name, sizeof name, "%s %g, noise %.1f", shape, size, noise);
       if (std::string(name).find(word) == std::string::npos)
         continue;
-      Clouds clouds;
-      for (std::uint64_t seed = 1; seed <= seeds; ++seed)
-        clouds.push_back(uvol_test::makeNoisyCloud(
-            uvol_test::makeSmallShape(shape, size), noise, seed));
+      printComparison(name, draw(shape, size, noise));
+    }
+  for (const double spike : {1e3, 1e10}) {
+    Clouds clouds = draw("sphere", 8.0, 0.1);
+    for (const NoisyCloud& noisy : clouds)
+      for (std::size_t i = 0; i < noisy.cloud->size(); i += 100)
+        (*noisy.cloud)[i].intensity = static_cast<float>(spike);
+    char name[80];
+    std::snprintf(name, sizeof name, "sphere 8, noise 0.1, 1 %% of values %.0e", spike);
+    if (std::string(name).find(word) != std::string::npos)
       printComparison(name, clouds);
+  }
+}
+
+/** One row per pair of units. */
+void
+printUnits()
+{
+  const Clouds clouds = draw("sphere", 4.0, 0.3);
+  std::puts("| unit of length | of values | automatic mu |\n|---|---|---|");
+  for (const double length : {1e-30, 1e-10, 1.0, 1e10, 1e30})
+    for (const double value : {1e-30, 1e-10, 1.0, 1e10, 1e30}) {
+      const Deviation deviation = smooth(clouds, std::nullopt, length, value);
+      std::printf("| %.0e | %.0e | %.6f, mu %.4f |\n",
+                  length,
+                  value,
+                  deviation.rms,
+                  deviation.mu);
     }
 }
 
 } // namespace
 
-/** noise table [WORD]: the rows whose names hold the word.
+/** noise table [WORD]: the rows whose names hold the word. noise units: other units.
  * noise SHAPE uniform|clustered PERCENT MU...: one row per method; a negative MU
  * stands for the automatic one. */
 int
@@ -259,8 +299,13 @@ main(int argc, char** argv)
     printTable(argc > 2 ? argv[2] : "");
     return 0;
   }
+  if (argc == 2 && std::string(argv[1]) == "units") {
+    printUnits();
+    return 0;
+  }
   if (argc < 4) {
-    std::fputs("usage: noise table [WORD]\n       noise sphere|torus|two_spheres "
+    std::fputs("usage: noise table [WORD]\n       noise units\n       noise "
+               "sphere|torus|two_spheres "
                "uniform|clustered PERCENT MU...\n",
                stderr);
     return 2;

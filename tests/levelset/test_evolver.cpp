@@ -130,7 +130,6 @@ TEST(Evolver, DataPullAsFarAsTheirDistanceAndTheSlopeAndNoFaster)
     EXPECT_NEAR(pull.slope - 1.0, step.slope_error, 0.01);
     const double left = pull.gap - way / spacing;
     EXPECT_NEAR(0.5 * left * left, step.energy, 0.01);
-    EXPECT_NEAR(std::abs(left), motion.evolver.findPattern(), rounding);
   }
 }
 

@@ -19,7 +19,9 @@ parseMu(const std::string& text)
 }
 
 std::vector<std::pair<std::string, std::string>>
-describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic)
+describe(const pcl_uvol::LevelSetSummary& summary,
+         bool mu_is_automatic,
+         const std::string& of_isovalue)
 {
   const auto text = [](auto... parts) {
     std::ostringstream stream;
@@ -27,23 +29,33 @@ describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic)
     (stream << ... << parts);
     return stream.str();
   };
+  if (!(summary.spacing > 0.0))
+    return {}; // there was no surface, and a warning says so
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"spacing" + of_isovalue, text(summary.spacing, " (median at the surface)")},
+      {"noise" + of_isovalue, text(summary.noise, " spacings")}};
+  if (!summary.smoothed) {
+    facts.emplace_back("level set" + of_isovalue,
+                       "none: smoothing would not bring the surface nearer to the true "
+                       "one, so the field is taken as it is");
+    return facts;
+  }
+  facts.emplace_back("mu" + of_isovalue,
+                     text(summary.mu,
+                          mu_is_automatic
+                              ? " (automatic: by the expected deviation; 1 follows the "
+                                "data, 0 only smooths)"
+                              : ""));
   const auto& last = summary.steps.back();
-  return {{"spacing", text(summary.spacing, " (median at the surface)")},
-          {"noise", text(summary.noise, " spacings")},
-          {"mu",
-           text(summary.mu,
-                mu_is_automatic ? " (automatic: by the noise and what smoothing left; "
-                                  "1 follows the data, 0 "
-                                  "only smooths)"
-                                : "")},
-          {"level set",
-           text(summary.converged ? "converged" : "not converged",
-                " after ",
-                summary.steps.size(),
-                " steps, moves by ",
-                last.change,
-                " spacings per unit of time, | |grad phi| - 1 | is ",
-                last.slope_error)}};
+  facts.emplace_back("level set" + of_isovalue,
+                     text(summary.converged ? "converged" : "not converged",
+                          " after ",
+                          summary.steps.size(),
+                          " steps, moves by ",
+                          last.change,
+                          " spacings per unit of time, | |grad phi| - 1 | is ",
+                          last.slope_error));
+  return facts;
 }
 
 } // namespace uvol_tools

@@ -16,8 +16,12 @@ namespace uvol_tools {
 std::optional<double>
 parseMu(const std::string& text);
 
-/** \brief What an evolution found out, for the report. */
+/** \brief What an evolution found out, for the report.
+ * \param of_isovalue behind the names of the facts, where there are several level sets
+ */
 std::vector<std::pair<std::string, std::string>>
-describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic);
+describe(const pcl_uvol::LevelSetSummary& summary,
+         bool mu_is_automatic,
+         const std::string& of_isovalue = {});
 
 } // namespace uvol_tools

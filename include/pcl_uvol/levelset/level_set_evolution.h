@@ -19,6 +19,12 @@
 
 namespace pcl_uvol {
 
+/** \brief The values do not enclose the isovalue: there is no surface to evolve. */
+class PCL_UVOL_EXPORTS NoLevelSet : public InvalidArgument {
+public:
+  using InvalidArgument::InvalidArgument;
+};
+
 namespace detail {
 
 /** \brief The kernel of LevelSetEvolution for any cloud.
@@ -282,9 +288,10 @@ public:
   /** \brief Evolve, and return phi for every point of the cloud.
    * \param phi in units of length; NaN for points that are not in the indices, or have
    * no finite coordinates or value \throws InvalidArgument for a missing or empty
-   * cloud, an unknown field, an isovalue that is not finite or that the values do not
-   * enclose, a parameter out of range, or fewer samples than a stencil has neighbours
-   * \throws Diverged if the function grows beyond bounds; phi is then untouched
+   * cloud, an unknown field, an isovalue that is not finite, a parameter out of range,
+   * or fewer samples than a stencil has neighbours \throws NoLevelSet for an isovalue
+   * that the values do not enclose \throws Diverged if the function grows beyond
+   * bounds; phi is then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, band_samples, isotropic_fits, steps, updates (times that a

@@ -36,7 +36,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   IsoEdges edges;       ///< one per isopoint, indices into the samples
   std::string field;    ///< that was taken
   Eigen::Array3f scale; ///< that was taken
-  /** With `smooth`: one per isovalue. */
+  /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.
+   */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
   /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
@@ -96,7 +97,7 @@ private:
   };
 
   Isopoints
-  extract(const IsosurfaceParameters& parameters);
+  extract(const IsosurfaceParameters& parameters, Report& report);
 
   Isopoints
   extractLevelSets(const IsosurfaceParameters& parameters,
