@@ -136,7 +136,10 @@ readInput(const CloudView& cloud,
     refuseIsovalue(parameters, frame, *low, *high);
   for (float& value : input.f)
     value = static_cast<float>(static_cast<double>(value) - threshold);
-  input.crossing = tameValues(*input.samples, input.f, parameters.k, threads, report);
+  TamedValues tamed =
+      tameValues(*input.samples, input.f, parameters.k, threads, report);
+  input.crossing = std::move(tamed.crossing);
+  input.had_spikes = tamed.had_spikes;
   if (input.crossing.empty())
     throw InvalidArgument("Only outliers lie beyond the isovalue " +
                           describeNumbers({parameters.isovalue})[0] +

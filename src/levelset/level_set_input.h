@@ -19,6 +19,7 @@ struct LevelSetInput {
   std::vector<float> f; ///< minus the isovalue, by sample, see tameValues()
   std::vector<std::uint32_t> sources;  ///< by sample, the points that they are of
   std::vector<std::uint32_t> crossing; ///< samples next to the zero level of f
+  bool had_spikes;                     ///< see TamedValues
   double spacing; ///< the median one of these, in the unit of the samples
 };
 

@@ -141,7 +141,7 @@ private:
       phi_ = input_.f;
       for (float& value : phi_)
         value = static_cast<float>(value / term_.slope);
-      if (summary_.smoothed)
+      if (!stages_.empty())
         band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
           phi_[sample] = term_.target[place];
         });
@@ -166,7 +166,7 @@ private:
       if (has_own_start)
         stages_ = {{stages_.empty() ? 1.0 : stages_.back().mu, ever}};
     }
-    summary_.smoothed = !stages_.empty();
+    summary_.smoothed = !stages_.empty() || input_.had_spikes;
     summary_.converged = stages_.empty();
     summary_.mu = stages_.empty() ? 1.0 : stages_.front().mu;
   }
@@ -391,7 +391,7 @@ private:
     }
     if (!summary_.converged)
       warnOfStepLimit();
-    if (parameters_.initial.kind == InitialKind::Values && summary_.smoothed)
+    if (parameters_.initial.kind == InitialKind::Values && !stages_.empty())
       reportLostFeatures();
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -87,10 +88,6 @@ findSpikes(const SampleSet& samples,
 void
 warnOfSpikes(std::size_t spikes, std::size_t crossing, Report& report)
 {
-  report.count("outliers", spikes);
-  if (static_cast<double>(spikes) <=
-      level_set.told_outliers * static_cast<double>(crossing))
-    return;
   std::ostringstream text;
   text.precision(2);
   text << spikes << " samples ("
@@ -113,7 +110,7 @@ findCrossing(const SampleSet& samples,
       samples.getPositions(), tree.computeRanges(values, threads), 0.0f, threads);
 }
 
-std::vector<std::uint32_t>
+TamedValues
 tameValues(const SampleSet& samples,
            std::vector<float>& f,
            std::size_t k,
@@ -122,19 +119,24 @@ tameValues(const SampleSet& samples,
 {
   auto crossing = findCrossing(samples, f, threads);
   const auto spikes = findSpikes(samples, f, crossing, k, threads);
-  warnOfSpikes(spikes.size(), crossing.size(), report);
+  const bool had_spikes =
+      static_cast<double>(spikes.size()) >
+      level_set.told_outliers * static_cast<double>(crossing.size());
+  report.count("outliers", spikes.size());
+  if (had_spikes)
+    warnOfSpikes(spikes.size(), crossing.size(), report);
   for (const Spike& spike : spikes)
     f[spike.sample] = spike.replacement;
   if (!spikes.empty())
     crossing = findCrossing(samples, f, threads);
   if (crossing.empty())
-    return crossing;
+    return {{}, had_spikes};
   const float median = medianSize(f, crossing);
   const int exponent = -std::ilogb(median);
   const float limit = level_set.farthest_value * std::ldexp(median, exponent);
   for (float& value : f)
     value = std::clamp(std::ldexp(value, exponent), -limit, limit);
-  return crossing;
+  return {std::move(crossing), had_spikes};
 }
 
 } // namespace pcl_uvol

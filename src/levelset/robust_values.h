@@ -18,13 +18,21 @@ findCrossing(const SampleSet& samples,
              const std::vector<float>& values,
              unsigned threads);
 
+/** \brief What tameValues() leaves. */
+struct TamedValues {
+  std::vector<std::uint32_t> crossing; ///< samples next to the zero level; none if the
+                                       ///< spikes were all
+  bool had_spikes;                     ///< as many as are worth a warning
+};
+
 /** \brief Bring a field near 1 at the surface, by a power of two, replace spikes there
  * by the median of their neighbours, and limit all other values.
  * \param f minus the isovalue, by sample; only its signs and ratios matter to a level
- * set \param k neighbours that a spike is told by
- * \param report gets the count "outliers", of spikes, and a warning if there are any
- * \return samples next to the zero level afterwards; none if the spikes were all */
-std::vector<std::uint32_t>
+ * set
+ * \param k neighbours that a spike is told by
+ * \param report gets the count "outliers", of spikes, and a warning if there are many
+ */
+TamedValues
 tameValues(const SampleSet& samples,
            std::vector<float>& f,
            std::size_t k,

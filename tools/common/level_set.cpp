@@ -34,10 +34,11 @@ describe(const pcl_uvol::LevelSetSummary& summary,
   std::vector<std::pair<std::string, std::string>> facts = {
       {"spacing" + of_isovalue, text(summary.spacing, " (median at the surface)")},
       {"noise" + of_isovalue, text(summary.noise, " spacings")}};
-  if (!summary.smoothed) {
+  if (summary.steps.empty()) {
     facts.emplace_back("level set" + of_isovalue,
-                       "none: smoothing would not bring the surface nearer to the true "
-                       "one, so the field is taken as it is");
+                       std::string("none: smoothing would not bring the surface nearer "
+                                   "to the true one, so the field is taken as it is") +
+                           (summary.smoothed ? " but for its outliers" : ""));
     return facts;
   }
   facts.emplace_back("mu" + of_isovalue,

@@ -101,8 +101,9 @@ struct LevelSetSummary {
   double noise = 0.0;   ///< standard deviation of f over its slope, in spacings, as the
                         ///< residuals of local fits tell it, or close pairs of samples
   double mu = 0.0;      ///< as given, or the last one of those that were chosen
-  bool smoothed = true; ///< false where an automatic mu found nothing to smooth: phi is
-                        ///< the field itself as a distance, and there are no steps
+  /** False where an automatic mu found nothing to smooth and no outliers were replaced:
+   * phi has the zero level of the field itself, and there are no steps. */
+  bool smoothed = true;
   /** The zero level rests, or the steps of an automatic mu are done; never where it has
    * vanished. */
   bool converged = false;
