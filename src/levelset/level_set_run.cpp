@@ -391,7 +391,9 @@ private:
     }
     if (!summary_.converged)
       warnOfStepLimit();
-    if (parameters_.initial.kind == InitialKind::Values && !stages_.empty())
+    if (stages_.empty())
+      return; // the field as it is
+    if (parameters_.initial.kind == InitialKind::Values)
       reportLostFeatures();
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,

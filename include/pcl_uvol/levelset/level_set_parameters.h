@@ -123,7 +123,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** Weight of the data against smoothness, in [0, 1]: 1 follows the data, 0 only
    * smooths. None, from the values: smaller and smaller weights one after another, as
    * long as the expected deviation from the true surface falls (Stein's unbiased risk
-   * estimate), and no smoothing at all where it would not fall by a sixth. None, from
+   * estimate), and no smoothing at all where it would not fall by a tenth. None, from
    * another start: the last of these weights. */
   std::optional<double> mu;
   FitScheme scheme = FitScheme::Quadratic;

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Level sets of data as people hold them: any unit, spikes, thin shapes, nothing to
+// smooth, and starts that are no distances.
+#include "levelset/level_set_setup.h"
+#include "support/noisy_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace {
+
+using namespace pcl_uvol;
+using uvol_test::Evolution;
+using uvol_test::evolve;
+using uvol_test::makeBall;
+using uvol_test::makeNoisyCloud;
+using uvol_test::makeSmallShape;
+using uvol_test::NoisyCloud;
+using uvol_test::withValues;
+using Cloud = uvol_test::LevelSetCloud;
+
+double
+deviationOf(const NoisyCloud& noisy, const std::vector<float>& phi)
+{
+  return uvol_test::measure(
+             noisy,
+             uvol_test::isopoints(withValues(*noisy.cloud, phi), Interpolation::Fit))
+      .rms;
+}
+
+double
+directDeviationOf(const NoisyCloud& noisy)
+{
+  return uvol_test::measure(noisy,
+                            uvol_test::isopoints(noisy.cloud, Interpolation::Fit))
+      .rms;
+}
+
+bool
+hasWarning(const Evolution& evolution, const std::string& words)
+{
+  const auto& warnings = evolution.getReport().warnings;
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
+    return text.find(words) != std::string::npos;
+  });
+}
+
+TEST(LevelSetRobust, SameBytesInUnitsOfPowersOfTwo)
+{
+  const auto noisy = makeNoisyCloud(makeSmallShape("sphere", 4.0), 0.3, 1);
+  Evolution evolution;
+  const auto expected = evolve(evolution, noisy.cloud);
+  ASSERT_GT(evolution.getSummary().steps.size(), 0u);
+  for (const int length : {-100, 0, 100})
+    for (const int value : {-100, -40, 40, 100}) {
+      const Cloud::Ptr other(new Cloud(*noisy.cloud));
+      for (auto& point : *other) {
+        for (int axis = 0; axis < 3; ++axis)
+          point.data[axis] = std::ldexp(point.data[axis], length);
+        point.intensity = std::ldexp(point.intensity, value);
+      }
+      Evolution again;
+      const auto phi = evolve(again, other);
+      for (std::size_t i = 0; i < phi.size(); ++i)
+        ASSERT_EQ(std::ldexp(expected[i], length), phi[i]) << length << ' ' << value;
+    }
+}
+
+TEST(LevelSetRobust, SpikesDoNotMoveTheSurface)
+{
+  for (const float spike : {1e3f, 1e10f}) {
+    const auto noisy = makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 2);
+    for (std::size_t i = 0; i < noisy.cloud->size(); i += 100)
+      (*noisy.cloud)[i].intensity = spike;
+    Evolution evolution;
+    const auto phi = evolve(evolution, noisy.cloud);
+    EXPECT_LT(deviationOf(noisy, phi), 0.06) << spike;
+    EXPECT_GT(evolution.getReport().getCount("outliers"), 50u);
+    EXPECT_TRUE(hasWarning(evolution, "outliers"));
+    EXPECT_TRUE(evolution.getSummary().smoothed);
+  }
+}
+
+TEST(LevelSetRobust, DensitiesOverTenDecadesDoNotDiverge)
+{
+  const auto cloud = makeBall(8.0, 12.0);
+  for (auto& point : *cloud)
+    point.intensity = static_cast<float>(std::pow(10.0, point.intensity) - 1.0);
+  Evolution evolution;
+  for (const float value : evolve(evolution, cloud))
+    ASSERT_TRUE(std::isfinite(value));
+  EXPECT_TRUE(evolution.getSummary().converged);
+}
+
+TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
+{
+  for (const auto& [name, size] : {std::pair("sheet", 4.0),
+                                   std::pair("sphere", 3.0),
+                                   std::pair("cylinder", 2.0)}) {
+    const auto noisy = makeNoisyCloud(makeSmallShape(name, size), 0.0, 1);
+    Evolution evolution;
+    const auto phi = evolve(evolution, noisy.cloud);
+    EXPECT_FALSE(evolution.getSummary().smoothed) << name;
+    EXPECT_TRUE(evolution.getSummary().converged);
+    EXPECT_EQ(0u, evolution.getSummary().steps.size());
+    EXPECT_NEAR(directDeviationOf(noisy), deviationOf(noisy, phi), 1e-5) << name;
+  }
+}
+
+TEST(LevelSetRobust, AutomaticWeightIsNearlyTheBestOnSmallShapes)
+{
+  for (const auto& [name, size] : {std::pair("sphere", 3.0), std::pair("waves", 9.0)}) {
+    const auto noisy = makeNoisyCloud(makeSmallShape(name, size), 0.3, 1);
+    double best = directDeviationOf(noisy);
+    for (const double mu : {0.7, 0.35, 0.18}) {
+      Evolution fixed;
+      fixed.setMu(mu);
+      best = std::min(best, deviationOf(noisy, evolve(fixed, noisy.cloud)));
+    }
+    Evolution evolution;
+    EXPECT_LT(deviationOf(noisy, evolve(evolution, noisy.cloud)), 1.15 * best) << name;
+  }
+}
+
+TEST(LevelSetRobust, TheChoiceOfTheWeightDoesNotDependOnTheIntegration)
+{
+  const auto noisy = makeNoisyCloud(makeSmallShape("sphere", 3.0), 0.3, 1);
+  Evolution asynchronous, synchronous;
+  synchronous.setIntegration(Integration::Synchronous);
+  const double deviation = deviationOf(noisy, evolve(asynchronous, noisy.cloud));
+  EXPECT_NEAR(deviation, deviationOf(noisy, evolve(synchronous, noisy.cloud)), 0.01);
+  EXPECT_EQ(asynchronous.getSummary().mu, synchronous.getSummary().mu);
+  EXPECT_LT(asynchronous.getSummary().mu, 1.0);
+}
+
+TEST(LevelSetRobust, SaysThatTheSurfaceHasVanished)
+{
+  const auto cloud = makeBall(2.0, 8.0);
+  for (auto& point : *cloud)
+    point.intensity += 7.0f;
+  Evolution evolution;
+  evolution.setMu(0.0);
+  evolution.setCurvatureFlow(CurvatureFlow::Mean);
+  evolution.setInputCloud(cloud);
+  evolution.setIsoValue(7.0);
+  std::vector<float> phi;
+  evolution.evolve(phi);
+  EXPECT_FALSE(evolution.getSummary().converged);
+  EXPECT_TRUE(hasWarning(evolution, "isovalue 7 has vanished"));
+}
+
+TEST(LevelSetRobust, TellsWhatSmoothingTookAway)
+{
+  const auto noisy = makeNoisyCloud(makeSmallShape("sphere", 3.0), 0.1, 1);
+  Evolution evolution;
+  evolution.setMu(0.02);
+  evolve(evolution, noisy.cloud);
+  EXPECT_GT(evolution.getReport().getCount("lost_samples"), 0u);
+  EXPECT_TRUE(hasWarning(evolution, "taken features away") ||
+              hasWarning(evolution, "vanished"));
+}
+
+/** Nothing moves where the data agree, however steep the start. */
+TEST(LevelSetRobust, SteepStartsBecomeDistances)
+{
+  const auto cloud = makeBall(6.0, 10.0);
+  pcl::PointCloud<pcl::PointXYZINormal> steep;
+  pcl::Indices all;
+  for (const auto& point : *cloud) {
+    pcl::PointXYZINormal other;
+    other.getVector3fMap() = point.getVector3fMap();
+    other.intensity = point.intensity;
+    other.curvature = 4.0f * point.intensity;
+    all.push_back(static_cast<int>(steep.size()));
+    steep.push_back(other);
+  }
+  LevelSetParameters parameters;
+  parameters.isovalue = 0.0;
+  parameters.mu = 1.0;
+  parameters.initial = InitialFunction::field("curvature");
+  Report report;
+  const LevelSet found =
+      detail::evolveLevelSet(viewOf(steep), all, parameters, 0, nullptr, 0, report);
+  EXPECT_TRUE(found.summary.converged);
+  EXPECT_LT(found.summary.steps.back().slope_error, 0.1);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    if (std::abs((*cloud)[i].intensity) < 2.0f) {
+      ASSERT_NEAR((*cloud)[i].intensity, found.phi[i], 0.2);
+    }
+  }
+}
+
+TEST(LevelSetRobust, ThesisSchemesRun)
+{
+  const auto cloud = makeBall(6.0, 10.0);
+  Evolution data_alone;
+  data_alone.setMu(1.0);
+  data_alone.setStepBound(StepBound::Cfl);
+  for (const float value : evolve(data_alone, cloud))
+    ASSERT_TRUE(std::isfinite(value));
+  EXPECT_TRUE(data_alone.getSummary().converged);
+  Evolution linear;
+  linear.setMu(0.5);
+  linear.setScheme(FitScheme::Linear);
+  linear.setReinitialization(Reinitialization::Eikonal);
+  linear.setInitialFunction(
+      InitialFunction::box(Eigen::Vector3d(-6, -6, -6), Eigen::Vector3d(6, 6, 6)));
+  linear.setMaximumSteps(30);
+  for (const float value : evolve(linear, cloud))
+    ASSERT_TRUE(std::isfinite(value));
+}
+
+TEST(LevelSetRobust, ShapesAreStretchedWithTheSamples)
+{
+  const Eigen::Array3d scale(1.0, 1.0, 4.0);
+  const auto plane =
+      InitialFunction::plane(Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, 1));
+  EXPECT_DOUBLE_EQ(12.0, plane.computeDistance(Eigen::Vector3d(5, 5, -2), scale));
+  const auto box =
+      InitialFunction::box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 1));
+  EXPECT_DOUBLE_EQ(-8.0, box.computeDistance(Eigen::Vector3d(0, 0, 3), scale));
+  EXPECT_DOUBLE_EQ(1.0, box.computeDistance(Eigen::Vector3d(0, 0, 0), scale));
+  const auto sphere = InitialFunction::sphere(Eigen::Vector3d::Zero(), 2.0);
+  EXPECT_DOUBLE_EQ(4.0, sphere.computeDistance(Eigen::Vector3d(0, 0, 1), scale));
+  EXPECT_DOUBLE_EQ(1.0, sphere.computeDistance(Eigen::Vector3d(1, 0, 0), scale));
+}
+
+} // namespace
