@@ -380,6 +380,8 @@ private:
   finish()
   {
     phi_ = current();
+    if (parameters_.initial.kind == InitialKind::Values && !stages_.empty())
+      reportLostFeatures();
     if (findCrossing(samples_, phi_, threads_).empty()) {
       summary_.converged = false;
       report_.warnings.push_back("The level set of " + parameters_.field +
@@ -393,8 +395,6 @@ private:
       warnOfStepLimit();
     if (stages_.empty())
       return; // the field as it is
-    if (parameters_.initial.kind == InitialKind::Values)
-      reportLostFeatures();
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,
                  [&] { return scaleToDistance(*band_, phiOfBand(), threads_); });

@@ -98,7 +98,7 @@ fitAt(const Band& band,
   return fit;
 }
 
-/** Fits at some of the centres within a spacing of the zero level. */
+/** Fits at some of the centres next to the zero level. */
 std::vector<FitWeights>
 fitNear(const Band& band,
         const SampleSet& samples,
@@ -108,7 +108,7 @@ fitNear(const Band& band,
 {
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < band.centers.size(); ++i)
-    if (std::abs(phi[i]) < spacing)
+    if (std::abs(phi[i]) < level_set.look_distance * spacing)
       near.push_back(static_cast<std::uint32_t>(i));
   const std::size_t count = std::min(level_set.most_looked_at, near.size());
   std::vector<FitWeights> fits(count);
