@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
+#include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
@@ -20,8 +21,7 @@ using uvol_tools::Facts;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where;
-  std::vector<double> xyz;
+  std::string input, field, where, xyz;
 };
 
 template <typename Numbers>
@@ -170,31 +170,19 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
                        static_cast<double>(numbers - most_listed));
 }
 
-Facts
-describeCloud(const Arguments& arguments, unsigned threads, Report& report)
+/** Bounds and spacing. */
+void
+addPositions(const std::string& path,
+             const pcl_uvol::Dataset& dataset,
+             unsigned threads,
+             Facts& facts,
+             Report& report)
 {
-  pcl_uvol::LoadOptions load;
-  for (std::size_t i = 0; i < arguments.xyz.size(); ++i) {
-    load.xyz_columns[i] = static_cast<int>(arguments.xyz[i]);
-    if (load.xyz_columns[i] < 0 || load.xyz_columns[i] != arguments.xyz[i])
-      throw uvol_tools::UsageError("-xyz takes three column numbers from 0.");
-  }
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
-  report.warnings = dataset.notes;
-  if (!arguments.where.empty())
-    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
-  Facts facts{{"file", arguments.input}, {"fields", listFields(dataset.cloud.fields)}};
-  report.count("points", dataset.cloud.width);
-  const std::string chosen = chosenField(arguments, dataset);
-  if (dataset.cloud.width == 0) {
-    report.warnings.push_back(arguments.input + " has no points.");
-    return facts;
-  }
   const auto positions = pcl_uvol::describePositions(dataset, threads);
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
-    report.warnings.push_back(arguments.input + " has no point with finite x, y, z.");
+    report.warnings.push_back(path + " has no point with finite x, y, z.");
   else {
     facts.emplace_back(
         "lower corner", joined(positions.lower, " "), toNumbers(positions.lower));
@@ -213,6 +201,33 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
   }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
+}
+
+Facts
+describeCloud(const Arguments& arguments, unsigned threads, Report& report)
+{
+  pcl_uvol::LoadOptions load;
+  load.xyz_columns = uvol_tools::parseColumns(arguments.xyz);
+  load.needs_coordinates = false;
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
+  report.warnings = dataset.notes;
+  if (!arguments.where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
+  auto fields = dataset.cloud.fields;
+  if (!dataset.has_coordinates) // x, y and z stand in front of those of the file
+    fields.erase(fields.begin(), fields.begin() + 3);
+  Facts facts{{"file", arguments.input}, {"fields", listFields(fields)}};
+  report.count("points", dataset.cloud.width);
+  const std::string chosen = chosenField(arguments, dataset);
+  if (dataset.cloud.width == 0) {
+    report.warnings.push_back(arguments.input + " has no points.");
+    return facts;
+  }
+  if (dataset.has_coordinates)
+    addPositions(arguments.input, dataset, threads, facts, report);
+  else
+    report.warnings.push_back(arguments.input +
+                              " names no columns of coordinates: -xyz chooses them.");
   addRanges(dataset, facts);
   if (!chosen.empty()) {
     const auto statistics = pcl_uvol::describeValues(pcl_uvol::readFieldValues(
@@ -237,11 +252,7 @@ run(int argc, char** argv)
   options.text("field", "name", arguments.field, "scalar field to draw a histogram of");
   options.text(
       "where", "expr", arguments.where, "look only at the points it holds for");
-  options.numbers("xyz",
-                  "ix,iy,iz",
-                  3,
-                  arguments.xyz,
-                  "columns of a text file that hold the coordinates, from 0");
+  uvol_tools::declareColumns(options, arguments.xyz);
   if (!options.parse(argc, argv))
     return 0;
   Report report;

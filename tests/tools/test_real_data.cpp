@@ -134,7 +134,10 @@ TEST_P(OnRealData, ToolsRunAndFindTheSurface)
 TEST_P(OnSmallRealData, EdgesEqualBruteForce)
 {
   const RealData& data = GetParam();
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path_);
+  pcl_uvol::LoadOptions load;
+  if (std::string(data.options).find("-xyz 1,2,3") != std::string::npos)
+    load.xyz_columns = {{"1", "2", "3"}};
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path_, load);
   const pcl::PCLPointCloud2::ConstPtr cloud(&dataset.cloud, [](const void*) {});
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(cloud);

@@ -91,7 +91,7 @@ TEST_F(UvolInfo, RefusesWhatIsWrong)
       {"-where 'mass>1'", 1, "mass"},
       {"-where 'rho>>1'", 1, "rho>>1"},
       {"-xyz 0,1", 2, "-xyz"},
-      {"-xyz 0,1,1.5", 2, "-xyz"},
+      {"-xyz 0,1,1.5", 1, "column"},
       {"-xyz 0,1,9", 1, "column"},
       {"-bins 3", 2, "-bins"},
       {"leftover", 2, "leftover"}};

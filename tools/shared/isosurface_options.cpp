@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/isosurface_options.h"
 
+#include "shared/point_files.h"
 #include "shared/scale_option.h"
 
 namespace uvol_tools {
@@ -29,11 +30,7 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
                scale_,
                std::string("measure distances in a stretched space") +
                    (automatic ? "; auto: equal spread per axis" : ""));
-  options.numbers("xyz",
-                  "ix,iy,iz",
-                  3,
-                  xyz_,
-                  "columns of a text file that hold the coordinates, from 0");
+  declareColumns(options, xyz_);
   options.choice("outside",
                  parameters.isosurface.outside,
                  "the side normals point to: where values are lower or higher");
@@ -65,11 +62,7 @@ pcl_uvol::LoadOptions
 IsosurfaceOptions::makeLoadOptions() const
 {
   pcl_uvol::LoadOptions options;
-  for (std::size_t i = 0; i < xyz_.size(); ++i) {
-    options.xyz_columns[i] = static_cast<int>(xyz_[i]);
-    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != xyz_[i])
-      throw UsageError("-xyz takes three column numbers from 0.");
-  }
+  options.xyz_columns = parseColumns(xyz_);
   return options;
 }
 

@@ -39,7 +39,7 @@ struct IsosurfaceOptions {
 
 private:
   std::string scale_;
-  std::vector<double> xyz_;
+  std::string xyz_;
 };
 
 /** \brief Numbers between commas. */

@@ -3,7 +3,40 @@
 
 #include <pcl_uvol/common/exceptions.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace uvol_tools {
+
+void
+declareColumns(Options& options, std::string& columns)
+{
+  options.text("xyz",
+               "x,y,z",
+               columns,
+               "columns of a text file that hold the coordinates, by names or numbers "
+               "from 0 (default: by usual names)");
+}
+
+std::array<std::string, 3>
+parseColumns(const std::string& columns)
+{
+  std::array<std::string, 3> parsed;
+  if (columns.empty())
+    return parsed;
+  std::istringstream words(columns);
+  std::size_t count = 0;
+  for (std::string word; std::getline(words, word, ',');)
+    if (++count <= parsed.size())
+      parsed[count - 1] = word;
+  if (count != parsed.size() || columns.back() == ',' ||
+      std::find(parsed.begin(), parsed.end(), "") != parsed.end())
+    throw UsageError(
+        "-xyz takes three columns, as in -xyz lon,lat,depth or -xyz 0,1,2, "
+        "not " +
+        columns + ".");
+  return parsed;
+}
 
 pcl_uvol::Dataset
 loadPoints(const std::string& path,

@@ -2,12 +2,23 @@
 // How tools read and write points.
 #pragma once
 
+#include "shared/options.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <array>
 #include <string>
 
 namespace uvol_tools {
+
+/** \brief -xyz: the columns of a text file that hold the coordinates. */
+void
+declareColumns(Options& options, std::string& columns);
+
+/** \brief Names or numbers of -xyz; "": none.
+ * \throws UsageError unless there are three */
+std::array<std::string, 3>
+parseColumns(const std::string& columns);
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all

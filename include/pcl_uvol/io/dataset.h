@@ -14,11 +14,12 @@ namespace pcl_uvol {
 
 /** \brief How a text file is read. */
 struct PCL_UVOL_EXPORTS LoadOptions {
-  /** Columns (from 0) that hold the coordinates of a text file; {-1, -1, -1} finds them
-   * by name. */
-  std::array<int, 3> xyz_columns{{-1, -1, -1}};
-  /** False: a text file whose header names no coordinates, by x, y and z or by first
-   * columns such as x_km, y_km, z_km, is taken for data without positions. */
+  /** Columns that hold the coordinates of a text file, by their names or their numbers
+   * from 0; empty: they are found by usual names, as x, y, z, or x_km, y_km, z_km, or
+   * easting, northing, elevation. */
+  std::array<std::string, 3> xyz_columns;
+  /** False: a text file whose header names no coordinates is taken for data without
+   * positions. */
   bool needs_coordinates = true;
 };
 

@@ -32,10 +32,10 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. */
   Dataset surface;
-  IsoEdges edges;       ///< one per isopoint, indices into the samples
+  IsoEdges edges;                     ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
-  std::string field;    ///< that was taken
-  Eigen::Array3f scale; ///< that was taken
+  std::string field;                  ///< that was taken
+  Eigen::Array3f scale;               ///< that was taken
   /** With `smooth`: one per isovalue. */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
