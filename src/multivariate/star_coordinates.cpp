@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cluster_moments.h"
 #include "cluster_separation.h"
+#include "multivariate/linear_algebra.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/multivariate/star_coordinates.h>
@@ -44,9 +45,9 @@ completeAxes(const MatrixXd& axes, const MatrixXd& covariance)
   const MatrixXd half = across.lazyProduct(covariance);
   const MatrixXd rest =
       half.lazyProduct(across) - (2.0 * covariance.trace() + 1.0) * chosen;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rest);
+  const EigenPairs pairs = computeEigenPairs(rest);
   for (Index k = 0; count < wanted; ++k)
-    complete.col(count++) = solver.eigenvectors().col(m - 1 - k);
+    complete.col(count++) = pairs.vectors.col(m - 1 - k);
   return complete;
 }
 
