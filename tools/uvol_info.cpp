@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file of samples or a volume holds, before work is done with it.
-#include "common/options.h"
+#include "common/scalar_field.h"
+#include "pipeline/dataset_info.h"
+#include "shared/options.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/dataset_info.h>
 #include <pcl_uvol/io/volume.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ joined(const Numbers& numbers, const char* separator)
 }
 
 std::string
-rangeOf(const ValueStatistics& statistics)
+findRange(const ValueStatistics& statistics)
 {
   if (statistics.finite == 0)
     return "no finite value";
@@ -85,7 +85,7 @@ describeVolume(const std::string& path, Report& report)
               {"origin", joined(volume.origin, " ")}};
   const auto statistics = pcl_uvol::describeValues(
       std::vector<double>(volume.values.begin(), volume.values.end()));
-  facts.emplace_back(volume.name, rangeOf(statistics));
+  facts.emplace_back(volume.name, findRange(statistics));
   addHistogram(statistics, facts);
   report.count("points", volume.values.size());
   return facts;
@@ -133,7 +133,7 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
             field.count > 1 ? field.name + "[" + std::to_string(k) + "]" : field.name;
         facts.emplace_back(
             name,
-            rangeOf(pcl_uvol::describeValues(pcl_uvol::valuesOf(
+            findRange(pcl_uvol::describeValues(pcl_uvol::readFieldValues(
                 dataset, pcl_uvol::ScalarField(dataset.cloud.fields, name)))));
       }
   if (numbers > most_listed)
@@ -179,9 +179,9 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
   report.count("duplicates", positions.duplicates);
   addRanges(dataset, facts);
   if (!chosen.empty()) {
-    const auto statistics = pcl_uvol::describeValues(pcl_uvol::valuesOf(
+    const auto statistics = pcl_uvol::describeValues(pcl_uvol::readFieldValues(
         dataset, pcl_uvol::ScalarField(dataset.cloud.fields, chosen)));
-    facts.emplace_back("histogram of " + chosen, rangeOf(statistics));
+    facts.emplace_back("histogram of " + chosen, findRange(statistics));
     addHistogram(statistics, facts);
   }
   return facts;

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job: a file of scattered samples in, an oriented isosurface out.
-#include "common/isosurface_options.h"
-#include "common/level_set.h"
-#include "common/memory_guard.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
-#include "common/surface_picture.h"
+#include "common/memory.h"
+#include "common/scalar_field.h"
+#include "io/point_stream.h"
+#include "pipeline/extract_out_of_core.h"
+#include "pipeline/memory_need.h"
+#include "shared/isosurface_options.h"
+#include "shared/level_set.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "shared/surface_picture.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/extract_out_of_core.h>
+#include <pcl_uvol/neighbors/voronoi_grid.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <filesystem>
@@ -132,7 +135,8 @@ checkCombinations(const Options& options, const Arguments& arguments)
     throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
 }
 
-/** The parameters that the options ask for. \throws UsageError */
+/** The parameters that the options ask for.
+ * \throws UsageError */
 void
 finishParameters(const Options& options, Arguments& arguments)
 {
@@ -199,7 +203,15 @@ runInMemory(const Options& options,
   pipeline.setParameters(parameters);
   pipeline.setNumberOfThreads(options.threads());
   pipeline.setProgressCallback(report.progress);
-  const auto sizes = pipeline.estimateSurfaces();
+  IsosurfacePipelineParameters resolved = parameters;
+  resolved.isosurface = pipeline.resolveParameters();
+  resolved.automatic_scale = false; // it is filled in now
+  pipeline.setParameters(resolved);
+  const auto sizes = pcl_uvol::estimateSurfaces(pcl_uvol::viewOf(samples->cloud),
+                                                resolved.isosurface.field,
+                                                resolved.isosurface.isovalues,
+                                                resolved.isosurface.scale,
+                                                options.threads());
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         pcl_uvol::addMemoryNeed(parameters, points, step, sizes, forecast);

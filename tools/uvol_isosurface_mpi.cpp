@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
-#include "common/isosurface_options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
+#include "common/scalar_field.h"
+#include "distributed/fetch_points.h"
+#include "distributed/merge_reports.h"
+#include "io/rank_files.h"
+#include "isosurface/edge_ends.h"
+#include "pipeline/extract_from_ranks.h"
+#include "shared/isosurface_options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/distributed/fetch_points.h>
-#include <pcl_uvol/distributed/merge_reports.h>
-#include <pcl_uvol/io/rank_files.h>
-#include <pcl_uvol/isosurface/edge_ends.h>
 #include <pcl_uvol/mpi/mpi_communicator.h>
-#include <pcl_uvol/pipeline/extract_from_ranks.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <vtkMPIController.h>
@@ -254,7 +254,7 @@ main(int argc, char** argv)
     if (communicator.rank() != 0)
       std::cout.rdbuf(silence.rdbuf());
     const uvol_tools::Outcome outcome =
-        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, communicator); });
+        uvol_tools::catchErrors(tool, [&] { return run(argc, argv, communicator); });
     std::cout.rdbuf(out);
     const std::size_t failed = communicator.agree(outcome.exit_code != 0);
     if (failed == communicator.rank())

@@ -3,6 +3,8 @@
 // has parameters a second and 100 MB to compile.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,7 +15,7 @@
 namespace pcl_uvol::detail {
 
 /** \brief Copies share their content. A get that does not fit the type throws. */
-class JsonValue {
+class PCL_UVOL_EXPORTS JsonValue {
 public:
   JsonValue(); ///< null
   explicit JsonValue(bool value);

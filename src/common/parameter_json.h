@@ -115,6 +115,12 @@ fromJsonNumber(const std::string& name, const JsonValue& json, T& value)
       refuseJson(name, json, "true or false");
     value = json.getBool();
   }
+  else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>) {
+    if (!json.is_number_integer() ||
+        json.get<std::int64_t>() != static_cast<T>(json.get<std::int64_t>()))
+      refuseJson(name, json, "a whole number");
+    value = json.get<T>();
+  }
   else if constexpr (std::is_integral_v<T>) {
     if (!json.isUnsigned() ||
         json.getUnsigned() > static_cast<std::uint64_t>(std::numeric_limits<T>::max()))

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From records as they lie in files to datasets.
+#include "common/records.h"
+
+#include "common/printable.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/records.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
 #include <array>

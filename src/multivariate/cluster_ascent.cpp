@@ -57,9 +57,9 @@ ClusterSeparation::softMinimum(const MatrixXd& basis, double sharpness) const
   for (std::size_t p = 0; p < separable_.size(); ++p) {
     const auto& [a, b] = separable_[p];
     ratios[p] =
-        ratio_floor + ratioOf(projected.covariances[a] + projected.covariances[b],
-                              projected.means[a] - projected.means[b],
-                              discriminants[p]);
+        ratio_floor + computeRatio(projected.covariances[a] + projected.covariances[b],
+                                   projected.means[a] - projected.means[b],
+                                   discriminants[p]);
   }
   const double smallest = *std::min_element(ratios.begin(), ratios.end());
   std::vector<double> weights(separable_.size());

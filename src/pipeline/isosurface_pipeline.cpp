@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "neighbors/anisotropy.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_isosurface within a bound of memory: the same file, or one sentence.
+#include "common/random.h"
 #include "support/environment.h"
 #include "tools/tool_test.h"
-#include <pcl_uvol/common/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job from the outside: files in and out, exit codes, sentences, nothing left
 // behind.
+#include "common/scalar_field.h"
 #include "support/clouds.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <Eigen/Core>
@@ -64,7 +64,7 @@ editedCsv(const std::function<std::string(double x, double y, double z)>& label)
 
 /** Coordinates with the origin added, in the order of the file. */
 std::vector<double>
-coordinatesOf(const std::string& path)
+readCoordinates(const std::string& path)
 {
   const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
   std::vector<double> xyz;
@@ -260,7 +260,7 @@ TEST_F(Isosurface, ShiftedCloudsGiveShiftedIsopoints)
       ASSERT_EQ(0, run(in_ + " " + a + " -field density -iso 15" + ascii).exit_code);
       ASSERT_EQ(0,
                 run(shifted + " " + b + " -field density -iso 15" + ascii).exit_code);
-      const auto expected = coordinatesOf(a), found = coordinatesOf(b);
+      const auto expected = readCoordinates(a), found = readCoordinates(b);
       ASSERT_EQ(expected.size(), found.size()) << ending << ascii;
       for (std::size_t i = 0; i < found.size(); ++i)
         ASSERT_NEAR(expected[i], found[i] - shift[i % 3], 16e-6) << ending << ascii;

@@ -196,8 +196,8 @@ TEST(ClusterSurfaces, MeasureDistancesInTheStretchedSpace)
   Points stretched;
   for (const Vector3d& point : ball)
     stretched.emplace_back(scale * point.array());
-  ClusterSurfaceSettings settings = settingsOf(0.3);
-  settings.scale = {{1.0f, 2.0f, 0.5f}};
+  ClusterSurfaceParameters settings = settingsOf(0.3);
+  settings.scale = {1.0f, 2.0f, 0.5f};
   for (const auto kind : all_kinds) {
     Report report;
     const ClusterSurface surface = Cluster(ball).enclose(kind, settings, report);
@@ -214,8 +214,8 @@ TEST(ClusterSurfaces, MeasureDistancesInTheStretchedSpace)
 TEST(ClusterSurfaces, HaveTheirPointsAsVerticesWhateverTheScale)
 {
   const Cluster ball(ballOf(1000, 9));
-  ClusterSurfaceSettings settings = settingsOf(0.3);
-  settings.scale = {{0.7f, 1.1f, 0.9f}};
+  ClusterSurfaceParameters settings = settingsOf(0.3);
+  settings.scale = {0.7f, 1.1f, 0.9f};
   Report report;
   const ClusterSurface hull = ball.enclose(ClusterSurfaceKind::Hull, settings, report);
   for (std::uint32_t i = 0; i < hull.points.size(); ++i)
@@ -230,7 +230,7 @@ TEST(ClusterSurfaces, RefuseScalesThatAreNone)
                              std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()})
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ClusterSurfaceSettings settings = settingsOf(0.3);
+      ClusterSurfaceParameters settings = settingsOf(0.3);
       settings.scale[axis] = factor;
       Report report;
       EXPECT_THROW(ball.enclose(ClusterSurfaceKind::Distance, settings, report),

@@ -47,8 +47,8 @@ protected:
   void
   checkPictureSize(int largest) const;
 
-  /** \brief The camera that was set, else the default one. \param bounds of what is
-   * drawn */
+  /** \brief The camera that was set, else the default one.
+   * \param bounds of what is drawn */
   Camera
   cameraFor(const BoundingSphere& bounds) const;
 
