@@ -31,7 +31,7 @@ function(pcl_uvol_add_library name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(pcl_uvol_${name} PRIVATE
-    $<BUILD_INTERFACE:pcl_uvol_determinism> $<BUILD_INTERFACE:pcl_uvol_warnings>)
+    $<BUILD_INTERFACE:pcl_uvol_warnings> $<BUILD_INTERFACE:pcl_uvol_determinism>)
   set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
   if(PCL_UVOL_INSTALL)
     install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets)
