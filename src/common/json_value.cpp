@@ -32,6 +32,11 @@ JsonValue::JsonValue(double value)
 {
 }
 
+JsonValue::JsonValue(std::int64_t value)
+    : content_(std::make_shared<Content>(Content{Json(value)}))
+{
+}
+
 JsonValue::JsonValue(std::uint64_t value)
     : content_(std::make_shared<Content>(Content{Json(value)}))
 {
@@ -82,6 +87,12 @@ JsonValue::isNumber() const
 }
 
 bool
+JsonValue::isInteger() const
+{
+  return content_->json.is_number_integer();
+}
+
+bool
 JsonValue::isUnsigned() const
 {
   return content_->json.is_number_unsigned();
@@ -115,6 +126,12 @@ double
 JsonValue::getNumber() const
 {
   return content_->json.get<double>();
+}
+
+std::int64_t
+JsonValue::getInteger() const
+{
+  return content_->json.get<std::int64_t>();
 }
 
 std::uint64_t

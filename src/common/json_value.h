@@ -20,6 +20,7 @@ public:
   JsonValue(); ///< null
   explicit JsonValue(bool value);
   explicit JsonValue(double value);
+  explicit JsonValue(std::int64_t value);
   explicit JsonValue(std::uint64_t value);
   explicit JsonValue(const std::string& value);
 
@@ -39,7 +40,9 @@ public:
   bool
   isNumber() const;
   bool
-  isUnsigned() const; ///< a whole number from 0
+  isInteger() const;
+  bool
+  isUnsigned() const; ///< an integer from 0
   bool
   isString() const;
   bool
@@ -51,6 +54,8 @@ public:
   getBool() const;
   double
   getNumber() const;
+  std::int64_t
+  getInteger() const;
   std::uint64_t
   getUnsigned() const;
   std::string

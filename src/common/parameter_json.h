@@ -60,10 +60,10 @@ toJsonValue(const T& value)
     return std::isfinite(value) ? JsonValue(double(value)) : JsonValue();
   else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>)
     return JsonValue(value);
-  else if constexpr (std::is_integral_v<T>) {
-    static_assert(std::is_unsigned_v<T>, "whole parameters count from 0");
+  else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>)
+    return JsonValue(std::int64_t{value});
+  else if constexpr (std::is_integral_v<T>)
     return JsonValue(std::uint64_t{value});
-  }
   else { // a list
     JsonValue list = JsonValue::makeList();
     for (const auto& item : value)
@@ -116,10 +116,9 @@ fromJsonNumber(const std::string& name, const JsonValue& json, T& value)
     value = json.getBool();
   }
   else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>) {
-    if (!json.is_number_integer() ||
-        json.get<std::int64_t>() != static_cast<T>(json.get<std::int64_t>()))
+    if (!json.isInteger() || json.getInteger() != static_cast<T>(json.getInteger()))
       refuseJson(name, json, "a whole number");
-    value = json.get<T>();
+    value = static_cast<T>(json.getInteger());
   }
   else if constexpr (std::is_integral_v<T>) {
     if (!json.isUnsigned() ||
