@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
 #include "charts/line_plot.h"
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
@@ -309,7 +310,7 @@ run(int argc, char** argv)
             makeZeroLevel(dataset, parameters, options.threads(), phi),
             {});
       });
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   evolution.evolve(result.cloud);
   report.merge(evolution.getReport());
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();

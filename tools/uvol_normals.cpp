@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
@@ -112,7 +113,7 @@ run(int argc, char** argv)
         "The file has no normals to orient by: the new ones look to 0,0,0; -viewpoint "
         "chooses another place.");
 
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = estimateNormals(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;

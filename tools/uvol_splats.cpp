@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats of a surface given as points (thesis 4.2.1).
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
@@ -89,7 +90,7 @@ run(int argc, char** argv)
       dataset,
       forecastMemory(pcl_uvol::estimateSplats(view, parameters, options.threads()),
                      pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;

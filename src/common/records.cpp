@@ -347,4 +347,13 @@ makeUnique(std::vector<std::string>& names)
   }
 }
 
+Dataset
+withoutCloud(const Dataset& dataset)
+{
+  Dataset result;
+  result.origin = dataset.origin;
+  result.double_coordinates = dataset.double_coordinates;
+  return result;
+}
+
 } // namespace pcl_uvol

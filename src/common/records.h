@@ -170,4 +170,9 @@ renameFields(Fields& fields, const char* const (&from)[3], const char* const (&t
 PCL_UVOL_EXPORTS void
 makeUnique(std::vector<std::string>& names);
 
+/** \brief The origin and the like of a dataset, for a cloud made of its own: without a
+ * copy of all its points. */
+PCL_UVOL_EXPORTS Dataset
+withoutCloud(const Dataset& dataset);
+
 } // namespace pcl_uvol

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/extract_out_of_core.h"
 
+#include "common/scalar_field.h"
 #include "isosurface/edge_ends.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -103,6 +104,33 @@ extractOutOfCore(PointSource& points,
   points.seek(0);
   points.readRows(ends.points, surface.samples);
   return surface;
+}
+
+IsosurfaceResult
+runPipelineOutOfCore(PointSource& points,
+                     const IsosurfacePipelineParameters& parameters,
+                     const OutOfCoreSettings& out_of_core,
+                     const ProgressCallback& progress)
+{
+  checkParameters(parameters);
+  if (parameters.smooth || parameters.automatic_scale ||
+      parameters.isosurface.neighbors == NeighborSource::Voronoi)
+    throw InvalidArgument("Level sets, an automatic scale and Voronoi grids need all "
+                          "samples in memory.");
+  Dataset samples = points.getHeader();
+  IsosurfacePipelineParameters resolved = parameters;
+  if (resolved.isosurface.field.empty())
+    resolved.isosurface.field = ScalarField::defaultName(samples.cloud.fields);
+  Report report;
+  report.progress = progress;
+  auto surface = extractOutOfCore(points, resolved.isosurface, out_of_core, report);
+  samples.cloud = std::move(surface.samples);
+  return finishIsosurface(samples,
+                          std::move(surface.isopoints),
+                          std::move(surface.edges),
+                          resolved,
+                          out_of_core.threads,
+                          std::move(report));
 }
 
 } // namespace pcl_uvol

@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
@@ -45,5 +46,16 @@ extractOutOfCore(PointSource& points,
                  const IsosurfaceParameters& settings,
                  const OutOfCoreSettings& out_of_core,
                  Report& report);
+
+/** \brief IsosurfacePipeline within a bound of memory.
+ *
+ * An empty field is filled in; level sets, an automatic scale and candidates of a
+ * Voronoi grid, which need all samples at once, are refused. \param points read from
+ * the front \throws as extractOutOfCore and IsosurfacePipeline */
+PCL_UVOL_EXPORTS IsosurfaceResult
+runPipelineOutOfCore(PointSource& points,
+                     const IsosurfacePipelineParameters& parameters,
+                     const OutOfCoreSettings& out_of_core,
+                     const ProgressCallback& progress);
 
 } // namespace pcl_uvol

@@ -2,6 +2,8 @@
 // Surfaces around clusters: what they enclose, and how far away they are.
 #include "vtk/cluster_shapes.h"
 
+#include <pcl/point_types.h>
+
 namespace {
 
 using namespace uvol_test;
@@ -375,6 +377,29 @@ TEST(ClusterSurfaces, DoNotDependOnThreads)
       EXPECT_EQ(first.distance, other.distance);
     }
   }
+}
+
+TEST(ClusterSurfaceGeneration, IsAStageWithParameters)
+{
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (std::uint64_t i = 0; i < 500; ++i)
+    cloud->push_back({static_cast<float>(uniformAt(1, i, 0)),
+                      static_cast<float>(uniformAt(1, i, 1)),
+                      static_cast<float>(uniformAt(1, i, 2))});
+  pcl_uvol::ClusterSurfaceGeneration<pcl::PointXYZ> generation;
+  ClusterSurface surface;
+  EXPECT_THROW(generation.compute(surface), InvalidArgument);
+  generation.setInputCloud(cloud);
+  generation.setKind(ClusterSurfaceKind::Hull);
+  generation.setDistance(0.3);
+  generation.compute(surface);
+  EXPECT_EQ(surface.points.size(), surface.mesh.vertices.size());
+  EXPECT_EQ(surface.distance, 0.3);
+  EXPECT_EQ(generation.getReport().getCount("members"), 500u);
+  const auto& parameters = generation.getParameters();
+  EXPECT_TRUE(parameters == ClusterSurfaceParameters::fromJson(parameters.toJson()));
+  EXPECT_EQ(ClusterSurfaceParameters::fromJson(R"({"kind": "hull"})").kind,
+            ClusterSurfaceKind::Hull);
 }
 
 } // namespace

@@ -23,15 +23,6 @@ loadPoints(const std::string& path,
   return dataset;
 }
 
-pcl_uvol::Dataset
-withoutCloud(const pcl_uvol::Dataset& dataset)
-{
-  pcl_uvol::Dataset result;
-  result.origin = dataset.origin;
-  result.double_coordinates = dataset.double_coordinates;
-  return result;
-}
-
 void
 savePoints(const std::string& path,
            const pcl_uvol::Dataset& dataset,

@@ -18,11 +18,6 @@ loadPoints(const std::string& path,
            const pcl_uvol::LoadOptions& options = {},
            const std::string& where = "");
 
-/** \brief The origin and the like of a dataset, for a cloud made of its own: without a
- * copy of all its points. */
-pcl_uvol::Dataset
-withoutCloud(const pcl_uvol::Dataset& dataset);
-
 /** \brief Write a file, as a step of the report.
  * \throws IOError */
 void
