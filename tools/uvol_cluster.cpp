@@ -31,9 +31,9 @@ namespace {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Report;
+using uvol_tools::Facts;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
-using Facts = std::vector<std::pair<std::string, std::string>>;
 
 struct Arguments {
   std::string input, output, where, scale, label, tree, surface, probability, smoothing;
@@ -335,9 +335,7 @@ writeCluster(const Options& options,
     return;
   }
   const auto surface = enclose(options, arguments, dataset, members, report);
-  std::ostringstream distance;
-  distance << surface.distance;
-  facts.emplace_back("distance", distance.str());
+  facts.emplace_back("distance", surface.distance);
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveMesh(
       arguments.output, makeVertices(dataset, surface), surface.mesh.triangles, save);

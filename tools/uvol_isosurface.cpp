@@ -23,32 +23,39 @@ using pcl_uvol::IsosurfacePipelineParameters;
 using pcl_uvol::IsosurfaceResult;
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
+using uvol_tools::Fact;
 using uvol_tools::joined;
 using uvol_tools::Options;
 using Arguments = uvol_tools::PipelineOptions;
-using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /** Median, 95 % and maximum of the estimated errors. */
-std::string
+Fact
 describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
 {
   if (!errors)
-    return "not estimated";
+    return {"estimated error", "not estimated", Fact::Members()};
   std::ostringstream text;
   text.precision(3);
   text << "median " << errors->median << ", 95 % within " << errors->percentile_95
        << ", largest " << errors->largest;
-  return text.str();
+  return {"estimated error",
+          text.str(),
+          Fact::Members{{"median", {errors->median}},
+                        {"percentile_95", {errors->percentile_95}},
+                        {"largest", {errors->largest}}}};
 }
 
 /** As MemoryGuard::describe() for a run within a bound. */
-std::pair<std::string, std::string>
+Fact
 describeBound(const Options& options, const Arguments& arguments)
 {
-  const std::uint64_t bound = arguments.makeOutOfCoreSettings(options).max_memory;
+  const auto bound =
+      static_cast<double>(arguments.makeOutOfCoreSettings(options).max_memory);
+  const auto peak = static_cast<double>(pcl_uvol::peakMemory());
   return {"memory",
-          "bound " + pcl_uvol::formatBytes(static_cast<double>(bound)) + ", peak " +
-              pcl_uvol::formatBytes(static_cast<double>(pcl_uvol::peakMemory()))};
+          "bound " + pcl_uvol::formatBytes(bound) + ", peak " +
+              pcl_uvol::formatBytes(peak),
+          Fact::Members{{"bound", {bound}}, {"peak", {peak}}}};
 }
 
 IsosurfaceResult
@@ -141,14 +148,15 @@ run(int argc, char** argv)
   save.ascii = arguments.ascii;
   save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
   uvol_tools::savePoints(arguments.output, result.surface, save, report);
-  Facts facts = {
+  uvol_tools::Facts facts = {
       {"input", arguments.input},
       {"output", arguments.output},
       {"field", result.field},
-      {"isovalues", joined(isovalues)},
-      {"scale", joined(result.scale)},
+      {"isovalues", isovalues},
+      {"isopoints per isovalue", uvol_tools::toNumbers(result.isopoints)},
+      {"scale", uvol_tools::toNumbers(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
-      {"estimated error", describeErrors(result.errors)}};
+      describeErrors(result.errors)};
   for (const pcl_uvol::LevelSetSummary& summary : result.level_sets)
     for (const auto& fact :
          uvol_tools::describe(summary, !arguments.parameters.level_set.mu))

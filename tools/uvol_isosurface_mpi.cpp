@@ -181,10 +181,10 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
         together,
         {{"input", joined(arguments.inputs)},
          {"output", arguments.output},
-         {"processes", std::to_string(communicator.size())},
+         {"processes", static_cast<double>(communicator.size())},
          {"field", field},
-         {"isovalues", joined(arguments.parameters.isosurface.isovalues)},
-         {"scale", joined(arguments.parameters.isosurface.scale)},
+         {"isovalues", arguments.parameters.isosurface.isovalues},
+         {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
          {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}},
         true); // mpirun's pipes look like terminals
   return 0;

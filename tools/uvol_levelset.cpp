@@ -324,10 +324,9 @@ run(int argc, char** argv)
     writePlot(arguments.plot, summary);
   report.count("points", view.count);
   total.reset();
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"input", arguments.input},
-      {"output", arguments.output},
-      {"field", parameters.field}};
+  uvol_tools::Facts facts = {{"input", arguments.input},
+                             {"output", arguments.output},
+                             {"field", parameters.field}};
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

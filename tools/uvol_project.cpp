@@ -124,13 +124,11 @@ run(int argc, char** argv)
     writeAxes(arguments.axes, found.projection);
   if (!arguments.picture.empty())
     drawPicture(arguments, found);
-  std::ostringstream ratio;
-  ratio << found.smallest_ratio;
   uvol_tools::printReport(options,
                           report,
                           {{"input", arguments.input},
                            {"output", arguments.output},
-                           {"smallest Fisher ratio", ratio.str()}});
+                           {"smallest Fisher ratio", found.smallest_ratio}});
   return 0;
 }
 

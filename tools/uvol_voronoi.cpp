@@ -158,11 +158,15 @@ run(int argc, char** argv)
   grid_text << shape.cells[0] << " x " << shape.cells[1] << " x " << shape.cells[2]
             << " cells of " << shape.spacing[0] << " x " << shape.spacing[1] << " x "
             << shape.spacing[2];
-  uvol_tools::printReport(options,
-                          report,
-                          {{"input", arguments.input},
-                           {"output", arguments.output},
-                           {"grid", grid_text.str()}});
+  uvol_tools::printReport(
+      options,
+      report,
+      {{"input", arguments.input},
+       {"output", arguments.output},
+       {"grid",
+        grid_text.str(),
+        uvol_tools::Fact::Members{{"cells", uvol_tools::toNumbers(shape.cells)},
+                                  {"spacing", uvol_tools::toNumbers(shape.spacing)}}}});
   return 0;
 }
 

@@ -200,7 +200,7 @@ appendIsopoints(const IsopointInput& input,
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
   {
-    const StepTimer timer(report, "isopoints");
+    const StepTimer timer(report, "linear_roots");
     parallelBlocks(keys.size(), block_edges, input.threads, [&](auto begin, auto end) {
       for (std::size_t i = begin; i < end; ++i)
         placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);

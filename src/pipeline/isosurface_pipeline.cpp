@@ -71,6 +71,23 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
         }));
 }
 
+/** Isopoints follow one another by isovalue. */
+std::vector<std::size_t>
+countPerIsovalue(const pcl::PointCloud<PointIso>& isopoints,
+                 const std::vector<double>& isovalues)
+{
+  std::vector<std::size_t> counts;
+  auto begin = isopoints.begin();
+  for (const double isovalue : isovalues) {
+    const auto end = std::find_if(begin, isopoints.end(), [&](const PointIso& point) {
+      return point.isovalue != static_cast<float>(isovalue);
+    });
+    counts.push_back(static_cast<std::size_t>(end - begin));
+    begin = end;
+  }
+  return counts;
+}
+
 std::optional<ErrorSummary>
 summarizeErrors(const pcl::PointCloud<PointIso>& isopoints)
 {
@@ -281,7 +298,9 @@ finishIsosurface(const Dataset& samples,
 {
   orientIsopoints(isopoints, parameters, threads, report);
   dropIsopoints(isopoints, edges, parameters, report);
+  report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
+  result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
   result.surface.origin = samples.origin;
   result.surface.double_coordinates = samples.double_coordinates;
   {

@@ -213,7 +213,7 @@ TEST_F(ProjectTool, StarCoordinatesKeepClustersApart)
   const auto ratio = [&](const char* method) {
     const auto result = run(attributes_ + "-label truth -json -method " + method);
     EXPECT_EQ(0, result.exit_code) << result.err;
-    const std::string key = "\"smallest Fisher ratio\": \"";
+    const std::string key = "\"smallest_Fisher_ratio\": ";
     const std::size_t at = result.out.find(key);
     EXPECT_NE(std::string::npos, at) << result.out;
     return at == std::string::npos ? 0.0

@@ -18,7 +18,7 @@ parseMu(const std::string& text)
   return mu;
 }
 
-std::vector<std::pair<std::string, std::string>>
+Facts
 describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic)
 {
   const auto text = [](auto... parts) {
@@ -28,22 +28,29 @@ describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic)
     return stream.str();
   };
   const auto& last = summary.steps.back();
-  return {{"spacing", text(summary.spacing, " (median at the surface)")},
-          {"noise", text(summary.noise, " spacings")},
-          {"mu",
-           text(summary.mu,
-                mu_is_automatic ? " (automatic: by the noise and what smoothing left; "
-                                  "1 follows the data, 0 "
-                                  "only smooths)"
-                                : "")},
-          {"level set",
-           text(summary.converged ? "converged" : "not converged",
-                " after ",
-                summary.steps.size(),
-                " steps, moves by ",
-                last.change,
-                " spacings per unit of time, | |grad phi| - 1 | is ",
-                last.slope_error)}};
+  const auto steps = static_cast<double>(summary.steps.size());
+  return {
+      {"spacing", text(summary.spacing, " (median at the surface)"), summary.spacing},
+      {"noise", text(summary.noise, " spacings"), summary.noise},
+      {"mu",
+       text(summary.mu,
+            mu_is_automatic ? " (automatic: by the noise and what smoothing left; "
+                              "1 follows the data, 0 "
+                              "only smooths)"
+                            : ""),
+       summary.mu},
+      {"level set",
+       text(summary.converged ? "converged" : "not converged",
+            " after ",
+            summary.steps.size(),
+            " steps, moves by ",
+            last.change,
+            " spacings per unit of time, | |grad phi| - 1 | is ",
+            last.slope_error),
+       Fact::Members{{"converged", {summary.converged ? 1.0 : 0.0}},
+                     {"steps", {steps}},
+                     {"change", {last.change}},
+                     {"slope_error", {last.slope_error}}}}};
 }
 
 } // namespace uvol_tools

@@ -2,6 +2,7 @@
 // What uvol_levelset and uvol_isosurface -smooth share.
 #pragma once
 
+#include "shared/facts.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <optional>
@@ -17,7 +18,7 @@ std::optional<double>
 parseMu(const std::string& text);
 
 /** \brief What an evolution found out, for the report. */
-std::vector<std::pair<std::string, std::string>>
+Facts
 describe(const pcl_uvol::LevelSetSummary& summary, bool mu_is_automatic);
 
 } // namespace uvol_tools

@@ -3,6 +3,8 @@
 
 #include "io/memory_need.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 
@@ -52,12 +54,14 @@ MemoryGuard::checkCloud(const pcl_uvol::Dataset& dataset, const Work& work)
   check(points);
 }
 
-std::pair<std::string, std::string>
+Fact
 MemoryGuard::describe() const
 {
+  const auto peak = static_cast<double>(pcl_uvol::peakMemory());
   return {"memory",
           "forecast " + pcl_uvol::formatBytes(forecast_) + ", peak " +
-              pcl_uvol::formatBytes(static_cast<double>(pcl_uvol::peakMemory()))};
+              pcl_uvol::formatBytes(peak),
+          Fact::Members{{"forecast", {std::round(forecast_)}}, {"peak", {peak}}}};
 }
 
 void

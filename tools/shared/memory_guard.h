@@ -3,11 +3,11 @@
 #pragma once
 
 #include "common/memory.h"
+#include "shared/facts.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <functional>
 #include <string>
-#include <utility>
 
 namespace uvol_tools {
 
@@ -34,8 +34,8 @@ public:
   void
   checkCloud(const pcl_uvol::Dataset& dataset, const Work& work);
 
-  /** \brief "memory", and the last forecast beside the peak so far: for a report. */
-  std::pair<std::string, std::string>
+  /** \brief The last forecast beside the peak so far. */
+  Fact
   describe() const;
 
 private:

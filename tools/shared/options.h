@@ -3,6 +3,7 @@
 // an unknown option, a missing or malformed value and a leftover argument are errors.
 #pragma once
 
+#include "shared/facts.h"
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/report.h>
 
@@ -121,6 +122,12 @@ public:
     return static_cast<unsigned>(threads_);
   }
   bool
+  verbose() const
+  {
+    return verbose_;
+  }
+
+  bool
   json() const
   {
     return json_;
@@ -168,7 +175,7 @@ private:
   std::vector<Option> options_;
   std::vector<Positional> positionals_;
   std::uint64_t threads_ = 0;
-  bool json_ = false;
+  bool json_ = false, verbose_ = false;
 };
 
 /** \brief No file may be read and written, or written twice, by whatever names: links
@@ -184,14 +191,14 @@ checkDistinct(const std::vector<std::string>& inputs,
 std::vector<double>
 parseNumbers(const std::string& option, const std::string& value, std::size_t count);
 
-/** \brief Print counts, times and warnings: PCL's colours on a terminal, plain in a
- * pipe, one JSON object with -json (keys: counts, milliseconds, warnings, plus facts as
- * strings).
+/** \brief Print facts, what was counted, and warnings: PCL's colours on a terminal,
+ * plain in a pipe. With -v all counts and times; with -json one JSON object (keys:
+ * those of the facts, counts, milliseconds, warnings).
  * \param plain no colours: what looks like a terminal need not be one */
 void
 printReport(const Options& options,
             const pcl_uvol::Report& report,
-            const std::vector<std::pair<std::string, std::string>>& facts = {},
+            const Facts& facts = {},
             bool plain = false);
 
 /** \brief The first file of the command line that was parsed, for sentences that name

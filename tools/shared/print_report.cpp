@@ -4,6 +4,7 @@
 #include "common/printable.h"
 #include "shared/options.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -54,18 +55,47 @@ printRow(const std::string& name, const T& value, const char* unit, bool in_colo
   std::cout << unit << '\n';
 }
 
+/** A line of what was counted at all. */
+void
+printCounts(const pcl_uvol::Report& report, bool in_colour)
+{
+  const char* before = "";
+  for (const auto& [name, value] : report.counts)
+    if (value > 0) {
+      std::string words = name;
+      std::replace(words.begin(), words.end(), '_', ' ');
+      std::cout << before << words << ' ';
+      const Colour colour(std::cout, in_colour, value_colour);
+      std::cout << value;
+      before = ", ";
+    }
+  if (*before != '\0')
+    std::cout << '\n';
+}
+
+void
+printAll(const pcl_uvol::Report& report, bool in_colour)
+{
+  for (const auto& [name, value] : report.counts)
+    printRow(name, value, "", in_colour);
+  std::cout << std::fixed << std::setprecision(1);
+  for (const auto& [step, value] : report.milliseconds)
+    printRow(step, value, " ms", in_colour);
+}
+
 } // namespace
 
 void
 printReport(const Options& options,
             const pcl_uvol::Report& report,
-            const std::vector<std::pair<std::string, std::string>>& facts,
+            const Facts& facts,
             bool plain)
 {
   if (options.json()) {
     nlohmann::ordered_json object;
-    for (const auto& [name, value] : facts)
-      object[name] = value;
+    for (const Fact& fact : facts)
+      if (!fact.getKey().empty())
+        object[fact.getKey()] = nlohmann::ordered_json::parse(fact.getJson());
     for (const auto& [name, value] : report.counts)
       object["counts"][name] = value;
     for (const auto& [step, value] : report.milliseconds)
@@ -77,13 +107,14 @@ printReport(const Options& options,
     return;
   }
   const bool in_colour = !plain && isatty(STDOUT_FILENO) != 0;
-  for (const auto& [name, value] : facts)
-    std::cout << printable(name) << ": " << printable(value) << '\n';
-  for (const auto& [name, value] : report.counts)
-    printRow(name, value, "", in_colour);
-  std::cout << std::fixed << std::setprecision(1);
-  for (const auto& [step, value] : report.milliseconds)
-    printRow(step, value, " ms", in_colour);
+  for (const Fact& fact : facts)
+    if (!fact.getText().empty())
+      std::cout << printable(fact.getName()) << ": " << printable(fact.getText())
+                << '\n';
+  if (options.verbose())
+    printAll(report, in_colour);
+  else
+    printCounts(report, in_colour);
   for (const std::string& warning : report.warnings) {
     const Colour colour(
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);

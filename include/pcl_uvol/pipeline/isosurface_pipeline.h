@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <pcl/pcl_base.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    * do not replace. */
   Dataset surface;
   IsoEdges edges;       ///< one per isopoint, indices into the samples
+  std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;    ///< that was taken
   Eigen::Array3f scale; ///< that was taken
   /** With `smooth`: one per isovalue. */

@@ -39,6 +39,22 @@ public:
     supersampling_ = factor;
   }
 
+  int
+  getWidth() const
+  {
+    return width_;
+  }
+  int
+  getHeight() const
+  {
+    return height_;
+  }
+  int
+  getSupersampling() const
+  {
+    return supersampling_;
+  }
+
 protected:
   Renderer() = default;
   ~Renderer() = default;

@@ -149,6 +149,8 @@ private:
 template <typename PointT>
 class ImageSpaceRenderer : public CloudStage<PointT>, public ImageSpaceRendererBase {
 public:
+  using Ptr = std::shared_ptr<ImageSpaceRenderer<PointT>>;
+  using ConstPtr = std::shared_ptr<const ImageSpaceRenderer<PointT>>;
   using Cloud = typename CloudStage<PointT>::Cloud;
 
   /** \brief The cloud, and indices, must not change until the next call: points are

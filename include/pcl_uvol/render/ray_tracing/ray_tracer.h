@@ -44,6 +44,9 @@ struct RayTracingSettings {
  * built at the first picture. The picture does not depend on the number of threads. */
 class PCL_UVOL_EXPORTS RayTracer : public Renderer {
 public:
+  using Ptr = std::shared_ptr<RayTracer>;
+  using ConstPtr = std::shared_ptr<const RayTracer>;
+
   RayTracer();
   ~RayTracer();
 
