@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PCL's searches for isopoints. The tree below them is compiled in point_tree.cpp:
+// PCL's searches for isopoints. The tree below them is compiled in point_kdtree.cpp:
 // both in one unit take too much memory.
 #include <pcl_uvol/common/point_types.h>
 
