@@ -78,8 +78,19 @@ public:
 
 private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  struct Projected;
+  /** Clusters in a subspace; where the basis has a column of 0, offsets are 0 there. */
+  struct Projected {
+    std::vector<Eigen::Vector3d> means;
+    std::vector<Eigen::Matrix3d> covariances;
+    std::vector<Eigen::MatrixXd> half_projected; ///< covariance times basis
+  };
   struct SoftMinimum;
+
+  /** The Fisher ratio, and the discriminant in the subspace. */
+  static double
+  computeRatio(const Eigen::Matrix3d& covariance,
+               const Eigen::Vector3d& offset,
+               Eigen::Vector3d& discriminant);
 
   Projected
   project(const Eigen::MatrixXd& basis) const;
@@ -102,10 +113,5 @@ private:
   std::vector<Eigen::MatrixXd> covariances_;
   std::vector<Pair> separable_, inseparable_;
 };
-
-/** \brief Columns made orthonormal one after the other; those that depend on earlier
- * ones become 0. */
-Eigen::MatrixXd
-orthonormalized(Eigen::MatrixXd columns);
 
 } // namespace pcl_uvol

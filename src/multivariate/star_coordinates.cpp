@@ -4,6 +4,7 @@
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/cluster_moments.h"
 #include "multivariate/cluster_separation.h"
+#include "multivariate/linear_algebra.h"
 #include "multivariate/projections.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -46,9 +47,9 @@ completeAxes(const MatrixXd& axes, const MatrixXd& covariance)
   const MatrixXd half = across.lazyProduct(covariance);
   const MatrixXd rest =
       half.lazyProduct(across) - (2.0 * covariance.trace() + 1.0) * chosen;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rest);
+  const EigenPairs pairs = computeEigenPairs(rest);
   for (Index k = 0; count < wanted; ++k)
-    complete.col(count++) = solver.eigenvectors().col(m - 1 - k);
+    complete.col(count++) = pairs.vectors.col(m - 1 - k);
   return complete;
 }
 

@@ -2,7 +2,7 @@
 // Density clustering of planted clusters, and projections that keep them apart.
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
-#include "multivariate/star_clusters.h"
+#include "support/star_clusters.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -98,7 +98,7 @@ TEST(SmoothIsopoints, WavesOfTwentySpacings)
 }
 
 /** In lengths of the spacing, of a surface that stays the same. */
-TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing)
+TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing_long)
 {
   const auto relative = [](std::size_t n, Interpolation interpolation) {
     const SmoothField field = makeSmoothField("gyroid", n);
@@ -199,7 +199,7 @@ struct Trust {
   }
 };
 
-TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay)
+TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay_long)
 {
   Trust all;
   for (const char* name : {"radial", "waves", "decay", "gyroid", "torus"})

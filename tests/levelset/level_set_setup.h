@@ -5,6 +5,8 @@
 #include "support/environment.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
+#include <pcl/point_types.h>
+
 #include <cmath>
 #include <cstdint>
 #include <vector>

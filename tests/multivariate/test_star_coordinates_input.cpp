@@ -2,7 +2,7 @@
 // Projections of tables that leave nothing to choose, or hold what is easily divided
 // by.
 #include "multivariate/projections.h"
-#include "multivariate/star_clusters.h"
+#include "support/star_clusters.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,7 @@ estimate(const pcl::PointCloud<pcl::PointNormal>& cloud, double delta)
   return pcl_uvol::estimateSplats(pcl_uvol::viewOf(cloud), parameters, 0);
 }
 
-TEST(EstimatedSplats, AreAboutAsManyAsThereWillBe)
+TEST(EstimatedSplats, AreAboutAsManyAsThereWillBe_long)
 {
   constexpr std::size_t points = 150000;
   const auto sphere = uvol_test::makeSphere(points, 1);

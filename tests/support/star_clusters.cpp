@@ -1,103 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attribute tables of clusters that are known: normal distributions in 4 to 10
-// dimensions; and what tests of projections ask of them.
-#pragma once
+#include "support/star_clusters.h"
 
 #include "common/random.h"
-#include "multivariate/attributes.h"
-#include "multivariate/projections.h"
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace uvol_test {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-using Index = Eigen::Index;
-
-/** \brief Rows, and the cluster of each. */
-struct LabelledTable {
-  const char* name;
-  pcl_uvol::AttributeTable table;
-  std::vector<std::int32_t> labels;
-};
-
-/** \brief Makes rows of normal distributions. */
-class Planter {
-public:
-  Planter(const char* name, std::size_t columns)
-  {
-    planted_.name = name;
-    for (std::size_t i = 0; i < columns; ++i)
-      planted_.table.names.push_back("a" + std::to_string(i));
+Planter&
+Planter::addMixed(std::int32_t label,
+                  std::size_t count,
+                  const VectorXd& mean,
+                  const MatrixXd& root)
+{
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto row = static_cast<std::uint32_t>(planted_.labels.size());
+    VectorXd value(mean.size());
+    for (Index i = 0; i < mean.size(); ++i)
+      value[i] = pcl_uvol::normalAt(7, row, static_cast<std::uint64_t>(i));
+    value = (mean + root * value).eval();
+    for (const double v : value)
+      planted_.table.values.push_back(static_cast<float>(v));
+    planted_.table.points.push_back(row);
+    planted_.labels.push_back(label);
   }
+  return *this;
+}
 
-  /** \brief Rows that are the mean and root times normal numbers. */
-  Planter&
-  addMixed(std::int32_t label,
-           std::size_t count,
-           const VectorXd& mean,
-           const MatrixXd& root)
-  {
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto row = static_cast<std::uint32_t>(planted_.labels.size());
-      VectorXd value(mean.size());
-      for (Index i = 0; i < mean.size(); ++i)
-        value[i] = pcl_uvol::normalAt(7, row, static_cast<std::uint64_t>(i));
-      value = (mean + root * value).eval();
-      for (const double v : value)
-        planted_.table.values.push_back(static_cast<float>(v));
-      planted_.table.points.push_back(row);
-      planted_.labels.push_back(label);
-    }
-    return *this;
-  }
-
-  /** \brief The same for attributes that do not depend on each other. */
-  Planter&
-  add(std::int32_t label,
-      std::size_t count,
-      const VectorXd& mean,
-      const VectorXd& deviations)
-  {
-    return addMixed(label, count, mean, deviations.asDiagonal());
-  }
-
-  const LabelledTable&
-  get() const
-  {
-    return planted_;
-  }
-
-private:
-  LabelledTable planted_;
-};
-
-inline VectorXd
+VectorXd
 unit(Index size, Index axis, double length)
 {
   return VectorXd::Unit(size, axis) * length;
 }
 
-/** \brief A rotation that mixes all attributes. */
-inline MatrixXd
-mixing(Index size)
-{
-  MatrixXd numbers(size, size);
-  for (Index i = 0; i < size; ++i)
-    for (Index j = 0; j < size; ++j)
-      numbers(i, j) =
-          pcl_uvol::normalAt(11, static_cast<std::uint64_t>(i * size + j), 0);
-  return Eigen::HouseholderQR<MatrixXd>(numbers).householderQ();
-}
-
-/** \brief Four dimensions, four round clusters in corners. */
-inline LabelledTable
+LabelledTable
 makeRound()
 {
   Planter planter("round", 4);
@@ -106,8 +42,7 @@ makeRound()
   return planter.get();
 }
 
-/** \brief Three dimensions of large noise take all principal axes. */
-inline LabelledTable
+LabelledTable
 makeNoisy()
 {
   VectorXd deviations = VectorXd::Ones(6);
@@ -119,8 +54,7 @@ makeNoisy()
   return planter.get();
 }
 
-/** \brief Long clusters, side by side, in eight dimensions that a rotation mixes. */
-inline LabelledTable
+LabelledTable
 makeLong()
 {
   const MatrixXd rotation = mixing(8);
@@ -136,8 +70,7 @@ makeLong()
   return planter.get();
 }
 
-/** \brief Sizes from 20 to 20,000, and noise around. */
-inline LabelledTable
+LabelledTable
 makeUneven()
 {
   Planter planter("uneven", 5);
@@ -150,9 +83,7 @@ makeUneven()
   return planter.get();
 }
 
-/** \brief Twelve clusters in ten dimensions: three axes cannot have them all far apart.
- */
-inline LabelledTable
+LabelledTable
 makeMany()
 {
   Planter planter("many", 10);
@@ -169,7 +100,7 @@ makeMany()
   return planter.get();
 }
 
-inline const std::vector<LabelledTable>&
+const std::vector<LabelledTable>&
 allPlanted()
 {
   static const std::vector<LabelledTable> all = {
@@ -177,7 +108,7 @@ allPlanted()
   return all;
 }
 
-inline pcl_uvol::Projection
+pcl_uvol::Projection
 optimize(const LabelledTable& planted)
 {
   pcl_uvol::Report report;
@@ -185,13 +116,13 @@ optimize(const LabelledTable& planted)
       planted.table, planted.labels, pcl_uvol::StarCoordinateParameters(), 0, report);
 }
 
-inline double
+double
 ratioIn(const LabelledTable& planted, const pcl_uvol::Projection& projection)
 {
   return pcl_uvol::smallestFisherRatio(planted.table, planted.labels, projection);
 }
 
-inline MatrixXd
+MatrixXd
 axesOf(const pcl_uvol::Projection& projection)
 {
   MatrixXd axes(3, static_cast<Index>(projection.names.size()));
@@ -201,8 +132,7 @@ axesOf(const pcl_uvol::Projection& projection)
   return axes;
 }
 
-/** \brief All equal in bytes. */
-inline void
+void
 expectSame(const pcl_uvol::Projection& a, const pcl_uvol::Projection& b)
 {
   EXPECT_EQ(a.names, b.names);
@@ -210,8 +140,7 @@ expectSame(const pcl_uvol::Projection& a, const pcl_uvol::Projection& b)
   EXPECT_EQ(a.rows, b.rows);
 }
 
-/** \brief The first rows orthonormal, the rest 0. */
-inline void
+void
 expectOrthonormal(const pcl_uvol::Projection& projection, Index rank)
 {
   const MatrixXd axes = axesOf(projection);
