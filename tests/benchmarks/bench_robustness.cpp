@@ -319,7 +319,7 @@ public:
 
 private:
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction_;
-  pcl::PointCloud<PointIso> surface_;
+  pcl::PointCloud<pcl_uvol::PointIso> surface_;
   double tree_ = 0.0, all_ = 0.0, fits_ = std::numeric_limits<double>::infinity();
 };
 
@@ -409,7 +409,7 @@ timeExtraction(const Cloud::Ptr& cloud, unsigned threads)
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(0.0);
   extraction.setNumberOfThreads(threads);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   return {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),

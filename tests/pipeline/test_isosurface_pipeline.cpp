@@ -217,6 +217,25 @@ TEST(IsosurfacePipeline, ReusesTheTreeForFurtherIsovalues)
   }
 }
 
+TEST(IsosurfacePipeline, NoticesWhatWasChangedInPlace)
+{
+  const auto samples = std::make_shared<Dataset>(*makeSamples());
+  for (const bool smooth : {false, true}) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.smooth = smooth;
+    parameters.level_set.max_steps = 5;
+    IsosurfacePipeline pipeline;
+    pipeline.setInput(samples);
+    pipeline.setParameters(parameters);
+    const auto before = pipeline.run().surface.cloud.data;
+    for (std::size_t i = 0; i < samples->cloud.width; i += 2)
+      samples->cloud.data[i * samples->cloud.point_step + 3] ^= 0x80; // the sign of x
+    const auto after = pipeline.run().surface.cloud.data;
+    EXPECT_NE(before, after);
+    EXPECT_EQ(run(samples, parameters).surface.cloud.data, after);
+  }
+}
+
 TEST(IsosurfacePipeline, TakesTheIndices)
 {
   const auto samples = makeSamples();

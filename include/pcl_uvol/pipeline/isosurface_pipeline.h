@@ -63,8 +63,8 @@ public:
   using Ptr = std::shared_ptr<IsosurfacePipeline>;
   using ConstPtr = std::shared_ptr<const IsosurfacePipeline>;
 
-  /** \brief The samples. They must not change until the next call: values and tree are
-   * kept. */
+  /** \brief The samples. Values and tree are kept until the samples change, in place or
+   * by another call: see IsosurfaceExtraction::setInputCloud. */
   void
   setInput(const std::shared_ptr<const Dataset>& samples);
 
