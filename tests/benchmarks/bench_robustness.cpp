@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What awkward data cost beside even ones, as ratios of one run: layouts with gaps,
 // duplicates, two threads where one would do.
-// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads]
+// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads] [PART OF A LAYOUT'S NAME]
 #include "support/environment.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -325,7 +325,7 @@ private:
 
 /** Each layout in turn with even samples, since machines waver. */
 void
-compareLayouts(std::size_t n)
+compareLayouts(std::size_t n, const std::string& wanted)
 {
   std::printf("%zu samples, one thread; ratios to uniform ones, run in turn\n", n);
   std::printf("%-40s %9s %9s %7s %9s %7s %9s %7s\n",
@@ -339,6 +339,8 @@ compareLayouts(std::size_t n)
               "ratio");
   const auto even_cloud = makeCloud(layouts().front().sample, n);
   for (const NamedLayout& layout : layouts()) {
+    if (std::string(layout.name).find(wanted) == std::string::npos)
+      continue;
     Extraction even(even_cloud), found(makeCloud(layout.sample, n));
     for (int run = 0; run < 4; ++run) {
       even.run();
@@ -454,7 +456,7 @@ main(int argc, char** argv)
       static_cast<std::size_t>(argc > 1 ? std::max(1000.0, std::atof(argv[1])) : 1e6);
   const std::string part = argc > 2 ? argv[2] : "";
   if (part.empty() || part == "layouts")
-    compareLayouts(n);
+    compareLayouts(n, argc > 3 ? argv[3] : "");
   if (part.empty() || part == "duplicates")
     compareDuplicates(n);
   if (part.empty() || part == "threads")
