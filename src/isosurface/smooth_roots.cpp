@@ -222,7 +222,8 @@ private:
           metrics_.find(edges[i].first,
                         pivot < worthless_pivot ? little_stretching
                         : pivot < good_pivot    ? LocalMetricFinder::even_ratio
-                                                : sure_stretching);
+                                                : sure_stretching) &&
+          metrics_.reaches(center);
       double reach = metrics_.getReach() + distance(end, center);
       if (is_stretched) {
         metrics[lane] = metrics_.getMetric();

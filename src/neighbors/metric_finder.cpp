@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -47,37 +48,38 @@ MetricFinder::sqBound(const KdBox& box) const
 bool
 MetricFinder::mayHold(double sq_bound) const
 {
-  return nearest_.size() < k_ || sq_bound <= slack * nearest_.front().first;
+  return sq_bound <= slack * sq_farthest_;
 }
 
 void
 MetricFinder::measureBucket(const KdNode& bucket)
 {
   const Position* const positions = &samples_.getPositions()[bucket.begin];
-  const double px = point_[0], py = point_[1], pz = point_[2];
-  double m[3][3];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      m[i][j] = metric_(i, j);
-  for (std::uint32_t i = 0; i < bucket.count; ++i) {
-    const double x = positions[i].x[0] - px, y = positions[i].x[1] - py,
-                 z = positions[i].x[2] - pz;
-    const double a = m[0][0] * x + m[0][1] * y + m[0][2] * z;
-    const double b = m[1][0] * x + m[1][1] * y + m[1][2] * z;
-    const double c = m[2][0] * x + m[2][1] * y + m[2][2] * z;
-    sq_dists_[i] = a * a + b * b + c * c;
+  std::array<double, KdTree::bucket_samples> x[3], sq_dists;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = point_[axis];
+    for (std::size_t i = 0; i < bucket.count; ++i)
+      x[axis][i] = positions[i].x[axis] - place;
   }
-  for (std::uint32_t i = 0; i < bucket.count; ++i) {
-    const std::pair<double, std::uint32_t> found(sq_dists_[i], bucket.begin + i);
-    if (nearest_.size() == k_) {
-      if (!(found < nearest_.front()))
-        continue;
-      std::pop_heap(nearest_.begin(), nearest_.end());
-      nearest_.pop_back();
+  for (std::size_t i = 0; i < bucket.count; ++i)
+    sq_dists[i] = 0.0;
+  for (int row = 0; row < 3; ++row) {
+    const double a = metric_(row, 0), b = metric_(row, 1), c = metric_(row, 2);
+    for (std::size_t i = 0; i < bucket.count; ++i) {
+      const double image = a * x[0][i] + b * x[1][i] + c * x[2][i];
+      sq_dists[i] += image * image;
     }
-    nearest_.push_back(found);
-    std::push_heap(nearest_.begin(), nearest_.end());
   }
+  const std::size_t before = nearest_.size();
+  for (std::uint32_t i = 0; i < bucket.count; ++i)
+    if (sq_dists[i] <= sq_farthest_)
+      nearest_.emplace_back(sq_dists[i], bucket.begin + i);
+  if (nearest_.size() == before || nearest_.size() < k_)
+    return;
+  const auto last = nearest_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+  std::nth_element(nearest_.begin(), last, nearest_.end());
+  nearest_.erase(last + 1, nearest_.end());
+  sq_farthest_ = nearest_.back().first;
 }
 
 void
@@ -109,6 +111,7 @@ MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
   bounds_ = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
             squares.eigenvectors().transpose();
   nearest_.clear();
+  sq_farthest_ = std::numeric_limits<double>::infinity();
   const KdTree& own = samples_.getTree();
   const auto search = [&](const KdTree& tree) {
     if (mayHold(sqBound(tree.getBox(tree.getRoot()))))

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -65,8 +64,9 @@ private:
   Eigen::Matrix3d bounds_;    ///< the same metric, with rows at right angles
   Eigen::Vector3d sq_extent_; ///< per axis, of the ball of radius 1 in the metric
   double reach_ = 0.0;
-  std::array<double, KdTree::bucket_samples> sq_dists_;   ///< of a bucket
-  std::vector<std::pair<double, std::uint32_t>> nearest_; ///< a heap
+  /** Squared distances and samples; more than k only while a bucket is looked at. */
+  std::vector<std::pair<double, std::uint32_t>> nearest_;
+  double sq_farthest_ = 0.0; ///< of these; infinite while there are fewer than k
   std::vector<std::uint32_t> found_;
 };
 
