@@ -430,7 +430,7 @@ compareThreads(std::size_t most)
       const auto cloud = makeCloud(layouts().front().sample, size);
       const auto infinity = std::numeric_limits<double>::infinity();
       double least[2] = {infinity, infinity}, busy[2] = {infinity, infinity};
-      const std::size_t runs = std::clamp<std::size_t>(2000000 / size, 5, 500);
+      const std::size_t runs = std::clamp<std::size_t>(2000000 / size, 11, 500);
       for (std::size_t run = 0; run < runs; ++run)
         for (unsigned threads = 1; threads <= 2; ++threads) {
           const auto [clock, processor] = timeExtraction(cloud, threads);

@@ -282,6 +282,28 @@ TEST(IsosurfacePipeline, SmoothsPointsAtOnePositionAsOneSample)
             run(reordered(*samples, backwards), parameters).surface.cloud.data);
 }
 
+TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
+{
+  for (const double unit : {3e50, 3e-60}) {
+    const auto samples = std::make_shared<Dataset>(*makeSamples());
+    std::vector<double> values;
+    for (const float value : readColumn(*samples, "intensity"))
+      values.push_back(unit * (2.0 + value));
+    pcl_uvol::setField(*samples, "intensity", values);
+    IsosurfacePipelineParameters parameters = makeParameters(2.0 * unit);
+    const IsosurfaceResult one = run(samples, parameters);
+    EXPECT_TRUE(one.report.warnings.empty());
+    const pcl_uvol::CloudView view = pcl_uvol::viewOf(one.surface.cloud);
+    const pcl_uvol::ScalarField isovalue(view.fields, "isovalue");
+    ASSERT_GT(view.count, 300u);
+    for (std::size_t i = 0; i < view.count; ++i)
+      EXPECT_EQ(2.0 * unit, isovalue.read(view.point(i)));
+    // Two that float takes for one.
+    parameters.isosurface.isovalues = {2.0 * unit, 2.1 * unit};
+    EXPECT_EQ(1u, run(samples, parameters).report.warnings.size());
+  }
+}
+
 TEST(IsosurfacePipeline, NoticesWhatWasChangedInPlace)
 {
   const auto samples = std::make_shared<Dataset>(*makeSamples());
