@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What awkward data cost beside even ones, as ratios of one run: layouts with gaps,
 // duplicates, two threads where one would do.
-// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads] [PART OF A LAYOUT'S NAME]
+// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads] [PART OF A LAYOUT'S
+// NAME]
 #include "support/environment.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
