@@ -31,7 +31,8 @@ struct ErrorSummary {
 /** \brief What comes out. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
-   * do not replace. */
+   * do not replace. `isovalue` is float64, behind these, where float holds one of the
+   * isovalues as infinite or as zero. */
   Dataset surface;
   IsoEdges edges;       ///< one per isopoint, indices into the samples
   std::string field;    ///< that was taken
