@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cloud_fingerprint.h"
+#include "common/cloud_fingerprint.h"
 
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <cstddef>
 #include <cstring>

@@ -3,8 +3,8 @@
 // made of a cloud notice by it that somebody has written into that cloud.
 #pragma once
 
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit_judgement.h"
+#include "isosurface/fit_judgement.h"
 
-#include "empty_cone_kernel.h"
-#include <pcl_uvol/common/dispatch.h>
+#include "common/dispatch.h"
+#include "isosurface/empty_cone_kernel.h"
 
 #include <Eigen/LU>
 

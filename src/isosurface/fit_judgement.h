@@ -3,9 +3,9 @@
 // makes.
 #pragma once
 
-#include "../derivatives/fit_kernel.h"
-#include "isopoints.h"
-#include "smooth_roots.h"
+#include "derivatives/fit_kernel.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/smooth_roots.h"
 
 #include <Eigen/Core>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smooth_roots.h"
+#include "isosurface/smooth_roots.h"
 
-#include "../neighbors/local_metric.h"
-#include "empty_cone_kernel.h"
-#include "fit_judgement.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "isosurface/fit_judgement.h"
+#include "neighbors/local_metric.h"
+#include "neighbors/nearest_finder.h"
 
 #include <algorithm>
 #include <cmath>
