@@ -3,6 +3,7 @@
 
 #include "common/dispatch.h"
 #include "common/parallel.h"
+#include "isosurface/empty_cone_kernel.h"
 #include "isosurface/fit_judgement.h"
 #include "neighbors/local_metric.h"
 #include "neighbors/nearest_finder.h"
