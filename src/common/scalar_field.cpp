@@ -253,14 +253,6 @@ ScalarField::read(const std::uint8_t* point) const
   return std::sqrt(sum);
 }
 
-bool
-ScalarField::isInteger() const
-{
-  const std::uint8_t datatype = components_.front().datatype;
-  return !is_length_ && datatype != pcl::PCLPointField::FLOAT32 &&
-         datatype != pcl::PCLPointField::FLOAT64;
-}
-
 std::string
 describeFields(const Fields& fields)
 {

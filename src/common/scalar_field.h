@@ -46,10 +46,6 @@ public:
   double
   read(const std::uint8_t* point) const;
 
-  /** \brief True for an integer component: a label, a count or quantised data. */
-  bool
-  isInteger() const;
-
   const std::string&
   getName() const
   {

@@ -40,12 +40,7 @@ public:
   static constexpr double even_ratio = 1.5;
 
   /** \param samples must outlive the finder */
-  explicit LocalMetricFinder(const SampleSet& samples)
-      : samples_(samples)
-      , first_finder_(samples, pool)
-      , finder_(samples, pool)
-  {
-  }
+  explicit LocalMetricFinder(const SampleSet& samples);
 
   /** \brief Find the metric around a sample.
    * \return false, and no metric, if spacings differ by less than a ratio, or if no
@@ -60,6 +55,12 @@ public:
   {
     return metric_;
   }
+
+  /** \brief Whether a point lies near the last sample, beside those that its metric was
+   * made from, as distances are in the metric: far out, across a gap, it says nothing.
+   */
+  bool
+  reaches(const Position& point) const;
 
   /** \brief Its eigenvectors are the directions, its eigenvalues the squared spacings
    * along them. Undefined where the ratio is infinite. */
@@ -102,6 +103,7 @@ private:
   stretchAcross(const LineMoments& lines);
 
   const SampleSet& samples_;
+  bool is_flat_; ///< in a plane or a line along axes: there is nothing beside it
   NearestFinder first_finder_;
   MetricFinder finder_;
   Eigen::Matrix3d metric_, spacings_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace pcl_uvol {
@@ -288,6 +289,36 @@ extractZeroLevel(const CloudView& samples,
     point.isovalue = static_cast<float>(parameters.isovalues.front());
 }
 
+namespace {
+
+/** Float holds some isovalues, such as 3e50, as infinite or as zero: the field of that
+ * name is double then. \param isopoints one per point of the surface */
+void
+keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
+              const std::vector<double>& isovalues,
+              Dataset& surface,
+              Report& report)
+{
+  const auto is_held = [](double isovalue) {
+    const auto rounded = static_cast<float>(isovalue);
+    return std::isfinite(rounded) && (rounded != 0.0f || isovalue == 0.0);
+  };
+  if (std::all_of(isovalues.begin(), isovalues.end(), is_held))
+    return;
+  std::map<float, double> by_rounded;
+  for (const double isovalue : isovalues)
+    if (!by_rounded.emplace(static_cast<float>(isovalue), isovalue).second)
+      report.warnings.push_back(
+          "Isovalues that are equal in float cannot be told apart by the field "
+          "isovalue: extract them one at a time.");
+  std::vector<double> values;
+  for (const PointIso& point : isopoints)
+    values.push_back(by_rounded.at(point.isovalue));
+  setField(surface, "isovalue", values);
+}
+
+} // namespace
+
 IsosurfaceResult
 finishIsosurface(const Dataset& samples,
                  pcl::PointCloud<PointIso>&& isopoints,
@@ -307,6 +338,7 @@ finishIsosurface(const Dataset& samples,
     const StepTimer timer(report, "fields");
     const CloudView view = viewOf(samples.cloud);
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
+    keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
     interpolateFields(view, edges, result.surface.cloud, threads);
   }

@@ -99,7 +99,7 @@ TEST_F(SplatsTool, CoversPointsAndCarriesTheirFieldsAlong)
   ASSERT_EQ(view.count, count);
   EXPECT_TRUE(pcl_uvol::hasColors(view));
   const pcl_uvol::ScalarField mark(view.fields, "curvature"), red(view.fields, "red");
-  EXPECT_TRUE(red.isInteger());
+  EXPECT_EQ(pcl::PCLPointField::UINT8, red.getComponents().front().datatype);
   for (std::size_t i = 0; i < view.count; ++i) {
     const auto source = static_cast<std::size_t>(mark.read(view.point(i)));
     ASSERT_LT(source, points);

@@ -54,6 +54,8 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
 PCL_UVOL_EXPORTS void
 setField(Dataset& dataset, const std::string& name, const std::vector<float>& values);
 PCL_UVOL_EXPORTS void
+setField(Dataset& dataset, const std::string& name, const std::vector<double>& values);
+PCL_UVOL_EXPORTS void
 setField(Dataset& dataset,
          const std::string& name,
          const std::vector<std::int32_t>& values);

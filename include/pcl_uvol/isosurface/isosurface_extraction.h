@@ -179,6 +179,7 @@ private:
   NeighborSource candidate_source_ = NeighborSource::KdTree;
   std::uint32_t candidate_cells_ = 0;
   std::vector<std::uint32_t> sampled_;             // input points behind samples_
+  std::uint64_t sampled_fingerprint_ = 0;          // of all input positions
   Eigen::Array3f sampled_scale_{1.0f, 1.0f, 1.0f}; // scale behind samples_
   Report sampled_report_;                          // what building samples_ counted
   IsoEdges edges_;
@@ -200,7 +201,8 @@ private:
  * also gives normal, mean curvature and error; where a fit does not serve it stays
  * where linear interpolation along the edge puts it, with the edge's outside vector. A
  * value equal to the isovalue counts as above. Linear isopoints that fall together are
- * merged. The tree is built once per cloud: further isovalues and fields reuse it.
+ * merged. The tree is built once per cloud: further isovalues, fields, and values that
+ * were changed in place reuse it.
  * Memory: about 60 bytes per sample besides the cloud.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
@@ -211,8 +213,9 @@ public:
   using ConstPtr = std::shared_ptr<const IsosurfaceExtraction<PointT>>;
   using Cloud = typename CloudStage<PointT>::Cloud;
 
-  /** \brief The cloud must not change until the next call: values and tree are kept.
-   */
+  /** \brief What is made of the cloud is kept: values and tree. Each extract() looks
+   * whether the cloud still holds what it held, some milliseconds for a million points:
+   * other values are read anew, for other positions the tree is built anew. */
   void
   // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
   setInputCloud(const typename Cloud::ConstPtr& cloud)

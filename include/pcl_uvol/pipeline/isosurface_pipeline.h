@@ -30,7 +30,8 @@ struct ErrorSummary {
 /** \brief What comes out. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
-   * do not replace. */
+   * do not replace. `isovalue` is float64, behind these, where float holds one of the
+   * isovalues as infinite or as zero. */
   Dataset surface;
   IsoEdges edges;                     ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
@@ -63,8 +64,8 @@ public:
   using Ptr = std::shared_ptr<IsosurfacePipeline>;
   using ConstPtr = std::shared_ptr<const IsosurfacePipeline>;
 
-  /** \brief The samples. They must not change until the next call: values and tree are
-   * kept. */
+  /** \brief The samples. Values and tree are kept until the samples change, in place or
+   * by another call: see IsosurfaceExtraction::setInputCloud. */
   void
   setInput(const std::shared_ptr<const Dataset>& samples);
 
