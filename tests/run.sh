@@ -1,8 +1,27 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests, on a fresh Debian 12.
+# Installs what is missing, builds everything and runs tests, on a fresh Debian 12.
+# usage: run.sh [all | all:PART]
+#   without argument: the default tests, which take at most 25 minutes on 2 quiet cores
+#   all: every test, one part after the other
+#   all:PART: one part, at most 60 minutes:
+#     default   those that run without argument
+#     long      those with ctest's label "long": names that end in _long, and core built alone
+# Sanitizers, clang-tidy and mutations: tools/check.sh.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+case ${1:-all:default} in
+  all) parts=(default long) ;;
+  all:default | all:long) parts=("${1#all:}") ;;
+  *)
+    echo "run.sh: there is no part '$1'; use all, all:default, all:long or no argument." >&2
+    exit 2
+    ;;
+esac
+
 bash tools/build.sh all gzip clang-format valgrind \
   libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri xvfb
-ctest --preset release --parallel "$(nproc)"
+declare -A labels=([default]=--label-exclude [long]=--label-regex)
+for part in "${parts[@]}"; do
+  ctest --preset release --parallel "$(nproc)" "${labels[$part]}" '^long$'
+done

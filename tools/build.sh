@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
-# Installs what building needs and builds the release preset. Shared by tools/demo.sh and tests/run.sh.
-# usage: build.sh TARGET [PACKAGE...]: the target (all, tools) and further packages to install
+# Installs what building needs and builds a preset, release unless $PRESET names another one. Shared by
+# tools/demo.sh, tools/check.sh and tests/run.sh.
+# usage: build.sh TARGET [PACKAGE...]: the target (all, tools; help builds nothing) and further packages
+# to install
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=$1
+preset=${PRESET:-release}
 shift
 
 bash tools/install_dependencies.sh \
@@ -11,5 +14,5 @@ bash tools/install_dependencies.sh \
   libpcl-dev libvtk9-dev libflann-dev liblz4-dev zlib1g-dev nlohmann-json3-dev \
   libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
   libgtest-dev libgmock-dev "$@"
-cmake --preset release
-cmake --build --preset release --target "$target"
+cmake --preset "$preset"
+cmake --build --preset "$preset" --target "$target"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coordinates and fields put into datasets.
+#include "common/records.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
 
 #include <cstring>
 #include <limits>
@@ -10,15 +10,15 @@
 namespace pcl_uvol {
 namespace {
 
-/** \param values four bytes each */
+template <typename T>
 void
 replaceField(Dataset& dataset,
              const std::string& name,
              std::uint8_t datatype,
-             const void* values,
-             std::size_t count)
+             const std::vector<T>& values)
 {
   pcl::PCLPointCloud2& cloud = dataset.cloud;
+  const std::size_t count = values.size();
   if (count != std::size_t{cloud.width} * cloud.height)
     throw InvalidArgument("The field '" + name + "' has " + std::to_string(count) +
                           " values for " + std::to_string(cloud.width) + " points.");
@@ -29,15 +29,13 @@ replaceField(Dataset& dataset,
     if (field.name == name)
       field.name = "_";
   pcl::PCLPointCloud2 packed = repack(cloud, true);
-  const std::size_t old_step = packed.point_step, new_step = old_step + 4;
+  const std::size_t old_step = packed.point_step, new_step = old_step + sizeof(T);
   appendField(packed.fields, name, datatype);
   packed.fields.back().offset = static_cast<pcl::uindex_t>(old_step);
   std::vector<std::uint8_t> data(new_step * count);
   for (std::size_t i = 0; i < count; ++i) {
     std::memcpy(&data[i * new_step], &packed.data[i * old_step], old_step);
-    std::memcpy(&data[i * new_step + old_step],
-                static_cast<const std::uint8_t*>(values) + 4 * i,
-                4);
+    std::memcpy(&data[i * new_step + old_step], &values[i], sizeof(T));
   }
   packed.data = std::move(data);
   packed.point_step = static_cast<pcl::uindex_t>(new_step);
@@ -78,8 +76,13 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz)
 void
 setField(Dataset& dataset, const std::string& name, const std::vector<float>& values)
 {
-  replaceField(
-      dataset, name, pcl::PCLPointField::FLOAT32, values.data(), values.size());
+  replaceField(dataset, name, pcl::PCLPointField::FLOAT32, values);
+}
+
+void
+setField(Dataset& dataset, const std::string& name, const std::vector<double>& values)
+{
+  replaceField(dataset, name, pcl::PCLPointField::FLOAT64, values);
 }
 
 void
@@ -87,7 +90,7 @@ setField(Dataset& dataset,
          const std::string& name,
          const std::vector<std::int32_t>& values)
 {
-  replaceField(dataset, name, pcl::PCLPointField::INT32, values.data(), values.size());
+  replaceField(dataset, name, pcl::PCLPointField::INT32, values);
 }
 
 } // namespace pcl_uvol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -87,9 +87,12 @@ unsigned
 resolveThreads(unsigned requested)
 {
   constexpr unsigned least_bound = 64;
+  if (requested == 0)
+    return static_cast<unsigned>(omp_get_max_threads());
+  if (requested <= least_bound) // the number of processors is a call of the system
+    return requested;
   const auto processors = static_cast<unsigned>(omp_get_num_procs());
-  return requested == 0 ? static_cast<unsigned>(omp_get_max_threads())
-                        : std::min(requested, std::max(least_bound, 4 * processors));
+  return std::min(requested, std::max(least_bound, 4 * processors));
 }
 
 void
@@ -103,15 +106,16 @@ parallelBlocks(std::size_t count,
     const std::size_t begin = static_cast<std::size_t>(b) * block;
     body(begin, std::min(begin + block, count));
   };
-  if (resolveThreads(threads) <= 1) {
+  const unsigned most_threads = blocks <= 1 ? 1 : resolveThreads(threads);
+  if (most_threads <= 1) {
     for (std::ptrdiff_t b = 0; b < blocks; ++b)
       run_block(b);
     return;
   }
   // Blocks of one item are tasks, one per thread, say: there is nothing to divide.
   const std::ptrdiff_t done = block == 1 ? 0 : runAlone(blocks, run_block);
-  const auto team = static_cast<int>(std::min<std::size_t>(
-      resolveThreads(threads), static_cast<std::size_t>(blocks - done)));
+  const auto team = static_cast<int>(
+      std::min<std::size_t>(most_threads, static_cast<std::size_t>(blocks - done)));
   if (team == 0)
     return;
   FirstException first;

@@ -2,12 +2,13 @@
 // JSON of structs of parameters, from their lists of members (common/parameters.h).
 #pragma once
 
+#include "common/json_value.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parameters.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -35,35 +36,44 @@ constexpr bool is_eigen = std::is_base_of_v<Eigen::DenseBase<T>, T>;
 
 /** What is not given, NaN or an empty optional, is null. */
 template <typename T>
-nlohmann::ordered_json
+JsonValue
 toJsonValue(const T& value)
 {
   if constexpr (HasMembers<T>::value) {
-    nlohmann::ordered_json object = nlohmann::ordered_json::object();
+    JsonValue object = JsonValue::makeObject();
     forEachMember<T>([&](const char* name, auto pointer) {
-      object[name] = toJsonValue(value.*pointer);
+      object.set(name, toJsonValue(value.*pointer));
     });
     return object;
   }
   else if constexpr (IsOptional<T>::value)
-    return value ? toJsonValue(*value) : nlohmann::ordered_json();
+    return value ? toJsonValue(*value) : JsonValue();
   else if constexpr (std::is_enum_v<T>)
-    return toWord(value);
+    return JsonValue(std::string(toWord(value)));
   else if constexpr (is_eigen<T>) {
-    auto list = nlohmann::ordered_json::array();
+    JsonValue list = JsonValue::makeList();
     for (Eigen::Index i = 0; i < value.size(); ++i)
-      list.push_back(value[i]);
+      list.append(JsonValue(double(value[i])));
     return list;
   }
   else if constexpr (std::is_floating_point_v<T>)
-    return std::isfinite(value) ? nlohmann::ordered_json(value)
-                                : nlohmann::ordered_json();
-  else
-    return value;
+    return std::isfinite(value) ? JsonValue(double(value)) : JsonValue();
+  else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>)
+    return JsonValue(value);
+  else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>)
+    return JsonValue(std::int64_t{value});
+  else if constexpr (std::is_integral_v<T>)
+    return JsonValue(std::uint64_t{value});
+  else { // a list
+    JsonValue list = JsonValue::makeList();
+    for (const auto& item : value)
+      list.append(toJsonValue(item));
+    return list;
+  }
 }
 
 [[noreturn]] inline void
-refuseJson(const std::string& name, const nlohmann::json& value, const char* expected)
+refuseJson(const std::string& name, const JsonValue& value, const char* expected)
 {
   throw InvalidArgument("The parameter " + name + " is " + value.dump() +
                         " in JSON: it must be " + expected + ".");
@@ -71,68 +81,72 @@ refuseJson(const std::string& name, const nlohmann::json& value, const char* exp
 
 template <typename T>
 void
-fromJsonValue(const std::string& name, const nlohmann::json& json, T& value);
+fromJsonValue(const std::string& name, const JsonValue& json, T& value);
 
 template <typename Parameters>
 void
-readMembers(const std::string& path, const nlohmann::json& json, Parameters& parameters)
+readMembers(const std::string& path, const JsonValue& json, Parameters& parameters)
 {
-  if (!json.is_object())
+  if (!json.isObject())
     refuseJson(path.empty() ? "set" : path, json, "an object");
   const std::string prefix = path.empty() ? "" : path + ".";
-  for (const auto& item : json.items()) {
+  json.forEach([&](const std::string& key, const JsonValue& value) {
     bool found = false;
     std::string names;
     forEachMember<Parameters>([&](const char* name, auto pointer) {
       names += (names.empty() ? "" : ", ") + std::string(name);
-      if (item.key() != name)
+      if (key != name)
         return;
       found = true;
-      fromJsonValue(prefix + name, item.value(), parameters.*pointer);
+      fromJsonValue(prefix + name, value, parameters.*pointer);
     });
     if (!found)
-      throw InvalidArgument("There is no parameter " + prefix + item.key() +
+      throw InvalidArgument("There is no parameter " + prefix + key +
                             " in JSON: there are " + names + ".");
-  }
+  });
 }
 
 template <typename T>
 void
-fromJsonNumber(const std::string& name, const nlohmann::json& json, T& value)
+fromJsonNumber(const std::string& name, const JsonValue& json, T& value)
 {
   if constexpr (std::is_same_v<T, bool>) {
-    if (!json.is_boolean())
+    if (!json.isBool())
       refuseJson(name, json, "true or false");
-    value = json.get<bool>();
+    value = json.getBool();
+  }
+  else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>) {
+    if (!json.isInteger() || json.getInteger() != static_cast<T>(json.getInteger()))
+      refuseJson(name, json, "a whole number");
+    value = static_cast<T>(json.getInteger());
   }
   else if constexpr (std::is_integral_v<T>) {
-    if (!json.is_number_unsigned() ||
-        json.get<std::uint64_t>() >
-            static_cast<std::uint64_t>(std::numeric_limits<T>::max()))
+    if (!json.isUnsigned() ||
+        json.getUnsigned() > static_cast<std::uint64_t>(std::numeric_limits<T>::max()))
       refuseJson(name, json, "a whole number from 0");
-    value = json.get<T>();
+    value = static_cast<T>(json.getUnsigned());
   }
-  else if (json.is_null())
+  else if (json.isNull())
     value = std::numeric_limits<T>::quiet_NaN();
-  else if (json.is_number())
-    value = json.get<T>();
+  else if (json.isNumber())
+    value = static_cast<T>(json.getNumber());
   else
     refuseJson(name, json, "a number");
 }
 
 template <typename T>
 void
-fromJsonValue(const std::string& name, const nlohmann::json& json, T& value)
+fromJsonValue(const std::string& name, const JsonValue& json, T& value)
 {
   if constexpr (HasMembers<T>::value)
     readMembers(name, json, value);
   else if constexpr (IsOptional<T>::value) {
     value.reset();
-    if (!json.is_null())
+    if (!json.isNull())
       fromJsonValue(name, json, value.emplace());
   }
   else if constexpr (std::is_enum_v<T>) {
-    if (!json.is_string() || !fromWord(json.get<std::string>(), value)) {
+    if (!json.isString() || !fromWord(json.getString(), value)) {
       std::string words;
       for (const auto& word : listWords(T()))
         words += (words.empty() ? "" : ", ") + std::string(word.word);
@@ -140,24 +154,27 @@ fromJsonValue(const std::string& name, const nlohmann::json& json, T& value)
     }
   }
   else if constexpr (is_eigen<T>) {
-    if (!json.is_array() || static_cast<Eigen::Index>(json.size()) != value.size())
+    if (!json.isList() || static_cast<Eigen::Index>(json.size()) != value.size())
       refuseJson(name, json, ("a list of " + std::to_string(value.size())).c_str());
-    for (Eigen::Index i = 0; i < value.size(); ++i)
-      fromJsonNumber(name, json[static_cast<std::size_t>(i)], value[i]);
+    Eigen::Index i = 0;
+    json.forEach([&](const std::string&, const JsonValue& item) {
+      fromJsonNumber(name, item, value[i++]);
+    });
   }
   else if constexpr (std::is_arithmetic_v<T>)
     fromJsonNumber(name, json, value);
   else if constexpr (std::is_same_v<T, std::string>) {
-    if (!json.is_string())
+    if (!json.isString())
       refuseJson(name, json, "a text");
-    value = json.get<std::string>();
+    value = json.getString();
   }
   else { // a list
-    if (!json.is_array())
+    if (!json.isList())
       refuseJson(name, json, "a list");
     value.clear();
-    for (const auto& item : json)
+    json.forEach([&](const std::string&, const JsonValue& item) {
       fromJsonValue(name, item, value.emplace_back());
+    });
   }
 }
 
@@ -178,11 +195,11 @@ template <typename Parameters>
 Parameters
 readJson(const std::string& text)
 {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded())
+  const auto json = detail::JsonValue::parse(text);
+  if (!json)
     throw InvalidArgument("The parameters are not JSON.");
   Parameters parameters;
-  detail::readMembers("", json, parameters);
+  detail::readMembers("", *json, parameters);
   return parameters;
 }
 

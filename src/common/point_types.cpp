@@ -2,9 +2,6 @@
 #include <pcl_uvol/common/point_types.h>
 
 #include <pcl/impl/pcl_base.hpp>
-#include <pcl/kdtree/impl/kdtree_flann.hpp>
-#include <pcl/search/impl/kdtree.hpp>
-#include <pcl/search/impl/search.hpp>
 
 namespace pcl_uvol {
 
@@ -28,9 +25,4 @@ toPointNormal(const pcl::PointCloud<PointIso>& isopoints)
 
 } // namespace pcl_uvol
 
-// Bases first: what a derived class instantiates takes no attributes any more.
 template class pcl::PCLBase<pcl_uvol::PointIso>;
-template class PCL_UVOL_EXPORTS pcl::search::Search<pcl_uvol::PointIso>;
-template class PCL_UVOL_EXPORTS pcl::KdTree<pcl_uvol::PointIso>;
-template class PCL_UVOL_EXPORTS pcl::KdTreeFLANN<pcl_uvol::PointIso>;
-template class PCL_UVOL_EXPORTS pcl::search::KdTree<pcl_uvol::PointIso>;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Field expressions resolved against the fields of a cloud.
+#include "common/scalar_field.h"
+
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
 #include <array>
@@ -250,14 +251,6 @@ ScalarField::read(const std::uint8_t* point) const
     sum += value * value;
   }
   return std::sqrt(sum);
-}
-
-bool
-ScalarField::isInteger() const
-{
-  const std::uint8_t datatype = components_.front().datatype;
-  return !is_length_ && datatype != pcl::PCLPointField::FLOAT32 &&
-         datatype != pcl::PCLPointField::FLOAT64;
 }
 
 std::string

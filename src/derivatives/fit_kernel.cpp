@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit_kernel.h"
+#include "derivatives/fit_kernel.h"
 
-#include "../common/register_bytes.h"
+#include "common/register_bytes.h"
 
 #include <cmath>
 
@@ -21,8 +21,9 @@ constexpr int degree = 3;
 constexpr int moment_count = 84; // monomials up to twice the degree: products of terms
 constexpr int newton_steps = 6;
 
-/** Of a term's own diagonal entry: a smaller pivot is rounding, and the term cannot be
- * told from those before it (samples on a plane, on few layers of a lattice). */
+/** In parts of a term's own diagonal entry: a smaller pivot is rounding, and the term
+ * cannot be told from those before it (samples on a plane, on few layers of a lattice).
+ */
 constexpr double smallest_pivot = 1e-9;
 /** Residuals of fewer degrees of freedom say nothing about the error. */
 constexpr double least_freedom = 5.0;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads tables as text: CSV and its relatives with other separators. The types of the
 // columns come from all rows, so these are looked at once before any is taken.
-#include "formats.h"
-#include "numbers.h"
-#include "record_source.h"
-#include "text_rows.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "io/coordinate_columns.h"
+#include "io/formats.h"
+#include "io/record_source.h"
+#include "io/text_rows.h"
+#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +86,8 @@ class TextTable {
 public:
   TextTable(const std::string& path, const LoadOptions& options);
 
-  /** Looks at all rows. \param keep their values for collect() */
+  /** Looks at all rows.
+   * \param keep their values for collect() */
   void
   scan(bool keep);
 
@@ -108,12 +111,16 @@ private:
   startColumns(std::string_view header, std::size_t line);
   void
   startUnnamedColumns(std::size_t count);
+  std::vector<std::string>
+  listNames() const;
   bool
   namesCoordinates() const;
   std::array<std::size_t, 3>
   findCoordinates();
   void
   orderColumns();
+  void
+  checkGuess() const;
   double
   takeCell(TextColumn& column, std::string_view cell);
 
@@ -123,7 +130,10 @@ private:
   TextRows rows_;
   FileCursor::Place start_; ///< of the first row
   std::vector<TextColumn> columns_;
+  bool has_header_ = true;
   bool has_coordinates_;
+  bool are_guessed_ = false;           ///< the coordinates, in spite of a header
+  std::array<std::string, 3> guessed_; ///< their names
   CoordinateRange range_;
   std::uint64_t count_ = 0;
   std::vector<std::string> notes_;
@@ -196,6 +206,7 @@ TextTable::startColumns(std::string_view header, std::size_t line)
 void
 TextTable::startUnnamedColumns(std::size_t count)
 {
+  has_header_ = false;
   for (std::size_t i = 0; i < count; ++i)
     appendColumn("column_" + std::to_string(i));
   notes_.push_back(
@@ -260,66 +271,74 @@ TextTable::parseHeader()
     startUnnamedColumns(cells.size());
 }
 
+std::vector<std::string>
+TextTable::listNames() const
+{
+  std::vector<std::string> names;
+  for (const TextColumn& column : columns_)
+    names.push_back(column.name);
+  return names;
+}
+
 std::array<std::size_t, 3>
 TextTable::findCoordinates()
 {
-  std::array<std::size_t, 3> found{{0, 1, 2}};
+  const std::vector<std::string> names = listNames();
   if (options_.xyz_columns != LoadOptions().xyz_columns) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int column = options_.xyz_columns[axis];
-      if (column < 0 || static_cast<std::size_t>(column) >= columns_.size())
-        throwUnreadable(path_,
-                        "there is no column " + std::to_string(column) +
-                            " for a coordinate; columns are 0 to " +
-                            std::to_string(columns_.size() - 1));
-      found[axis] = static_cast<std::size_t>(column);
+    try {
+      return findChosenColumns(options_.xyz_columns, names);
     }
-    if (found[0] == found[1] || found[0] == found[2] || found[1] == found[2])
-      throwUnreadable(path_, "the coordinates need three different columns");
-    return found;
+    catch (const InvalidArgument& error) {
+      throwUnreadable(path_, error.message());
+    }
   }
-  std::array<std::optional<std::size_t>, 3> named;
-  for (std::size_t i = columns_.size(); i-- > 0;) { // the first of each counts
-    const std::string name = lowerCase(columns_[i].name);
-    if (name.size() == 1 && name[0] >= 'x' && name[0] <= 'z')
-      named[static_cast<std::size_t>(name[0] - 'x')] = i;
+  if (const auto found = recognizeCoordinates(names)) {
+    if (!found->note.empty())
+      notes_.push_back(found->note);
+    return found->columns;
   }
-  if (named[0] && named[1] && named[2])
-    return {*named[0], *named[1], *named[2]};
-  if (named[0] || named[1] || named[2])
-    throwUnreadable(path_,
-                    "its header names only some of x, y and z: choose the columns of "
-                    "the coordinates by their numbers");
   if (columns_.size() < 3)
     throwUnreadable(path_,
                     "it has " + std::to_string(columns_.size()) +
                         " columns, and coordinates need three; are they separated by "
                         "comma, semicolon, tab or blanks?");
+  if (std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return axisOf(lowerCase(name)) >= 0;
+      }))
+    throwUnreadable(path_,
+                    "its header names only some of x, y and z: choose the columns of "
+                    "the coordinates by their names or numbers (-xyz)");
+  are_guessed_ = has_header_;
   notes_.push_back("The header names no x, y, z: the first three columns (" +
-                   shortenText(columns_[0].name) + ", " +
-                   shortenText(columns_[1].name) + ", " +
-                   shortenText(columns_[2].name) + ") are the coordinates.");
-  return found;
+                   shortenText(names[0]) + ", " + shortenText(names[1]) + ", " +
+                   shortenText(names[2]) + ") are the coordinates.");
+  return {{0, 1, 2}};
 }
 
-/** By x, y, z, or by first columns such as x_km, y_km, z_minus_dbar. */
 bool
 TextTable::namesCoordinates() const
 {
-  if (options_.xyz_columns != LoadOptions().xyz_columns ||
-      std::any_of(columns_.begin(), columns_.end(), [](const TextColumn& column) {
-        return axisOf(lowerCase(column.name)) >= 0;
-      }))
-    return true;
-  if (columns_.size() < 3)
-    return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name = lowerCase(columns_[axis].name);
-    const bool goes_on = name.size() > 1 && name[1] >= 'a' && name[1] <= 'z';
-    if (name.empty() || name[0] != static_cast<char>('x' + axis) || goes_on)
-      return false;
-  }
-  return true;
+  const std::vector<std::string> names = listNames();
+  return options_.xyz_columns != LoadOptions().xyz_columns ||
+         recognizeCoordinates(names) ||
+         std::any_of(names.begin(), names.end(), [](const std::string& name) {
+           return axisOf(lowerCase(name)) >= 0;
+         });
+}
+
+/** Whole numbers are labels or indices as often as coordinates. */
+void
+TextTable::checkGuess() const
+{
+  if (!are_guessed_)
+    return;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (columns_[axis].integers && columns_[axis].numbers > 0)
+      throwUnreadable(path_,
+                      "its header names no coordinates, and whole numbers as in " +
+                          quoteText(guessed_[axis]) +
+                          " may be anything: choose the columns of the coordinates by "
+                          "their names or numbers (-xyz)");
 }
 
 /** Brings the coordinates to the front. */
@@ -330,6 +349,7 @@ TextTable::orderColumns()
   std::vector<TextColumn> ordered;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     ordered.push_back(std::move(columns_[coordinates[axis]]));
+    guessed_[axis] = ordered.back().name;
     ordered.back().name = std::string(1, static_cast<char>('x' + axis));
   }
   for (std::size_t i = 0; i < columns_.size(); ++i)
@@ -387,6 +407,7 @@ TextTable::scan(bool keep)
 RecordInfo
 TextTable::describe()
 {
+  checkGuess();
   RecordInfo info;
   info.count = count_;
   info.notes = notes_;

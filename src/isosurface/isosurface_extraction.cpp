@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "../neighbors/sample_values.h"
-#include "isopoints.h"
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
-#include <pcl_uvol/isosurface/piece_isopoints.h>
+#include "common/cloud_fingerprint.h"
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/piece_isopoints.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <pcl/conversions.h>
 
@@ -66,6 +67,7 @@ struct IsosurfaceExtractionBase::Scalar {
   std::string field;
   pcl::Indices indices;
   Eigen::Array3f scale;
+  std::uint64_t fingerprint; // of the values that were read
   ValueFrame frame;
   SampleValues samples; // values in the frame
   NodeRanges ranges;    // refers to the values of samples
@@ -84,14 +86,19 @@ void
 IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
                                        const pcl::Indices& indices)
 {
+  const ScalarField field(cloud.fields, parameters_.field);
+  const CloudFingerprint fingerprint = fingerprintOf(cloud, field, threads_);
+  if (fingerprint.positions != sampled_fingerprint_)
+    forgetSamples();
+  sampled_fingerprint_ = fingerprint.positions;
   if (scalar_ && scalar_->field == parameters_.field && scalar_->indices == indices &&
-      (scalar_->scale == parameters_.scale).all()) {
+      (scalar_->scale == parameters_.scale).all() &&
+      scalar_->fingerprint == fingerprint.values) {
     report_.counts = scalar_->read.counts;
     report_.warnings = scalar_->read.warnings;
     return;
   }
   scalar_.reset(); // of other samples, should what follows fail
-  const ScalarField field(cloud.fields, parameters_.field);
   ValueFrame frame;
   std::vector<float> values;
   std::vector<std::uint32_t> use;
@@ -111,6 +118,7 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
   scalar->field = parameters_.field;
   scalar->indices = indices;
   scalar->scale = parameters_.scale;
+  scalar->fingerprint = fingerprint.values;
   scalar->frame = frame;
   scalar->samples = gatherValues(*samples_, values, threads_, report_);
   scalar->ranges = samples_->getTree().computeRanges(scalar->samples.values, threads_);
@@ -179,8 +187,5 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   interpolateFields(cloud, edges_, with_fields, threads_);
   isopoints = std::move(with_fields);
 }
-
-template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PointXYZI>;
-template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smooth_roots.h"
+#include "isosurface/smooth_roots.h"
 
-#include "../derivatives/fit_kernel.h"
-#include "../neighbors/local_metric.h"
-#include "empty_cone_kernel.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
-
-#include <Eigen/LU>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "isosurface/empty_cone_kernel.h"
+#include "isosurface/fit_judgement.h"
+#include "neighbors/local_metric.h"
+#include "neighbors/nearest_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,44 +22,6 @@ constexpr std::size_t block_points = 256;
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
 constexpr std::size_t fitted_samples = 40;
 
-/** Error over standard error: covers 95 % of the deviations of analytic fields, whose
- * truncation errors have longer tails than noise. */
-constexpr double error_factor = 4.0;
-
-/** Of the range of values among the fitted samples: a larger residual is no noise on a
- * slope any more, but all there is. */
-constexpr double largest_residual = 0.15;
-
-/** A step (a label, a jump, a clipped value), which no polynomial follows, shows by a
- * residual above the first part of the range where the edge spans more than the second;
- * a smooth function has no such residual, and noise no such edges. */
-constexpr double step_residual = 0.06, step_span = 0.6;
-
-/** Of the radius of the support: a shift, or an error, beyond it and beyond the edge's
- * own length leaves the surroundings of the edge. */
-constexpr double farthest_shift = 0.5;
-
-/** Of the edge's length in the samples' own space: farther from an edge across which
- * values jump, as at the core of a planet, no fit in another metric may shift a root.
- */
-constexpr double farthest_from_jump = 0.75;
-
-/** Different whole numbers among the fitted samples that are labels. Quantised data on
- * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
- * little. */
-constexpr std::size_t most_labels = 4;
-
-/** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
- * Uniform samples leave no such cone at 99.8 % of the isopoints. */
-constexpr float empty_cone = 0.5446f;
-
-/** Of the radius of the support: a nearest sample that far away lies on the border of a
- * gap. */
-constexpr double empty_ball = 0.5;
-
-/** Of the radius of the support: a longer edge reaches across a gap. */
-constexpr double bridging_edge = 1.0;
-
 /** Least pivot of a fit that needs no other metric: of uniform random samples one fit
  * in a thousand has less, of layers all have. */
 constexpr double good_pivot = 0.02;
@@ -75,46 +35,14 @@ constexpr double sure_stretching = 2.0;
 
 const KernelTable<FitKernel> fit_kernels{
     baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
-const KernelTable<EmptyConeKernel> cone_kernels{
-    baseline::emptiestCone, avx2::emptiestCone, avx512::emptiestCone};
 
-/** The 74 directions of small whole numbers, about 15 degrees apart, and six of them
- * once more to fill the table. */
-struct ConeDirections {
-  alignas(64) float x[3][cone_directions];
-
-  ConeDirections()
-  {
-    std::size_t count = 0;
-    for (int a = -2; a <= 2; ++a)
-      for (int b = -2; b <= 2; ++b)
-        for (int c = -2; c <= 2; ++c) {
-          const int sq_length = a * a + b * b + c * c;
-          const bool primitive = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
-          if (!primitive || sq_length == 9)
-            continue;
-          const float length = std::sqrt(static_cast<float>(sq_length));
-          x[0][count] = static_cast<float>(a) / length;
-          x[1][count] = static_cast<float>(b) / length;
-          x[2][count++] = static_cast<float>(c) / length;
-        }
-    for (std::size_t i = 0; count < cone_directions; ++i, ++count)
-      for (auto& coordinate : x)
-        coordinate[count] = coordinate[i];
-  }
-};
-
-/** The neighbourhood of one isopoint, beside what the fit is made from. Lengths are
- * those of the stretched space. */
-struct Surroundings {
-  double edge_length;
-  double radius;      ///< of the support
-  double value_range; ///< of the fitted samples
-  double edge_span;   ///< part of the range between the values at the ends of the edge
-  bool has_steps;     ///< the values are labels
-  Position center;    ///< the linear root
-  IsoSupport support;
-};
+double
+distance(const Position& a, const Position& b)
+{
+  return std::hypot(static_cast<double>(a[0]) - b[0],
+                    static_cast<double>(a[1]) - b[1],
+                    static_cast<double>(a[2]) - b[2]);
+}
 
 /** A fit that a stretched sampling may have spoilt. */
 struct DoubtfulFit {
@@ -133,7 +61,6 @@ public:
       , metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
-      , cone_(cone_kernels.get())
       , isovalue_(isovalue)
   {
   }
@@ -191,12 +118,13 @@ private:
       if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
                        surroundings[lane].support != IsoSupport::Measured))
         doubtful_.push_back({i, centers[lane], result.pivot[lane]});
-      finish(result,
-             lane,
-             surroundings[lane],
-             fits[i].outcome <= RootOutcome::Quadratic,
-             edges[i],
-             points[i]);
+      setIsopoint(input_,
+                  result,
+                  lane,
+                  surroundings[lane],
+                  fits[i].outcome <= RootOutcome::Quadratic,
+                  edges[i],
+                  points[i]);
     }
   }
 
@@ -222,7 +150,8 @@ private:
           metrics_.find(edges[i].first,
                         pivot < worthless_pivot ? little_stretching
                         : pivot < good_pivot    ? LocalMetricFinder::even_ratio
-                                                : sure_stretching);
+                                                : sure_stretching) &&
+          metrics_.reaches(center);
       double reach = metrics_.getReach() + distance(end, center);
       if (is_stretched) {
         metrics[lane] = metrics_.getMetric();
@@ -248,19 +177,16 @@ private:
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
       leaveMetric(metrics[lane], lane, result);
-      if (isFarFromJump(result, lane, surroundings[lane], edges[i]))
+      const auto& positions = input_.samples.getPositions();
+      if (isFarFromJump(
+              result,
+              lane,
+              surroundings[lane],
+              distance(positions[edges[i].first], positions[edges[i].second])))
         continue;
       fits[i].outcome = outcome;
-      finish(result, lane, surroundings[lane], true, edges[i], points[i]);
+      setIsopoint(input_, result, lane, surroundings[lane], true, edges[i], points[i]);
     }
-  }
-
-  static double
-  distance(const Position& a, const Position& b)
-  {
-    return std::hypot(static_cast<double>(a[0]) - b[0],
-                      static_cast<double>(a[1]) - b[1],
-                      static_cast<double>(a[2]) - b[2]);
   }
 
   /** Leave a lane without samples from the given one on. */
@@ -374,156 +300,12 @@ private:
     surroundings.edge_span =
         std::abs(static_cast<double>(values[edge.second]) - values[edge.first]) /
         surroundings.value_range;
-    surroundings.has_steps = areLabels(neighbors, count);
+    surroundings.has_steps = areLabels(values, neighbors, count);
     surroundings.support =
-        supportOf(surroundings, std::sqrt(static_cast<double>(sq_nearest)), directions);
+        supportOf(surroundings,
+                  std::sqrt(static_cast<double>(sq_nearest)),
+                  {direction_[0], direction_[1], direction_[2], directions});
     return static_cast<int>(count) - 1;
-  }
-
-  /** Whether samples have two values only, or few that are whole numbers. */
-  bool
-  areLabels(const std::uint32_t* neighbors, std::size_t count) const
-  {
-    float seen[most_labels];
-    std::size_t different = 0;
-    bool are_whole = true;
-    for (std::size_t j = 0; j < count; ++j) {
-      const float value = input_.values[neighbors[j]];
-      if (std::find(seen, seen + different, value) != seen + different)
-        continue;
-      are_whole = are_whole && value == std::floor(value);
-      if (different == most_labels || (different == 2 && !are_whole))
-        return false;
-      seen[different++] = value;
-    }
-    return true;
-  }
-
-  IsoSupport
-  supportOf(const Surroundings& surroundings, double nearest, std::size_t directions)
-  {
-    static const ConeDirections cone_directions;
-    const float cosine = cone_(
-        cone_directions.x, direction_[0], direction_[1], direction_[2], directions);
-    if (cosine >= empty_cone && nearest <= empty_ball * surroundings.radius)
-      return IsoSupport::Measured;
-    return surroundings.edge_length > bridging_edge * surroundings.radius
-               ? IsoSupport::Bridged
-               : IsoSupport::Rim;
-  }
-
-  static RootOutcome
-  judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings)
-  {
-    if (result.order[lane] == fit_failed)
-      return RootOutcome::Singular;
-    if (surroundings.has_steps)
-      return RootOutcome::Step;
-    const double residual = result.residual[lane] / surroundings.value_range;
-    if (!(residual <=
-          (surroundings.edge_span > step_span ? step_residual : largest_residual)))
-      return RootOutcome::Step;
-    const double shift = std::hypot(
-        result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
-    const double room =
-        std::max(surroundings.edge_length, farthest_shift * surroundings.radius);
-    if (!(surroundings.radius * std::max(shift, error_factor * result.error[lane]) <=
-          room))
-      return RootOutcome::Far;
-    return result.order[lane] == fit_cubic ? RootOutcome::Cubic
-                                           : RootOutcome::Quadratic;
-  }
-
-  /** A short way in a metric may be a long one beside the edge it starts from. */
-  bool
-  isFarFromJump(const FitResult& result,
-                std::size_t lane,
-                const Surroundings& surroundings,
-                const IsoEdge& edge) const
-  {
-    const auto& positions = input_.samples.getPositions();
-    const double shift = std::hypot(
-        result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
-    return surroundings.edge_span > step_span &&
-           surroundings.radius * shift >
-               farthest_from_jump *
-                   distance(positions[edge.first], positions[edge.second]);
-  }
-
-  /** Turn the result of a lane back from a metric, to the space it was made in. */
-  static void
-  leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result)
-  {
-    constexpr int entry[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}; // of the Hessian
-    Eigen::Vector3d offset, gradient;
-    Eigen::Matrix3d hessian;
-    for (int i = 0; i < 3; ++i) {
-      offset[i] = result.offset[i][lane];
-      gradient[i] = result.gradient[i][lane];
-      for (int j = 0; j < 3; ++j)
-        hessian(i, j) = result.hessian[entry[i][j]][lane];
-    }
-    const double slope = gradient.norm();
-    offset = metric.inverse() * offset;
-    gradient = metric.transpose() * gradient;
-    hessian = metric.transpose() * hessian * metric;
-    for (int i = 0; i < 3; ++i) {
-      result.offset[i][lane] = offset[i];
-      result.gradient[i][lane] = gradient[i];
-      for (int j = 0; j < 3; ++j)
-        result.hessian[entry[i][j]][lane] = hessian(i, j);
-    }
-    result.error[lane] *= slope / gradient.norm();
-  }
-
-  void
-  finish(const FitResult& result,
-         std::size_t lane,
-         const Surroundings& surroundings,
-         bool is_smooth,
-         const IsoEdge& edge,
-         PointIso& point) const
-  {
-    point.support = static_cast<std::uint8_t>(surroundings.support);
-    if (!is_smooth) {
-      // The surface crosses the edge somewhere.
-      point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
-      return;
-    }
-    // Derivatives by original coordinates: the fit was made in the stretched space.
-    const Position& scale = input_.samples.getScale();
-    double stretch[3], gradient[3], sq_slope = 0.0, sq_fit_slope = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      point.data[axis] =
-          static_cast<float>((surroundings.center[axis] +
-                              surroundings.radius * result.offset[axis][lane]) /
-                             scale[axis]);
-      stretch[axis] = scale[axis] / surroundings.radius;
-      gradient[axis] = stretch[axis] * result.gradient[axis][lane];
-      sq_slope += gradient[axis] * gradient[axis];
-      sq_fit_slope += result.gradient[axis][lane] * result.gradient[axis][lane];
-    }
-    const double slope = std::sqrt(sq_slope);
-    const double side = input_.outside == Outside::Lower ? -1.0 : 1.0;
-    constexpr int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
-    double trace = 0.0, along = 0.0; // of the Hessian, and along the gradient
-    for (std::size_t i = 0; i < 6; ++i) {
-      const double entry =
-          stretch[row[i]] * stretch[column[i]] * result.hessian[i][lane];
-      if (row[i] == column[i])
-        trace += entry;
-      along += (row[i] == column[i] ? 1.0 : 2.0) * entry * gradient[row[i]] *
-               gradient[column[i]] / sq_slope;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-      point.data_n[axis] = static_cast<float>(side * gradient[axis] / slope);
-    point.mean_curvature = static_cast<float>(side * (trace - along) / (2.0 * slope));
-    const double rounding =
-        std::sqrt(3.0) * 0x1p-24 *
-        std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-    const double standard_error = result.error[lane] * std::sqrt(sq_fit_slope) / slope;
-    point.error =
-        static_cast<float>(std::hypot(error_factor * standard_error, rounding));
   }
 
   static constexpr std::size_t direction_room =
@@ -536,7 +318,6 @@ private:
   std::vector<DoubtfulFit> doubtful_;
   std::vector<FitSample> samples_;
   FitKernel fit_;
-  EmptyConeKernel cone_;
   float isovalue_;
 };
 

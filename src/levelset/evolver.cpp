@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolver.h"
+#include "levelset/evolver.h"
 
-#include "constants.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "levelset/constants.h"
 
 #include <algorithm>
 #include <atomic>

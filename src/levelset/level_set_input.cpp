@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "level_set_input.h"
+#include "levelset/level_set_input.h"
 
-#include "../neighbors/sample_values.h"
-#include "band.h"
-#include "constants.h"
-#include "robust_values.h"
+#include "common/number_range.h"
+#include "levelset/band.h"
+#include "levelset/constants.h"
+#include "levelset/robust_values.h"
+#include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/number_range.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // What a level set is made from: samples, values near 1, a function to start from.
 #pragma once
 
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <pcl/types.h>
 

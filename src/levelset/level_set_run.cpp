@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "band.h"
-#include "constants.h"
-#include "data_term.h"
-#include "evolver.h"
-#include "level_set_input.h"
-#include "mu_choice.h"
-#include "reinitialization.h"
-#include "robust_values.h"
+#include "common/number_range.h"
+#include "levelset/band.h"
+#include "levelset/constants.h"
+#include "levelset/data_term.h"
+#include "levelset/evolver.h"
+#include "levelset/level_set_input.h"
+#include "levelset/mu_choice.h"
+#include "levelset/reinitialization.h"
+#include "levelset/robust_values.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/number_range.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <algorithm>

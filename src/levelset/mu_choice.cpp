@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mu_choice.h"
+#include "levelset/mu_choice.h"
 
-#include "constants.h"
-#include "evolver.h"
-#include "quadratic_terms.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/parallel.h"
+#include "levelset/constants.h"
+#include "levelset/evolver.h"
+#include "levelset/quadratic_terms.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Cholesky>
 

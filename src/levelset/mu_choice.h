@@ -3,8 +3,8 @@
 // far the surface will be from the true one.
 #pragma once
 
-#include "band.h"
-#include "data_term.h"
+#include "levelset/band.h"
+#include "levelset/data_term.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <vector>

@@ -2,7 +2,7 @@
 // The row of a least-squares fit by a quadratic.
 #pragma once
 
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "neighbors/kd_tree.h"
 
 #include <Eigen/Core>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "robust_values.h"
+#include "levelset/robust_values.h"
 
-#include "constants.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/parallel.h"
+#include "levelset/constants.h"
+#include "neighbors/nearest_finder.h"
 
 #include <algorithm>
 #include <cmath>

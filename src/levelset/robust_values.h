@@ -3,8 +3,8 @@
 // outweighs all others.
 #pragma once
 
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <cstdint>
 #include <vector>

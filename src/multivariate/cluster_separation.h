@@ -4,7 +4,7 @@
 // all directions count alike, and steps of one length suit all of them.
 #pragma once
 
-#include "cluster_moments.h"
+#include "multivariate/cluster_moments.h"
 
 #include <Eigen/Core>
 
@@ -78,16 +78,27 @@ public:
 
 private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
-  struct Projected;
+  /** Clusters in a subspace; where the basis has a column of 0, offsets are 0 there. */
+  struct Projected {
+    std::vector<Eigen::Vector3d> means;
+    std::vector<Eigen::Matrix3d> covariances;
+    std::vector<Eigen::MatrixXd> half_projected; ///< covariance times basis
+  };
   struct SoftMinimum;
+
+  /** The Fisher ratio, and the discriminant in the subspace. */
+  static double
+  computeRatio(const Eigen::Matrix3d& covariance,
+               const Eigen::Vector3d& offset,
+               Eigen::Vector3d& discriminant);
 
   Projected
   project(const Eigen::MatrixXd& basis) const;
 
   double
-  smallestOf(const std::vector<Pair>& pairs, const Eigen::MatrixXd& basis) const;
+  findSmallestRatio(const std::vector<Pair>& pairs, const Eigen::MatrixXd& basis) const;
 
-  /** Of the separable pairs. */
+  /** The smallest ratio of the separable pairs. */
   SoftMinimum
   softMinimum(const Eigen::MatrixXd& basis, double sharpness) const;
 
@@ -102,10 +113,5 @@ private:
   std::vector<Eigen::MatrixXd> covariances_;
   std::vector<Pair> separable_, inseparable_;
 };
-
-/** \brief Columns made orthonormal one after the other; those that depend on earlier
- * ones become 0. */
-Eigen::MatrixXd
-orthonormalized(Eigen::MatrixXd columns);
 
 } // namespace pcl_uvol

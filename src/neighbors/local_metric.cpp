@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "local_metric.h"
+#include "neighbors/local_metric.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -28,15 +28,43 @@ constexpr double least_lines = 0.3;
 constexpr double stretching = 5.0;
 constexpr int most_rounds = 6;
 
+/** In radii of the samples that a metric is made from: edges of rotated lattices end
+ * farther out than those, edges across gaps that nothing can be said of far beyond. */
+constexpr double gap = 16.0;
+
 /** cos^2 of the angle between lines, 63 degrees: wider than the angle criterion's 55
  * (thesis Table 2.4), which diagonals of cubes just pass. */
 constexpr float sq_cosine = 0.2f;
 
 /** Of the longest and the shortest of some lengths. */
 double
-ratioOf(const Eigen::Vector3d& squares)
+computeRatio(const Eigen::Vector3d& squares)
 {
   return std::sqrt(squares.maxCoeff() / squares.minCoeff());
+}
+
+/** Numbers that comparisons of several at once take. */
+constexpr std::size_t line_lanes = 8;
+
+/** The index of the first of the smallest values. \param count a multiple of lanes */
+std::size_t
+findSmallest(const float* values, std::size_t count)
+{
+  float least[line_lanes];
+  std::copy(values, values + line_lanes, least);
+  for (std::size_t j = line_lanes; j < count; j += line_lanes)
+    for (std::size_t lane = 0; lane < line_lanes; ++lane)
+      least[lane] = values[j + lane] < least[lane] ? values[j + lane] : least[lane];
+  const float smallest = *std::min_element(least, least + line_lanes);
+  return static_cast<std::size_t>(std::find(values, values + count, smallest) - values);
+}
+
+/** Whether samples differ along all axes. */
+bool
+fillsSpace(const KdTree& tree)
+{
+  const int a = tree.getAxis(0), b = tree.getAxis(1), c = tree.getAxis(2);
+  return a != b && b != c && c != a;
 }
 
 } // namespace
@@ -44,7 +72,8 @@ ratioOf(const Eigen::Vector3d& squares)
 LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t central)
 {
   constexpr float gone = std::numeric_limits<float>::infinity();
-  const std::size_t count = offsets[0].size();
+  const std::size_t samples = offsets[0].size();
+  const std::size_t count = (samples + line_lanes - 1) / line_lanes * line_lanes;
   std::vector<float> lines[3], sq_lengths(count);
   for (auto& coordinate : lines)
     coordinate.resize(count);
@@ -54,14 +83,14 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
   float* const sq = sq_lengths.data();
   for (std::size_t i = 0; i < central; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t j = 0; j < samples; ++j)
         lines[axis][j] = offsets[axis][j] - offsets[axis][i];
-    for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t j = 0; j < samples; ++j)
       sq[j] = x[j] * x[j] + y[j] * y[j] + z[j] * z[j];
+    std::fill(sq + samples, sq + count, gone);
     sq[i] = gone;
     for (;;) {
-      const auto nearest =
-          static_cast<std::size_t>(std::min_element(sq, sq + count) - sq);
+      const std::size_t nearest = findSmallest(sq, count);
       const float sq_length = sq[nearest];
       if (sq_length == gone)
         break;
@@ -78,6 +107,27 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
       sq[nearest] = gone;
     }
   }
+}
+
+LocalMetricFinder::LocalMetricFinder(const SampleSet& samples)
+    : samples_(samples)
+    , is_flat_(!fillsSpace(samples.getTree()))
+    , first_finder_(samples, pool)
+    , finder_(samples, pool)
+{
+}
+
+bool
+LocalMetricFinder::reaches(const Position& point) const
+{
+  const Position& place = samples_.getPositions()[last_];
+  Eigen::Vector3d offset;
+  for (int axis = 0; axis < 3; ++axis)
+    offset[axis] = static_cast<double>(point[axis]) - place[axis];
+  const double sq_distance = (metric_ * offset).squaredNorm() / (gap * gap);
+  return std::any_of(nearest_.begin(), nearest_.end(), [&](const auto& neighbor) {
+    return (metric_ * neighbor.second).squaredNorm() >= sq_distance;
+  });
 }
 
 void
@@ -139,6 +189,11 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
   const Position& place = samples_.getPositions()[sample];
   metric_.setIdentity();
   spacings_.setIdentity();
+  if (is_flat_) {
+    reach_ = 0.0;
+    ratio_ = std::numeric_limits<double>::infinity();
+    return false;
+  }
   bool was_seen = false;
   for (int round = 0; round < most_rounds; ++round) {
     if (round == 0) {
@@ -165,14 +220,14 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
       squares[i] =
           eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
     spacings_ = axes * squares.asDiagonal() * axes.transpose();
-    ratio_ = ratioOf(squares);
+    ratio_ = computeRatio(squares);
     const Solver seen(metric_ * spacings_ * metric_.transpose());
     if (round == 0 && ratio_ < least_ratio)
       return false;
     const Eigen::Vector3d factors =
         (squares.minCoeff() * squares.cwiseInverse()).cwiseSqrt();
     metric_ = axes * factors.asDiagonal() * axes.transpose();
-    if (round > 0 && ratioOf(seen.eigenvalues()) < even_ratio)
+    if (round > 0 && computeRatio(seen.eigenvalues()) < even_ratio)
       return true;
   }
   ratio_ = std::numeric_limits<double>::infinity();

@@ -3,8 +3,8 @@
 // cells and layers at a wall are as dense as a cubic lattice in a metric of their own.
 #pragma once
 
-#include "metric_finder.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/metric_finder.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Core>
 
@@ -40,12 +40,7 @@ public:
   static constexpr double even_ratio = 1.5;
 
   /** \param samples must outlive the finder */
-  explicit LocalMetricFinder(const SampleSet& samples)
-      : samples_(samples)
-      , first_finder_(samples, pool)
-      , finder_(samples, pool)
-  {
-  }
+  explicit LocalMetricFinder(const SampleSet& samples);
 
   /** \brief Find the metric around a sample.
    * \return false, and no metric, if spacings differ by less than a ratio, or if no
@@ -60,6 +55,12 @@ public:
   {
     return metric_;
   }
+
+  /** \brief Whether a point lies near the last sample, beside those that its metric was
+   * made from, as distances are in the metric: far out, across a gap, it says nothing.
+   */
+  bool
+  reaches(const Position& point) const;
 
   /** \brief Its eigenvectors are the directions, its eigenvalues the squared spacings
    * along them. Undefined where the ratio is infinite. */
@@ -96,12 +97,13 @@ private:
   void
   gather(std::uint32_t sample, const std::uint32_t* neighbors, std::size_t count);
 
-  /** Let the metric look farther where no line leads, as across layers. \return false
-   * if lines lead everywhere */
+  /** Let the metric look farther where no line leads, as across layers.
+   * \return false if lines lead everywhere */
   bool
   stretchAcross(const LineMoments& lines);
 
   const SampleSet& samples_;
+  bool is_flat_; ///< in a plane or a line along axes: there is nothing beside it
   NearestFinder first_finder_;
   MetricFinder finder_;
   Eigen::Matrix3d metric_, spacings_;

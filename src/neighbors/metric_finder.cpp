@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metric_finder.h"
+#include "neighbors/metric_finder.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,82 +13,90 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Room for rounding: a box must not seem farther than a sample in it. */
-constexpr double slack = 1.0 + 1e-9;
-
-/** Subtrees this small are taken whole: distances cost less than planes. */
-constexpr std::uint32_t whole_subtree = 8;
+/** Room for rounding: a box must not seem farther than a sample in it. The squares of
+ * the metric are known to 1e-16 of the largest of them. */
+constexpr double slack = 1.0 + 1e-6;
 
 } // namespace
 
-bool
-MetricFinder::isTooFar(std::size_t axis, const Corner& low, const Corner& high) const
+double
+MetricFinder::sqBound(const KdBox& box) const
 {
-  if (nearest_.size() < k_)
-    return false;
-  const double sq_limit = slack * nearest_.front().first;
-  // Across the faces of the box along an axis.
-  const double offset = std::max({0.0, low[axis], -high[axis]});
-  if (offset * offset > sq_limit * sq_extent_[static_cast<Eigen::Index>(axis)])
-    return true;
+  double middle[3], half[3], sq_beside = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = static_cast<double>(box.low[axis]) - point_[axis];
+    const double high = static_cast<double>(box.high[axis]) - point_[axis];
+    middle[axis] = 0.5 * (low + high);
+    half[axis] = 0.5 * (high - low);
+    // Across the faces of the box along an axis.
+    const double gap = std::max(0.0, std::abs(middle[axis]) - half[axis]);
+    sq_beside = std::max(sq_beside, gap * gap / sq_extent_[axis]);
+  }
   // Across the axes of the metric: the image of the box lies between two planes.
-  double sq_dist = 0.0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    double least = 0.0, most = 0.0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double factor = metric_(i, static_cast<Eigen::Index>(j));
-      if (factor == 0.0) // the box may be infinite
-        continue;
-      const double a = factor * low[j], b = factor * high[j];
-      least += std::min(a, b);
-      most += std::max(a, b);
+  double sq_between = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    const double a = bounds_(i, 0), b = bounds_(i, 1), c = bounds_(i, 2);
+    const double place = std::abs(a * middle[0] + b * middle[1] + c * middle[2]);
+    const double room =
+        std::abs(a) * half[0] + std::abs(b) * half[1] + std::abs(c) * half[2];
+    const double gap = std::max(0.0, place - room);
+    sq_between += gap * gap;
+  }
+  return std::max(sq_beside, sq_between);
+}
+
+bool
+MetricFinder::mayHold(double sq_bound) const
+{
+  return sq_bound <= slack * sq_farthest_;
+}
+
+void
+MetricFinder::measureBucket(const KdNode& bucket)
+{
+  const Position* const positions = &samples_.getPositions()[bucket.begin];
+  std::array<double, KdTree::bucket_samples> x[3], sq_dists;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = point_[axis];
+    for (std::size_t i = 0; i < bucket.count; ++i)
+      x[axis][i] = positions[i].x[axis] - place;
+  }
+  for (std::size_t i = 0; i < bucket.count; ++i)
+    sq_dists[i] = 0.0;
+  for (int row = 0; row < 3; ++row) {
+    const double a = metric_(row, 0), b = metric_(row, 1), c = metric_(row, 2);
+    for (std::size_t i = 0; i < bucket.count; ++i) {
+      const double image = a * x[0][i] + b * x[1][i] + c * x[2][i];
+      sq_dists[i] += image * image;
     }
-    const double gap = std::max({0.0, least, -most});
-    sq_dist += gap * gap;
   }
-  return sq_dist > sq_limit;
+  const std::size_t before = nearest_.size();
+  for (std::uint32_t i = 0; i < bucket.count; ++i)
+    if (sq_dists[i] <= sq_farthest_)
+      nearest_.emplace_back(sq_dists[i], bucket.begin + i);
+  if (nearest_.size() == before || nearest_.size() < k_)
+    return;
+  const auto last = nearest_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+  std::nth_element(nearest_.begin(), last, nearest_.end());
+  nearest_.erase(last + 1, nearest_.end());
+  sq_farthest_ = nearest_.back().first;
 }
 
 void
-MetricFinder::consider(std::uint32_t sample)
+MetricFinder::descend(const KdTree& tree, const KdNode& node)
 {
-  const Position& x = samples_.getPositions()[sample];
-  Eigen::Vector3d offset;
-  for (int axis = 0; axis < 3; ++axis)
-    offset[axis] = static_cast<double>(x[axis]) - point_[axis];
-  const std::pair<double, std::uint32_t> found((metric_ * offset).squaredNorm(),
-                                               sample);
-  if (nearest_.size() == k_) {
-    if (!(found < nearest_.front()))
-      return;
-    std::pop_heap(nearest_.begin(), nearest_.end());
-    nearest_.pop_back();
-  }
-  nearest_.push_back(found);
-  std::push_heap(nearest_.begin(), nearest_.end());
-}
-
-void
-MetricFinder::descend(const KdTree& tree, const KdNode& node, Corner& low, Corner& high)
-{
-  if (node.count <= whole_subtree) {
-    for (std::uint32_t i = 0; i < node.count; ++i)
-      consider(node.begin + i);
+  if (KdTree::isBucket(node)) {
+    measureBucket(node);
     return;
   }
-  const int axis = tree.getAxis(node.depth);
-  const auto a = static_cast<std::size_t>(axis);
-  const double plane =
-      static_cast<double>(tree.getPlane(node).coordinate) - point_[axis];
-  const auto descendTo = [&](bool below, bool is_near) {
-    double& face = below ? high[a] : low[a];
-    const double old_face = std::exchange(face, plane);
-    if (is_near || !isTooFar(a, low, high))
-      descend(tree, below ? node.left() : node.right(), low, high);
-    face = old_face;
-  };
-  descendTo(plane >= 0.0, true);
-  descendTo(plane < 0.0, false);
+  std::pair<double, KdNode> halves[] = {
+      {sqBound(tree.getBox(node.left())), node.left()},
+      {sqBound(tree.getBox(node.right())), node.right()}};
+  if (halves[1].first < halves[0].first)
+    std::swap(halves[0], halves[1]);
+  for (const auto& [sq_bound, half] : halves)
+    if (mayHold(sq_bound))
+      descend(tree, half);
 }
 
 const std::vector<std::uint32_t>&
@@ -96,17 +106,16 @@ MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
   metric_ = metric;
   const Eigen::Matrix3d inverse = metric.inverse();
   sq_extent_ = inverse.rowwise().squaredNorm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(metric.transpose() *
+                                                               metric);
+  bounds_ = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+            squares.eigenvectors().transpose();
   nearest_.clear();
+  sq_farthest_ = std::numeric_limits<double>::infinity();
   const KdTree& own = samples_.getTree();
   const auto search = [&](const KdTree& tree) {
-    Corner low, high;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = point[static_cast<int>(axis)];
-      low[axis] = tree.getCell().low[axis].coordinate - place;
-      high[axis] = tree.getCell().high[axis].coordinate - place;
-    }
-    if (!isTooFar(0, low, high))
-      descend(tree, tree.getRoot(), low, high);
+    if (mayHold(sqBound(tree.getBox(tree.getRoot()))))
+      descend(tree, tree.getRoot());
   };
   search(own);
   for (const KdTree& tree : samples_.getTrees())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_values.h"
+#include "neighbors/sample_values.h"
 
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +80,7 @@ gatherValues(const SampleSet& samples,
   std::vector<std::uint32_t> members;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
     members.assign(merged.members.begin(), merged.members.end());
-    const std::uint32_t source = representativeOf(
+    const std::uint32_t source = chooseRepresentative(
         members, [&](auto member) { return input_values[member]; }, conflicting);
     scalar.values[merged.sample] = input_values[source];
     scalar.sources[merged.sample] = source;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "neighbors/anisotropy.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace pcl_uvol {
@@ -69,6 +70,23 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
         "removed_bridged", filterIsopoints(isopoints, edges, [](const PointIso& point) {
           return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
         }));
+}
+
+/** Isopoints follow one another by isovalue. */
+std::vector<std::size_t>
+countPerIsovalue(const pcl::PointCloud<PointIso>& isopoints,
+                 const std::vector<double>& isovalues)
+{
+  std::vector<std::size_t> counts;
+  auto begin = isopoints.begin();
+  for (const double isovalue : isovalues) {
+    const auto end = std::find_if(begin, isopoints.end(), [&](const PointIso& point) {
+      return point.isovalue != static_cast<float>(isovalue);
+    });
+    counts.push_back(static_cast<std::size_t>(end - begin));
+    begin = end;
+  }
+  return counts;
 }
 
 std::optional<ErrorSummary>
@@ -288,6 +306,36 @@ extractZeroLevel(const CloudView& samples,
     point.isovalue = static_cast<float>(parameters.isovalues.front());
 }
 
+namespace {
+
+/** Float holds some isovalues, such as 3e50, as infinite or as zero: the field of that
+ * name is double then. \param isopoints one per point of the surface */
+void
+keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
+              const std::vector<double>& isovalues,
+              Dataset& surface,
+              Report& report)
+{
+  const auto is_held = [](double isovalue) {
+    const auto rounded = static_cast<float>(isovalue);
+    return std::isfinite(rounded) && (rounded != 0.0f || isovalue == 0.0);
+  };
+  if (std::all_of(isovalues.begin(), isovalues.end(), is_held))
+    return;
+  std::map<float, double> by_rounded;
+  for (const double isovalue : isovalues)
+    if (!by_rounded.emplace(static_cast<float>(isovalue), isovalue).second)
+      report.warnings.push_back(
+          "Isovalues that are equal in float cannot be told apart by the field "
+          "isovalue: extract them one at a time.");
+  std::vector<double> values;
+  for (const PointIso& point : isopoints)
+    values.push_back(by_rounded.at(point.isovalue));
+  setField(surface, "isovalue", values);
+}
+
+} // namespace
+
 IsosurfaceResult
 finishIsosurface(const Dataset& samples,
                  pcl::PointCloud<PointIso>&& isopoints,
@@ -298,13 +346,16 @@ finishIsosurface(const Dataset& samples,
 {
   orientIsopoints(isopoints, parameters, threads, report);
   dropIsopoints(isopoints, edges, parameters, report);
+  report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
+  result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
   result.surface.origin = samples.origin;
   result.surface.double_coordinates = samples.double_coordinates;
   {
     const StepTimer timer(report, "fields");
     const CloudView view = viewOf(samples.cloud);
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
+    keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
     interpolateFields(view, edges, result.surface.cloud, threads);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What awkward data cost beside even ones, as ratios of one run: layouts with gaps,
 // duplicates, two threads where one would do.
-// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads]
+// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads] [PART OF A LAYOUT'S
+// NAME]
 #include "support/environment.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -319,13 +320,13 @@ public:
 
 private:
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction_;
-  pcl::PointCloud<PointIso> surface_;
+  pcl::PointCloud<pcl_uvol::PointIso> surface_;
   double tree_ = 0.0, all_ = 0.0, fits_ = std::numeric_limits<double>::infinity();
 };
 
 /** Each layout in turn with even samples, since machines waver. */
 void
-compareLayouts(std::size_t n)
+compareLayouts(std::size_t n, const std::string& wanted)
 {
   std::printf("%zu samples, one thread; ratios to uniform ones, run in turn\n", n);
   std::printf("%-40s %9s %9s %7s %9s %7s %9s %7s\n",
@@ -339,6 +340,8 @@ compareLayouts(std::size_t n)
               "ratio");
   const auto even_cloud = makeCloud(layouts().front().sample, n);
   for (const NamedLayout& layout : layouts()) {
+    if (std::string(layout.name).find(wanted) == std::string::npos)
+      continue;
     Extraction even(even_cloud), found(makeCloud(layout.sample, n));
     for (int run = 0; run < 4; ++run) {
       even.run();
@@ -409,7 +412,7 @@ timeExtraction(const Cloud::Ptr& cloud, unsigned threads)
   extraction.setInputCloud(cloud);
   extraction.setIsoValue(0.0);
   extraction.setNumberOfThreads(threads);
-  pcl::PointCloud<PointIso> surface;
+  pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);
   return {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
@@ -428,7 +431,7 @@ compareThreads(std::size_t most)
       const auto cloud = makeCloud(layouts().front().sample, size);
       const auto infinity = std::numeric_limits<double>::infinity();
       double least[2] = {infinity, infinity}, busy[2] = {infinity, infinity};
-      const std::size_t runs = std::clamp<std::size_t>(2000000 / size, 5, 500);
+      const std::size_t runs = std::clamp<std::size_t>(2000000 / size, 11, 500);
       for (std::size_t run = 0; run < runs; ++run)
         for (unsigned threads = 1; threads <= 2; ++threads) {
           const auto [clock, processor] = timeExtraction(cloud, threads);
@@ -454,7 +457,7 @@ main(int argc, char** argv)
       static_cast<std::size_t>(argc > 1 ? std::max(1000.0, std::atof(argv[1])) : 1e6);
   const std::string part = argc > 2 ? argv[2] : "";
   if (part.empty() || part == "layouts")
-    compareLayouts(n);
+    compareLayouts(n, argc > 3 ? argv[3] : "");
   if (part.empty() || part == "duplicates")
     compareDuplicates(n);
   if (part.empty() || part == "threads")

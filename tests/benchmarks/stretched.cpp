@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,16 +63,88 @@ printRow(const std::string& shape, double ratio, int side)
   std::fflush(stdout);
 }
 
+/** A field with jumps, as a function of the index space; its surfaces are spheres. */
+struct JumpField {
+  const char* name;
+  uvol_test::SmoothField field;
+  std::vector<double> radii; ///< of the spheres
+};
+
+std::vector<JumpField>
+makeJumpFields(std::size_t n)
+{
+  const auto radial = uvol_test::makeSmoothField("radial", n);
+  const double radius = radial.isovalue;
+  auto jump = radial, shell = radial;
+  jump.value = [=](const Eigen::Vector3d& x) {
+    const double part = x.norm() / radius;
+    return (part < 1.0 ? 10.0 : 4.0) - 2.0 * part;
+  };
+  jump.isovalue = 5.0;
+  shell.value = [=](const Eigen::Vector3d& x) {
+    return (std::abs(x.norm() / radius - 0.9) < 0.1 ? 6.0 : 1.0) + 0.5 * x.x() / radius;
+  };
+  shell.isovalue = 3.5;
+  return {{"radial", radial, {radius}},
+          {"jump", jump, {radius}},
+          {"shell", shell, {radius, 0.8 * radius}}};
+}
+
+void
+printJumpRow(const JumpField& jump, const std::string& shape, double ratio, int side)
+{
+  const auto samples = uvol_test::makeStretchedSamples(shape, ratio, side);
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(samples.sample(jump.field, side, 1));
+  extraction.setIsoValue(jump.field.isovalue);
+  Surface surface;
+  extraction.extract(surface);
+  std::vector<double> deviations;
+  for (const auto& point : samples.inIndexSpace(surface)) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double radius : jump.radii)
+      nearest = std::min(
+          nearest, std::abs(point.getVector3fMap().cast<double>().norm() - radius));
+    deviations.push_back(nearest);
+  }
+  std::printf("%-7s %-9s %5.3g %7zu %9.3g %9.3g %9.3g\n",
+              jump.name,
+              shape.c_str(),
+              ratio,
+              surface.size(),
+              uvol_test::mean(deviations),
+              uvol_test::quantile(deviations, 0.99),
+              uvol_test::quantile(deviations, 1.0));
+  std::fflush(stdout);
+}
+
+void
+printJumps(int side, const std::vector<std::string>& shapes)
+{
+  std::puts("# field  shape    ratio  points      mean      99_%   largest");
+  for (const JumpField& jump :
+       makeJumpFields(static_cast<std::size_t>(side) * side * side))
+    for (const std::string& shape : shapes)
+      for (const double ratio : {1.0, 2.0, 3.0, 10.0, 30.0})
+        printJumpRow(jump, shape, ratio, side);
+}
+
 } // namespace
 
-/** stretched SIDE SHAPE... : one row per shape and ratio. */
+/** stretched SIDE [jumps] SHAPE... : one row per shape and ratio; with jumps, of fields
+ * that have some as well. */
 int
 main(int argc, char** argv)
 {
   if (argc < 3) {
-    std::fputs("usage: stretched SIDE lattice|rotated|wall|curved|jittered|shaken...\n",
+    std::fputs("usage: stretched SIDE [jumps] "
+               "lattice|rotated|wall|curved|jittered|shaken...\n",
                stderr);
     return 2;
+  }
+  if (std::string(argv[2]) == "jumps") {
+    printJumps(std::atoi(argv[1]), {argv + 3, argv + argc});
+    return 0;
   }
   std::puts("# shape    ratio  points      mean    99.9_% linear_% bridged_% rim_% "
             "covered_% error/deviation us/point");

@@ -42,8 +42,6 @@ TEST(ScalarField, ReadsEveryType)
     else
       put(to, std::uint8_t{42});
     EXPECT_EQ(valueOf(dataset, "f", 0), 42.0) << int(type);
-    EXPECT_EQ(ScalarField(dataset.cloud.fields, "f").isInteger(),
-              type != Type::FLOAT32 && type != Type::FLOAT64);
   }
 }
 
@@ -66,8 +64,6 @@ TEST(ScalarField, ComponentsAndLengths)
   EXPECT_EQ(a1, valueOf(dataset, "acc_1", 0));
   EXPECT_EQ(valueOf(dataset, "|acc|", 0), std::sqrt(a0 * a0 + a1 * a1));
   EXPECT_EQ(valueOf(dataset, "|acc_0, vel[1]|", 0), std::sqrt(a0 * a0 + v1 * v1));
-  EXPECT_TRUE(ScalarField(dataset.cloud.fields, "id").isInteger());
-  EXPECT_FALSE(ScalarField(dataset.cloud.fields, "|id|").isInteger());
 }
 
 TEST(ScalarField, ExactNamesComeFirst)

@@ -103,7 +103,7 @@ TEST(DataWithoutPositions, ChosenColumnsAreCoordinates)
   writeFile(folder / "a.csv", "a,b,c,d\n1,2,3,4\n");
   LoadOptions options;
   options.needs_coordinates = false;
-  options.xyz_columns = {{3, 1, 0}};
+  options.xyz_columns = {{"3", "1", "0"}};
   const Dataset dataset = loadDataset(folder / "a.csv", options);
   EXPECT_TRUE(dataset.has_coordinates);
   EXPECT_EQ(xyz + ", c (int32)", fieldsOf(dataset));
@@ -127,10 +127,10 @@ TEST(DataWithoutPositions, OtherFormatsHaveCoordinates)
 TEST(DataWithoutPositions, ByDefaultTheFirstColumnsAreCoordinates)
 {
   EXPECT_TRUE(LoadOptions().needs_coordinates);
-  const Dataset dataset = load("a,b,c,d\n1,2,3,4\n", true);
+  const Dataset dataset = load("a,b,c,d\n1.5,2.5,3.5,4\n", true);
   EXPECT_TRUE(dataset.has_coordinates);
   EXPECT_EQ(xyz + ", d (int32)", fieldsOf(dataset));
-  EXPECT_EQ(2.0, coordinateOf(dataset, 1, 0));
+  EXPECT_EQ(2.5, coordinateOf(dataset, 1, 0));
   ASSERT_EQ(1u, dataset.notes.size());
   EXPECT_NE(dataset.notes[0].find("a, b, c"), std::string::npos) << dataset.notes[0];
   EXPECT_THROW(load("a,b\n1,2\n", true), IOError);

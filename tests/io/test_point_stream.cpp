@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A file read in blocks gives the very bytes of the file read whole.
+#include "common/memory.h"
+#include "io/point_stream.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/io/point_stream.h>
 
 #include <algorithm>
 
@@ -291,7 +291,7 @@ TEST(PointStream, OptionsOfTables)
   const TemporaryFolder folder;
   writeFile(folder / "a.csv", "a,b,c,d\n1,2,3,4\n5,6,7,8.5\n");
   LoadOptions columns;
-  columns.xyz_columns = {{3, 1, 0}};
+  columns.xyz_columns = {{"3", "1", "0"}};
   expectStreams(folder / "a.csv", columns);
   LoadOptions none;
   none.needs_coordinates = false;
@@ -377,7 +377,7 @@ TEST(PointStream, FormatsThatHaveToBeReadWhole)
   EXPECT_NE(messageOf<IOError>([&] { PointStream(folder / "a.jpg"); }).find("no such"),
             std::string::npos);
   LoadOptions columns;
-  columns.xyz_columns = {{2, 1, 0}};
+  columns.xyz_columns = {{"2", "1", "0"}};
   EXPECT_THROW(PointStream(folder / "c.pcd", columns), InvalidArgument);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints against brute force and analytic truth, and what becomes of awkward input.
+#include "common/memory.h"
+#include "neighbors/sample_set.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/neighbor_oracle.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -260,6 +261,53 @@ TEST(IsosurfaceExtraction, KeepsWhatDoesNotDependOnTheIsovalue)
   extraction.extract(surface);
   Cloud::Ptr quarter(new Cloud(*first, *half));
   EXPECT_TRUE(sameBytes(extract(quarter, 6.0), surface));
+}
+
+/** As in a simulation's loop: one cloud that is written into. */
+TEST(IsosurfaceExtraction, NoticesWhatWasChangedInPlace)
+{
+  const auto radial = uvol_test::makeRadialCloud(20000, 6);
+  Cloud& cloud = *radial.cloud;
+  Extraction extraction;
+  extraction.setInputCloud(radial.cloud);
+  extraction.setIsoValue(radial.radius);
+  Surface surface;
+  const auto hasStep = [&](const char* step) {
+    const auto& steps = extraction.getReport().milliseconds;
+    return std::any_of(
+        steps.begin(), steps.end(), [&](const auto& s) { return s.first == step; });
+  };
+  const auto expectAsNew = [&](bool builds_tree, const std::string& change) {
+    extraction.extract(surface);
+    EXPECT_TRUE(
+        sameBytes(extract(pcl::make_shared<Cloud>(cloud), radial.radius), surface))
+        << change;
+    EXPECT_EQ(builds_tree, hasStep("tree")) << change;
+    EXPECT_TRUE(hasStep("ranges")) << change;
+    extraction.extract(surface);
+    EXPECT_FALSE(hasStep("ranges")) << "after " << change;
+  };
+  extraction.extract(surface);
+
+  for (auto& point : cloud)
+    point.intensity += 0.25f;
+  expectAsNew(false, "other values");
+  cloud[7].intensity = 2.0f * cloud[7].intensity;
+  expectAsNew(false, "one value");
+  std::swap(cloud[1].intensity, cloud[20].intensity);
+  expectAsNew(false, "two values swapped");
+  cloud[7].intensity = std::numeric_limits<float>::quiet_NaN();
+  expectAsNew(true, "a value that is none: one sample less");
+  for (auto& point : cloud)
+    point.y = -point.y;
+  expectAsNew(true, "mirrored positions");
+  cloud[3].z += 0.5f;
+  expectAsNew(true, "one position");
+  cloud.push_back(cloud.back());
+  cloud.back().x += 0.25f;
+  expectAsNew(true, "one point more");
+  cloud.resize(10000);
+  expectAsNew(true, "fewer points");
 }
 
 /** As in a robot's loop: a new cloud every time. */

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints on local fits: how near they are to the true surface, whether they know it,
 // and that they stay where they belong.
+#include "common/random.h"
+#include "generation/analytic_fields.h"
 #include "support/clouds.h"
 #include "support/smooth_fields.h"
-#include <pcl_uvol/common/analytic_fields.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(SmoothIsopoints, WavesOfTwentySpacings)
 }
 
 /** In lengths of the spacing, of a surface that stays the same. */
-TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing)
+TEST(SmoothIsopoints, DeviationFallsWithTheFourthPowerOfTheSpacing_long)
 {
   const auto relative = [](std::size_t n, Interpolation interpolation) {
     const SmoothField field = makeSmoothField("gyroid", n);
@@ -199,7 +199,7 @@ struct Trust {
   }
 };
 
-TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay)
+TEST(SmoothIsopoints, ErrorsAreAsLargeAsTheySay_long)
 {
   Trust all;
   for (const char* name : {"radial", "waves", "decay", "gyroid", "torus"})

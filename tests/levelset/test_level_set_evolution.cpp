@@ -57,7 +57,7 @@ largestDeviation(const std::vector<double>& radii, double expected)
 }
 
 /** Mean curvature flow: r(t) = sqrt(r0^2 - 2 t), in squared lengths. */
-TEST(LevelSetEvolution, SphereShrinksByItsCurvature)
+TEST(LevelSetEvolution, SphereShrinksByItsCurvature_long)
 {
   constexpr double start = 10.0;
   const auto cloud = makeBall(start, 15.0);
@@ -158,7 +158,7 @@ TEST(LevelSetEvolution, ReinitializationRestoresTheSlopeAndKeepsTheSurface)
 }
 
 /** It flattens what is too steep, slowly. */
-TEST(LevelSetEvolution, DiffusionTermPullsTheSlopeTowardsOne)
+TEST(LevelSetEvolution, DiffusionTermPullsTheSlopeTowardsOne_long)
 {
   const Reinitialized without(Reinitialization::None, 1.1f, 60);
   const Reinitialized run(Reinitialization::Diffusion, 1.1f, 60);
@@ -215,7 +215,7 @@ TEST(LevelSetEvolution, SameValuesInAnyOrderOfTheInput)
 /** Fields are seldom distances: densities fall exponentially, and most are flat but for
  * the surroundings of the surface. The surface must not move for that, band or no band.
  */
-TEST(LevelSetEvolution, AnyProfileOfTheFieldKeepsTheSurface)
+TEST(LevelSetEvolution, AnyProfileOfTheFieldKeepsTheSurface_long)
 {
   const std::pair<const char*, std::function<float(float)>> profiles[] = {
       {"flat", [](float d) { return std::clamp(d, -3.0f, 3.0f); }},
@@ -271,7 +271,7 @@ TEST(LevelSetEvolution, BandAndIntegrationDoNotChangeTheSurface)
 
 /** Thesis 3.5.2: a few samples that lie close bound the steps of all, unless every
  * sample takes its own. */
-TEST(LevelSetEvolution, AsynchronousStepsSpareThoseOfAFewSamples)
+TEST(LevelSetEvolution, AsynchronousStepsSpareThoseOfAFewSamples_long)
 {
   const auto cloud = makeBall(6.0, 9.0);
   uvol_test::Random random(3);

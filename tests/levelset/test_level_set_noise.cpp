@@ -94,7 +94,7 @@ makeThinTorus()
   return noisy;
 }
 
-TEST(LevelSetNoise, AutomaticWeightIsNearlyTheBest)
+TEST(LevelSetNoise, AutomaticWeightIsNearlyTheBest_long)
 {
   for (const auto& noisy :
        {uvol_test::makeNoisyCloud("torus", false, 0.02, 1), makeThinTorus()}) {

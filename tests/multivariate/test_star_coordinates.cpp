@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projections of planted clusters: that they keep apart what principal axes do not,
 // what form they have, and what they do with tables that leave nothing to choose.
-#include "multivariate/star_clusters.h"
+#include "common/random.h"
+#include "multivariate/projections.h"
+#include "support/star_clusters.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/star_coordinates.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,8 +50,7 @@ ratioOfPlaces(const LabelledTable& planted, const Projection& projection)
       for (const std::int32_t label : {a, b}) {
         const MatrixXd places = placesOf(planted, projection, label);
         const Eigen::Vector3d centre = places.rowwise().mean();
-        const MatrixXd about = places.colwise() - centre;
-        spread += about * about.transpose() / static_cast<double>(places.cols());
+        spread += computeScatter(places) / static_cast<double>(places.cols());
         offset += label == a ? centre : Eigen::Vector3d(-centre);
       }
       smallest = std::min(smallest, offset.dot(spread.inverse() * offset));
@@ -86,10 +85,10 @@ TEST(StarCoordinates, AscentGainsOnTheStarts)
   StarCoordinateParameters parameters;
   Report report;
   const double ascended = ratioIn(
-      planted, starCoordinates(planted.table, planted.labels, parameters, report));
+      planted, starCoordinates(planted.table, planted.labels, parameters, 0, report));
   parameters.steps = 0;
   const double start = ratioIn(
-      planted, starCoordinates(planted.table, planted.labels, parameters, report));
+      planted, starCoordinates(planted.table, planted.labels, parameters, 0, report));
   EXPECT_GT(ascended, 1.5 * start);
   EXPECT_GE(start, ratioIn(planted, principalAxes(planted.table)));
 }
@@ -168,8 +167,7 @@ TEST(StarCoordinates, FirstAxisCarriesMostOfTheCentres)
     for (std::size_t c = 0; c < labels.size(); ++c)
       centres.col(static_cast<Index>(c)) =
           placesOf(planted, projection, labels[c]).rowwise().mean();
-    const MatrixXd about = centres.colwise() - centres.rowwise().mean();
-    const MatrixXd spread = about * about.transpose();
+    const MatrixXd spread = computeScatter(centres);
     EXPECT_GE(spread(0, 0), spread(1, 1)) << planted.name;
     EXPECT_GE(spread(1, 1), spread(2, 2)) << planted.name;
     EXPECT_LT(std::abs(spread(0, 1)), 1e-3 * spread(0, 0)) << planted.name;
@@ -184,12 +182,11 @@ TEST(StarCoordinates, PrincipalAxesAreThoseOfTheCovariance)
           planted.table.values.data(), 8, static_cast<Index>(planted.table.rows()))
           .cast<double>();
   const VectorXd mean = values.rowwise().mean();
-  const MatrixXd about = values.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(about * about.transpose());
+  const MatrixXd eigenvectors = computeEigenvectors(computeScatter(values));
   const Projection projection = principalAxes(planted.table);
   const MatrixXd axes = axesOf(projection);
   for (Index k = 0; k < 3; ++k)
-    EXPECT_NEAR(std::abs(axes.row(k).dot(solver.eigenvectors().col(7 - k))), 1.0, 1e-9);
+    EXPECT_NEAR(std::abs(axes.row(k).dot(eigenvectors.col(7 - k))), 1.0, 1e-9);
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_NEAR(projection.mean[i], mean[static_cast<Index>(i)], 1e-9);
   const auto place = projection.project(planted.table.row(17));
@@ -220,20 +217,20 @@ TEST(StarCoordinates, AnyNumberOfThreadsGivesTheSameBytes)
 {
   for (const LabelledTable& planted : allPlanted()) {
     StarCoordinateParameters parameters;
-    parameters.threads = 1;
     Report report;
     const Projection one =
-        starCoordinates(planted.table, planted.labels, parameters, report);
+        starCoordinates(planted.table, planted.labels, parameters, 1, report);
     const Projection axes = principalAxes(planted.table, 1);
     const double ratio =
-        smallestFisherRatio(planted.table, planted.labels, one, parameters);
+        smallestFisherRatio(planted.table, planted.labels, one, parameters, 1);
     for (const unsigned threads : {2u, 3u, 8u}) {
-      parameters.threads = threads;
-      expectSame(one,
-                 starCoordinates(planted.table, planted.labels, parameters, report));
+      expectSame(
+          one,
+          starCoordinates(planted.table, planted.labels, parameters, threads, report));
       expectSame(axes, principalAxes(planted.table, threads));
-      EXPECT_EQ(ratio,
-                smallestFisherRatio(planted.table, planted.labels, one, parameters));
+      EXPECT_EQ(
+          ratio,
+          smallestFisherRatio(planted.table, planted.labels, one, parameters, threads));
     }
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pipeline gives what its stages give one by one, in every combination.
+#include "common/scalar_field.h"
+#include "pipeline/memory_need.h"
 #include "support/clouds.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -217,6 +218,112 @@ TEST(IsosurfacePipeline, ReusesTheTreeForFurtherIsovalues)
   }
 }
 
+/** Points of a data set in another order. */
+std::shared_ptr<Dataset>
+reordered(const Dataset& samples, const std::vector<std::size_t>& order)
+{
+  auto result = std::make_shared<Dataset>(samples);
+  const std::size_t step = samples.cloud.point_step;
+  result->cloud.width = static_cast<std::uint32_t>(order.size());
+  result->cloud.row_step = static_cast<std::uint32_t>(order.size() * step);
+  result->cloud.data.resize(order.size() * step);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    std::memcpy(
+        &result->cloud.data[i * step], &samples.cloud.data[order[i] * step], step);
+  return result;
+}
+
+/** Points at one position are one sample: that of the lower median of their values. */
+TEST(IsosurfacePipeline, SmoothsPointsAtOnePositionAsOneSample)
+{
+  constexpr std::size_t n = 4000;
+  const auto distinct = makeSamples(n);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < n; ++i)
+    order.push_back(i);
+  for (std::size_t i = 0; i < n; i += 2)
+    order.push_back(i);
+  const auto samples = reordered(*distinct, order);
+  // The second one of a pair is higher, or, of every fourth sample, lower.
+  std::vector<float> values = readColumn(*samples, "intensity");
+  std::vector<float> second = readColumn(*samples, "second");
+  for (std::size_t i = n; i < values.size(); ++i) {
+    values[i] += order[i] % 4 == 0 ? -0.01f : 0.01f;
+    second[i] += 100.0f;
+  }
+  pcl_uvol::setField(*samples, "intensity", values);
+  pcl_uvol::setField(*samples, "second", second);
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.smooth = true;
+  parameters.level_set.max_steps = 5;
+  const IsosurfaceResult result = run(samples, parameters);
+  ASSERT_GT(result.surface.cloud.width, 300u);
+  EXPECT_EQ(n, result.report.getCount("samples"));
+  EXPECT_EQ(n / 2, result.report.getCount("duplicates"));
+  EXPECT_EQ(n / 2, result.report.getCount("conflicting_duplicates"));
+  bool has_later = false;
+  const auto is_taken = [&](std::size_t point) {
+    const bool is_later = point >= n;
+    has_later = has_later || is_later;
+    return order[point] % 2 == 1 || is_later == (order[point] % 4 == 0);
+  };
+  for (std::size_t i = 0; i < result.edges.size(); ++i) {
+    const auto& edge = result.edges[i];
+    EXPECT_TRUE(is_taken(edge.first) && is_taken(edge.second)) << i;
+    EXPECT_NEAR((1.0f - edge.t) * second[edge.first] + edge.t * second[edge.second],
+                readField(result.surface, i, "second"),
+                1e-3f);
+  }
+  EXPECT_TRUE(has_later);
+
+  std::vector<std::size_t> backwards(values.size());
+  for (std::size_t i = 0; i < backwards.size(); ++i)
+    backwards[i] = backwards.size() - 1 - i;
+  EXPECT_EQ(result.surface.cloud.data,
+            run(reordered(*samples, backwards), parameters).surface.cloud.data);
+}
+
+TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
+{
+  for (const double unit : {3e50, 3e-60}) {
+    const auto samples = std::make_shared<Dataset>(*makeSamples());
+    std::vector<double> values;
+    for (const float value : readColumn(*samples, "intensity"))
+      values.push_back(unit * (2.0 + value));
+    pcl_uvol::setField(*samples, "intensity", values);
+    IsosurfacePipelineParameters parameters = makeParameters(2.0 * unit);
+    const IsosurfaceResult one = run(samples, parameters);
+    EXPECT_TRUE(one.report.warnings.empty());
+    const pcl_uvol::CloudView view = pcl_uvol::viewOf(one.surface.cloud);
+    const pcl_uvol::ScalarField isovalue(view.fields, "isovalue");
+    ASSERT_GT(view.count, 300u);
+    for (std::size_t i = 0; i < view.count; ++i)
+      EXPECT_EQ(2.0 * unit, isovalue.read(view.point(i)));
+    // Two that float takes for one.
+    parameters.isosurface.isovalues = {2.0 * unit, 2.1 * unit};
+    EXPECT_EQ(1u, run(samples, parameters).report.warnings.size());
+  }
+}
+
+TEST(IsosurfacePipeline, NoticesWhatWasChangedInPlace)
+{
+  const auto samples = std::make_shared<Dataset>(*makeSamples());
+  for (const bool smooth : {false, true}) {
+    IsosurfacePipelineParameters parameters = makeParameters();
+    parameters.smooth = smooth;
+    parameters.level_set.max_steps = 5;
+    IsosurfacePipeline pipeline;
+    pipeline.setInput(samples);
+    pipeline.setParameters(parameters);
+    const auto before = pipeline.run().surface.cloud.data;
+    for (std::size_t i = 0; i < samples->cloud.width; i += 2)
+      samples->cloud.data[i * samples->cloud.point_step + 3] ^= 0x80; // the sign of x
+    const auto after = pipeline.run().surface.cloud.data;
+    EXPECT_NE(before, after);
+    EXPECT_EQ(run(samples, parameters).surface.cloud.data, after);
+  }
+}
+
 TEST(IsosurfacePipeline, TakesTheIndices)
 {
   const auto samples = makeSamples();
@@ -267,10 +374,10 @@ TEST(IsosurfacePipeline, ForecastsItsMemory)
   IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(makeParameters());
-  const auto sizes = pipeline.estimateSurfaces();
-  ASSERT_EQ(1u, sizes.size());
+  EXPECT_GT(pipeline.estimateMemory(), 50.0 * 4000);
+  EXPECT_LT(pipeline.estimateMemory(), 1000.0 * 4000);
   const double isopoints = pipeline.run().surface.cloud.width;
-  EXPECT_NEAR(isopoints, sizes[0].isopoints, 0.1 * isopoints);
+  const std::vector<pcl_uvol::SurfaceSize> sizes{{isopoints, isopoints}};
   const auto forecast = [&](bool smooth, double points) {
     IsosurfacePipelineParameters parameters = makeParameters();
     parameters.smooth = smooth;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many splats there will be is told by patches of the surface.
 #include "splat_setup.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/surface/memory_need.h>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ estimate(const pcl::PointCloud<pcl::PointNormal>& cloud, double delta)
   return pcl_uvol::estimateSplats(pcl_uvol::viewOf(cloud), parameters, 0);
 }
 
-TEST(EstimatedSplats, AreAboutAsManyAsThereWillBe)
+TEST(EstimatedSplats, AreAboutAsManyAsThereWillBe_long)
 {
   constexpr std::size_t points = 150000;
   const auto sphere = uvol_test::makeSphere(points, 1);

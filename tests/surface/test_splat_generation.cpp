@@ -126,7 +126,7 @@ TEST(SplatGeneration, DiscsOnASphereAreAsLargeAsDeltaAllows)
   EXPECT_EQ(generation.getReport().getCount("widened"), 0u);
 }
 
-TEST(SplatGeneration, NumberIsThatOfRandomSequentialAdsorption)
+TEST(SplatGeneration, NumberIsThatOfRandomSequentialAdsorption_long)
 {
   // No two centres are nearer than lambda r and there is no room for another one: discs
   // of that diameter, put down one by one at random, cover 0.547 of a surface in the
@@ -195,7 +195,7 @@ openPlaces(const Surface& surface, const std::vector<Disc>& discs, double margin
   return open;
 }
 
-TEST(SplatGeneration, LeavesNoHole)
+TEST(SplatGeneration, LeavesNoHole_long)
 {
   // With few points, or a small delta, discs are as large as gaps make them; with many
   // points, as delta does.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every real data set through uvol_info and uvol_isosurface at isovalues of its README;
 // the edges of the small ones against brute force.
+#include "common/scalar_field.h"
+#include "neighbors/sample_set.h"
 #include "support/environment.h"
 #include "support/neighbor_oracle.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -133,7 +134,10 @@ TEST_P(OnRealData, ToolsRunAndFindTheSurface)
 TEST_P(OnSmallRealData, EdgesEqualBruteForce)
 {
   const RealData& data = GetParam();
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path_);
+  pcl_uvol::LoadOptions load;
+  if (std::string(data.options).find("-xyz 1,2,3") != std::string::npos)
+    load.xyz_columns = {{"1", "2", "3"}};
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path_, load);
   const pcl::PCLPointCloud2::ConstPtr cloud(&dataset.cloud, [](const void*) {});
   pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(cloud);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_splats from the outside: splats with the fields of their points, exit codes,
 // sentences.
+#include "common/scalar_field.h"
+#include "render/point_colors.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/render/point_colors.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST_F(SplatsTool, CoversPointsAndCarriesTheirFieldsAlong)
   ASSERT_EQ(view.count, count);
   EXPECT_TRUE(pcl_uvol::hasColors(view));
   const pcl_uvol::ScalarField mark(view.fields, "curvature"), red(view.fields, "red");
-  EXPECT_TRUE(red.isInteger());
+  EXPECT_EQ(pcl::PCLPointField::UINT8, red.getComponents().front().datatype);
   for (std::size_t i = 0; i < view.count; ++i) {
     const auto source = static_cast<std::size_t>(mark.read(view.point(i)));
     ASSERT_LT(source, points);

@@ -5,7 +5,7 @@
 #include <pcl_uvol/common/export.h>
 
 #include <pcl/PCLPointCloud2.h>
-#include <pcl/common/io.h>
+#include <pcl/conversions.h>
 #include <pcl/point_cloud.h>
 #include <pcl/types.h>
 
@@ -66,7 +66,8 @@ struct CloudBytes {
 PCL_UVOL_EXPORTS CloudView
 makeView(const CloudBytes& bytes, const std::vector<pcl::PCLPointField>& fields);
 
-/** \brief Indices that a user gave. \param stage name for the messages
+/** \brief Indices that a user gave.
+ * \param stage name for the messages
  * \throws InvalidArgument for none, and for one that is no point of the cloud */
 PCL_UVOL_EXPORTS void
 checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage);
@@ -79,6 +80,10 @@ template <typename PointT>
 CloudView
 viewOf(const pcl::PointCloud<PointT>& cloud)
 {
+  // As pcl::getFields does, whose header needs all of PCL's point types.
+  std::vector<pcl::PCLPointField> fields;
+  pcl::for_each_type<typename pcl::traits::fieldList<PointT>::type>(
+      pcl::detail::FieldAdder<PointT>(fields));
   const std::size_t bytes = cloud.size() * sizeof(PointT);
   return detail::makeView({reinterpret_cast<const std::uint8_t*>(cloud.points.data()),
                            bytes,
@@ -87,7 +92,7 @@ viewOf(const pcl::PointCloud<PointT>& cloud)
                            sizeof(PointT),
                            bytes,
                            false},
-                          pcl::getFields<PointT>());
+                          fields);
 }
 
 /** \brief View of a cloud with fields known at run time only.

@@ -6,7 +6,6 @@
 #include <pcl_uvol/common/export.h>
 
 #include <array>
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,11 +14,12 @@ namespace pcl_uvol {
 
 /** \brief How a text file is read. */
 struct PCL_UVOL_EXPORTS LoadOptions {
-  /** Columns (from 0) that hold the coordinates of a text file; {-1, -1, -1} finds them
-   * by name. */
-  std::array<int, 3> xyz_columns{{-1, -1, -1}};
-  /** False: a text file whose header names no coordinates, by x, y and z or by first
-   * columns such as x_km, y_km, z_km, is taken for data without positions. */
+  /** Columns that hold the coordinates of a text file, by their names or their numbers
+   * from 0; empty: they are found by usual names, as x, y, z, or x_km, y_km, z_km, or
+   * easting, northing, elevation. */
+  std::array<std::string, 3> xyz_columns;
+  /** False: a text file whose header names no coordinates is taken for data without
+   * positions. */
   bool needs_coordinates = true;
 };
 
@@ -32,8 +32,8 @@ struct PCL_UVOL_EXPORTS SaveOptions {
 };
 
 /** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu
- * or .vts, by the ending of the name (any case). Non-finite positions are kept. \throws
- * IOError in one sentence that names the file and, for text, the line */
+ * or .vts, by the ending of the name (any case). Non-finite positions are kept.
+ * \throws IOError in one sentence that names the file and, for text, the line */
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
@@ -51,15 +51,6 @@ saveDataset(const std::string& path,
 PCL_UVOL_EXPORTS void
 checkSavePath(const std::string& path,
               const std::vector<pcl::PCLPointField>& fields = {});
-
-/** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
- * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right
- * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added,
- * float32 fields with the float nearest to the number.
- * \return the number of points removed
- * \throws InvalidArgument for a malformed expression or an unknown field */
-PCL_UVOL_EXPORTS std::size_t
-selectRows(Dataset& dataset, const std::string& where);
 
 /** \brief Write a file so that it appears whole or not at all: the writer gets the name
  * of a temporary file beside it, which is flushed, checked and renamed when the writer

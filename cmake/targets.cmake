@@ -1,0 +1,39 @@
+# The flags of all targets, and how a library is declared.
+
+# The same bytes on every machine: no fused multiply-add unless written.
+add_library(pcl_uvol_determinism INTERFACE)
+target_compile_options(pcl_uvol_determinism INTERFACE -ffp-contract=off)
+
+add_library(pcl_uvol_warnings INTERFACE)
+target_compile_options(pcl_uvol_warnings INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${PCL_UVOL_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# One copy of the vector kernels per instruction set, and the objects of all of them (src/CMakeLists.txt).
+set(pcl_uvol_simd_levels baseline avx2 avx512)
+list(TRANSFORM pcl_uvol_simd_levels REPLACE "(.+)" "$<TARGET_OBJECTS:pcl_uvol_kernels_\\1>"
+  OUTPUT_VARIABLE pcl_uvol_kernel_objects)
+
+# A library target pcl_uvol::<name> from the sources of some modules.
+function(pcl_uvol_add_library name)
+  set(sources)
+  foreach(module IN LISTS ARGN)
+    file(GLOB_RECURSE module_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${module}/*.cpp)
+    list(APPEND sources ${module_sources})
+    list(FILTER sources EXCLUDE REGEX "_kernel\\.cpp$")
+  endforeach()
+  add_library(pcl_uvol_${name} SHARED ${sources})
+  add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
+  set_target_properties(pcl_uvol_${name} PROPERTIES
+    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_compile_features(pcl_uvol_${name} PUBLIC cxx_std_17)
+  target_include_directories(pcl_uvol_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(pcl_uvol_${name} PRIVATE
+    $<BUILD_INTERFACE:pcl_uvol_warnings> $<BUILD_INTERFACE:pcl_uvol_determinism>)
+  set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
+  if(PCL_UVOL_INSTALL)
+    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets)
+  endif()
+endfunction()

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/coordinate_columns.h"
+
+#include "common/numbers.h"
+#include "common/printable.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+namespace pcl_uvol::io {
+
+namespace {
+
+/** Ways to name coordinates, the plainest first. */
+enum System { Plain, WithUnit, Projected, Geographic, systems };
+
+struct Axis {
+  System system;
+  std::size_t axis;
+};
+
+/** A name in lower case and what stands behind its first word: "x (km)" -> "x", "km".
+ */
+struct Parts {
+  std::string word, unit;
+};
+
+Parts
+splitName(const std::string& name)
+{
+  const std::string lower = lowerCase(trimmed(name));
+  const std::size_t end = lower.find_first_of("_-. ([/");
+  if (end == std::string::npos)
+    return {lower, ""};
+  std::string unit = lower.substr(end);
+  const std::size_t first = unit.find_first_not_of("_-. ([/");
+  unit = first == std::string::npos ? "" : unit.substr(first);
+  return {lower.substr(0, end), unit.substr(0, unit.find_first_of(")] "))};
+}
+
+bool
+isLength(const std::string& unit)
+{
+  static const std::set<std::string> units{
+      "m",  "km",   "cm",     "mm",  "um",     "nm",     "a",    "angstrom",
+      "ft", "feet", "in",     "mi",  "au",     "pc",     "kpc",  "mpc",
+      "ly", "rsun", "rearth", "utm", "meters", "metres", "code", "px"};
+  return units.count(unit) > 0;
+}
+
+bool
+isVertical(const std::string& word)
+{
+  static const std::set<std::string> words{
+      "z", "elevation", "elev", "altitude", "alt", "height", "depth"};
+  return words.count(word) > 0;
+}
+
+/** What a column is an axis of; verticals are those of every system of the earth. */
+std::vector<Axis>
+listAxes(const std::string& name)
+{
+  const auto [word, unit] = splitName(name);
+  std::vector<Axis> axes;
+  if (word.size() == 1 && word[0] >= 'x' && word[0] <= 'z') {
+    const auto axis = static_cast<std::size_t>(word[0] - 'x');
+    if (unit.empty() && trimmed(name).size() == 1)
+      axes.push_back({Plain, axis});
+    if (isLength(unit) || unit.empty() || axis == 2)
+      axes.push_back({WithUnit, axis});
+  }
+  else if (word == "easting" || word == "east" || word == "eastings")
+    axes.push_back({Projected, 0});
+  else if (word == "northing" || word == "north" || word == "northings")
+    axes.push_back({Projected, 1});
+  else if (word == "lon" || word == "long" || word == "longitude")
+    axes.push_back({Geographic, 0});
+  else if (word == "lat" || word == "latitude")
+    axes.push_back({Geographic, 1});
+  if (isVertical(word)) {
+    axes.push_back({Projected, 2});
+    axes.push_back({Geographic, 2});
+  }
+  return axes;
+}
+
+} // namespace
+
+std::optional<CoordinateColumns>
+recognizeCoordinates(const std::vector<std::string>& names)
+{
+  std::array<std::array<std::optional<std::size_t>, 3>, systems> found;
+  for (std::size_t i = names.size(); i-- > 0;) // the first of each counts
+    for (const auto& [system, axis] : listAxes(names[i]))
+      found[system][axis] = i;
+  for (std::size_t system = 0; system < systems; ++system) {
+    const auto& [x, y, z] = found[system];
+    if (!x || !y || !z)
+      continue;
+    CoordinateColumns columns{{{*x, *y, *z}}, ""};
+    if (system == Geographic)
+      columns.note = "Coordinates are " + names[*x] + ", " + names[*y] + " and " +
+                     names[*z] +
+                     ", so distances mix degrees with another unit: columns in metres, "
+                     "or factors for the axes (-scale), mend that.";
+    return columns;
+  }
+  return std::nullopt;
+}
+
+std::array<std::size_t, 3>
+findChosenColumns(const std::array<std::string, 3>& chosen,
+                  const std::vector<std::string>& names)
+{
+  std::array<std::size_t, 3> columns{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto named = std::find(names.begin(), names.end(), chosen[axis]);
+    std::uint64_t number = 0;
+    if (named != names.end())
+      columns[axis] = static_cast<std::size_t>(named - names.begin());
+    else if (parseCount(chosen[axis], number) && number < names.size())
+      columns[axis] = static_cast<std::size_t>(number);
+    else
+      throw InvalidArgument(
+          "there is no column " + quoteText(chosen[axis]) +
+          " for a coordinate; columns are " + quoteText(names.front()) + " to " +
+          quoteText(names.back()) + ", or 0 to " + std::to_string(names.size() - 1));
+  }
+  if (std::set<std::size_t>(columns.begin(), columns.end()).size() < 3)
+    throw InvalidArgument("the coordinates need three different columns");
+  return columns;
+}
+
+} // namespace pcl_uvol::io

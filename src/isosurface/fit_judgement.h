@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a fit through the samples around an isopoint is worth, and the isopoint that it
+// makes.
+#pragma once
+
+#include "derivatives/fit_kernel.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/smooth_roots.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The neighbourhood of one isopoint, beside what the fit is made from. Lengths
+ * are those of the stretched space. */
+struct Surroundings {
+  double edge_length;
+  double radius;      ///< of the support
+  double value_range; ///< of the fitted samples
+  double edge_span;   ///< part of the range between the values at the ends of the edge
+  bool has_steps;     ///< the values are labels
+  Position center;    ///< the linear root
+  IsoSupport support;
+};
+
+/** \brief Directions from an isopoint to samples, which the call makes unit vectors. */
+struct NeighborDirections {
+  float *x, *y, *z;
+  std::size_t count; ///< a multiple of cone_lanes
+};
+
+/** \brief Whether samples have two values only, or few that are whole numbers.
+ * \param values of all samples */
+bool
+areLabels(const std::vector<float>& values,
+          const std::uint32_t* neighbors,
+          std::size_t count);
+
+/** \brief What samples around an isopoint tell of a gap there.
+ * \param nearest distance of the nearest one */
+IsoSupport
+supportOf(const Surroundings& surroundings,
+          double nearest,
+          const NeighborDirections& directions);
+
+/** \brief Whether a lane's fit serves, and if not, why. */
+RootOutcome
+judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings);
+
+/** \brief Whether a fit in another metric moves its isopoint far from a jump: a short
+ * way in a metric may be a long one beside the edge it starts from.
+ * \param edge_length in the samples' own space */
+bool
+isFarFromJump(const FitResult& result,
+              std::size_t lane,
+              const Surroundings& surroundings,
+              double edge_length);
+
+/** \brief Turn the result of a lane back from a metric, to the space it was made in. */
+void
+leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result);
+
+/** \brief Make an isopoint what its fit says; one that the fit does not serve stays
+ * where it is. \param is_smooth whether it serves */
+void
+setIsopoint(const IsopointInput& input,
+            const FitResult& result,
+            std::size_t lane,
+            const Surroundings& surroundings,
+            bool is_smooth,
+            const IsoEdge& edge,
+            PointIso& point);
+
+} // namespace pcl_uvol

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nearest samples in metrics of all kinds, beside brute force.
+#include "src/neighbors/metric_finder.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+
+namespace {
+
+using pcl_uvol::MetricFinder;
+using pcl_uvol::Position;
+using pcl_uvol::SampleSet;
+
+constexpr std::size_t k = 41;
+
+SampleSet::ConstPtr
+makeSamples(const std::vector<Position>& positions)
+{
+  std::vector<std::uint32_t> all(positions.size());
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::Report report;
+  return SampleSet::build(
+      positions.front().x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
+}
+
+std::vector<Position>
+makePositions(const std::string& layout, std::size_t count)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+  std::vector<Position> positions;
+  for (std::size_t i = 0; i < count; ++i) {
+    Position x{{uniform(random), uniform(random), uniform(random)}};
+    if (layout == "sheets")
+      x[2] = static_cast<float>(i % 3);
+    else if (layout == "clusters")
+      x[0] += i % 2 == 0 ? 0.0f : 1000.0f;
+    else if (layout == "line")
+      x = {{x[0], 2.0f * x[0], -x[0]}};
+    else if (layout == "lattice")
+      x = {{static_cast<float>(i % 16),
+            static_cast<float>(i / 16 % 16),
+            4.0f * static_cast<float>(i / 256)}};
+    positions.push_back(x);
+  }
+  return positions;
+}
+
+/** Rotated, and stretched by up to 1 : ratio. */
+Eigen::Matrix3d
+makeMetric(double ratio, double angle)
+{
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 2.0, -0.5).normalized())
+          .toRotationMatrix();
+  return turn * Eigen::Vector3d(1.0, 1.0 / std::sqrt(ratio), 1.0 / ratio).asDiagonal() *
+         turn.transpose();
+}
+
+Eigen::Vector3d
+offset(const Position& from, const Position& to)
+{
+  return {static_cast<double>(to[0]) - from[0],
+          static_cast<double>(to[1]) - from[1],
+          static_cast<double>(to[2]) - from[2]};
+}
+
+/** Squared distances in the metric, ascending. */
+std::vector<double>
+sqDistances(const SampleSet& samples,
+            const Position& point,
+            const Eigen::Matrix3d& metric,
+            const std::vector<std::uint32_t>& of)
+{
+  std::vector<double> found;
+  for (const std::uint32_t i : of)
+    found.push_back((metric * offset(point, samples.getPositions()[i])).squaredNorm());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(MetricFinder, FindsTheNearestOfAllKinds)
+{
+  for (const std::string layout : {"cube", "sheets", "clusters", "line", "lattice"})
+    for (const std::size_t count : {1u, 41u, 100u, 3000u}) {
+      const auto samples = makeSamples(makePositions(layout, count));
+      std::vector<std::uint32_t> all(samples->size());
+      std::iota(all.begin(), all.end(), 0u);
+      MetricFinder finder(*samples, k);
+      std::mt19937 random(11);
+      std::uniform_real_distribution<float> uniform(-0.5f, 1.5f);
+      for (const double ratio : {1.0, 3.0, 30.0, 1e4})
+        for (const double angle : {0.0, 0.7})
+          for (int i = 0; i < 6; ++i) {
+            const Position& near = samples->getPositions()[static_cast<std::size_t>(
+                random() % samples->size())];
+            const float far = i == 5 ? 300.0f : 0.01f;
+            const Position point{{near[0] + far * uniform(random),
+                                  near[1] + far * uniform(random),
+                                  near[2] + far * uniform(random)}};
+            const Eigen::Matrix3d metric = makeMetric(ratio, angle);
+            const auto& found = finder.find(point, metric);
+            auto expected = sqDistances(*samples, point, metric, all);
+            expected.resize(std::min(k, expected.size()));
+            const auto sq_dists = sqDistances(*samples, point, metric, found);
+            ASSERT_EQ(expected.size(), sq_dists.size());
+            for (std::size_t j = 0; j < expected.size(); ++j)
+              ASSERT_NEAR(expected[j], sq_dists[j], 1e-12 * expected.back())
+                  << layout << ' ' << count << ' ' << ratio << ' ' << j;
+            EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+            double farthest = 0.0;
+            for (const std::uint32_t j : found)
+              farthest =
+                  std::max(farthest, offset(point, samples->getPositions()[j]).norm());
+            EXPECT_LE(farthest, finder.getReach() * (1.0 + 1e-12));
+          }
+    }
+}
+
+/** Of equally far samples those of lower index: all distances are exact here. */
+TEST(MetricFinder, TakesTheLowerIndicesOfEqualDistances)
+{
+  const auto samples = makeSamples(makePositions("lattice", 2048));
+  const Eigen::Matrix3d metric = Eigen::Vector3d(1.0, 1.0, 0.25).asDiagonal();
+  MetricFinder finder(*samples, k);
+  for (std::size_t at = 0; at < samples->size(); at += 97) {
+    const Position& point = samples->getPositions()[at];
+    std::vector<std::pair<double, std::uint32_t>> all;
+    for (std::uint32_t i = 0; i < samples->size(); ++i)
+      all.emplace_back(
+          (metric * offset(point, samples->getPositions()[i])).squaredNorm(), i);
+    std::sort(all.begin(), all.end());
+    std::vector<std::uint32_t> expected;
+    for (std::size_t i = 0; i < k; ++i)
+      expected.push_back(all[i].second);
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(expected, finder.find(point, metric));
+  }
+}
+
+} // namespace

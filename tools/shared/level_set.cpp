@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/level_set.h"
+
+#include "shared/options.h"
+
+#include <sstream>
+
+namespace uvol_tools {
+
+std::optional<double>
+parseMu(const std::string& text)
+{
+  if (text == "auto")
+    return std::nullopt;
+  const double mu = parseNumbers("mu", text, 1).front();
+  if (mu < 0.0 || mu > 1.0)
+    throw UsageError("-mu takes auto or a number from 0 to 1, but got " + text + ".");
+  return mu;
+}
+
+Facts
+describe(const pcl_uvol::LevelSetSummary& summary,
+         bool mu_is_automatic,
+         const std::string& of_isovalue)
+{
+  const auto text = [](auto... parts) {
+    std::ostringstream stream;
+    stream.precision(3);
+    (stream << ... << parts);
+    return stream.str();
+  };
+  if (!(summary.spacing > 0.0))
+    return {}; // there was no surface, and a warning says so
+  Facts facts = {
+      {"spacing" + of_isovalue,
+       text(summary.spacing, " (median at the surface)"),
+       summary.spacing},
+      {"noise" + of_isovalue, text(summary.noise, " spacings"), summary.noise}};
+  if (summary.steps.empty()) {
+    facts.emplace_back("level set" + of_isovalue,
+                       std::string("none: smoothing would not bring the surface nearer "
+                                   "to the true one, so the field is taken as it is") +
+                           (summary.smoothed ? " but for its outliers" : ""),
+                       Fact::Members());
+    return facts;
+  }
+  facts.emplace_back("mu" + of_isovalue,
+                     text(summary.mu,
+                          mu_is_automatic
+                              ? " (automatic: by the expected deviation; 1 follows the "
+                                "data, 0 only smooths)"
+                              : ""),
+                     summary.mu);
+  const auto& last = summary.steps.back();
+  facts.emplace_back(
+      "level set" + of_isovalue,
+      text(summary.converged ? "converged" : "not converged",
+           " after ",
+           summary.steps.size(),
+           " steps, moves by ",
+           last.change,
+           " spacings per unit of time, | |grad phi| - 1 | is ",
+           last.slope_error),
+      Fact::Members{{"converged", {summary.converged ? 1.0 : 0.0}},
+                    {"steps", {static_cast<double>(summary.steps.size())}},
+                    {"change", {last.change}},
+                    {"slope_error", {last.slope_error}}});
+  return facts;
+}
+
+} // namespace uvol_tools

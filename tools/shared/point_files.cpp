@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/point_files.h"
+
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace uvol_tools {
+
+void
+declareColumns(Options& options, std::string& columns)
+{
+  options.text("xyz",
+               "x,y,z",
+               columns,
+               "columns of a text file that hold the coordinates, by names or numbers "
+               "from 0 (default: by usual names)");
+}
+
+std::array<std::string, 3>
+parseColumns(const std::string& columns)
+{
+  std::array<std::string, 3> parsed;
+  if (columns.empty())
+    return parsed;
+  std::istringstream words(columns);
+  std::size_t count = 0;
+  for (std::string word; std::getline(words, word, ',');)
+    if (++count <= parsed.size())
+      parsed[count - 1] = word;
+  if (count != parsed.size() || columns.back() == ',' ||
+      std::find(parsed.begin(), parsed.end(), "") != parsed.end())
+    throw UsageError(
+        "-xyz takes three columns, as in -xyz lon,lat,depth or -xyz 0,1,2, "
+        "not " +
+        columns + ".");
+  return parsed;
+}
+
+pcl_uvol::Dataset
+loadPoints(const std::string& path,
+           pcl_uvol::Report& report,
+           const pcl_uvol::LoadOptions& options,
+           const std::string& where)
+{
+  const pcl_uvol::StepTimer timer(report, "read");
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, options);
+  report.warnings.insert(
+      report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
+  if (!where.empty())
+    report.count("removed_by_where", pcl_uvol::selectRows(dataset, where));
+  if (dataset.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument(
+        path + " has no points" + (where.empty() ? "." : " for which " + where + "."));
+  return dataset;
+}
+
+void
+savePoints(const std::string& path,
+           const pcl_uvol::Dataset& dataset,
+           const pcl_uvol::SaveOptions& options,
+           pcl_uvol::Report& report)
+{
+  const pcl_uvol::StepTimer timer(report, "write");
+  pcl_uvol::saveDataset(path, dataset, options);
+}
+
+} // namespace uvol_tools
