@@ -2,8 +2,8 @@
 #include "smooth_roots.h"
 
 #include "../derivatives/fit_kernel.h"
+#include "../neighbors/empty_cone.h"
 #include "../neighbors/local_metric.h"
-#include "empty_cone_kernel.h"
 #include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/nearest_finder.h>
@@ -51,10 +51,6 @@ constexpr double farthest_from_jump = 0.75;
  * little. */
 constexpr std::size_t most_labels = 4;
 
-/** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
- * Uniform samples leave no such cone at 99.8 % of the isopoints. */
-constexpr float empty_cone = 0.5446f;
-
 /** Of the radius of the support: a nearest sample that far away lies on the border of a
  * gap. */
 constexpr double empty_ball = 0.5;
@@ -75,35 +71,6 @@ constexpr double sure_stretching = 2.0;
 
 const KernelTable<FitKernel> fit_kernels{
     baseline::fitZeroLevel, avx2::fitZeroLevel, avx512::fitZeroLevel};
-const KernelTable<EmptyConeKernel> cone_kernels{
-    baseline::emptiestCone, avx2::emptiestCone, avx512::emptiestCone};
-
-/** The 74 directions of small whole numbers, about 15 degrees apart, and six of them
- * once more to fill the table. */
-struct ConeDirections {
-  alignas(64) float x[3][cone_directions];
-
-  ConeDirections()
-  {
-    std::size_t count = 0;
-    for (int a = -2; a <= 2; ++a)
-      for (int b = -2; b <= 2; ++b)
-        for (int c = -2; c <= 2; ++c) {
-          const int sq_length = a * a + b * b + c * c;
-          const bool primitive = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
-          if (!primitive || sq_length == 9)
-            continue;
-          const float length = std::sqrt(static_cast<float>(sq_length));
-          x[0][count] = static_cast<float>(a) / length;
-          x[1][count] = static_cast<float>(b) / length;
-          x[2][count++] = static_cast<float>(c) / length;
-        }
-    for (std::size_t i = 0; count < cone_directions; ++i, ++count)
-      for (auto& coordinate : x)
-        coordinate[count] = coordinate[i];
-  }
-};
-
 /** The neighbourhood of one isopoint, beside what the fit is made from. Lengths are
  * those of the stretched space. */
 struct Surroundings {
@@ -133,7 +100,6 @@ public:
       , metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
-      , cone_(cone_kernels.get())
       , isovalue_(isovalue)
   {
   }
@@ -402,10 +368,8 @@ private:
   IsoSupport
   supportOf(const Surroundings& surroundings, double nearest, std::size_t directions)
   {
-    static const ConeDirections cone_directions;
-    const float cosine = cone_(
-        cone_directions.x, direction_[0], direction_[1], direction_[2], directions);
-    if (cosine >= empty_cone && nearest <= empty_ball * surroundings.radius)
+    if (!cone_.isEmpty(direction_[0], direction_[1], direction_[2], directions) &&
+        nearest <= empty_ball * surroundings.radius)
       return IsoSupport::Measured;
     return surroundings.edge_length > bridging_edge * surroundings.radius
                ? IsoSupport::Bridged
@@ -536,7 +500,7 @@ private:
   std::vector<DoubtfulFit> doubtful_;
   std::vector<FitSample> samples_;
   FitKernel fit_;
-  EmptyConeKernel cone_;
+  EmptyCone cone_;
   float isovalue_;
 };
 
