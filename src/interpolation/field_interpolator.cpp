@@ -2,6 +2,7 @@
 #include "blended_fits.h"
 #include "common/parameter_json.h"
 #include "field_model.h"
+#include "natural_model.h"
 #include "neighbors/sample_values.h"
 #include "query_order.h"
 #include "simple_models.h"
@@ -36,6 +37,10 @@ makeModel(const SampledFields& sampled,
     return std::make_unique<NearestModel>(sampled);
   case InterpolationModel::Shepard:
     return std::make_unique<ShepardModel>(sampled, parameters.shepard);
+  case InterpolationModel::Sibson:
+    return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Sibson);
+  case InterpolationModel::Laplace:
+    return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Laplace);
   default:
     return std::make_unique<BlendedFits>(sampled, threads);
   }
@@ -153,11 +158,10 @@ struct FieldInterpolator::Group {
   scatter(const Estimates& answers,
           std::size_t from,
           std::size_t to,
-          bool extrapolate,
           InterpolatedFields& result) const
   {
     result.support[to] = weaker(result.support[to], answers.support[from]);
-    if (answers.support[from] == FieldSupport::Outside && !extrapolate)
+    if (answers.support[from] == FieldSupport::Outside && !answers.extrapolate)
       return;
     const Position& scale = sampled.samples->getUnit().scale;
     for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -181,7 +185,8 @@ namespace {
 class BlockAnswers {
 public:
   BlockAnswers(std::size_t fields, const InterpolationParameters& parameters)
-      : values_(block_queries * fields, none)
+      : extrapolate_(parameters.extrapolate)
+      , values_(block_queries * fields, none)
       , gradients_(parameters.gradients ? 3 * block_queries * fields : 0, none)
       , errors_(parameters.errors ? block_queries * fields : 0, none)
       , support_(block_queries, FieldSupport::Invalid)
@@ -194,9 +199,12 @@ public:
     return {values_.data(),
             gradients_.empty() ? nullptr : gradients_.data(),
             errors_.empty() ? nullptr : errors_.data(),
-            support_.data()};
+            support_.data(),
+            extrapolate_};
   }
 
+private:
+  bool extrapolate_;
   std::vector<double> values_, gradients_, errors_;
   std::vector<FieldSupport> support_;
 };
@@ -283,11 +291,7 @@ FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries
       BlockAnswers answers(group.fields.size(), parameters_);
       group.model->evaluate(block.data(), block.size(), answers.arrays());
       for (std::size_t i = begin; i < end; ++i)
-        group.scatter(answers.arrays(),
-                      i - begin,
-                      sources[order[i]],
-                      parameters_.extrapolate,
-                      result);
+        group.scatter(answers.arrays(), i - begin, sources[order[i]], result);
       step.advance(end - begin);
     });
     group.model->tell(report);

@@ -56,6 +56,7 @@ struct Estimates {
   double* gradients; ///< [query][field][axis], or null
   double* errors;    ///< [query][field], or null
   FieldSupport* support;
+  bool extrapolate = true; ///< false: answers outside of the data are not needed
 };
 
 /** \brief A model of fields between samples. What it answers to a query depends on that

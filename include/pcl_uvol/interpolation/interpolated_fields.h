@@ -23,8 +23,8 @@ enum class FieldSupport : std::uint8_t {
   Outside = 4,  ///< beside such a cone and far from the samples, or beyond their convex
                 ///< hull where the model ends there: no value unless extrapolated
   Reduced = 5,  ///< samples all around that do not determine the model, as on few
-               ///< planes: a simpler one
-  Invalid = 6 ///< no place: the coordinates are not finite, or too far out
+                ///< planes: a simpler one
+  Invalid = 6   ///< no place: the coordinates are not finite, or too far out
 };
 
 /** \brief Fields at queries. */

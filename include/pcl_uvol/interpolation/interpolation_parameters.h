@@ -25,15 +25,26 @@ enum class InterpolationModel {
   Nearest,
   /** The mean of the k nearest samples, weighted by a power of their inverse distance
    * (Shepard 1968): passes through the samples, flat there. */
-  Shepard
+  Shepard,
+  /** Sibson's natural-neighbour coordinates (1981): passes through the samples, smooth
+   * between them, exact for linear functions; no values outside of their convex hull.
+   */
+  Sibson,
+  /** Laplace's natural-neighbour coordinates (Belikov et al. 1997): the same with bends
+   * where neighbours change; cheaper without gradients, which are made by differences.
+   */
+  Laplace
 };
 
-constexpr std::array<EnumWord<InterpolationModel>, 3>
+constexpr std::array<EnumWord<InterpolationModel>, 6>
 listWords(InterpolationModel)
 {
   return {{{InterpolationModel::Fit, "fit"},
            {InterpolationModel::Nearest, "nearest"},
-           {InterpolationModel::Shepard, "shepard"}}};
+           {InterpolationModel::Shepard, "shepard"},
+           {InterpolationModel::Sibson, "natural"},
+           {InterpolationModel::Laplace, "laplace"},
+           {InterpolationModel::Sibson, "sibson"}}};
 }
 
 /** \brief Parameters of InterpolationModel::Shepard. */
