@@ -2,6 +2,7 @@
 #include "blended_fits.h"
 #include "common/parameter_json.h"
 #include "field_model.h"
+#include "kriging_model.h"
 #include "natural_model.h"
 #include "neighbors/sample_values.h"
 #include "query_order.h"
@@ -30,6 +31,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 std::unique_ptr<FieldModel>
 makeModel(const SampledFields& sampled,
           const InterpolationParameters& parameters,
+          const std::vector<ValueFrame>& frames,
+          const std::vector<std::string>& names,
           unsigned threads)
 {
   switch (parameters.model) {
@@ -41,6 +44,8 @@ makeModel(const SampledFields& sampled,
     return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Sibson);
   case InterpolationModel::Laplace:
     return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Laplace);
+  case InterpolationModel::Kriging:
+    return std::make_unique<KrigingModel>(sampled, parameters.kriging, frames, names);
   default:
     return std::make_unique<BlendedFits>(sampled, threads);
   }
@@ -93,6 +98,7 @@ struct FieldInterpolator::Group {
   void
   build(const CloudView& cloud,
         const InterpolationParameters& parameters,
+        const std::vector<std::string>& names,
         unsigned threads,
         Report& report)
   {
@@ -104,7 +110,10 @@ struct FieldInterpolator::Group {
                                        report);
     gatherValues(threads, report);
     columns.clear();
-    model = makeModel(sampled, parameters, threads);
+    std::vector<std::string> own_names;
+    for (const std::size_t field : fields)
+      own_names.push_back(names[field]);
+    model = makeModel(sampled, parameters, frames, own_names, threads);
   }
 
   /** Values into leaf order; a merged sample takes the lower median of its members'. */
@@ -256,7 +265,7 @@ FieldInterpolator::FieldInterpolator(const CloudView& cloud,
     group.columns.push_back(std::move(values));
   }
   for (Group& group : groups_)
-    group.build(cloud, parameters, threads, report);
+    group.build(cloud, parameters, names_, threads, report);
 }
 
 FieldInterpolator::~FieldInterpolator() = default;

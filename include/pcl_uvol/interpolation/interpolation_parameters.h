@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -33,10 +34,14 @@ enum class InterpolationModel {
   /** Laplace's natural-neighbour coordinates (Belikov et al. 1997): the same with bends
    * where neighbours change; cheaper without gradients, which are made by differences.
    */
-  Laplace
+  Laplace,
+  /** Kriging in moving neighbourhoods, ordinary or with a trend: the best linear
+   * unbiased estimate for fields as rough as the variogram says, with its standard
+   * deviation. */
+  Kriging
 };
 
-constexpr std::array<EnumWord<InterpolationModel>, 6>
+constexpr std::array<EnumWord<InterpolationModel>, 7>
 listWords(InterpolationModel)
 {
   return {{{InterpolationModel::Fit, "fit"},
@@ -44,8 +49,68 @@ listWords(InterpolationModel)
            {InterpolationModel::Shepard, "shepard"},
            {InterpolationModel::Sibson, "natural"},
            {InterpolationModel::Laplace, "laplace"},
+           {InterpolationModel::Kriging, "kriging"},
            {InterpolationModel::Sibson, "sibson"}}};
 }
+
+/** \brief How values that are h apart are correlated, with the range a. */
+enum class VariogramKind {
+  Spherical,   ///< 1 - 1.5 h / a + 0.5 (h / a)^3, 0 beyond a (default)
+  Exponential, ///< exp(-h / a)
+  Gaussian,    ///< exp(-(h / a)^2): very smooth fields
+  Matern32,    ///< smoothness 3/2: differentiable once
+  Matern52     ///< smoothness 5/2: differentiable twice
+};
+
+constexpr std::array<EnumWord<VariogramKind>, 6>
+listWords(VariogramKind)
+{
+  return {{{VariogramKind::Spherical, "spherical"},
+           {VariogramKind::Exponential, "exponential"},
+           {VariogramKind::Gaussian, "gaussian"},
+           {VariogramKind::Matern32, "matern32"},
+           {VariogramKind::Matern52, "matern52"},
+           {VariogramKind::Matern32, "matern"}}};
+}
+
+/** \brief Parameters of InterpolationModel::Kriging. */
+struct PCL_UVOL_EXPORTS KrigingParameters {
+  VariogramKind variogram = VariogramKind::Spherical;
+  /** Nugget and sill (without the nugget) in squared units of the field, >= 0, and
+   * range in units of length, > 0; NaN (default): fitted to the samples, for every
+   * field. @{ */
+  double nugget = std::numeric_limits<double>::quiet_NaN();
+  double sill = std::numeric_limits<double>::quiet_NaN();
+  double range = std::numeric_limits<double>::quiet_NaN();
+  /** @} */
+  /** Ranges along the axes of the anisotropy by that of the variogram, > 0. */
+  Eigen::Array3f ratios{1.0f, 1.0f, 1.0f};
+  /** Angles in degrees that turn the axes of the coordinates into those of the
+   * anisotropy: about z, then about the new x, then about the new z. */
+  Eigen::Array3f rotation{0.0f, 0.0f, 0.0f};
+  /** Samples of a neighbourhood: the nearest by the ellipsoid of the anisotropy, all
+   * where there are fewer; 1 to 512. */
+  std::size_t k = 32;
+  /** Take an eighth of them from each octant, of four times as many nearest ones. */
+  bool octants = false;
+  /** Degree of the polynomial that the mean is: 0 (ordinary kriging), 1 or 2. */
+  int trend = 0;
+
+  static auto
+  listMembers()
+  {
+    using Own = KrigingParameters;
+    return std::make_tuple(Member{"variogram", &Own::variogram},
+                           Member{"nugget", &Own::nugget},
+                           Member{"sill", &Own::sill},
+                           Member{"range", &Own::range},
+                           Member{"ratios", &Own::ratios},
+                           Member{"rotation", &Own::rotation},
+                           Member{"k", &Own::k},
+                           Member{"octants", &Own::octants},
+                           Member{"trend", &Own::trend});
+  }
+};
 
 /** \brief Parameters of InterpolationModel::Shepard. */
 struct PCL_UVOL_EXPORTS ShepardParameters {
@@ -79,6 +144,7 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
    * space, queries and gradients belong to the original one. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
   ShepardParameters shepard;
+  KrigingParameters kriging;
 
   static auto
   listMembers()
@@ -90,7 +156,8 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
                            Member{"gradients", &Own::gradients},
                            Member{"errors", &Own::errors},
                            Member{"scale", &Own::scale},
-                           Member{"shepard", &Own::shepard});
+                           Member{"shepard", &Own::shepard},
+                           Member{"kriging", &Own::kriging});
   }
 
   std::string
