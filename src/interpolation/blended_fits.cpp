@@ -69,7 +69,7 @@ public:
     buckets_.clear();
     const std::size_t most =
         end - begin == 1 ? std::numeric_limits<std::size_t>::max() : most_buckets;
-    if (!fits_.findReaching(low, high, 1.0, most, buckets_)) {
+    if (!fits_.getBalls().findReaching(low, high, 1.0, most, buckets_)) {
       const std::size_t middle = begin + (end - begin) / 2;
       answer(begin, middle);
       answer(middle, end);
@@ -106,7 +106,7 @@ private:
     const std::vector<Position>& positions = sampled_.samples->getPositions();
     candidates.clear();
     for (const std::uint32_t bucket : buckets_) {
-      const std::uint32_t first = fits_.getBuckets()[bucket].begin;
+      const std::uint32_t first = fits_.getBalls().getBuckets()[bucket].begin;
       const BucketFits& fits = fits_.getFits(bucket);
       for (std::size_t i = 0; i < fits.radius.size(); ++i) {
         const Position& center = positions[first + i];
@@ -200,7 +200,7 @@ private:
   {
     const Corner at{query.x[0], query.x[1], query.x[2]};
     buckets_.clear();
-    fits_.findReaching(
+    fits_.getBalls().findReaching(
         at, at, wide_ball, std::numeric_limits<std::size_t>::max(), buckets_);
     collect(at, at, wide_ball, wide_);
     const double missing = 1.0 - sum_.getWeight() / thin_weight;
@@ -217,8 +217,8 @@ private:
   {
     NearestFinder finder(*sampled_.samples, 1);
     const std::uint32_t nearest = finder.find(query.toPosition(), 1.0f).samples[0];
-    const std::size_t bucket = fits_.bucketOf(nearest);
-    const std::size_t place = nearest - fits_.getBuckets()[bucket].begin;
+    const std::size_t bucket = fits_.getBalls().bucketOf(nearest);
+    const std::size_t place = nearest - fits_.getBalls().getBuckets()[bucket].begin;
     const BucketFits& fits = fits_.getFits(bucket);
     PolynomialSum::Part part{polynomialOf(fits, place), 1.0, {}, {}};
     const Position& center = sampled_.samples->getPositions()[nearest];

@@ -2,6 +2,7 @@
 #include "blended_fits.h"
 #include "common/parameter_json.h"
 #include "field_model.h"
+#include "kernel_sums.h"
 #include "kriging_model.h"
 #include "natural_model.h"
 #include "neighbors/sample_values.h"
@@ -33,6 +34,7 @@ makeModel(const SampledFields& sampled,
           const InterpolationParameters& parameters,
           const std::vector<ValueFrame>& frames,
           const std::vector<std::string>& names,
+          const CloudView& cloud,
           unsigned threads)
 {
   switch (parameters.model) {
@@ -46,6 +48,12 @@ makeModel(const SampledFields& sampled,
     return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Laplace);
   case InterpolationModel::Kriging:
     return std::make_unique<KrigingModel>(sampled, parameters.kriging, frames, names);
+  case InterpolationModel::Sph:
+    return std::make_unique<KernelSums>(
+        sampled,
+        parameters.sph,
+        readParticles(cloud, *sampled.samples, parameters.sph),
+        threads);
   default:
     return std::make_unique<BlendedFits>(sampled, threads);
   }
@@ -113,7 +121,7 @@ struct FieldInterpolator::Group {
     std::vector<std::string> own_names;
     for (const std::size_t field : fields)
       own_names.push_back(names[field]);
-    model = makeModel(sampled, parameters, frames, own_names, threads);
+    model = makeModel(sampled, parameters, frames, own_names, cloud, threads);
   }
 
   /** Values into leaf order; a merged sample takes the lower median of its members'. */

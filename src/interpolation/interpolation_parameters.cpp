@@ -81,6 +81,10 @@ checkParameters(const InterpolationParameters& parameters)
         shepard.power,
         "finite and positive");
   check(parameters.kriging);
+  check(parameters.sph.k >= 1,
+        "number of the neighbour at which a kernel ends",
+        static_cast<double>(parameters.sph.k),
+        "at least 1");
 }
 
 } // namespace pcl_uvol

@@ -82,4 +82,16 @@ WeightedSum::finish(std::size_t query, const Estimates& estimates) const
   }
 }
 
+void
+WeightedSum::finishSum(std::size_t query, const Estimates& estimates) const
+{
+  finish(query, estimates);
+  for (std::size_t field = 0; field < fields_; ++field) {
+    const std::size_t place = query * fields_ + field;
+    estimates.values[place] = reference_[field] + sums_[field];
+    if (estimates.gradients)
+      std::copy_n(&gradients_[3 * field], 3, estimates.gradients + 3 * place);
+  }
+}
+
 } // namespace pcl_uvol::detail

@@ -57,6 +57,17 @@ public:
   void
   finish(std::size_t query, const Estimates& estimates) const;
 
+  /** \brief The same without dividing, for sums relative to zero; the error stays that
+   * of the mean. */
+  void
+  finishSum(std::size_t query, const Estimates& estimates) const;
+
+  const double*
+  getReference() const
+  {
+    return reference_;
+  }
+
 private:
   std::size_t fields_;
   double weight_ = 0.0;

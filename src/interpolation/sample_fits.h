@@ -3,10 +3,9 @@
 // first asked for, and kept.
 #pragma once
 
+#include "ball_tree.h"
 #include "field_model.h"
-#include <pcl_uvol/neighbors/kd_tree.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -34,57 +33,26 @@ public:
   /** \param sampled must outlive the fits */
   SampleFits(const SampledFields& sampled, unsigned threads);
 
-  /** \brief Consecutive samples whose fits are made together. */
-  struct Bucket {
-    std::uint32_t begin, count;
-    KdBox box;
-    double reach; ///< no ball of its samples is larger
-  };
-
-  const std::vector<Bucket>&
-  getBuckets() const
+  /** \brief The balls in which fits have a weight. */
+  const BallTree&
+  getBalls() const
   {
-    return buckets_;
+    return balls_;
   }
-
-  /** \brief The bucket that holds a sample. */
-  std::size_t
-  bucketOf(std::uint32_t sample) const;
 
   const BucketFits&
   getFits(std::size_t bucket) const;
-
-  /** \brief Append the buckets of which a ball, its radius times a factor, may reach
-   * into a box, ascending; false, and not all of them, if they are more than most. */
-  bool
-  findReaching(const std::array<double, 3>& low,
-               const std::array<double, 3>& high,
-               double factor,
-               std::size_t most,
-               std::vector<std::uint32_t>& buckets) const;
 
   /** \brief Samples so far whose fits are of lower degree. */
   std::uint64_t
   countReduced() const;
 
 private:
-  /** Buckets below a node of the tree, and the largest reach among them. */
-  struct Node {
-    KdBox box;
-    double reach;
-    std::uint32_t bucket;      ///< of a leaf
-    std::uint32_t left, right; ///< 0: a leaf
-  };
-
-  std::uint32_t
-  addNode(const KdNode& node);
-
   double
-  boundReach(const Bucket& bucket) const;
+  boundReach(const BallTree::Bucket& bucket) const;
 
   const SampledFields& sampled_;
-  std::vector<Bucket> buckets_;
-  std::vector<Node> nodes_;
+  BallTree balls_;
   mutable std::vector<std::unique_ptr<const BucketFits>> fits_;
   mutable std::vector<std::once_flag> once_;
 };

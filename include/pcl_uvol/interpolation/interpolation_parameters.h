@@ -38,10 +38,13 @@ enum class InterpolationModel {
   /** Kriging in moving neighbourhoods, ordinary or with a trend: the best linear
    * unbiased estimate for fields as rough as the variogram says, with its standard
    * deviation. */
-  Kriging
+  Kriging,
+  /** Sums of smoothing kernels over particles with their own smoothing lengths and
+   * masses. */
+  Sph
 };
 
-constexpr std::array<EnumWord<InterpolationModel>, 7>
+constexpr std::array<EnumWord<InterpolationModel>, 8>
 listWords(InterpolationModel)
 {
   return {{{InterpolationModel::Fit, "fit"},
@@ -50,6 +53,7 @@ listWords(InterpolationModel)
            {InterpolationModel::Sibson, "natural"},
            {InterpolationModel::Laplace, "laplace"},
            {InterpolationModel::Kriging, "kriging"},
+           {InterpolationModel::Sph, "sph"},
            {InterpolationModel::Sibson, "sibson"}}};
 }
 
@@ -127,6 +131,57 @@ struct PCL_UVOL_EXPORTS ShepardParameters {
   }
 };
 
+/** \brief Kernels of smoothed particles; of r / h, see Price (2012) and Dehnen and Aly
+ * (2012). */
+enum class SphKernel {
+  CubicSpline, ///< M4, ends at 2 h (default)
+  Quartic,     ///< M5, ends at 2.5 h
+  Quintic,     ///< M6, ends at 3 h
+  WendlandC2,  ///< ends at 2 h, as the other two
+  WendlandC4,
+  WendlandC6
+};
+
+constexpr std::array<EnumWord<SphKernel>, 6>
+listWords(SphKernel)
+{
+  return {{{SphKernel::CubicSpline, "cubic"},
+           {SphKernel::Quartic, "quartic"},
+           {SphKernel::Quintic, "quintic"},
+           {SphKernel::WendlandC2, "wendland2"},
+           {SphKernel::WendlandC4, "wendland4"},
+           {SphKernel::WendlandC6, "wendland6"}}};
+}
+
+/** \brief Parameters of InterpolationModel::Sph. */
+struct PCL_UVOL_EXPORTS SphParameters {
+  SphKernel kernel = SphKernel::CubicSpline;
+  /** Divide by the same sum of ones: constants stay what they are. */
+  bool normalized = true;
+  /** Field of the smoothing lengths h, in units of length. Where it is empty, and for
+   * particles without a positive value, the kernel ends at the k-th nearest neighbour.
+   */
+  std::string length_field;
+  /** Field of the masses; empty: all are equal. */
+  std::string mass_field;
+  /** Field of the densities; empty: from positions and masses. */
+  std::string density_field;
+  /** See length_field; at least 1. */
+  std::size_t k = 48;
+
+  static auto
+  listMembers()
+  {
+    using Own = SphParameters;
+    return std::make_tuple(Member{"kernel", &Own::kernel},
+                           Member{"normalized", &Own::normalized},
+                           Member{"length_field", &Own::length_field},
+                           Member{"mass_field", &Own::mass_field},
+                           Member{"density_field", &Own::density_field},
+                           Member{"k", &Own::k});
+  }
+};
+
 /** \brief Parameters of FieldInterpolation. */
 struct PCL_UVOL_EXPORTS InterpolationParameters {
   /** Fields to interpolate, see ScalarField; empty: the one of
@@ -145,6 +200,7 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
   ShepardParameters shepard;
   KrigingParameters kriging;
+  SphParameters sph;
 
   static auto
   listMembers()
@@ -157,7 +213,8 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
                            Member{"errors", &Own::errors},
                            Member{"scale", &Own::scale},
                            Member{"shepard", &Own::shepard},
-                           Member{"kriging", &Own::kriging});
+                           Member{"kriging", &Own::kriging},
+                           Member{"sph", &Own::sph});
   }
 
   std::string
