@@ -122,8 +122,8 @@ TEST(KernelSums, AreSumsOverAllParticles)
 }
 
 /** Without lengths, masses and densities: kernels that end at the k-th neighbour, and
- * sums of ones that are about one among random particles, less by what each of them adds
- * to its own density. */
+ * sums of ones that are about one among random particles, less by what each of them
+ * adds to its own density. */
 TEST(KernelSums, CompletesWhatParticlesLack)
 {
   Case at(4000);
