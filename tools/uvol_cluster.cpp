@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clusters of samples by their attributes, and surfaces around them (thesis 2.6).
-#include "common/attribute_options.h"
-#include "common/memory_guard.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
-#include "common/scale_option.h"
+#include "common/scalar_field.h"
+#include "io/table_file.h"
+#include "isosurface/memory_need.h"
+#include "multivariate/memory_need.h"
+#include "shared/attribute_options.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/table_file.h>
-#include <pcl_uvol/isosurface/memory_need.h>
+#include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
-#include <pcl_uvol/multivariate/membership.h>
-#include <pcl_uvol/multivariate/memory_need.h>
+#include <pcl_uvol/neighbors/voronoi_grid.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
@@ -30,9 +31,9 @@ namespace {
 
 using pcl_uvol::Dataset;
 using pcl_uvol::Report;
+using uvol_tools::Facts;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
-using Facts = std::vector<std::pair<std::string, std::string>>;
 
 struct Arguments {
   std::string input, output, where, scale, label, tree, surface, probability, smoothing;
@@ -163,7 +164,8 @@ writeTree(const std::string& path, const std::vector<pcl_uvol::ClusterNode>& tre
   pcl_uvol::saveTable(path, table.str());
 }
 
-/** Finds clusters and adds the fields label and probability. \param tree set */
+/** Finds clusters and adds the fields label and probability.
+ * \param tree set */
 std::vector<std::int32_t>
 findClusters(const Options& options,
              const Arguments& arguments,
@@ -184,11 +186,11 @@ findClusters(const Options& options,
 }
 
 std::vector<std::int32_t>
-labelsOf(const Options& options,
-         const Arguments& arguments,
-         Dataset& dataset,
-         std::vector<pcl_uvol::ClusterNode>& tree,
-         Report& report)
+findLabels(const Options& options,
+           const Arguments& arguments,
+           Dataset& dataset,
+           std::vector<pcl_uvol::ClusterNode>& tree,
+           Report& report)
 {
   if (arguments.attributes.areGiven())
     return findClusters(options, arguments, dataset, tree, report);
@@ -200,13 +202,28 @@ labelsOf(const Options& options,
   return uvol_tools::readLabels(cloud, field);
 }
 
+/** How far every point belongs to the chosen cluster. */
 std::vector<float>
-readField(const pcl_uvol::CloudView& cloud, const std::string& name)
+computeMembership(const Options& options,
+                  const Arguments& arguments,
+                  const Dataset& dataset,
+                  const std::vector<std::int32_t>& labels,
+                  Report& report)
 {
-  const pcl_uvol::ScalarField field(cloud.fields, name);
-  std::vector<float> values(cloud.count);
-  for (std::size_t i = 0; i < cloud.count; ++i)
-    values[i] = static_cast<float>(field.read(cloud.point(i)));
+  pcl_uvol::ClusterMembership<pcl::PCLPointCloud2> membership;
+  membership.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  pcl_uvol::MembershipParameters parameters;
+  parameters.cluster = static_cast<int>(arguments.cluster[0]);
+  parameters.probability = arguments.probability;
+  parameters.smoothing_length = arguments.smoothing;
+  membership.setParameters(parameters);
+  membership.setLabels(labels);
+  membership.setNumberOfThreads(options.threads());
+  membership.setProgressCallback(report.progress);
+  std::vector<float> values;
+  membership.compute(values);
+  report.merge(membership.getReport());
   return values;
 }
 
@@ -215,38 +232,17 @@ Dataset
 membershipSurface(const Options& options,
                   const Arguments& arguments,
                   const Dataset& dataset,
-                  std::vector<float> members,
+                  const std::vector<float>& members,
                   Report& report)
 {
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  if (!arguments.probability.empty()) {
-    // Of other clusters it tells nothing about this one.
-    const auto probabilities = readField(cloud, arguments.probability);
-    if (std::any_of(probabilities.begin(), probabilities.end(), [](float value) {
-          return value < 0.0f || value > 1.0f;
-        }))
-      throw pcl_uvol::InvalidArgument("The field " + arguments.probability +
-                                      " has values outside [0, 1]: it holds no "
-                                      "probabilities.");
-    std::transform(members.begin(),
-                   members.end(),
-                   probabilities.begin(),
-                   members.begin(),
-                   std::multiplies<float>());
-  }
   const bool is_smooth = !arguments.smoothing.empty();
-  if (is_smooth)
-    members = pcl_uvol::smoothMembership(cloud,
-                                         members,
-                                         readField(cloud, arguments.smoothing),
-                                         options.threads(),
-                                         report);
   Dataset with_field = dataset;
   pcl_uvol::setField(with_field, "membership", members);
   pcl_uvol::IsosurfacePipelineParameters parameters;
   parameters.isosurface.field = "membership";
   parameters.isosurface.isovalues = {0.5};
-  parameters.isosurface.scale = arguments.stretch->scaleOf(cloud);
+  parameters.isosurface.scale = arguments.stretch->resolveScale(cloud);
   parameters.isosurface.interpolation =
       is_smooth ? pcl_uvol::Interpolation::Fit : pcl_uvol::Interpolation::Linear;
   parameters.normals = pcl_uvol::NormalMethod::Edge;
@@ -277,28 +273,27 @@ enclose(const Options& options,
         const std::vector<std::uint32_t>& members,
         Report& report)
 {
-  using Kind = pcl_uvol::ClusterSurfaceKind;
-  pcl_uvol::ClusterSurfaceSettings settings;
-  settings.cells = static_cast<std::uint32_t>(arguments.grid);
-  settings.distance = arguments.distance;
-  settings.threads = options.threads();
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  const Eigen::Array3f scale = arguments.stretch->scaleOf(cloud);
-  settings.scale = {{scale[0], scale[1], scale[2]}};
-  return pcl_uvol::makeClusterSurface(
-      cloud,
-      members,
-      std::map<std::string, Kind>{
-          {"distance", Kind::Distance},
-          {"hull", Kind::Hull},
-          {"hull-distance", Kind::HullDistance}}[arguments.surface],
-      settings,
-      report);
+  pcl_uvol::ClusterSurfaceGeneration<pcl::PCLPointCloud2> generation;
+  generation.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  generation.setIndices(std::make_shared<pcl::Indices>(members.begin(), members.end()));
+  pcl_uvol::ClusterSurfaceParameters parameters;
+  fromWord(arguments.surface, parameters.kind);
+  parameters.cells = static_cast<std::uint32_t>(arguments.grid);
+  parameters.distance = arguments.distance;
+  parameters.scale = arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud));
+  generation.setParameters(parameters);
+  generation.setNumberOfThreads(options.threads());
+  generation.setProgressCallback(report.progress);
+  pcl_uvol::ClusterSurface surface;
+  generation.compute(surface);
+  report.merge(generation.getReport());
+  return surface;
 }
 
 /** Vertices of hulls carry the fields of their points. */
 Dataset
-verticesOf(const Dataset& dataset, const pcl_uvol::ClusterSurface& surface)
+makeVertices(const Dataset& dataset, const pcl_uvol::ClusterSurface& surface)
 {
   Dataset vertices = pcl_uvol::toDataset(surface.mesh);
   vertices.origin = dataset.origin;
@@ -319,13 +314,12 @@ writeCluster(const Options& options,
 {
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
-  const std::vector<float> is_member =
-      pcl_uvol::membership(labels, static_cast<std::int32_t>(arguments.cluster[0]));
+  const std::vector<float> membership =
+      computeMembership(options, arguments, dataset, labels, report);
   std::vector<std::uint32_t> members;
-  for (std::uint32_t i = 0; i < is_member.size(); ++i)
-    if (is_member[i] > 0.0f)
+  for (std::uint32_t i = 0; i < labels.size(); ++i)
+    if (labels[i] == static_cast<std::int32_t>(arguments.cluster[0]))
       members.push_back(i);
-  report.count("cluster_points", members.size());
   if (arguments.surface.empty()) {
     uvol_tools::savePoints(
         arguments.output, uvol_tools::takePoints(dataset, members), save, report);
@@ -336,17 +330,15 @@ writeCluster(const Options& options,
                                     "in: uvol_project gives it some.");
   if (!isMesh(arguments)) {
     const Dataset surface =
-        membershipSurface(options, arguments, dataset, is_member, report);
+        membershipSurface(options, arguments, dataset, membership, report);
     uvol_tools::savePoints(arguments.output, surface, save, report);
     return;
   }
   const auto surface = enclose(options, arguments, dataset, members, report);
-  std::ostringstream distance;
-  distance << surface.distance;
-  facts.emplace_back("distance", distance.str());
+  facts.emplace_back("distance", surface.distance);
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveMesh(
-      arguments.output, verticesOf(dataset, surface), surface.mesh.triangles, save);
+      arguments.output, makeVertices(dataset, surface), surface.mesh.triangles, save);
 }
 
 /** "0: 812, 1: 77, noise: 5". */
@@ -377,7 +369,7 @@ describeSizes(const std::vector<std::int32_t>& labels)
 /** What the tool holds beside the points; grids of surfaces are looked at when their
  * size is known. */
 uvol_tools::MemoryGuard::Work
-memoryOf(const Arguments& arguments)
+forecastMemory(const Arguments& arguments)
 {
   return [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
     constexpr double number_bytes = 4.0; // of an index, a label, a probability
@@ -422,7 +414,7 @@ run(int argc, char** argv)
   check(options, arguments);
   uvol_tools::MemoryGuard memory("Clustering");
   memory.checkFile(arguments.input,
-                   arguments.where.empty() ? memoryOf(arguments) : nullptr);
+                   arguments.where.empty() ? forecastMemory(arguments) : nullptr);
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -430,9 +422,9 @@ run(int argc, char** argv)
   Dataset dataset = uvol_tools::loadPoints(
       arguments.input, report, uvol_tools::withoutPositions(), arguments.where);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
-  memory.checkCloud(dataset, memoryOf(arguments));
+  memory.checkCloud(dataset, forecastMemory(arguments));
   std::vector<pcl_uvol::ClusterNode> tree;
-  const auto labels = labelsOf(options, arguments, dataset, tree, report);
+  const auto labels = findLabels(options, arguments, dataset, tree, report);
   Facts facts = {{"input", arguments.input},
                  {"output", arguments.output},
                  {"clusters", describeSizes(labels)}};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Test data: analytic fields, resampled volumes, points on meshes.
-#include "common/options.h"
-#include "common/point_files.h"
-#include <pcl_uvol/common/analytic_fields.h>
+#include "common/parallel.h"
+#include "common/random.h"
+#include "generation/analytic_fields.h"
+#include "generation/mesh_scatter.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
@@ -87,7 +88,7 @@ fillValues(pcl_uvol::Dataset& dataset,
 }
 
 pcl_uvol::Scatter
-scatterOf(const std::string& name)
+parseScatter(const std::string& name)
 {
   return name == "uniform"    ? pcl_uvol::Scatter::Uniform
          : name == "jittered" ? pcl_uvol::Scatter::Jittered
@@ -99,7 +100,7 @@ pcl_uvol::Dataset
 generateField(const Arguments& arguments, unsigned threads)
 {
   const auto& field = pcl_uvol::findAnalyticField(arguments.field);
-  const auto scatter = scatterOf(arguments.scatter);
+  const auto scatter = parseScatter(arguments.scatter);
   const std::uint64_t n = pcl_uvol::scatterCount(scatter, arguments.n);
   // The thesis's test keeps the mean spacing at 1, whatever the number of samples.
   const double factor =

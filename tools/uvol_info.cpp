@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file of samples or a volume holds, before work is done with it.
-#include "common/options.h"
+#include "common/scalar_field.h"
+#include "pipeline/dataset_info.h"
+#include "shared/options.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/dataset_info.h>
 #include <pcl_uvol/io/volume.h>
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 namespace {
 
-using Facts = std::vector<std::pair<std::string, std::string>>;
 using pcl_uvol::Report;
 using pcl_uvol::ValueStatistics;
+using uvol_tools::Fact;
+using uvol_tools::Facts;
+using uvol_tools::toNumbers;
 
 struct Arguments {
   std::string input, field, where;
@@ -36,7 +39,7 @@ joined(const Numbers& numbers, const char* separator)
 }
 
 std::string
-rangeOf(const ValueStatistics& statistics)
+findRange(const ValueStatistics& statistics)
 {
   if (statistics.finite == 0)
     return "no finite value";
@@ -45,6 +48,23 @@ rangeOf(const ValueStatistics& statistics)
   if (statistics.missing > 0)
     text << ", " << statistics.missing << " missing";
   return text.str();
+}
+
+/** The range of values as a fact of that name. */
+Fact
+describeRange(const std::string& name, const ValueStatistics& statistics)
+{
+  const bool is_known = statistics.finite > 0;
+  const auto number = [&](double value) {
+    return is_known ? Fact::Numbers{value}
+                    : Fact::Numbers{std::numeric_limits<double>::quiet_NaN()};
+  };
+  return {name,
+          findRange(statistics),
+          Fact::Members{{"min", number(statistics.min)},
+                        {"max", number(statistics.max)},
+                        {"mean", number(statistics.mean)},
+                        {"missing", {static_cast<double>(statistics.missing)}}}};
 }
 
 /** A bar per bin, as long as its share of the fullest one. */
@@ -62,17 +82,21 @@ addHistogram(const ValueStatistics& statistics, Facts& facts)
     const std::uint64_t count = statistics.histogram[bin];
     const auto length = static_cast<std::size_t>(longest * static_cast<double>(count) /
                                                  static_cast<double>(fullest));
-    facts.emplace_back(from.str(),
-                       std::string(length, '#') + (length > 0 ? " " : "") +
-                           std::to_string(count));
+    facts.push_back(
+        Fact(from.str(),
+             std::string(length, '#') + (length > 0 ? " " : "") + std::to_string(count))
+            .withoutJson());
     if (width == 0.0)
       break;
   }
-  if (!statistics.isovalues.empty())
-    facts.emplace_back(
-        "suggested isovalues (quantiles 0.25, 0.5, 0.75, 0.95 of the values "
-        "between the extremes)",
-        joined(statistics.isovalues, ","));
+  facts.emplace_back("histogram", "", toNumbers(statistics.histogram));
+  if (statistics.isovalues.empty())
+    return;
+  facts.push_back(Fact("suggested isovalues (quantiles 0.25, 0.5, 0.75, 0.95 of the "
+                       "values between the extremes)",
+                       joined(statistics.isovalues, ","))
+                      .withoutJson());
+  facts.emplace_back("isovalues", "", statistics.isovalues);
 }
 
 Facts
@@ -80,12 +104,14 @@ describeVolume(const std::string& path, Report& report)
 {
   const pcl_uvol::Volume volume = pcl_uvol::loadVolume(path);
   Facts facts{{"file", path},
-              {"size", joined(volume.dims, " x ")},
-              {"spacing", joined(volume.spacing, " ")},
-              {"origin", joined(volume.origin, " ")}};
+              {"size", joined(volume.dims, " x "), toNumbers(volume.dims)},
+              {"spacing", joined(volume.spacing, " "), toNumbers(volume.spacing)},
+              {"origin", joined(volume.origin, " "), toNumbers(volume.origin)}};
   const auto statistics = pcl_uvol::describeValues(
       std::vector<double>(volume.values.begin(), volume.values.end()));
-  facts.emplace_back(volume.name, rangeOf(statistics));
+  const Fact range = describeRange(volume.name, statistics);
+  facts.push_back(range.withoutJson());
+  facts.emplace_back("ranges", Facts{range});
   addHistogram(statistics, facts);
   report.count("points", volume.values.size());
   return facts;
@@ -124,6 +150,7 @@ void
 addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
 {
   std::size_t numbers = 0;
+  Facts ranges;
   for (const auto& field : dataset.cloud.fields)
     if (field.name != "x" && field.name != "y" && field.name != "z")
       for (std::size_t k = 0; k < field.count; ++k) {
@@ -131,14 +158,16 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
           continue;
         const std::string name =
             field.count > 1 ? field.name + "[" + std::to_string(k) + "]" : field.name;
-        facts.emplace_back(
+        ranges.push_back(describeRange(
             name,
-            rangeOf(pcl_uvol::describeValues(pcl_uvol::valuesOf(
+            pcl_uvol::describeValues(pcl_uvol::readFieldValues(
                 dataset, pcl_uvol::ScalarField(dataset.cloud.fields, name)))));
+        facts.push_back(ranges.back().withoutJson());
       }
+  facts.emplace_back("ranges", ranges);
   if (numbers > most_listed)
     facts.emplace_back("further numbers per point",
-                       std::to_string(numbers - most_listed));
+                       static_cast<double>(numbers - most_listed));
 }
 
 Facts
@@ -167,21 +196,29 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
   if (positions.non_finite == dataset.cloud.width)
     report.warnings.push_back(arguments.input + " has no point with finite x, y, z.");
   else {
-    facts.emplace_back("lower corner", joined(positions.lower, " "));
-    facts.emplace_back("upper corner", joined(positions.upper, " "));
-    facts.emplace_back("distance to the nearest sample (min, median, max)",
-                       joined(std::vector<double>{positions.spacing_min,
-                                                  positions.spacing_median,
-                                                  positions.spacing_max},
-                              ", "));
+    facts.emplace_back(
+        "lower corner", joined(positions.lower, " "), toNumbers(positions.lower));
+    facts.emplace_back(
+        "upper corner", joined(positions.upper, " "), toNumbers(positions.upper));
+    const std::vector<double> spacing{
+        positions.spacing_min, positions.spacing_median, positions.spacing_max};
+    facts.push_back(
+        Fact("distance to the nearest sample (min, median, max)", joined(spacing, ", "))
+            .withoutJson());
+    facts.emplace_back("spacing",
+                       "",
+                       Fact::Members{{"min", {spacing[0]}},
+                                     {"median", {spacing[1]}},
+                                     {"max", {spacing[2]}}});
   }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
   addRanges(dataset, facts);
   if (!chosen.empty()) {
-    const auto statistics = pcl_uvol::describeValues(pcl_uvol::valuesOf(
+    const auto statistics = pcl_uvol::describeValues(pcl_uvol::readFieldValues(
         dataset, pcl_uvol::ScalarField(dataset.cloud.fields, chosen)));
-    facts.emplace_back("histogram of " + chosen, rangeOf(statistics));
+    facts.emplace_back("field", chosen);
+    facts.push_back(describeRange("histogram of " + chosen, statistics).withoutJson());
     addHistogram(statistics, facts);
   }
   return facts;

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
-#include "common/isosurface_options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
+#include "distributed/merge_reports.h"
+#include "io/rank_files.h"
+#include "shared/isosurface_options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/distributed/fetch_points.h>
-#include <pcl_uvol/distributed/merge_reports.h>
-#include <pcl_uvol/io/rank_files.h>
-#include <pcl_uvol/isosurface/edge_ends.h>
 #include <pcl_uvol/mpi/mpi_communicator.h>
-#include <pcl_uvol/pipeline/extract_from_ranks.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
 
 #include <vtkMPIController.h>
 #include <vtkNew.h>
@@ -31,7 +27,6 @@ using pcl_uvol::StepTimer;
 using uvol_tools::joined;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
-using Isopoints = std::vector<std::vector<pcl_uvol::GlobalIsopoint>>;
 
 constexpr const char* tool = "uvol_isosurface_mpi";
 
@@ -103,35 +98,6 @@ load(const Arguments& arguments, pcl_uvol::Communicator& communicator, Report& r
   return part;
 }
 
-/** The isopoints of a process with their fields, ready to be written. */
-pcl_uvol::Dataset
-makeOutput(const Arguments& arguments,
-           const pcl_uvol::Dataset& part,
-           std::uint64_t first_index,
-           const Isopoints& isopoints,
-           unsigned threads,
-           pcl_uvol::Communicator& communicator,
-           Report& report)
-{
-  pcl_uvol::EdgeEnds ends = pcl_uvol::findEdgeEnds(isopoints);
-  pcl::PointCloud<pcl_uvol::PointIso> points;
-  for (std::size_t i = 0; i < isopoints.size(); ++i)
-    for (const pcl_uvol::GlobalIsopoint& isopoint : isopoints[i])
-      points.push_back(
-          toPointIso(isopoint, arguments.parameters.isosurface.isovalues[i]));
-  pcl_uvol::Dataset samples = uvol_tools::withoutCloud(part);
-  samples.cloud =
-      pcl_uvol::fetchPoints(part.cloud, first_index, ends.points, communicator, report);
-  auto result = pcl_uvol::finishIsosurface(samples,
-                                           std::move(points),
-                                           std::move(ends.edges),
-                                           arguments.parameters,
-                                           threads,
-                                           std::move(report));
-  report = std::move(result.report);
-  return std::move(result.surface);
-}
-
 void
 save(const Arguments& arguments,
      const std::string& field,
@@ -160,34 +126,20 @@ extract(const Arguments& arguments,
         Report& report)
 {
   const StepTimer timer(report, "total");
-  const pcl_uvol::Dataset part = load(arguments, communicator, report);
-  pcl_uvol::IsosurfaceParameters parameters = arguments.parameters.isosurface;
-  if (parameters.field.empty())
-    parameters.field = pcl_uvol::ScalarField::defaultName(part.cloud.fields);
-  const std::string& field = parameters.field;
+  const auto part =
+      std::make_shared<pcl_uvol::Dataset>(load(arguments, communicator, report));
   if (!arguments.inPieces())
-    pcl_uvol::checkSavePath(arguments.output, part.cloud.fields);
-  const std::uint64_t first_index =
-      pcl_uvol::findFirstIndex(part.cloud.width, communicator);
-  const auto view = pcl_uvol::viewOf(part.cloud);
-  const pcl_uvol::ScalarField scalar(view.fields, field);
-  const auto frame = pcl_uvol::findValueFrame(view, scalar, communicator, threads);
-  Isopoints isopoints = pcl_uvol::extractFromRanks(
-      pcl_uvol::readSamples(view, scalar, frame, first_index, threads, report),
-      parameters,
-      frame,
-      communicator,
-      threads,
-      report);
-  if (!arguments.inPieces())
-    isopoints = pcl_uvol::gatherIsopoints(std::move(isopoints), communicator, threads);
-  save(arguments,
-       field,
-       makeOutput(
-           arguments, part, first_index, isopoints, threads, communicator, report),
-       communicator,
-       report);
-  return field;
+    pcl_uvol::checkSavePath(arguments.output, part->cloud.fields);
+  pcl_uvol::DistributedIsosurfacePipeline pipeline(communicator);
+  pipeline.setInput(part);
+  pipeline.setParameters(arguments.parameters);
+  pipeline.setGathered(!arguments.inPieces());
+  pipeline.setNumberOfThreads(threads);
+  pipeline.setProgressCallback(report.progress);
+  const pcl_uvol::IsosurfaceResult result = pipeline.run();
+  report.merge(result.report);
+  save(arguments, result.field, result.surface, communicator, report);
+  return result.field;
 }
 
 int
@@ -229,10 +181,10 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
         together,
         {{"input", joined(arguments.inputs)},
          {"output", arguments.output},
-         {"processes", std::to_string(communicator.size())},
+         {"processes", static_cast<double>(communicator.size())},
          {"field", field},
-         {"isovalues", joined(arguments.parameters.isosurface.isovalues)},
-         {"scale", joined(arguments.parameters.isosurface.scale)},
+         {"isovalues", arguments.parameters.isosurface.isovalues},
+         {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
          {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}},
         true); // mpirun's pipes look like terminals
   return 0;
@@ -254,7 +206,7 @@ main(int argc, char** argv)
     if (communicator.rank() != 0)
       std::cout.rdbuf(silence.rdbuf());
     const uvol_tools::Outcome outcome =
-        uvol_tools::outcomeOf(tool, [&] { return run(argc, argv, communicator); });
+        uvol_tools::catchErrors(tool, [&] { return run(argc, argv, communicator); });
     std::cout.rdbuf(out);
     const std::size_t failed = communicator.agree(outcome.exit_code != 0);
     if (failed == communicator.rank())

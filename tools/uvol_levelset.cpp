@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
-#include "common/level_set.h"
-#include "common/memory_guard.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
-#include "common/scale_option.h"
+#include "charts/line_plot.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "io/table_file.h"
+#include "levelset/memory_need.h"
+#include "shared/level_set.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/io/line_plot.h>
-#include <pcl_uvol/io/table_file.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/levelset/memory_need.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
@@ -176,7 +177,7 @@ writeTable(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
 void
 writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
 {
-  std::vector<pcl_uvol::PlotLine> lines = {
+  std::vector<uvol_tools::PlotLine> lines = {
       {"change of the zero level, spacings per unit of time", {}},
       {"mean of | |grad phi| - 1 |", {}},
       {"energy", {}}};
@@ -185,7 +186,7 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
     lines[1].values.push_back(step.slope_error);
     lines[2].values.push_back(step.energy);
   }
-  pcl_uvol::savePng(path, pcl_uvol::drawLinePlot(lines, "step"));
+  pcl_uvol::savePng(path, uvol_tools::drawLinePlot(lines, "step"));
 }
 
 /** The zero level of phi with all fields. */
@@ -217,11 +218,12 @@ makeZeroLevel(const pcl_uvol::Dataset& samples,
       .surface;
 }
 
-/** What the tool holds beside the points. \param surface of the isovalue */
+/** What the tool holds beside the points.
+ * \param surface of the isovalue */
 uvol_tools::MemoryGuard::Work
-memoryOf(const LevelSetParameters& parameters,
-         bool has_snapshots,
-         const pcl_uvol::SurfaceSize& surface)
+forecastMemory(const LevelSetParameters& parameters,
+               bool has_snapshots,
+               const pcl_uvol::SurfaceSize& surface)
 {
   return
       [=, &parameters](double points, double step, pcl_uvol::MemoryForecast& forecast) {
@@ -273,7 +275,7 @@ run(int argc, char** argv)
     pcl_uvol::checkPngPath(arguments.plot);
   const bool has_snapshots = arguments.snapshots > 0;
   uvol_tools::MemoryGuard memory("A level set");
-  memory.checkFile(arguments.input, memoryOf(parameters, has_snapshots, {}));
+  memory.checkFile(arguments.input, forecastMemory(parameters, has_snapshots, {}));
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -282,18 +284,18 @@ run(int argc, char** argv)
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
-  parameters.scale = scale.scaleOf(view);
+  parameters.scale = scale.resolveScale(view);
   if (parameters.field.empty())
     parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
   memory.checkCloud(dataset,
-                    memoryOf(parameters,
-                             has_snapshots,
-                             pcl_uvol::estimateSurfaces(view,
-                                                        parameters.field,
-                                                        arguments.iso,
-                                                        parameters.scale,
-                                                        options.threads())
-                                 .front()));
+                    forecastMemory(parameters,
+                                   has_snapshots,
+                                   pcl_uvol::estimateSurfaces(view,
+                                                              parameters.field,
+                                                              arguments.iso,
+                                                              parameters.scale,
+                                                              options.threads())
+                                       .front()));
   pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
@@ -308,7 +310,7 @@ run(int argc, char** argv)
             makeZeroLevel(dataset, parameters, options.threads(), phi),
             {});
       });
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   evolution.evolve(result.cloud);
   report.merge(evolution.getReport());
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
@@ -322,10 +324,9 @@ run(int argc, char** argv)
     writePlot(arguments.plot, summary);
   report.count("points", view.count);
   total.reset();
-  std::vector<std::pair<std::string, std::string>> facts = {
-      {"input", arguments.input},
-      {"output", arguments.output},
-      {"field", parameters.field}};
+  uvol_tools::Facts facts = {{"input", arguments.input},
+                             {"output", arguments.output},
+                             {"field", parameters.field}};
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a surface given as points (thesis 4.1).
-#include "common/memory_guard.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
@@ -48,7 +49,7 @@ estimateNormals(const pcl::PCLPointCloud2& cloud,
 
 /** What the tool holds beside the points. */
 uvol_tools::MemoryGuard::Work
-memoryOf(std::uint64_t k)
+forecastMemory(std::uint64_t k)
 {
   return [k](double points, double step, pcl_uvol::MemoryForecast& forecast) {
     forecast.hold(sizeof(std::uint32_t) * points); // indices of all
@@ -89,14 +90,14 @@ run(int argc, char** argv)
     return 0;
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Estimating normals");
-  memory.checkFile(input, memoryOf(k));
+  memory.checkFile(input, forecastMemory(k));
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   pcl_uvol::checkSavePath(output, dataset.cloud.fields);
-  memory.checkCloud(dataset, memoryOf(k));
+  memory.checkCloud(dataset, forecastMemory(k));
   pcl_uvol::SurfaceNormalParameters parameters;
   parameters.k = k;
   if (!scale.empty())
@@ -112,7 +113,7 @@ run(int argc, char** argv)
         "The file has no normals to orient by: the new ones look to 0,0,0; -viewpoint "
         "chooses another place.");
 
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = estimateNormals(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;

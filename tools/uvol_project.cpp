@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data of many dimensions as points in space, by optimised star coordinates (thesis
 // 2.6).
-#include "common/attribute_options.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
+#include "charts/scatter_plot.h"
+#include "io/table_file.h"
+#include "shared/attribute_options.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/io/scatter_plot.h>
-#include <pcl_uvol/io/table_file.h>
-#include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <iomanip>
@@ -25,7 +24,8 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, axes, picture, label, method = "star", view = "top";
+  std::string input, output, axes, picture, label, view = "top";
+  pcl_uvol::ProjectionMethod method = pcl_uvol::ProjectionMethod::Star;
   uvol_tools::AttributeOptions attributes;
   bool ascii = false;
 };
@@ -37,7 +37,6 @@ declare(Options& options, Arguments& arguments)
   options.file("out", arguments.output);
   arguments.attributes.declare(options);
   options.choice("method",
-                 {"star", "pca"},
                  arguments.method,
                  "keep the clusters apart as well as can be; or principal components");
   options.text(
@@ -58,55 +57,32 @@ declare(Options& options, Arguments& arguments)
 }
 
 void
-writeAxes(const std::string& path,
-          const pcl_uvol::AttributeTable& attributes,
-          const pcl_uvol::Projection& projection)
+writeAxes(const std::string& path, const pcl_uvol::Projection& projection)
 {
   std::ostringstream table;
   table << std::setprecision(std::numeric_limits<double>::max_digits10)
         << "attribute,mean,unit,x,y,z\n";
   for (std::size_t i = 0; i < projection.names.size(); ++i)
     table << pcl_uvol::quotedCell(projection.names[i]) << ','
-          << attributes.means[i] + attributes.units[i] * projection.mean[i] << ','
-          << attributes.units[i] << ',' << projection.rows[0][i] << ','
+          << projection.offsets[i] + projection.units[i] * projection.mean[i] << ','
+          << projection.units[i] << ',' << projection.rows[0][i] << ','
           << projection.rows[1][i] << ',' << projection.rows[2][i] << '\n';
   pcl_uvol::saveTable(path, table.str());
 }
 
-/** Labels of the rows of a table: those of a field, else by density. */
-std::vector<std::int32_t>
-labelsOf(const Options& options,
-         const Arguments& arguments,
-         const pcl_uvol::CloudView& cloud,
-         const pcl_uvol::AttributeTable& table,
-         Report& report)
-{
-  const auto field = uvol_tools::labelField(cloud, arguments.label);
-  if (field.empty())
-    return pcl_uvol::detail::clusterAttributes(table, {}, options.threads(), report)
-        .labels;
-  const std::vector<std::int32_t> all = uvol_tools::readLabels(cloud, field);
-  std::vector<std::int32_t> labels;
-  for (const std::uint32_t point : table.points)
-    labels.push_back(all[point]);
-  return labels;
-}
-
 void
-drawPicture(const Arguments& arguments,
-            const pcl_uvol::Projection& projection,
-            const std::vector<std::array<float, 3>>& points,
-            const std::vector<std::int32_t>& labels)
+drawPicture(const Arguments& arguments, const pcl_uvol::ProjectedPoints& found)
 {
-  std::vector<pcl_uvol::ScatterAxis> axes;
-  for (std::size_t i = 0; i < projection.names.size(); ++i)
-    axes.push_back(
-        {projection.names[i],
-         {{projection.rows[0][i], projection.rows[1][i], projection.rows[2][i]}}});
+  const auto& names = found.projection.names;
+  const auto& rows = found.projection.rows;
+  std::vector<uvol_tools::ScatterAxis> axes;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    axes.push_back({names[i], {{rows[0][i], rows[1][i], rows[2][i]}}});
   constexpr int width = 640, height = 512;
   pcl_uvol::savePng(
       arguments.picture,
-      pcl_uvol::drawScatterPlot(points, labels, axes, arguments.view, width, height));
+      uvol_tools::drawScatterPlot(
+          found.places, found.labels, axes, arguments.view, width, height));
 }
 
 int
@@ -121,7 +97,7 @@ run(int argc, char** argv)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  const std::vector<std::string> names = arguments.attributes.required();
+  arguments.attributes.required();
   pcl_uvol::checkSavePath(arguments.output);
   if (arguments.axes == arguments.output)
     throw UsageError("-axes and the output are the same file.");
@@ -136,35 +112,23 @@ run(int argc, char** argv)
   const pcl_uvol::Dataset dataset =
       uvol_tools::loadPoints(arguments.input, report, uvol_tools::withoutPositions());
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  const pcl_uvol::AttributeTable table =
-      arguments.attributes.read(options, dataset, names, report);
-  const auto labels = labelsOf(options, arguments, cloud, table, report);
-  pcl_uvol::StarCoordinateParameters parameters;
-  parameters.threads = options.threads();
-  const pcl_uvol::Projection projection =
-      arguments.method == "star"
-          ? pcl_uvol::starCoordinates(table, labels, parameters, report)
-          : pcl_uvol::principalAxes(table, options.threads());
-  std::vector<std::array<float, 3>> points;
-  for (std::size_t row = 0; row < table.rows(); ++row)
-    points.push_back(projection.project(table.row(row)));
-  pcl_uvol::Dataset result = uvol_tools::takePoints(dataset, table.points, points);
-  pcl_uvol::setField(result, "label", labels);
+  const pcl_uvol::ProjectedPoints found = arguments.attributes.project(
+      options, dataset, arguments.label, arguments.method, report);
+  const std::vector<std::uint32_t> sources(found.sources.begin(), found.sources.end());
+  pcl_uvol::Dataset result = uvol_tools::takePoints(dataset, sources, found.places);
+  pcl_uvol::setField(result, "label", found.labels);
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
   uvol_tools::savePoints(arguments.output, result, save, report);
   if (!arguments.axes.empty())
-    writeAxes(arguments.axes, table, projection);
+    writeAxes(arguments.axes, found.projection);
   if (!arguments.picture.empty())
-    drawPicture(arguments, projection, points, labels);
-  std::ostringstream ratio;
-  ratio << pcl_uvol::smallestFisherRatio(table, labels, projection, parameters);
+    drawPicture(arguments, found);
   uvol_tools::printReport(options,
                           report,
                           {{"input", arguments.input},
                            {"output", arguments.output},
-                           {"smallest Fisher ratio", ratio.str()}});
+                           {"smallest Fisher ratio", found.smallest_ratio}});
   return 0;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray-traced pictures of scenes, or of one surface given as points (thesis 4.2).
-#include "common/point_files.h"
-#include "common/progress_bar.h"
-#include "common/ray_options.h"
+#include "io/scene_file.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "shared/ray_options.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/io/scene_file.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
-#include "common/point_files.h"
-#include "common/render_options.h"
+#include "shared/point_files.h"
+#include "shared/render_options.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 

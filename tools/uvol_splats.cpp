@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Splats of a surface given as points (thesis 4.2.1).
-#include "common/memory_guard.h"
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
-#include "common/splat_options.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include "shared/splat_options.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <pcl/conversions.h>
@@ -40,9 +41,10 @@ generateSplats(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
-/** What the tool holds beside the points. \param part of them that have a splat */
+/** What the tool holds beside the points.
+ * \param part of them that have a splat */
 uvol_tools::MemoryGuard::Work
-memoryOf(double part, bool has_normals)
+forecastMemory(double part, bool has_normals)
 {
   return [=](double points, double step, pcl_uvol::MemoryForecast& forecast) {
     const double splats = part * points;
@@ -76,7 +78,7 @@ run(int argc, char** argv)
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Making splats");
-  memory.checkFile(input, memoryOf(0.0, true));
+  memory.checkFile(input, forecastMemory(0.0, true));
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -86,9 +88,9 @@ run(int argc, char** argv)
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   memory.checkCloud(
       dataset,
-      memoryOf(pcl_uvol::estimateSplats(view, parameters, options.threads()),
-               pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
-  pcl_uvol::Dataset result = uvol_tools::withoutCloud(dataset);
+      forecastMemory(pcl_uvol::estimateSplats(view, parameters, options.threads()),
+                     pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
+  pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;

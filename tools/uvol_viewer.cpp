@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A surface given as points, or the isosurfaces of samples, in a window.
-#include "common/point_files.h"
+#include "shared/point_files.h"
 #include "viewer/display.h"
 #include "viewer/keys.h"
 #include "viewer/viewer_window.h"

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams of points as grids and pictures (thesis 2.1).
-#include "common/options.h"
-#include "common/point_files.h"
-#include "common/progress_bar.h"
+#include "gl/conic_sections.h"
+#include "io/grid_file.h"
+#include "render/voronoi_slices.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/gl/conic_sections.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/grid_file.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/render/voronoi_slices.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <memory>
 #include <sstream>
 
 namespace {
@@ -88,26 +87,32 @@ parseGrid(const std::string& text)
   return cells;
 }
 
-GridShape
-shapeFor(const pcl_uvol::CloudView& view,
-         const std::vector<std::uint32_t>& cells,
-         std::uint32_t margin)
+/** The diagram as the options ask for it. */
+std::shared_ptr<const pcl_uvol::VoronoiGrid>
+computeDiagram(const Options& options,
+               const Arguments& arguments,
+               const std::vector<std::uint32_t>& cells,
+               const pcl_uvol::Dataset& dataset,
+               Report& report)
 {
-  std::array<double, 3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
-  for (std::size_t i = 0; i < view.count; ++i) {
-    const float* const p = view.xyz(i);
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min<double>(low[axis], p[axis]);
-      high[axis] = std::max<double>(high[axis], p[axis]);
-    }
-  }
-  if (low[0] > high[0])
-    throw pcl_uvol::InvalidArgument("The input has no point with finite coordinates.");
-  return cells.size() == 1
-             ? GridShape::cubes(low, high, cells[0], margin)
-             : GridShape::boxes(low, high, {{cells[0], cells[1], cells[2]}});
+  pcl_uvol::VoronoiDiagram<pcl::PCLPointCloud2> diagram;
+  diagram.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+  if (cells.size() == 1)
+    diagram.setCells(cells[0]);
+  else
+    diagram.setCells(cells[0], cells[1], cells[2]);
+  diagram.setMargin(static_cast<std::uint32_t>(arguments.margin));
+  if (arguments.method == "cones")
+    diagram.setNearestSites(std::make_shared<pcl_uvol::ConicSections>(
+        pcl_uvol::createHeadlessContext(arguments.backend),
+        arguments.inner_radius,
+        static_cast<unsigned>(arguments.triangles)));
+  diagram.setNumberOfThreads(options.threads());
+  diagram.setProgressCallback(report.progress);
+  auto grid = diagram.compute();
+  report.merge(diagram.getReport());
+  return grid;
 }
 
 int
@@ -136,46 +141,32 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
-  std::vector<std::uint32_t> all(view.count);
-  std::iota(all.begin(), all.end(), 0u);
-  std::unique_ptr<pcl_uvol::NearestSites> way;
-  if (arguments.method == "cones")
-    way = std::make_unique<pcl_uvol::ConicSections>(
-        pcl_uvol::createHeadlessContext(arguments.backend),
-        arguments.inner_radius,
-        static_cast<unsigned>(arguments.triangles));
-  else
-    way = std::make_unique<pcl_uvol::FeatureTransform>();
-  report.count("points", view.count);
-  const pcl_uvol::VoronoiGrid grid(
-      shapeFor(view, cells, static_cast<std::uint32_t>(arguments.margin)),
-      view.xyz(0),
-      view.stride(),
-      all,
-      *way,
-      options.threads(),
-      report);
+  report.count("points", dataset.cloud.width);
+  const auto grid = computeDiagram(options, arguments, cells, dataset, report);
   {
     const pcl_uvol::StepTimer timer(report, "write");
     pcl_uvol::saveVoronoiGrid(
-        arguments.output, grid, dataset.origin, options.threads());
+        arguments.output, *grid, dataset.origin, options.threads());
     if (!arguments.picture.empty())
       pcl_uvol::savePng(
           arguments.picture,
           pcl_uvol::drawVoronoiSlices(
-              grid, arguments.axis[0] - 'x', static_cast<int>(arguments.slices)));
+              *grid, arguments.axis[0] - 'x', static_cast<int>(arguments.slices)));
   }
-  const auto& shape = grid.getShape();
+  const auto& shape = grid->getShape();
   std::ostringstream grid_text;
   grid_text << shape.cells[0] << " x " << shape.cells[1] << " x " << shape.cells[2]
             << " cells of " << shape.spacing[0] << " x " << shape.spacing[1] << " x "
             << shape.spacing[2];
-  uvol_tools::printReport(options,
-                          report,
-                          {{"input", arguments.input},
-                           {"output", arguments.output},
-                           {"grid", grid_text.str()}});
+  uvol_tools::printReport(
+      options,
+      report,
+      {{"input", arguments.input},
+       {"output", arguments.output},
+       {"grid",
+        grid_text.str(),
+        uvol_tools::Fact::Members{{"cells", uvol_tools::toNumbers(shape.cells)},
+                                  {"spacing", uvol_tools::toNumbers(shape.spacing)}}}});
   return 0;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/records.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <array>
 #include <cstring>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where float holds no coordinate well enough, an origin is chosen amid them.
-#include <pcl_uvol/common/coordinate_range.h>
+#include "common/coordinate_range.h"
+
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>

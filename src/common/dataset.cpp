@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coordinates and fields put into datasets.
+#include "common/records.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
 
 #include <cstring>
 #include <limits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/dispatch.h>
+#include "common/dispatch.h"
+
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>

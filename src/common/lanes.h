@@ -3,7 +3,7 @@
 // vector types lack. Included by *_kernel.cpp only, once per instruction set.
 #pragma once
 
-#include "register_bytes.h"
+#include "common/register_bytes.h"
 
 #include <cstdint>
 

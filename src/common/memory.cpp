@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
 
 #include <fstream>
 #include <limits>
@@ -79,7 +80,8 @@ availableAround(const std::string& root, std::string path, const GroupFiles& nam
   return available;
 }
 
-/** What a limit of the process leaves. \param used name of what it counts */
+/** What a limit of the process leaves.
+ * \param used name of what it counts */
 std::uint64_t
 availableTo(decltype(RLIMIT_AS) resource, const char* used)
 {

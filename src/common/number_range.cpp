@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/number_range.h>
+#include "common/number_range.h"
 
 #include <algorithm>
 #include <cmath>

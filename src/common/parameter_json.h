@@ -105,6 +105,12 @@ fromJsonNumber(const std::string& name, const nlohmann::json& json, T& value)
       refuseJson(name, json, "true or false");
     value = json.get<bool>();
   }
+  else if constexpr (std::is_integral_v<T> && std::is_signed_v<T>) {
+    if (!json.is_number_integer() ||
+        json.get<std::int64_t>() != static_cast<T>(json.get<std::int64_t>()))
+      refuseJson(name, json, "a whole number");
+    value = json.get<T>();
+  }
   else if constexpr (std::is_integral_v<T>) {
     if (!json.is_number_unsigned() ||
         json.get<std::uint64_t>() >

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/printable.h>
+#include "common/printable.h"
 
 #include <cstddef>
 

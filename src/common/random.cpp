@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/random.h>
+#include "common/random.h"
 
 #include <cmath>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From records as they lie in files to datasets.
+#include "common/records.h"
+
+#include "common/printable.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/records.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
 #include <array>
@@ -344,6 +345,15 @@ makeUnique(std::vector<std::string>& names)
     name = other;
     seen.insert(name);
   }
+}
+
+Dataset
+withoutCloud(const Dataset& dataset)
+{
+  Dataset result;
+  result.origin = dataset.origin;
+  result.double_coordinates = dataset.double_coordinates;
+  return result;
 }
 
 } // namespace pcl_uvol

@@ -25,6 +25,15 @@ Report::count(const std::string& name, std::uint64_t value)
   addTo(counts, name, value);
 }
 
+void
+Report::setCount(const std::string& name, std::uint64_t value)
+{
+  count(name, 0);
+  for (auto& [entry_name, entry_value] : counts)
+    if (entry_name == name)
+      entry_value = value;
+}
+
 std::uint64_t
 Report::getCount(const std::string& name) const
 {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Field expressions resolved against the fields of a cloud.
+#include "common/scalar_field.h"
+
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/value_frame.h>
+#include "common/value_frame.h"
+
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <cmath>

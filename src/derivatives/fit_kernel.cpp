@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fit_kernel.h"
+#include "derivatives/fit_kernel.h"
 
-#include "polynomial_lanes.h"
+#include "derivatives/polynomial_lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

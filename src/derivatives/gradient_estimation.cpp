@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "../neighbors/sample_values.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/derivatives/impl/gradient_estimation.hpp>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "derivatives/local_fit.h"
+#include "neighbors/nearest_neighbors.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/derivatives/gradient_estimation.h>
 
 #include <Eigen/Core>
 
@@ -25,7 +26,7 @@ struct Derivatives {
 
 /** From the second derivatives: (tr H - n^T H n) / (2 |grad f|). */
 double
-curvatureOf(const double* d)
+computeCurvature(const double* d)
 {
   const Eigen::Map<const Eigen::Vector3d> gradient(d);
   const double slope = gradient.norm();
@@ -71,7 +72,7 @@ public:
         for (std::size_t row = 0; row < derivativesOf(parameters_.scheme); ++row)
           d[row] += fit.getWeights(row)[j] * difference;
       }
-      found[i] = {Eigen::Vector3d(d), curvatureOf(d)};
+      found[i] = {Eigen::Vector3d(d), computeCurvature(d)};
     });
     report.count("reduced_fits", reduced);
     report.count("singular_fits", singular);
@@ -198,9 +199,5 @@ GradientParameters::fromJson(const std::string& text)
 {
   return readJson<GradientParameters>(text);
 }
-
-template class PCL_UVOL_EXPORTS GradientEstimation<pcl::PointXYZI>;
-template class PCL_UVOL_EXPORTS
-    GradientEstimation<pcl::PointXYZI, pcl::IntensityGradient>;
 
 } // namespace pcl_uvol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/derivatives/local_fit.h>
+#include "derivatives/local_fit.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -16,12 +16,12 @@ constexpr std::size_t terms = derivativesOf(FitScheme::Quadratic);
  * for gradients and curvatures of random samples. */
 constexpr double weight_exponent = 2.0, weight_radius = 1.05;
 
-/** Of a term's own diagonal entry: a smaller pivot is rounding, and the term cannot be
- * told from those before it. */
+/** In parts of a term's own diagonal entry: a smaller pivot is rounding, and the term
+ * cannot be told from those before it. */
 constexpr double smallest_pivot = 1e-7;
 
-/** Of the largest eigenvalue: neighbours extend less than a ten thousandth as far
- * across as along; for smoothing less than a fifth. */
+/** In parts of the largest eigenvalue: neighbours extend less than a ten thousandth as
+ * far across as along; for smoothing less than a fifth. */
 constexpr double smallest_eigenvalue = 1e-8, smoothing_eigenvalue = 0.04;
 
 /** Terms of a quadratic about the sample: x y z, xx xy xz yy yz zz, halved where the

@@ -3,7 +3,7 @@
 // by normal equations that the polynomials of all degrees share.
 #pragma once
 
-#include "../common/register_bytes.h"
+#include "common/register_bytes.h"
 
 #include <cmath>
 #include <cstddef>

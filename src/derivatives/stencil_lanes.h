@@ -2,8 +2,8 @@
 // For vector kernels: the derivatives of a field at a register of samples.
 #pragma once
 
-#include "../common/lanes.h"
-#include "stencil_view.h"
+#include "common/lanes.h"
+#include "derivatives/stencil_view.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -26,8 +26,9 @@ fetchAhead(const T* next, std::size_t count)
 
 /** The first derivatives of a stencil at the samples of one register of a group; the
  * others' lanes do not matter to a sample, so that all instruction sets give the same
- * bytes. \param value of an index, for a register of them \param own values of the
- * samples themselves */
+ * bytes.
+ * \param value of an index, for a register of them
+ * \param own values of the samples themselves */
 template <std::size_t rows, typename Value>
 inline void
 differentiate(const StencilView& stencils,
@@ -38,7 +39,7 @@ differentiate(const StencilView& stencils,
               Floats* derivatives)
 {
   const std::uint32_t* indices = stencils.indicesOf(group) + part * lanes;
-  const std::int16_t* weights = stencils.weightsOf(group) + part * lanes;
+  const std::int16_t* weights = stencils.computeWeights(group) + part * lanes;
   Floats sums[rows]{};
   for (std::size_t j = 0; j < stencils.neighbors; ++j) {
     fetchAhead(weights, rows * stencil_lanes);

@@ -29,7 +29,7 @@ struct StencilView {
   }
 
   const std::int16_t*
-  weightsOf(std::size_t group) const
+  computeWeights(std::size_t group) const
   {
     return weights + group * neighbors * rows * stencil_lanes;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stencils.h"
+#include "derivatives/stencils.h"
 
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/parallel.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Core>
 
@@ -22,8 +22,8 @@ constexpr double largest_weight = 32767.0;
 
 constexpr std::size_t cube_directions = 13;
 
-/** Of the absolute weights: by less the curvature of a sample does not answer its own
- * deviation, and waves of that direction grow. */
+/** In parts of the absolute weights: by less the curvature of a sample does not answer
+ * its own deviation, and waves of that direction grow. */
 constexpr double least_feedback = 0.1;
 
 /** Stiffness times the squared reach: about 12 for random samples. Much stiffer
@@ -38,7 +38,7 @@ struct CurvatureWeights {
 };
 
 CurvatureWeights
-curvatureWeightsOf(const LocalFit& fit, std::size_t count)
+computeCurvatureWeights(const LocalFit& fit, std::size_t count)
 {
   constexpr std::size_t xx = 3, xy = 4, xz = 5, yy = 6, yz = 7, zz = 8;
   constexpr int directions[cube_directions][3] = {{1, 0, 0},
@@ -117,11 +117,11 @@ Stencils::compute(const SampleSet& samples,
       const FitOutcome outcome =
           fit.fit(positions, center, neighbors.data(), neighbors.size());
       if (scheme == FitScheme::Quadratic) {
-        CurvatureWeights weights = curvatureWeightsOf(fit, neighbors.size());
+        CurvatureWeights weights = computeCurvatureWeights(fit, neighbors.size());
         if (outcome != FitOutcome::Full || weights.feedback < least_feedback ||
             weights.stiffness * fit.getReach() * fit.getReach() > most_stiffness) {
           fit.makeIsotropic();
-          weights = curvatureWeightsOf(fit, neighbors.size());
+          weights = computeCurvatureWeights(fit, neighbors.size());
           ++isotropic;
         }
         stiffness_[i] = static_cast<float>(weights.stiffness);

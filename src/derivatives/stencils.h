@@ -3,10 +3,10 @@
 // derivative is a fixed stencil, and a sweep over the samples a sparse product.
 #pragma once
 
-#include "stencil_view.h"
+#include "derivatives/local_fit.h"
+#include "derivatives/stencil_view.h"
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/derivatives/local_fit.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <cstdint>
 #include <vector>
@@ -55,7 +55,8 @@ public:
     return {rows_, neighbors_, indices_.data(), weights_.data(), scales_.data()};
   }
 
-  /** \brief Replace every neighbour's index. \param to by sample index */
+  /** \brief Replace every neighbour's index.
+   * \param to by sample index */
   void
   renumber(const std::vector<std::uint32_t>& to);
 

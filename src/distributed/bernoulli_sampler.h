@@ -2,7 +2,7 @@
 // A random part of a set that nobody lists.
 #pragma once
 
-#include <pcl_uvol/common/random.h>
+#include "common/random.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,8 +3,8 @@
 // or on a disk. The functions that say so are called by all processes, in one order.
 #pragma once
 
+#include "distributed/piece_stage.h"
 #include <pcl_uvol/distributed/communicator.h>
-#include <pcl_uvol/distributed/piece_stage.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "median_search.h"
+#include "distributed/decomposition.h"
+
+#include "distributed/byte_stream.h"
+#include "distributed/median_search.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/decomposition.h>
 
 #include <algorithm>
 #include <iterator>

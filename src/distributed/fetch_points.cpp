@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "distributed/fetch_points.h"
+
+#include "distributed/byte_stream.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/fetch_points.h>
 
 #include <algorithm>
 #include <string>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "median_search.h"
+#include "distributed/median_search.h"
 
-#include "bernoulli_sampler.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/distributed/byte_stream.h>
+#include "common/parallel.h"
+#include "common/random.h"
+#include "distributed/bernoulli_sampler.h"
+#include "distributed/byte_stream.h"
 
 #include <algorithm>
 #include <cmath>
@@ -188,7 +188,8 @@ private:
     }
   }
 
-  /** One pass. \return positions that were drawn, for the next one */
+  /** One pass.
+   * \return positions that were drawn, for the next one */
   std::vector<NodePosition>
   narrow(std::vector<NodePosition>&& drawn)
   {
@@ -342,7 +343,7 @@ private:
     return add(tallies);
   }
 
-  /** Of all threads and processes. */
+  /** The sum over all threads and processes. */
   std::vector<Tally>
   add(std::vector<std::vector<Tally>>& tallies)
   {

@@ -2,13 +2,12 @@
 // Exact medians of samples that several processes hold, by sampled selection.
 #pragma once
 
-#include <pcl_uvol/distributed/decomposition.h>
+#include "distributed/decomposition.h"
 
 namespace pcl_uvol {
 
-/** \brief The child of a node that a position lies below. \param axis of the node's
- * plane
- */
+/** \brief The child of a node that a position lies below.
+ * \param axis of the node's plane */
 inline std::size_t
 findChild(std::size_t node,
           const Position& position,
@@ -19,8 +18,8 @@ findChild(std::size_t node,
          static_cast<std::size_t>(lessAlong(axis, planes[node].below, position));
 }
 
-/** \brief The node at a depth that a position lies below. \param planes by node number
- */
+/** \brief The node at a depth that a position lies below.
+ * \param planes by node number */
 inline std::size_t
 findNode(const Position& position,
          int depth,

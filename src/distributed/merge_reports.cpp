@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/merge_reports.h>
+#include "distributed/merge_reports.h"
+
+#include "distributed/byte_stream.h"
 
 #include <algorithm>
 

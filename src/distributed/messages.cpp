@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "messages.h"
+#include "distributed/messages.h"
 
 #include <utility>
 

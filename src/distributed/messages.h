@@ -2,10 +2,10 @@
 // What processes send each other of their samples, and how much it is.
 #pragma once
 
+#include "distributed/byte_stream.h"
+#include "distributed/samples.h"
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/distributed/byte_stream.h>
 #include <pcl_uvol/distributed/communicator.h>
-#include <pcl_uvol/distributed/samples.h>
 
 #include <cstddef>
 #include <string>
@@ -26,7 +26,8 @@ std::size_t
 countBytes(const SampleSpan& samples);
 
 /** \brief Send messages to all processes.
- * \param counter gets the bytes that leave this process \return those sent to it */
+ * \param counter gets the bytes that leave this process
+ * \return those sent to it */
 std::vector<Bytes>
 send(std::vector<Bytes>&& messages,
      const std::string& counter,

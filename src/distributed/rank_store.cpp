@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rank_store.h"
+#include "distributed/rank_store.h"
 
-#include "messages.h"
+#include "distributed/messages.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ public:
     putSamples(writer, ghost.samples.span(0, ghost.samples.size()));
   }
 
-  /** By all processes. */
+  /** Exchanges the messages; all processes call it together. */
   void
   deliver()
   {

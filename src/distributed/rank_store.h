@@ -2,8 +2,8 @@
 // Pieces in the memory of processes: each is a block, and all are taken in one batch.
 #pragma once
 
-#include "block_store.h"
-#include <pcl_uvol/distributed/redistribute.h>
+#include "distributed/block_store.h"
+#include "distributed/redistribute.h"
 
 #include <optional>
 #include <set>
@@ -14,8 +14,8 @@ namespace pcl_uvol {
 /** \brief The pieces of one of the processes. */
 class RankStore : public BlockStore {
 public:
-  /** \param samples of this process \param communicator, report must outlive the store
-   */
+  /** \param samples of this process
+   * \param communicator, report must outlive the store */
   RankStore(Samples&& samples,
             Communicator& communicator,
             unsigned threads,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "messages.h"
+#include "distributed/redistribute.h"
+
+#include "common/parallel.h"
+#include "distributed/messages.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/distributed/redistribute.h>
 
 #include <cmath>
 #include <functional>
@@ -22,7 +23,8 @@ constexpr std::size_t block_samples = 1u << 14;
  * in tests/benchmarks/README.md). */
 constexpr std::size_t least_ranks_in_groups = 64;
 
-/** Samples by piece. \param samples empty afterwards */
+/** Samples by piece.
+ * \param samples empty afterwards */
 std::vector<Samples>
 partSamples(Samples& samples, const Decomposition& decomposition, unsigned threads)
 {
@@ -57,7 +59,8 @@ decompose(const Samples& samples,
   return make({samples.size(), positions});
 }
 
-/** Send samples to the owners of their pieces. \param samples empty afterwards */
+/** Send samples to the owners of their pieces.
+ * \param samples empty afterwards */
 SamplesOfPieces
 sendToOwners(Samples& samples,
              const Decomposition& decomposition,

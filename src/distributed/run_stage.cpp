@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one way through the pieces, wherever these are.
-#include "block_store.h"
-#include "rank_store.h"
-#include "scratch_store.h"
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/run_stage.h>
+#include "distributed/run_stage.h"
+
+#include "distributed/block_store.h"
+#include "distributed/byte_stream.h"
+#include "distributed/rank_store.h"
+#include "distributed/scratch_store.h"
 
 #include <algorithm>
 #include <utility>
@@ -40,8 +41,9 @@ public:
   }
 
 private:
-  /** Put the pieces of this process into leaf order. \return false if some samples
-   * coincide, anywhere: not all pieces are in leaf order then */
+  /** Put the pieces of this process into leaf order.
+   * \return false if some samples coincide, anywhere: not all pieces are in leaf order
+   * then */
   bool
   buildPieces()
   {

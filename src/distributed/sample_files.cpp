@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_files.h"
+#include "distributed/sample_files.h"
 
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 // Samples on disk: as they come, and in pieces.
 #pragma once
 
-#include "scratch_file.h"
-#include <pcl_uvol/distributed/piece.h>
+#include "distributed/piece.h"
+#include "distributed/scratch_file.h"
 
 #include <functional>
 #include <vector>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../neighbors/sample_values.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/samples.h>
+#include "distributed/samples.h"
+
+#include "common/parallel.h"
+#include "distributed/byte_stream.h"
+#include "neighbors/sample_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +180,7 @@ mergeDuplicates(Samples& samples, unsigned threads, Report& report)
       ++end;
     members.assign(order.begin() + static_cast<std::ptrdiff_t>(begin),
                    order.begin() + static_cast<std::ptrdiff_t>(end));
-    const std::uint32_t source = representativeOf(
+    const std::uint32_t source = chooseRepresentative(
         members, [&](auto member) { return samples.values[member]; }, conflicting);
     merged.append(samples.span(source, 1));
     begin = end;

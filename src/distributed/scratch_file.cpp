@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scratch_file.h"
+#include "distributed/scratch_file.h"
 
+#include "common/memory.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scratch_memory.h"
+#include "distributed/scratch_memory.h"
 
+#include "common/memory.h"
+#include "distributed/piece.h"
+#include "distributed/run_stage.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/distributed/piece.h>
-#include <pcl_uvol/distributed/run_stage.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 /** Bytes that a process takes besides samples: libraries and buffers. */
 constexpr double fixed_bytes = 120e6;
 
-/** Of all samples, whether they are in memory or not: tables of bricks. */
+/** Bytes per sample, whether they are in memory or not: tables of bricks. */
 constexpr double table_bytes = 0.5;
 
 /** Per sample of a piece while its tree is built: as read (24), as sorted (16 and 12),
@@ -28,7 +28,8 @@ constexpr double piece_bytes = 72.0;
  * twice. Whether there are more is checked as they are found. */
 constexpr double expected_records = 4.0;
 
-/** Of a record while lists are merged, or a point with the samples that it rests on. */
+/** Bytes of a record while lists are merged, or a point with the samples that it rests
+ * on. */
 constexpr double merging_copies = 2.0;
 
 /** With fewer samples in a piece, other bytes outweigh its own. */
@@ -42,7 +43,7 @@ computeBesides(std::uint64_t samples)
   return fixed_bytes + table_bytes * static_cast<double>(samples);
 }
 
-/** Of pieces as small as they may be. */
+/** Bytes of pieces as small as they may be. */
 int
 findMostLevels(std::uint64_t samples)
 {

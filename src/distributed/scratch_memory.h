@@ -28,7 +28,8 @@ public:
   {
   }
 
-  /** \brief The fewest levels of pieces that fit. \throws InvalidArgument if none do */
+  /** \brief The fewest levels of pieces that fit.
+   * \throws InvalidArgument if none do */
   int
   chooseLevels(std::uint64_t samples) const;
 
@@ -37,7 +38,8 @@ public:
   computeLeast(std::uint64_t samples) const;
 
   /** \brief Throw InvalidArgument unless the trees of that many samples of a piece fit
-   * at a time. \param total samples of all pieces */
+   * at a time.
+   * \param total samples of all pieces */
   void
   checkPiece(std::uint64_t samples, std::uint64_t total) const;
 
@@ -45,7 +47,8 @@ public:
   void
   checkBlock(std::uint64_t samples, std::uint64_t total) const;
 
-  /** \brief The same for all records. \param bytes of records found so far */
+  /** \brief The same for all records.
+   * \param bytes of records found so far */
   void
   checkRecords(std::uint64_t bytes, std::uint64_t total) const;
 

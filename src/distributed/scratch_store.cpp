@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scratch_store.h"
+#include "distributed/scratch_store.h"
 
 #include <algorithm>
 #include <iterator>
@@ -10,7 +10,7 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Of bricks of a block those that a stage can find something in together with the
+/** Selects those bricks of a block that a stage can find something in together with the
  * bricks that touch them. */
 std::vector<Brick>
 selectFruitful(const std::vector<Brick>& own,
@@ -34,7 +34,7 @@ selectFruitful(const std::vector<Brick>& own,
   return fruitful;
 }
 
-/** Of bricks those that touch one of some others. */
+/** Selects the bricks that touch one of some others. */
 std::vector<Brick>
 selectTouching(const std::vector<Brick>& bricks, const std::vector<Brick>& others)
 {

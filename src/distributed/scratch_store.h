@@ -2,10 +2,10 @@
 // Pieces on disk: what is in memory is one of them, or one block of one.
 #pragma once
 
-#include "block_store.h"
-#include "sample_files.h"
-#include "scratch_memory.h"
-#include <pcl_uvol/distributed/run_stage.h>
+#include "distributed/block_store.h"
+#include "distributed/run_stage.h"
+#include "distributed/sample_files.h"
+#include "distributed/scratch_memory.h"
 
 #include <memory>
 #include <optional>
@@ -16,7 +16,8 @@ namespace pcl_uvol {
  * parts in which nothing is found are not looked at again. */
 class ScratchStore : public BlockStore {
 public:
-  /** \param log of all samples \param stage, settings, report must outlive the store */
+  /** \param log of all samples
+   * \param stage, settings, report must outlive the store */
   ScratchStore(std::unique_ptr<SampleLog> log,
                const PieceStage& stage,
                const OutOfCoreSettings& settings,
@@ -88,7 +89,8 @@ private:
   Samples
   load(std::uint64_t begin, std::uint64_t count) const;
 
-  /** Copies of bricks for a block. \param samples of it, with the ghosts it has */
+  /** Copies of bricks for a block.
+   * \param samples of it, with the ghosts it has */
   std::vector<GhostBrick>
   loadGhosts(const std::vector<Brick>& bricks, std::uint64_t samples) const;
 

@@ -2,7 +2,7 @@
 // One execution of a filter: its input, its report, and what it leaves in the output.
 #pragma once
 
-#include "point_arrays.h"
+#include "filters/point_arrays.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 
@@ -47,7 +47,8 @@ private:
 };
 
 /** \brief Indices of the points that are neither duplicates of another piece nor
- * hidden. \throws InvalidArgument for more points than PCL can number */
+ * hidden.
+ * \throws InvalidArgument for more points than PCL can number */
 std::vector<int>
 visiblePoints(vtkDataSet& input);
 

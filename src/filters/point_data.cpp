@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From VTK's arrays to records of points and back.
-#include "point_arrays.h"
+#include "common/printable.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "filters/point_arrays.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/records.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/filters/point_data.h>
 
 #include <vtkCellArray.h>
@@ -78,7 +78,7 @@ plainArray(vtkDataArray* array)
 }
 
 vtkSmartPointer<vtkDataArray>
-coordinatesOf(vtkDataSet& data)
+readCoordinates(vtkDataSet& data)
 {
   auto* const set = vtkPointSet::SafeDownCast(&data);
   if (set && set->GetPoints())
@@ -130,7 +130,7 @@ PointCollector::append(const std::string& name, vtkDataArray& array, std::size_t
 void
 PointCollector::addCoordinates()
 {
-  columns_.push_back(coordinatesOf(data_));
+  columns_.push_back(readCoordinates(data_));
   for (const char* const axis : axis_names)
     append(axis, *columns_.back(), 1);
 }
@@ -265,7 +265,7 @@ fillTuples(const Dataset& dataset,
 
 /** An array from fields of one type, as savedFields() describes them. */
 vtkSmartPointer<vtkDataArray>
-arrayOf(const Dataset& dataset, const std::string& name, const Fields& fields)
+makeDataArray(const Dataset& dataset, const std::string& name, const Fields& fields)
 {
   std::size_t components = 0;
   for (const auto& field : fields)
@@ -288,7 +288,7 @@ arrayOf(const Dataset& dataset, const std::string& name, const Fields& fields)
 
 /** One vertex per point, so that ParaView shows and thresholds them. */
 vtkSmartPointer<vtkCellArray>
-verticesOf(vtkIdType count)
+makeVertices(vtkIdType count)
 {
   vtkNew<vtkTypeInt64Array> offsets, points;
   offsets->SetNumberOfValues(count + 1);
@@ -339,14 +339,14 @@ fromPointCloud(const Dataset& dataset)
     normals.clear();
   auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
-  points->SetData(arrayOf(dataset, "Points", xyz));
+  points->SetData(makeDataArray(dataset, "Points", xyz));
   data->SetPoints(points);
-  data->SetVerts(verticesOf(points->GetNumberOfPoints()));
+  data->SetVerts(makeVertices(points->GetNumberOfPoints()));
   if (!normals.empty())
-    data->GetPointData()->SetNormals(arrayOf(dataset, "Normals", normals));
+    data->GetPointData()->SetNormals(makeDataArray(dataset, "Normals", normals));
   for (const auto& field : fields)
     if (!findField(xyz, field.name) && !findField(normals, field.name))
-      data->GetPointData()->AddArray(arrayOf(dataset, field.name, {field}));
+      data->GetPointData()->AddArray(makeDataArray(dataset, field.name, {field}));
   return data;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "filter_run.h"
+#include "common/scalar_field.h"
+#include "filters/filter_run.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/filters/vtkUvolFilter.h>
 
 #include <vtkDataArray.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "filter_run.h"
+#include "filters/filter_run.h"
 #include <pcl_uvol/filters/vtkUvolIsosurface.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 

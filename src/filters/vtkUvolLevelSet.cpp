@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "filter_run.h"
+#include "filters/filter_run.h"
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "filter_run.h"
+#include "filters/filter_run.h"
 #include <pcl_uvol/filters/vtkUvolSplats.h>
 #include <pcl_uvol/surface/splat_generation.h>
 

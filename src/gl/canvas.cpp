@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "canvas.h"
+#include "gl/canvas.h"
 
-#include "shaders.h"
-#include "tile_set.h"
+#include "gl/shaders.h"
+#include "gl/tile_set.h"
 
 #include <string>
 

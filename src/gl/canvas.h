@@ -2,9 +2,9 @@
 // What the passes draw into.
 #pragma once
 
-#include "objects.h"
-#include <pcl_uvol/render/image_space/backend.h>
-#include <pcl_uvol/render/image_space/pixel_box.h>
+#include "gl/objects.h"
+#include "render/image_space/frame.h"
+#include "render/image_space/pixel_box.h"
 
 namespace pcl_uvol {
 

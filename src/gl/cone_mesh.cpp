@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cone_mesh.h"
+#include "gl/cone_mesh.h"
 
 #include <algorithm>
 #include <cmath>

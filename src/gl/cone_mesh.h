@@ -44,7 +44,7 @@ public:
     return sections_;
   }
 
-  /** \brief Of all sections, one after the other. */
+  /** \brief The vertices of all sections, one section after the other. */
   const std::vector<Vertex>&
   getVertices() const
   {

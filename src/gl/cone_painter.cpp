@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cone_painter.h"
+#include "gl/cone_painter.h"
 
-#include "cone_shaders.h"
+#include "gl/cone_shaders.h"
 
 #include <algorithm>
 #include <string>

@@ -2,8 +2,8 @@
 // Draws the cones of all sites into one layer of a grid (Table 2.1).
 #pragma once
 
-#include "cone_mesh.h"
-#include "objects.h"
+#include "gl/cone_mesh.h"
+#include "gl/objects.h"
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
 #include <cstdint>

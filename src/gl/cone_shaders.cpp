@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cone_shaders.h"
+#include "gl/cone_shaders.h"
 
 namespace pcl_uvol::shaders {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cone_painter.h"
-#include "errors.h"
-#include <pcl_uvol/gl/conic_sections.h>
+#include "gl/conic_sections.h"
+
+#include "gl/cone_painter.h"
+#include "gl/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 /** Triangles lie a little above their cones. */
 constexpr double radius_margin = 1.01;
 
-/** Of cones after a layer that they did not cover. */
+/** Radii of cones grow by this factor after a layer that they did not cover. */
 constexpr double radius_growth = 1.5;
 
 /** From the sites of a layer to its farthest cell; infinite if a cell has no site. */
@@ -37,7 +38,7 @@ findFarthest(const GridShape& shape,
   return farthest;
 }
 
-/** Of random sites in a grid, hardly a cell is farther from all of them. */
+/** The reach of random sites in a grid: hardly a cell is farther from all of them. */
 double
 guessRadius(const GridShape& shape, std::size_t sites)
 {

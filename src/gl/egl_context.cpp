@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "headless_context.h"
-#include "shared_library.h"
+#include "gl/headless_context.h"
+#include "gl/shared_library.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

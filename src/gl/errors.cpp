@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "errors.h"
+#include "gl/errors.h"
 
 namespace pcl_uvol {
 

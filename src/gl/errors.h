@@ -2,7 +2,7 @@
 // What OpenGL has to complain about.
 #pragma once
 
-#include "functions.h"
+#include "gl/functions.h"
 
 #include <string>
 
@@ -12,8 +12,9 @@ namespace pcl_uvol {
 void
 forgetErrors(const GlFunctions& gl);
 
-/** \param less what to use less of, such as "fewer cells" \param instead what does
- * without OpenGL \throws GlError if there is an error */
+/** \param less what to use less of, such as "fewer cells"
+ * \param instead what does without OpenGL
+ * \throws GlError if there is an error */
 void
 checkErrors(const GlFunctions& gl, const std::string& less, const std::string& instead);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fill_pass.h"
+#include "gl/fill_pass.h"
 
 #include <string>
 #include <utility>

@@ -2,8 +2,8 @@
 // Filling of pixels (thesis 4.3.2).
 #pragma once
 
-#include "programs.h"
-#include "tile_painter.h"
+#include "gl/programs.h"
+#include "gl/tile_painter.h"
 
 namespace pcl_uvol {
 
@@ -34,7 +34,8 @@ public:
       int& current);
 
 private:
-  /** Those tiles in which the two states differ. \param tiles of the painter */
+  /** Those tiles in which the two states differ.
+   * \param tiles of the painter */
   TileSet
   findChanges(const Canvas& canvas, TileSet tiles);
 

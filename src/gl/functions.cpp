@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "functions.h"
+#include "gl/functions.h"
 
 namespace pcl_uvol {
 

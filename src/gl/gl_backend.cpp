@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "errors.h"
-#include "image_passes.h"
-#include <pcl_uvol/gl/gl_backend.h>
+#include "gl/gl_backend.h"
+
+#include "gl/errors.h"
+#include "gl/image_passes.h"
 
 #include <optional>
 
@@ -31,7 +32,8 @@ struct GlBackend::Implementation {
     context->run([this] { objects.reset(); });
   }
 
-  /** Run a task in the context. \throws GlError if OpenGL complains about it */
+  /** Run a task in the context.
+   * \throws GlError if OpenGL complains about it */
   template <typename Task>
   void
   run(const Task& task)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "headless_context.h"
+#include "gl/headless_context.h"
 
 #include <utility>
 

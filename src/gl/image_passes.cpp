@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "image_passes.h"
+#include "gl/image_passes.h"
 
 #include <cstring>
 

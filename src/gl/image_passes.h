@@ -2,9 +2,9 @@
 // All passes of image-space rendering, one after the other (thesis 4.3).
 #pragma once
 
-#include "fill_pass.h"
-#include "point_pass.h"
-#include <pcl_uvol/gl/gl_backend.h>
+#include "gl/fill_pass.h"
+#include "gl/gl_backend.h"
+#include "gl/point_pass.h"
 
 #include <memory>
 

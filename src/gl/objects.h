@@ -3,7 +3,7 @@
 // with the context current.
 #pragma once
 
-#include "functions.h"
+#include "gl/functions.h"
 
 #include <initializer_list>
 #include <string>
@@ -77,7 +77,8 @@ makeTexture(const GlFunctions& gl, GLenum format, int width, int height);
 GlName
 makeBufferTexture(const GlFunctions& gl, GLenum format, const GlName& buffer);
 
-/** \param colors attached in this order \param depth may be empty
+/** \param colors attached in this order
+ * \param depth may be empty
  * \throws GlError if the driver cannot draw into them */
 GlName
 makeFramebuffer(const GlFunctions& gl,

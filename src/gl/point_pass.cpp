@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_pass.h"
+#include "gl/point_pass.h"
 
 #include <algorithm>
 #include <string>

@@ -2,9 +2,9 @@
 // Points to pixels (thesis 4.3.1).
 #pragma once
 
-#include "canvas.h"
-#include "programs.h"
-#include "visible_points.h"
+#include "gl/canvas.h"
+#include "gl/programs.h"
+#include "gl/visible_points.h"
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "programs.h"
+#include "gl/programs.h"
 
 namespace pcl_uvol {
 

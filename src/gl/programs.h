@@ -2,8 +2,8 @@
 // The programs of all passes, compiled when they are first used.
 #pragma once
 
-#include "objects.h"
-#include "shaders.h"
+#include "gl/objects.h"
+#include "gl/shaders.h"
 
 #include <map>
 #include <string>
@@ -18,7 +18,8 @@ public:
   {
   }
 
-  /** \brief The program of a pass, in use. \param defines "#define A\n#define B\n" */
+  /** \brief The program of a pass, in use.
+   * \param defines "#define A\n#define B\n" */
   const Program&
   use(const shaders::Pass& pass, const std::string& defines = "");
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shaders.h"
+#include "gl/shaders.h"
 
 namespace pcl_uvol::shaders {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared_library.h"
+#include "gl/shared_library.h"
 
 #include <pcl_uvol/gl/context.h>
 

@@ -16,7 +16,8 @@ public:
    * \throws GlError if none can be loaded */
   SharedLibrary(const std::vector<std::string>& names, const std::string& advice);
 
-  /** \brief A function by its name and type. \throws GlError if it is missing */
+  /** \brief A function by its name and type.
+   * \throws GlError if it is missing */
   template <typename Function>
   void
   load(const char* name, Function& function) const

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tile_painter.h"
+#include "gl/tile_painter.h"
 
 namespace pcl_uvol {
 

@@ -2,8 +2,8 @@
 // Draws tiles of a canvas with whatever shader is in use.
 #pragma once
 
-#include "canvas.h"
-#include "tile_set.h"
+#include "gl/canvas.h"
+#include "gl/tile_set.h"
 
 namespace pcl_uvol {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tile_set.h"
+#include "gl/tile_set.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 // Where in an image there is something to do.
 #pragma once
 
-#include <pcl_uvol/render/image_space/pixel_box.h>
+#include "render/image_space/pixel_box.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "visible_points.h"
+#include "gl/visible_points.h"
 
-#include <pcl_uvol/render/image_space/block_view.h>
+#include "render/image_space/block_view.h"
 
 namespace pcl_uvol {
 

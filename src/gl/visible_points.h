@@ -2,8 +2,8 @@
 // Which points of a cloud may be seen: vertices are what software OpenGL is slowest at.
 #pragma once
 
-#include <pcl_uvol/render/image_space/backend.h>
-#include <pcl_uvol/render/image_space/pixel_box.h>
+#include "render/image_space/frame.h"
+#include "render/image_space/pixel_box.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 // tree, with the largest radius below every node.
 #pragma once
 
-#include <pcl_uvol/neighbors/sample_set.h>
+#include "neighbors/sample_set.h"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blended_fits.h"
+#include "interpolation/blended_fits.h"
 
-#include "polynomial_sum.h"
-#include "support_finder.h"
+#include "interpolation/polynomial_sum.h"
+#include "interpolation/support_finder.h"
 
 #include <algorithm>
 #include <cmath>

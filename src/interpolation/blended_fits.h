@@ -4,8 +4,8 @@
 // that end smoothly.
 #pragma once
 
-#include "field_model.h"
-#include "sample_fits.h"
+#include "interpolation/field_model.h"
+#include "interpolation/sample_fits.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bucket_fitter.h"
+#include "interpolation/bucket_fitter.h"
 
-#include "reduced_fit.h"
-#include <pcl_uvol/common/dispatch.h>
+#include "common/dispatch.h"
+#include "interpolation/reduced_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "derivatives/polynomial_kernel.h"
-#include "field_model.h"
+#include "interpolation/field_model.h"
+#include "interpolation/sample_fits.h"
 #include "neighbors/empty_cone.h"
-#include "sample_fits.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Core>
 

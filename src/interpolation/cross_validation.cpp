@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/random.h"
+#include "common/scalar_field.h"
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
 #include <cmath>

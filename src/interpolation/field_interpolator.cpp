@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "blended_fits.h"
+#include "common/parallel.h"
 #include "common/parameter_json.h"
-#include "field_model.h"
-#include "kernel_sums.h"
-#include "kriging_model.h"
-#include "natural_model.h"
+#include "common/scalar_field.h"
+#include "common/value_frame.h"
+#include "interpolation/blended_fits.h"
+#include "interpolation/field_model.h"
+#include "interpolation/kernel_sums.h"
+#include "interpolation/kriging_model.h"
+#include "interpolation/natural_model.h"
+#include "interpolation/query_order.h"
+#include "interpolation/simple_models.h"
 #include "neighbors/sample_values.h"
-#include "query_order.h"
-#include "simple_models.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/common/value_frame.h>
 #include <pcl_uvol/interpolation/impl/field_interpolation.hpp>
 
 #include <pcl/point_types.h>
@@ -141,7 +141,7 @@ struct FieldInterpolator::Group {
     for (const SampleSet::Merged& merged : samples.getMerged())
       for (std::size_t f = 0; f < fields.size(); ++f) {
         members.assign(merged.members.begin(), merged.members.end());
-        const std::uint32_t source = representativeOf(
+        const std::uint32_t source = chooseRepresentative(
             members, [&](auto member) { return columns[f][member]; }, conflicting);
         sampled.values[merged.sample * fields.size() + f] = columns[f][source];
       }

@@ -3,8 +3,8 @@
 // values in frames of their own, and answer queries block by block.
 #pragma once
 
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/interpolation/interpolated_fields.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <cstddef>
 #include <memory>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernel_sums.h"
+#include "interpolation/kernel_sums.h"
 
-#include "query_search.h"
-#include "support_finder.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/parallel.h"
+#include "common/scalar_field.h"
+#include "interpolation/query_search.h"
+#include "interpolation/support_finder.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 // (Price 2012).
 #pragma once
 
-#include "ball_tree.h"
-#include "field_model.h"
+#include "interpolation/ball_tree.h"
+#include "interpolation/field_model.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 

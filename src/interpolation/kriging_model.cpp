@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kriging_model.h"
+#include "interpolation/kriging_model.h"
 
-#include "kriging_system.h"
+#include "interpolation/kriging_system.h"
+#include "interpolation/query_search.h"
+#include "interpolation/support_finder.h"
 #include "neighbors/metric_finder.h"
-#include "query_search.h"
-#include "support_finder.h"
 
 #include <Eigen/Geometry>
 

@@ -3,9 +3,9 @@
 // Geostatistics, chapter 3): the best linear unbiased estimate, with its deviation.
 #pragma once
 
-#include "field_model.h"
-#include "variogram.h"
-#include <pcl_uvol/common/value_frame.h>
+#include "common/value_frame.h"
+#include "interpolation/field_model.h"
+#include "interpolation/variogram.h"
 
 #include <string>
 #include <vector>

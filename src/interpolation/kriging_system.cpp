@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kriging_system.h"
+#include "interpolation/kriging_system.h"
 
 #include <algorithm>
 #include <cmath>

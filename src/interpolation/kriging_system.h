@@ -2,7 +2,7 @@
 // The equations of kriging in one neighbourhood.
 #pragma once
 
-#include "variogram.h"
+#include "interpolation/variogram.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>

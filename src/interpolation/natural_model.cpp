@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "natural_model.h"
+#include "interpolation/natural_model.h"
 
-#include "query_search.h"
-#include "support_finder.h"
+#include "interpolation/query_search.h"
+#include "interpolation/support_finder.h"
 
 #include <algorithm>
 #include <cmath>

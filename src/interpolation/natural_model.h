@@ -3,8 +3,8 @@
 // coordinates (1981) and Laplace's (Belikov et al. 1997).
 #pragma once
 
-#include "field_model.h"
-#include "voronoi_cell.h"
+#include "interpolation/field_model.h"
+#include "interpolation/voronoi_cell.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "polynomial_sum.h"
+#include "interpolation/polynomial_sum.h"
 
 #include <algorithm>
 #include <cmath>

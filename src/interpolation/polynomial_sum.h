@@ -3,7 +3,7 @@
 #pragma once
 
 #include "derivatives/polynomial_kernel.h"
-#include "field_model.h"
+#include "interpolation/field_model.h"
 
 #include <array>
 #include <cstddef>

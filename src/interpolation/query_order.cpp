@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "query_order.h"
+#include "interpolation/query_order.h"
 
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,8 +2,8 @@
 // An order in which queries that follow one another lie close together.
 #pragma once
 
-#include "field_model.h"
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "interpolation/field_model.h"
+#include "neighbors/kd_tree.h"
 
 #include <cstdint>
 #include <vector>

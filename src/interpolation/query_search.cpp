@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "query_search.h"
+#include "interpolation/query_search.h"
 
 #include <algorithm>
 #include <cmath>

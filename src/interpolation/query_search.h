@@ -3,8 +3,8 @@
 // mean with its gradient and spread.
 #pragma once
 
-#include "field_model.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "interpolation/field_model.h"
+#include "neighbors/nearest_finder.h"
 
 #include <array>
 #include <cstddef>

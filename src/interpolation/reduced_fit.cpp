@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduced_fit.h"
+#include "interpolation/reduced_fit.h"
 
 #include <cmath>
 #include <limits>

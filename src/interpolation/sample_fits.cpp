@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_fits.h"
+#include "interpolation/sample_fits.h"
 
-#include "bucket_fitter.h"
+#include "interpolation/bucket_fitter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // first asked for, and kept.
 #pragma once
 
-#include "ball_tree.h"
-#include "field_model.h"
+#include "interpolation/ball_tree.h"
+#include "interpolation/field_model.h"
 
 #include <cstddef>
 #include <cstdint>

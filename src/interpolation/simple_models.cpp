@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simple_models.h"
+#include "interpolation/simple_models.h"
 
-#include "query_search.h"
-#include "support_finder.h"
+#include "interpolation/query_search.h"
+#include "interpolation/support_finder.h"
 
 #include <algorithm>
 #include <cmath>

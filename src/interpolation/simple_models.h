@@ -2,7 +2,7 @@
 // What people know: the nearest sample's value, and inverse distances.
 #pragma once
 
-#include "field_model.h"
+#include "interpolation/field_model.h"
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
 namespace pcl_uvol::detail {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support_finder.h"
+#include "interpolation/support_finder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 // of the cloud, or nothing.
 #pragma once
 
-#include "field_model.h"
+#include "interpolation/field_model.h"
 #include "neighbors/empty_cone.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/nearest_finder.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "variogram.h"
+#include "interpolation/variogram.h"
 
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/QR>
 

@@ -3,7 +3,7 @@
 // Delfiner, Geostatistics, chapter 2): models, and models fitted to samples.
 #pragma once
 
-#include "field_model.h"
+#include "interpolation/field_model.h"
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "voronoi_cell.h"
+#include "interpolation/voronoi_cell.h"
 
 #include <algorithm>
 #include <cmath>

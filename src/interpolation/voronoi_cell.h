@@ -3,9 +3,9 @@
 // triangulation.
 #pragma once
 
-#include "convex_cell.h"
-#include "field_model.h"
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "interpolation/convex_cell.h"
+#include "interpolation/field_model.h"
+#include "neighbors/kd_tree.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that appear whole or not at all: written beside, flushed, renamed.
-#include "files.h"
+#include "io/files.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From datasets to the numbers of files: as text, as bytes.
-#include "columns.h"
+#include "io/columns.h"
 
-#include "files.h"
-#include "numbers.h"
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/files.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <algorithm>
 #include <cstring>
@@ -77,7 +77,7 @@ RecordPacker::pack(const std::uint8_t* point, std::uint8_t* record) const
 } // namespace
 
 std::vector<Column>
-columnsOf(const Dataset& dataset, const Fields& fields)
+findColumns(const Dataset& dataset, const Fields& fields)
 {
   std::vector<Column> columns;
   for (const auto& field : fields) {
@@ -113,7 +113,7 @@ appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
 {
   const std::uint8_t* const bytes = point + column.offset;
   if (!column.widened) {
-    appendNumber(text, column.datatype, bytes);
+    pcl_uvol::appendNumber(text, column.datatype, bytes);
     return;
   }
   float relative;
@@ -121,7 +121,7 @@ appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
   const double value = column.addend + relative;
   std::uint8_t wide[sizeof(value)];
   std::memcpy(wide, &value, sizeof(value));
-  appendNumber(text, column.datatype, wide);
+  pcl_uvol::appendNumber(text, column.datatype, wide);
 }
 
 void

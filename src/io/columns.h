@@ -2,7 +2,7 @@
 // The numbers of a dataset as writers put them into files.
 #pragma once
 
-#include <pcl_uvol/common/records.h>
+#include "common/records.h"
 
 namespace pcl_uvol {
 namespace io {
@@ -20,7 +20,7 @@ struct Column {
 
 /** \brief The numbers of savedFields(); components are called name_0, name_1, ... */
 std::vector<Column>
-columnsOf(const Dataset& dataset, const Fields& fields);
+findColumns(const Dataset& dataset, const Fields& fields);
 
 /** \brief Replace blanks and control characters by `_`, keep the names different.
  * \param[out] comments gets a line per name that changed */

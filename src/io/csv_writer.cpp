@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes CSV: a header line, missing values as empty cells.
-#include "columns.h"
-#include "files.h"
-#include "formats.h"
-#include <pcl_uvol/io/table_file.h>
+#include "io/columns.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/table_file.h"
 
 namespace pcl_uvol {
 namespace io {
@@ -11,7 +11,7 @@ namespace io {
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
 {
-  const std::vector<Column> columns = columnsOf(dataset, savedFields(dataset));
+  const std::vector<Column> columns = findColumns(dataset, savedFields(dataset));
   OutputFile out(file, path);
   std::string& text = out.buffer();
   for (const auto& column : columns)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loading and saving by the ending of the name.
-#include "files.h"
-#include "formats.h"
+#include "io/files.h"
+#include "io/formats.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -31,9 +31,9 @@ describeEnding(const std::string& ending)
 namespace io {
 
 FileFormat
-formatOf(const std::string& path, const LoadOptions& options)
+findFormat(const std::string& path, const LoadOptions& options)
 {
-  const std::string ending = endingOf(path);
+  const std::string ending = getEnding(path);
   if (isOneOf(ending, text_endings))
     return FileFormat::Text;
   if (options.xyz_columns != LoadOptions().xyz_columns)
@@ -58,7 +58,7 @@ formatOf(const std::string& path, const LoadOptions& options)
 Dataset
 loadDataset(const std::string& path, const LoadOptions& options)
 {
-  const io::FileFormat format = io::formatOf(path, options);
+  const io::FileFormat format = io::findFormat(path, options);
   return io::reading(path, [&] {
     switch (format) {
     case io::FileFormat::Pcd:
@@ -77,7 +77,7 @@ void
 saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& options)
 {
   checkSavePath(path, dataset.cloud.fields);
-  const std::string ending = io::endingOf(path);
+  const std::string ending = io::getEnding(path);
   writeAtomically(path, [&](const std::string& file) {
     if (ending == ".pcd")
       io::writePcd(file, path, dataset, options);
@@ -94,7 +94,7 @@ void
 checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
   constexpr const char* endings[] = {".pcd", ".ply", ".vtp", ".csv"};
-  const std::string ending = io::endingOf(path);
+  const std::string ending = io::getEnding(path);
   if (!isOneOf(ending, endings))
     io::throwUnwritable(path,
                         describeEnding(ending) +

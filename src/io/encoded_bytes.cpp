@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "encoded_bytes.h"
+#include "io/encoded_bytes.h"
 
 #include <vtkDataCompressor.h>
 

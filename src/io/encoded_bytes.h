@@ -2,7 +2,7 @@
 // Bytes of arrays in VTK's XML files: as they are or in base64, packed or not.
 #pragma once
 
-#include "files.h"
+#include "io/files.h"
 
 #include <cstdint>
 #include <string>
@@ -61,7 +61,8 @@ struct ArrayEncoding {
 };
 
 /** \brief Read the bytes of an array with the numbers in front of them.
- * \param count of the bytes that the array has \throws IOError for fewer */
+ * \param count of the bytes that the array has
+ * \throws IOError for fewer */
 void
 readBlocks(const std::string& path,
            EncodedBytes& source,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bytes and lines of a file through a buffer that slides over it.
-#include "file_cursor.h"
+#include "io/file_cursor.h"
 
 #include <algorithm>
 #include <cstring>
@@ -39,7 +39,8 @@ FileCursor::seek(const Place& place)
   begin_ = end_ = 0;
 }
 
-/** Reads on behind what the buffer holds. \return false at the end of the file */
+/** Reads on behind what the buffer holds.
+ * \return false at the end of the file */
 bool
 FileCursor::fill()
 {

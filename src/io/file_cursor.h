@@ -2,7 +2,7 @@
 // A file read from front to back through a small buffer.
 #pragma once
 
-#include "files.h"
+#include "io/files.h"
 
 #include <string>
 #include <string_view>
@@ -62,7 +62,8 @@ public:
   bool
   nextLine(std::string_view& line);
 
-  /** \brief Words of the next line that has any. \return false after the last line */
+  /** \brief Words of the next line that has any.
+   * \return false after the last line */
   bool
   nextWords(std::vector<std::string_view>& words);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading and writing of files by POSIX calls, whose errors are exact.
-#include "files.h"
+#include "io/files.h"
 
-#include "numbers.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ throwUnwritable(const std::string& path, const std::string& reason)
 }
 
 std::string
-endingOf(const std::string& path)
+getEnding(const std::string& path)
 {
   return lowerCase(std::filesystem::path(path).extension().string());
 }

@@ -28,7 +28,8 @@ throwUnreadable(const std::string& path, std::size_t line, const std::string& re
 throwUnwritable(const std::string& path, const std::string& reason);
 
 /** \brief Call what reads a file; numbers it cannot take and a lack of memory are
- * errors of the file. \throws IOError */
+ * errors of the file.
+ * \throws IOError */
 template <typename Reader>
 auto
 reading(const std::string& path, const Reader& read)
@@ -49,7 +50,7 @@ reading(const std::string& path, const Reader& read)
 
 /** \brief The ending of a file name in lower case, with its dot. */
 std::string
-endingOf(const std::string& path);
+getEnding(const std::string& path);
 
 /** \brief Throw IOError unless a file of that name can be created. */
 void
@@ -71,7 +72,8 @@ public:
     return size_;
   }
 
-  /** \brief Read exactly these bytes. \throws IOError */
+  /** \brief Read exactly these bytes.
+   * \throws IOError */
   void
   read(std::uint64_t offset, void* bytes, std::size_t count) const;
 
@@ -110,7 +112,8 @@ public:
   void
   write(const void* bytes, std::size_t count);
 
-  /** \brief Write all out and close. \throws IOError */
+  /** \brief Write all out and close.
+   * \throws IOError */
   void
   close();
 

@@ -2,8 +2,8 @@
 // The file formats behind loadDataset and saveDataset.
 #pragma once
 
+#include "common/records.h"
 #include <pcl_uvol/common/mesh.h>
-#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>
@@ -19,10 +19,11 @@ class RecordSource;
 enum class FileFormat { Pcd, Ply, Text, Vtk };
 
 /** \brief The format of the points in a file, by the ending of its name.
- * \throws IOError for another ending \throws InvalidArgument for columns of
- * coordinates chosen in a file that is no text */
+ * \throws IOError for another ending
+ * \throws InvalidArgument for columns of coordinates chosen in a file that is no text
+ */
 FileFormat
-formatOf(const std::string& path, const LoadOptions& options);
+findFormat(const std::string& path, const LoadOptions& options);
 
 /** \throws IOError that says what has to be read whole, and what is read as a stream */
 [[noreturn]] void
@@ -35,10 +36,15 @@ readPcd(const std::string& path);
 Dataset
 readPly(const std::string& path);
 
-/** \brief The faces of a PLY as fans of triangles. \throws IOError for one that names
- * a vertex that is not there */
-std::vector<Triangle>
-readPlyTriangles(const std::string& path, std::uint64_t vertices);
+/** \brief Vertices, and faces as fans of triangles. */
+struct PlyMesh {
+  Dataset vertices;
+  std::vector<Triangle> triangles;
+};
+
+/** \throws IOError for a face that names a vertex that is not there */
+PlyMesh
+readPlyMesh(const std::string& path);
 
 /** \brief Text with a header line; the separator is found in it. */
 Dataset
@@ -55,11 +61,13 @@ struct CompressedInfo {
   std::uint64_t packed_bytes;
 };
 
-/** \brief Nothing for a PCD that is not compressed. \throws IOError */
+/** \brief Nothing for a PCD that is not compressed.
+ * \throws IOError */
 std::optional<CompressedInfo>
 findCompressed(const std::string& path);
 
-/** \brief The files that a .pvtp lists. \throws IOError if it is none */
+/** \brief The files that a .pvtp lists.
+ * \throws IOError if it is none */
 std::vector<std::string>
 readPieceList(const std::string& path);
 
@@ -82,11 +90,13 @@ writePcd(const std::string& file,
          const Dataset& dataset,
          const SaveOptions& options);
 
-/** \brief \throws IOError if PLY lacks the type of a field */
+/** \brief
+ * \throws IOError if PLY lacks the type of a field */
 void
 checkPlyFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields);
 
-/** \brief \param triangles faces over the points; may be empty */
+/** \brief
+ * \param triangles faces over the points; may be empty */
 void
 writePly(const std::string& file,
          const std::string& path,
@@ -100,8 +110,9 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
 void
 writeVtp(const std::string& file, const std::string& path, const Dataset& dataset);
 
-/** \brief A .pvtp. \param dataset has the fields of the pieces \param pieces .vtp
- * files in its folder */
+/** \brief A .pvtp.
+ * \param dataset has the fields of the pieces
+ * \param pieces .vtp files in its folder */
 void
 writePieceList(const std::string& file,
                const std::string& path,

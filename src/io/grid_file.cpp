@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files.h"
-#include "vtk_messages.h"
+#include "io/grid_file.h"
+
+#include "io/files.h"
+#include "io/vtk_messages.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/grid_file.h>
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -70,7 +71,7 @@ saveVoronoiGrid(const std::string& path,
 void
 checkGridPath(const std::string& path)
 {
-  if (io::endingOf(path) != ".vti")
+  if (io::getEnding(path) != ".vti")
     io::throwUnwritable(path, "grids are written as .vti");
   io::checkWritable(path);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files.h"
-#include "vtk_messages.h"
+#include "io/files.h"
+#include "io/vtk_messages.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
@@ -44,7 +44,7 @@ isOpaque(const Image& image)
 void
 checkPngPath(const std::string& path)
 {
-  if (io::endingOf(path) != ".png")
+  if (io::getEnding(path) != ".png")
     io::throwUnwritable(path, "pictures are written as .png");
   io::checkWritable(path);
 }

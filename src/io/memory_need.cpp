@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "formats.h"
-#include "record_source.h"
+#include "io/memory_need.h"
+
+#include "io/formats.h"
+#include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/memory_need.h>
 
 #include <algorithm>
 
 namespace pcl_uvol {
 namespace {
 
-/** Of a stream, as PointStream says. */
+/** The memory of a stream, as PointStream says. */
 constexpr double stream_bytes = 2e6;
 
 /** \param packed_bytes of compressed points, 0: they are read as a stream */
-PromisedCloud
-promiseOf(const RecordInfo& info, std::uint64_t packed_bytes)
+CloudHeader
+peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
 {
   const RecordLayout layout(info, recordBytes(info.fields));
-  PromisedCloud cloud;
+  CloudHeader cloud;
   cloud.points = info.count;
   cloud.point_step = layout.getHeader().cloud.point_step;
   checkSize(cloud.points, cloud.point_step);
@@ -37,19 +38,19 @@ promiseOf(const RecordInfo& info, std::uint64_t packed_bytes)
 
 } // namespace
 
-std::optional<PromisedCloud>
-promisedCloud(const std::string& path)
+std::optional<CloudHeader>
+peekHeader(const std::string& path)
 {
   try {
-    const io::FileFormat format = io::formatOf(path, {});
+    const io::FileFormat format = io::findFormat(path, {});
     if (format != io::FileFormat::Pcd && format != io::FileFormat::Ply)
       return std::nullopt;
     if (format == io::FileFormat::Pcd)
       if (const auto compressed = io::findCompressed(path))
-        return promiseOf(compressed->info, compressed->packed_bytes);
+        return peekRecords(compressed->info, compressed->packed_bytes);
     const auto source =
         format == io::FileFormat::Pcd ? io::openPcd(path) : io::openPly(path);
-    return promiseOf(source->getInfo(), 0);
+    return peekRecords(source->getInfo(), 0);
   }
   catch (const Exception&) {
     return std::nullopt;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads NRRD: Teem writes behind its buffers where lines of the header are long.
-#include "file_cursor.h"
-#include "numbers.h"
-#include "volume_data.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "io/file_cursor.h"
+#include "io/volume_data.h"
 
 #include <pcl/PCLPointField.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCD files: pcl::PCDReader takes garbage for zeros and maps truncated files, so the
 // header is checked and the body read here.
-#include "columns.h"
-#include "files.h"
-#include "formats.h"
-#include "numbers.h"
-#include "record_source.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/columns.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/record_source.h"
 
 #include <pcl/io/lzf.h>
 
@@ -426,7 +426,7 @@ writePcd(const std::string& file,
       static_cast<std::size_t>(dataset.cloud.width) * dataset.cloud.height;
   OutputFile out(file, path);
   out.buffer() = makeHeader(fields, count, options);
-  writeRecords(out, dataset, columnsOf(dataset, fields), options.ascii);
+  writeRecords(out, dataset, findColumns(dataset, fields), options.ascii);
   out.close();
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads vertices of PLY files: no reader at hand keeps the names and types of all
 // properties and finds truncated files.
-#include "formats.h"
-#include "numbers.h"
-#include "ply_types.h"
-#include "record_source.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/formats.h"
+#include "io/ply_types.h"
+#include "io/record_source.h"
 
 #include <algorithm>
 #include <cstring>
@@ -457,12 +457,14 @@ FaceReader::takeProperty(const Property& property)
 }
 
 /** Reads the header and goes in front of the first element of that name.
+ * \param behind_vertices if they have been read already
  * \return null if there is none */
 const Element*
 findElement(const std::string& path,
             FileCursor& cursor,
             const std::string& name,
-            Header& header)
+            Header& header,
+            const FileCursor::Place* behind_vertices = nullptr)
 {
   header = HeaderParser(path, cursor).parse();
   for (const Element& element : header.elements) {
@@ -470,13 +472,16 @@ findElement(const std::string& path,
       checkCount(path, element, header.format, cursor.left());
       return &element;
     }
-    skipElement(path, cursor, element, header.format);
+    if (behind_vertices && element.name == "vertex")
+      cursor.seek(*behind_vertices);
+    else
+      skipElement(path, cursor, element, header.format);
   }
   return nullptr;
 }
 
 RecordInfo
-infoOf(const std::string& path, const Element& vertex)
+makeInfo(const std::string& path, const Element& vertex)
 {
   RecordInfo info;
   info.count = vertex.count;
@@ -502,7 +507,7 @@ openPly(const std::string& path)
   const Element* const vertex = findElement(path, *cursor, "vertex", header);
   if (!vertex)
     throwUnreadable(path, "it has no element 'vertex'");
-  RecordInfo info = infoOf(path, *vertex);
+  RecordInfo info = makeInfo(path, *vertex);
   const bool swapped = header.format == Format::BigEndian;
   if (header.format == Format::Ascii)
     return std::make_unique<AsciiSource>(
@@ -520,15 +525,20 @@ readPly(const std::string& path)
   return readWhole(openPly(path));
 }
 
-std::vector<Triangle>
-readPlyTriangles(const std::string& path, std::uint64_t vertices)
+PlyMesh
+readPlyMesh(const std::string& path)
 {
+  FileCursor::Place behind_vertices;
+  PlyMesh mesh{readWhole(openPly(path), &behind_vertices), {}};
   FileCursor cursor(path);
   Header header;
-  const Element* const face = findElement(path, cursor, "face", header);
-  if (!face)
-    return {};
-  return FaceReader(path, cursor, *face, header.format, vertices).read();
+  const Element* const face =
+      findElement(path, cursor, "face", header, &behind_vertices);
+  if (face)
+    mesh.triangles =
+        FaceReader(path, cursor, *face, header.format, mesh.vertices.cloud.width)
+            .read();
+  return mesh;
 }
 
 } // namespace io

@@ -2,7 +2,7 @@
 // Types and names of PLY properties.
 #pragma once
 
-#include <pcl_uvol/common/records.h>
+#include "common/records.h"
 
 #include <string_view>
 

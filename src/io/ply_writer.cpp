@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes points as vertices of PLY files, with the names and types of that format.
-#include "columns.h"
-#include "files.h"
-#include "formats.h"
-#include "ply_types.h"
+#include "io/columns.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/ply_types.h"
 
 #include <algorithm>
 
@@ -118,7 +118,7 @@ writePly(const std::string& file,
 {
   Fields fields = savedFields(dataset);
   renameFields(fields, cloud_normals, ply_normals);
-  std::vector<Column> columns = unpackColors(columnsOf(dataset, fields));
+  std::vector<Column> columns = unpackColors(findColumns(dataset, fields));
   std::vector<std::string> names, comments = options.comments;
   for (const auto& column : columns)
     names.push_back(column.name);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records of a file and their layout as points, together.
-#include "formats.h"
-#include "record_source.h"
+#include "io/point_stream.h"
+
+#include "io/formats.h"
+#include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/point_stream.h>
 
 #include <algorithm>
 #include <limits>
@@ -42,16 +43,13 @@ throwNoPoint(std::uint64_t point, std::uint64_t size)
 
 PointStream::PointStream(const std::string& path, const LoadOptions& options)
 {
-  const io::FileFormat format = io::formatOf(path, options);
+  const io::FileFormat format = io::findFormat(path, options);
   io::reading(path, [&] {
     reader_ = std::make_unique<io::PointReader>(openSource(path, format, options));
     reader_->findOrigin();
   });
 }
 
-PointStream::PointStream(PointStream&& other) noexcept = default;
-PointStream&
-PointStream::operator=(PointStream&& other) noexcept = default;
 PointStream::~PointStream() = default;
 
 const Dataset&

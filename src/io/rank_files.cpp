@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files.h"
-#include "formats.h"
+#include "io/rank_files.h"
+
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "distributed/byte_stream.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/point_stream.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/io/point_stream.h>
-#include <pcl_uvol/io/rank_files.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -127,7 +128,8 @@ struct Layout {
     return message;
   }
 
-  /** Take what another piece has. \throws InvalidArgument for other fields */
+  /** Take what another piece has.
+   * \throws InvalidArgument for other fields */
   void
   join(const Layout& other)
   {
@@ -296,7 +298,7 @@ findPieces(const std::vector<std::string>& paths)
                             !std::filesystem::exists(path);
     for (const std::string& name :
          is_pattern ? matching(path) : std::vector<std::string>{path})
-      if (io::endingOf(name) == ".pvtp")
+      if (io::getEnding(name) == ".pvtp")
         for (const std::string& piece : io::readPieceList(name))
           pieces.push_back(piece);
       else
@@ -312,7 +314,7 @@ loadPart(const std::vector<std::string>& paths,
 {
   if (paths.empty())
     throw InvalidArgument("No file is given to be read.");
-  if (paths.size() > 1 || io::formatOf(paths[0], options) == io::FileFormat::Vtk)
+  if (paths.size() > 1 || io::findFormat(paths[0], options) == io::FileFormat::Vtk)
     return loadPieces(paths, options, communicator);
   Dataset part = loadRange(paths[0], options, communicator);
   communicator.barrier();
@@ -322,7 +324,7 @@ loadPart(const std::vector<std::string>& paths,
 void
 checkSavePieces(const std::string& path)
 {
-  if (io::endingOf(path) != ".pvtp")
+  if (io::getEnding(path) != ".pvtp")
     io::throwUnwritable(path, "lists of pieces end with .pvtp");
   io::checkWritable(path);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records at fixed places, and records found by those before them.
-#include "record_source.h"
+#include "io/record_source.h"
 
-#include "formats.h"
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/scalar_field.h"
+#include "io/formats.h"
 
 #include <algorithm>
 
@@ -165,7 +165,7 @@ PointReader::read(std::size_t count, std::uint8_t* points)
 }
 
 Dataset
-readWhole(std::unique_ptr<RecordSource> source)
+readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end)
 {
   PointReader reader(std::move(source));
   const RecordInfo& info = reader.getSource().getInfo();
@@ -174,12 +174,16 @@ readWhole(std::unique_ptr<RecordSource> source)
     // Reading twice would take longer than all records take memory.
     auto records = makeRecords(info.fields, count);
     reader.getSource().read(count, records.data.data());
+    if (end)
+      *end = reader.getSource().tellEnd();
     return makeDataset(std::move(records), info);
   }
   Dataset dataset = reader.getLayout().getHeader();
   checkSize(count, dataset.cloud.point_step);
   resizePoints(dataset.cloud, count);
   reader.read(count, dataset.cloud.data.data());
+  if (end)
+    *end = reader.getSource().tellEnd();
   return dataset;
 }
 

@@ -2,8 +2,8 @@
 // Points of a file as records, read from front to back or from any point on.
 #pragma once
 
-#include "file_cursor.h"
-#include <pcl_uvol/common/records.h>
+#include "common/records.h"
+#include "io/file_cursor.h"
 
 #include <memory>
 
@@ -32,12 +32,18 @@ public:
     return next_;
   }
 
-  /** \param record 0 to the number of records \throws IOError */
+  /** \brief What follows the last record in the file; all records have been read. */
+  virtual FileCursor::Place
+  tellEnd() const = 0;
+
+  /** \param record 0 to the number of records
+   * \throws IOError */
   virtual void
   seek(std::uint64_t record) = 0;
 
   /** \brief The next records one behind the other, native byte order.
-   * \param count at most what follows \throws IOError */
+   * \param count at most what follows
+   * \throws IOError */
   virtual void
   read(std::size_t count, std::uint8_t* records) = 0;
 
@@ -56,6 +62,12 @@ public:
               std::uint64_t offset,
               bool swapped);
 
+  FileCursor::Place
+  tellEnd() const override
+  {
+    return {offset_ + info_.count * step_, 0};
+  }
+
   void
   seek(std::uint64_t record) override;
 
@@ -73,6 +85,12 @@ private:
  * Places passed are kept, one of many records, so that going back costs little. */
 class SequentialSource : public RecordSource {
 public:
+  FileCursor::Place
+  tellEnd() const override
+  {
+    return cursor_->tell();
+  }
+
   void
   seek(std::uint64_t record) override;
 
@@ -124,11 +142,13 @@ public:
   }
 
   /** \brief Look at all coordinates if their origin needs that.
-   * \throws InvalidArgument for a coordinate beyond float \throws IOError */
+   * \throws InvalidArgument for a coordinate beyond float
+   * \throws IOError */
   void
   findOrigin();
 
-  /** \param count at most what follows \throws IOError */
+  /** \param count at most what follows
+   * \throws IOError */
   void
   read(std::size_t count, std::uint8_t* points);
 
@@ -142,11 +162,13 @@ private:
   std::vector<std::uint8_t> records_;
 };
 
-/** \brief The dataset of all the records of a source. \throws IOError
+/** \brief The dataset of all the records of a source.
+ * \param[out] end gets what follows them in the file
+ * \throws IOError
  * \throws InvalidArgument without x, y, z, for a coordinate beyond float, and for more
  * points than PCL can number */
 Dataset
-readWhole(std::unique_ptr<RecordSource> source);
+readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end = nullptr);
 
 } // namespace io
 } // namespace pcl_uvol

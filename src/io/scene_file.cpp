@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the items of scenes.
-#include "files.h"
-#include "scene_cloud.h"
-#include "scene_words.h"
+#include "io/scene_file.h"
+
+#include "common/printable.h"
+#include "io/files.h"
+#include "io/scene_words.h"
+#include "render/ray_tracing/scene_cloud.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/io/scene_file.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <Eigen/Geometry>
 
@@ -18,9 +20,15 @@ namespace pcl_uvol {
 namespace {
 
 namespace fs = std::filesystem;
-using io::CloudItem;
 using io::SceneItem;
 using io::ScenePlace;
+
+/** What a scene says about a cloud. */
+struct CloudItem {
+  ScenePlace place, color_place; ///< of the cloud, and of its field of colours
+  std::string path;
+  CloudLook look;
+};
 
 constexpr double radians_per_degree = 3.14159265358979323846 / 180.0;
 
@@ -54,6 +62,35 @@ readText(const std::string& path)
         "it is no text: it has a byte of value " +
             std::to_string(static_cast<unsigned char>(*strange)));
   return text;
+}
+
+/** Clouds are read, and covered by splats. Errors start with the place of the item. */
+void
+addClouds(const std::vector<CloudItem>& items,
+          unsigned threads,
+          Report& report,
+          SceneFile& file)
+{
+  std::vector<CloudLook> looks;
+  std::vector<SceneCloud> clouds;
+  for (const CloudItem& item : items) {
+    const Dataset dataset = io::callAt(item.place, [&] {
+      const StepTimer timer(report, "read");
+      return loadDataset(item.path);
+    });
+    looks.push_back(item.look);
+    clouds.push_back(io::callAt(
+        item.place, [&] { return coverCloud(dataset, item.look, threads, report); }));
+    io::callAt(item.color_place,
+               [&] { colorCloud(dataset, item.look, clouds.back()); });
+  }
+  const Eigen::Vector3d origin = findSceneOrigin(looks, clouds);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    io::callAt(items[i].place, [&] { placeCloud(looks[i], origin, clouds[i]); });
+    file.scene.splats.push_back(
+        {clouds[i].splats, std::move(clouds[i].colors), looks[i].material});
+  }
+  file.origin = {origin.x(), origin.y(), origin.z()};
 }
 
 /** A file as another file names it. */
@@ -316,7 +353,7 @@ SceneReader::takeMaterial(SceneItem& item) const
 }
 
 std::vector<SceneItem::Option>
-placementOptions(SceneItem& item, io::CloudPlacement& placement)
+placementOptions(SceneItem& item, CloudPlacement& placement)
 {
   return {{"fit x y z SIZE",
            [&] {
@@ -338,13 +375,13 @@ colorOptions(SceneItem& item, CloudItem& cloud)
 {
   return {{"color FIELD",
            [&] {
-             cloud.color_field = item.word("the name of a field");
+             cloud.look.color_field = item.word("the name of a field");
              cloud.color_place = item.place();
            }},
           {"colormap NAME",
            [&] {
              const std::string name = item.word("the name of a map");
-             cloud.color_map =
+             cloud.look.color_map =
                  io::callAt(item.place(), [&name] { return ColorMap(name); });
            }},
           {"range low high", [&] {
@@ -352,7 +389,7 @@ colorOptions(SceneItem& item, CloudItem& cloud)
              const double high = item.number(io::any_number);
              if (low > high)
                item.fail("the high end of a range of colours is below its low end");
-             cloud.color_range = {low, high};
+             cloud.look.color_range = {low, high};
            }}};
 }
 
@@ -361,29 +398,30 @@ SceneReader::readCloud(SceneItem& item)
 {
   CloudItem cloud;
   cloud.place = cloud.color_place = item.place();
-  cloud.name = item.word("the name of a file");
+  CloudLook& look = cloud.look;
+  look.name = item.word("the name of a file");
   cloud.path = pathFrom(folder_.empty() ? fs::path(files_.back()).parent_path()
                                         : fs::path(folder_),
-                        cloud.name);
-  SplatParameters& parameters = cloud.parameters;
+                        look.name);
+  SplatParameters& parameters = look.parameters;
   const auto takeDelta = [&](bool is_length) {
     parameters.delta = item.number(io::positive);
     parameters.delta_is_length = is_length;
   };
   std::vector<SceneItem::Option> options = {
-      {"material NAME", [&] { cloud.material = takeMaterial(item); }},
+      {"material NAME", [&] { look.material = takeMaterial(item); }},
       {"delta d", [&] { takeDelta(false); }},
       {"delta-abs length", [&] { takeDelta(true); }},
       {"lambda l", [&] { parameters.lambda = item.number(io::zero_to_one); }}};
   for (const auto& more :
-       {placementOptions(item, cloud.placement), colorOptions(item, cloud)})
+       {placementOptions(item, look.placement), colorOptions(item, cloud)})
     options.insert(options.end(), more.begin(), more.end());
   item.options(options, {{"fit", "scale"}, {"fit", "at"}, {"delta", "delta-abs"}});
-  cloud.has_parameters = item.hasOption("delta") || item.hasOption("delta-abs") ||
-                         item.hasOption("lambda");
+  look.has_parameters = item.hasOption("delta") || item.hasOption("delta-abs") ||
+                        item.hasOption("lambda");
   if ((item.hasOption("colormap") || item.hasOption("range")) &&
-      (cloud.color_field.empty() || cloud.color_field == "rgb" ||
-       cloud.color_field == "rgba"))
+      (look.color_field.empty() || look.color_field == "rgb" ||
+       look.color_field == "rgba"))
     io::throwAt(cloud.place,
                 "colormap and range need 'color FIELD' with a scalar field");
   clouds_.push_back(std::move(cloud));
@@ -445,7 +483,7 @@ SceneReader::finish(const std::string& path, unsigned threads, Report& report)
   Scene& scene = scene_.scene;
   if (clouds_.empty() && scene.spheres.empty() && scene.planes.empty())
     throw IOError("'" + path + "' draws nothing: it has no cloud, sphere or plane.");
-  scene_.origin = io::addClouds(clouds_, threads, report, scene);
+  addClouds(clouds_, threads, report, scene_);
   const Eigen::Vector3d origin = Eigen::Map<Eigen::Vector3d>(scene_.origin.data());
   for (SphereObject& sphere : scene.spheres)
     sphere.center -= origin;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene_words.h"
+#include "io/scene_words.h"
 
-#include "numbers.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
 
 #include <algorithm>
 #include <cmath>

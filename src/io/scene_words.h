@@ -98,7 +98,8 @@ public:
     throwAt(place(), reason);
   }
 
-  /** \brief Take a word. \param what it is, for the error if there is none */
+  /** \brief Take a word.
+   * \param what it is, for the error if there is none */
   const std::string&
   word(const std::string& what);
 

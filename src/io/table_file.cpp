@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "files.h"
+#include "io/table_file.h"
+
+#include "io/files.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/table_file.h>
 
 #include <algorithm>
 #include <cstring>
@@ -39,7 +40,7 @@ saveTable(const std::string& path, const std::string& text)
 void
 checkTablePath(const std::string& path)
 {
-  if (io::endingOf(path) != ".csv")
+  if (io::getEnding(path) != ".csv")
     io::throwUnwritable(path, "tables are written as .csv");
   io::checkWritable(path);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads tables as text: CSV and its relatives with other separators. The types of the
 // columns come from all rows, so these are looked at once before any is taken.
-#include "formats.h"
-#include "numbers.h"
-#include "record_source.h"
-#include "text_rows.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "io/formats.h"
+#include "io/record_source.h"
+#include "io/text_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +84,8 @@ class TextTable {
 public:
   TextTable(const std::string& path, const LoadOptions& options);
 
-  /** Looks at all rows. \param keep their values for collect() */
+  /** Looks at all rows.
+   * \param keep their values for collect() */
   void
   scan(bool keep);
 
@@ -302,7 +303,8 @@ TextTable::findCoordinates()
   return found;
 }
 
-/** By x, y, z, or by first columns such as x_km, y_km, z_minus_dbar. */
+/** Finds coordinates by x, y, z, or by first columns such as x_km, y_km, z_minus_dbar.
+ */
 bool
 TextTable::namesCoordinates() const
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells between separators, blanks and quotes.
-#include "text_rows.h"
+#include "io/text_rows.h"
 
-#include "numbers.h"
+#include "common/numbers.h"
 
 namespace pcl_uvol {
 namespace io {

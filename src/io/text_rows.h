@@ -2,7 +2,7 @@
 // Rows of a table as text, one after another.
 #pragma once
 
-#include "file_cursor.h"
+#include "io/file_cursor.h"
 
 #include <string>
 #include <string_view>

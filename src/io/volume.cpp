@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumes, turned so that all axes ascend.
-#include "files.h"
-#include "volume_data.h"
-#include "vtk_readers.h"
+#include "io/files.h"
+#include "io/volume_data.h"
+#include "io/vtk_readers.h"
 #include <pcl_uvol/io/volume.h>
 
 #include <vtkDataArray.h>
@@ -39,7 +39,7 @@ makeAscending(const std::string& path, Volume& volume)
 }
 
 Volume
-volumeOf(const std::string& path, vtkImageData& image)
+makeVolume(const std::string& path, vtkImageData& image)
 {
   vtkPointData* const data = image.GetPointData();
   vtkDataArray* const scalars =
@@ -82,7 +82,7 @@ readVolume(const std::string& path, const std::string& ending)
   auto* const image = vtkImageData::SafeDownCast(content.data);
   if (!image)
     io::throwUnreadable(path, "it holds no volume but points");
-  return volumeOf(path, *image);
+  return makeVolume(path, *image);
 }
 
 bool
@@ -137,7 +137,7 @@ Volume::upper() const
 bool
 isVolumeFile(const std::string& path)
 {
-  const std::string ending = io::endingOf(path);
+  const std::string ending = io::getEnding(path);
   return ending == ".nrrd" || ending == ".nhdr" || ending == ".vti" ||
          ending == ".mha" || ending == ".mhd" ||
          (ending == ".vtk" && isStructuredPoints(path));
@@ -150,7 +150,7 @@ loadVolume(const std::string& path)
     const io::InputFile exists(path);
   }
   return io::reading(path, [&] {
-    Volume volume = readVolume(path, io::endingOf(path));
+    Volume volume = readVolume(path, io::getEnding(path));
     makeAscending(path, volume);
     return volume;
   });

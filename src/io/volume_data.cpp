@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers as bytes, as text and zipped, out of one file or many.
-#include "volume_data.h"
+#include "io/volume_data.h"
 
-#include "file_cursor.h"
-#include "numbers.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/file_cursor.h"
 
 #include <algorithm>
 #include <charconv>

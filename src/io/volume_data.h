@@ -27,15 +27,15 @@ struct VolumeData {
   bool at_end = false;             ///< the numbers are the last bytes of a file
 };
 
-/** \brief Sets the sizes of a volume. \throws IOError unless they are three from 1 on
- */
+/** \brief Sets the sizes of a volume.
+ * \throws IOError unless they are three from 1 on */
 void
 setDims(const std::string& path,
         const std::vector<std::string_view>& words,
         Volume& volume);
 
-/** \brief Sets spacing from the direction of an axis. \throws IOError for one that is
- * not parallel to its coordinate */
+/** \brief Sets spacing from the direction of an axis.
+ * \throws IOError for one that is not parallel to its coordinate */
 void
 setDirection(const std::string& path,
              std::size_t axis,
@@ -47,13 +47,14 @@ std::string
 besideFile(const std::string& path, std::string_view name);
 
 /** \brief The files that a pattern with one %d, as in slice%03d.raw, stands for.
- * \param words pattern, first, last, step \throws IOError for files that are not there,
- * and for any other pattern */
+ * \param words pattern, first, last, step
+ * \throws IOError for files that are not there, and for any other pattern */
 std::vector<std::string>
 filesOfPattern(const std::string& path, const std::vector<std::string_view>& words);
 
 /** \brief Read the numbers; nothing larger than the files allow is ever held.
- * \param volume has its sizes \throws IOError */
+ * \param volume has its sizes
+ * \throws IOError */
 void
 readValues(const std::string& path, const VolumeData& data, Volume& volume);
 

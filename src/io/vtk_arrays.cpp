@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtk_arrays.h"
+#include "io/vtk_arrays.h"
 
-#include "numbers.h"
-#include "vtk_readers.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/vtk_readers.h"
 
 #include <pcl/PCLPointField.h>
 #include <vtkDataSet.h>

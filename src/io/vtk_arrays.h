@@ -2,7 +2,7 @@
 // Arrays of VTK that are filled from files: numbers as text and as bytes.
 #pragma once
 
-#include "file_cursor.h"
+#include "io/file_cursor.h"
 
 #include <vtkDataArray.h>
 #include <vtkSmartPointer.h>
@@ -29,7 +29,8 @@ const VtkType*
 findLegacyType(std::string_view name);
 /** @} */
 
-/** \brief An array whose numbers are not set. \param name "": none
+/** \brief An array whose numbers are not set.
+ * \param name "": none
  * \throws IOError if memory cannot hold it */
 vtkSmartPointer<vtkDataArray>
 makeArray(const VtkType& type,
@@ -45,7 +46,8 @@ bytesOf(vtkDataArray& array);
 void
 swapBytes(std::uint8_t* bytes, std::size_t size, std::uint64_t count);
 
-/** \brief Read numbers as text. \param end of the text in the file
+/** \brief Read numbers as text.
+ * \param end of the text in the file
  * \throws IOError for what is no number, and for fewer */
 void
 readTexts(const std::string& path,
@@ -55,7 +57,8 @@ readTexts(const std::string& path,
           std::uint64_t count,
           std::uint8_t* bytes);
 
-/** \brief Before memory is taken. \param size bytes that a number has at least
+/** \brief Before memory is taken.
+ * \param size bytes that a number has at least
  * \throws IOError unless that many numbers fit into what is left */
 void
 checkPromise(const std::string& path,

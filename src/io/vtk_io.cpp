@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points with their point data in VTK's files.
-#include "files.h"
-#include "formats.h"
-#include "vtk_messages.h"
-#include "vtk_readers.h"
-#include "xml_scanner.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/records.h>
+#include "common/printable.h"
+#include "common/records.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/vtk_messages.h"
+#include "io/vtk_readers.h"
+#include "io/xml_scanner.h"
 #include <pcl_uvol/filters/point_data.h>
 
 #include <vtkPointData.h>
@@ -59,7 +59,7 @@ addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
  * UTF-8 are taken for Latin-1; control characters, which XML cannot hold, become '_'.
  */
 std::string
-attributeOf(const std::string& text)
+escapeAttribute(const std::string& text)
 {
   std::string value;
   for (std::size_t at = 0; at < text.size();) {
@@ -99,7 +99,7 @@ makeWritable(const Dataset& dataset)
   auto* const arrays = data->GetPointData();
   std::vector<std::string> names;
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-    names.push_back(attributeOf(arrays->GetArrayName(i)));
+    names.push_back(escapeAttribute(arrays->GetArrayName(i)));
   makeUnique(names);
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
     arrays->GetArray(i)->SetName(names[static_cast<std::size_t>(i)].c_str());
@@ -155,7 +155,7 @@ writePieceList(const std::string& file,
     addElement("Piece", list)
         ->SetAttribute(
             "Source",
-            attributeOf(std::filesystem::path(piece).filename().string()).c_str());
+            escapeAttribute(std::filesystem::path(piece).filename().string()).c_str());
   std::ofstream out(file);
   root->PrintXML(out, vtkIndent());
   if (!out.flush())
@@ -166,7 +166,7 @@ Dataset
 readVtk(const std::string& path)
 {
   const auto content =
-      endingOf(path) == ".vtk" ? readVtkLegacy(path) : readVtkXml(path);
+      getEnding(path) == ".vtk" ? readVtkLegacy(path) : readVtkXml(path);
   Dataset dataset = toPointCloud(content.data);
   dataset.notes.insert(dataset.notes.end(), content.notes.begin(), content.notes.end());
   return dataset;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads legacy .vtk: points, lattices and the data of their points. Cells are passed
 // over by their counts, which nothing else depends on.
-#include "numbers.h"
-#include "vtk_arrays.h"
-#include "vtk_readers.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/vtk_arrays.h"
+#include "io/vtk_readers.h"
 
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
@@ -283,7 +283,8 @@ LegacyReader::keep(const Array& array)
   has_cell_data_ = has_cell_data_ || data_ == Data::Cells;
 }
 
-/** DIMENSIONS, POINTS, ... \return false for another keyword */
+/** DIMENSIONS, POINTS, ...
+ * \return false for another keyword */
 bool
 LegacyReader::takeGeometry(const std::string& key)
 {
@@ -425,7 +426,8 @@ LegacyReader::takeField()
   }
 }
 
-/** Data of points or cells. \return false for another keyword */
+/** Data of points or cells.
+ * \return false for another keyword */
 bool
 LegacyReader::takeAttribute(const std::string& key)
 {

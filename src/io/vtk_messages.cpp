@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An output window for VTK that prints nothing.
-#include "vtk_messages.h"
+#include "io/vtk_messages.h"
 
-#include "files.h"
-#include "numbers.h"
+#include "common/numbers.h"
+#include "io/files.h"
 
 #include <vtkLogger.h>
 #include <vtkObjectFactory.h>
@@ -19,7 +19,7 @@ namespace {
 /** "ERROR: In file, line 5\nvtkReader (0x1): words.\n\n" -> "words"; warnings without
  * an object have the first line only in front. */
 std::string
-wordsOf(const std::string& message)
+extractWords(const std::string& message)
 {
   std::size_t start = message.find("): ");
   start = start == std::string::npos ? message.find('\n') : start + 2;
@@ -45,14 +45,14 @@ public:
   DisplayErrorText(const char* text) override
   {
     if (error && error->empty())
-      *error = wordsOf(text);
+      *error = extractWords(text);
   }
 
   /** Readers without an object at hand report damaged data as a generic warning. */
   void
   DisplayGenericWarningText(const char* text) override
   {
-    const std::string words = wordsOf(text);
+    const std::string words = extractWords(text);
     if (words.find("rror") != std::string::npos)
       DisplayErrorText(text);
   }

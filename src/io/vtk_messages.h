@@ -2,6 +2,8 @@
 // What VTK would print, kept while it reads or writes a file.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
@@ -17,7 +19,7 @@ namespace io {
 /** \brief Collects VTK's errors instead of printing them. Parts inside VTK's readers
  * report to its global output window only, so that is exchanged; one at a time, calls
  * of other threads wait. */
-class VtkMessages {
+class PCL_UVOL_EXPORTS VtkMessages {
 public:
   VtkMessages();
   VtkMessages(const VtkMessages&) = delete;
@@ -41,7 +43,8 @@ private:
 };
 
 /** \brief Write what a writer was given, compressed in its binary part.
- * \param file where it is written to \param path the name that errors give
+ * \param file where it is written to
+ * \param path the name that errors give
  * \throws IOError */
 void
 writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path);

@@ -20,11 +20,13 @@ struct VtkContent {
 };
 
 /** \brief The points of a .vtp, .vtu or .vts with their data, or the image of a .vti;
- * cells are not looked at. \throws IOError */
+ * cells are not looked at.
+ * \throws IOError */
 VtkContent
 readVtkXml(const std::string& path);
 
-/** \brief The same of a .vtk: images and rectilinear grids as such. \throws IOError */
+/** \brief The same of a .vtk: images and rectilinear grids as such.
+ * \throws IOError */
 VtkContent
 readVtkLegacy(const std::string& path);
 
@@ -37,8 +39,8 @@ describeTexts(const std::string& name);
 void
 checkLattice(const std::string& path, vtkDataSet& data);
 
-/** \brief What stands behind DATASET in a .vtk, in lower case. \throws IOError if it
- * is none */
+/** \brief What stands behind DATASET in a .vtk, in lower case.
+ * \throws IOError if it is none */
 std::string
 findLegacyKind(const std::string& path);
 

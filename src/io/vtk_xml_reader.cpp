@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads .vtp, .vtu, .vts and .vti: the numbers that their tags promise.
-#include "encoded_bytes.h"
-#include "vtk_messages.h"
-#include "vtk_readers.h"
-#include "vtk_xml_tags.h"
-#include <pcl_uvol/common/printable.h>
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/encoded_bytes.h"
+#include "io/vtk_messages.h"
+#include "io/vtk_readers.h"
+#include "io/vtk_xml_tags.h"
 
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>

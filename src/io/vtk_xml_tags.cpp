@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtk_xml_tags.h"
+#include "io/vtk_xml_tags.h"
 
-#include "numbers.h"
-#include <pcl_uvol/common/printable.h>
+#include "common/numbers.h"
+#include "common/printable.h"
 
 #include <algorithm>
 #include <cmath>

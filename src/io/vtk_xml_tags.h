@@ -3,8 +3,8 @@
 // are.
 #pragma once
 
-#include "vtk_arrays.h"
-#include "xml_scanner.h"
+#include "io/vtk_arrays.h"
+#include "io/xml_scanner.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "xml_scanner.h"
+#include "io/xml_scanner.h"
 
-#include <pcl_uvol/common/printable.h>
+#include "common/printable.h"
 
 #include <charconv>
 

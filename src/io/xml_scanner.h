@@ -3,7 +3,7 @@
 // that grows with the file.
 #pragma once
 
-#include "file_cursor.h"
+#include "io/file_cursor.h"
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "isosurface/edge_ends.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/edge_ends.h>
 
 #include <algorithm>
 #include <limits>

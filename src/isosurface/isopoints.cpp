@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "isopoints.h"
+#include "isosurface/isopoints.h"
 
-#include "smooth_roots.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/isosurface/piece_isopoints.h>
-#include <pcl_uvol/neighbors/natural_neighbors.h>
+#include "common/parallel.h"
+#include "isosurface/piece_isopoints.h"
+#include "isosurface/smooth_roots.h"
+#include "neighbors/neighborhood_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,8 @@ averageNormal(const std::vector<SampleRecord>& order,
     normals[order[begin].input_index][axis] = static_cast<float>(sum[axis] / length);
 }
 
-/** Leave only the first of isopoints that fall together. \return how many went */
+/** Leave only the first of isopoints that fall together.
+ * \return how many went */
 std::size_t
 dropCoincident(std::vector<PointIso>& points, IsoEdges& edges, unsigned threads)
 {
@@ -199,7 +200,7 @@ appendIsopoints(const IsopointInput& input,
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
   {
-    const StepTimer timer(report, "isopoints");
+    const StepTimer timer(report, "linear_roots");
     parallelBlocks(keys.size(), block_edges, input.threads, [&](auto begin, auto end) {
       for (std::size_t i = begin; i < end; ++i)
         placeIsopoint(input, keys[i], isovalue, points[i], point_edges[i]);

@@ -3,9 +3,9 @@
 // (thesis 2.4).
 #pragma once
 
+#include "neighbors/neighbor_candidates.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <cstdint>
 #include <string>
@@ -32,8 +32,9 @@ using EdgeKey = std::uint64_t;
 /** \brief The edges from some samples that cross an isovalue, ascending.
  *
  * Neighbourhoods are not symmetric (2.4): an edge may be found from one end or from
- * both. \param crossing samples that touch one of the other side: no others can have it
- * for a neighbour */
+ * both.
+ * \param crossing samples that touch one of the other side: no others can have it for a
+ * neighbour */
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,

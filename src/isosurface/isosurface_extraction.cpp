@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "../neighbors/sample_values.h"
-#include "isopoints.h"
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
-#include <pcl_uvol/isosurface/piece_isopoints.h>
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/piece_isopoints.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <pcl/conversions.h>
 
@@ -179,8 +179,5 @@ IsosurfaceExtractionBase::extractFrom(const CloudView& cloud,
   interpolateFields(cloud, edges_, with_fields, threads_);
   isopoints = std::move(with_fields);
 }
-
-template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PointXYZI>;
-template class PCL_UVOL_EXPORTS IsosurfaceExtraction<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

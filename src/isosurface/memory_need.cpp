@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "isosurface/memory_need.h"
+
+#include "common/random.h"
+#include "neighbors/kd_tree.h"
+#include "neighbors/memory_need.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/isosurface/memory_need.h>
-#include <pcl_uvol/neighbors/kd_tree.h>
-#include <pcl_uvol/neighbors/memory_need.h>
 
 #include <cmath>
 #include <cstring>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "isopoints.h"
-#include "smooth_roots.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/isosurface/piece_isopoints.h>
+#include "isosurface/piece_isopoints.h"
+
+#include "common/parallel.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/smooth_roots.h"
 
 #include <algorithm>
 #include <cstring>

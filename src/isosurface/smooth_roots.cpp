@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smooth_roots.h"
+#include "isosurface/smooth_roots.h"
 
-#include "../derivatives/fit_kernel.h"
-#include "../neighbors/empty_cone.h"
-#include "../neighbors/local_metric.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "derivatives/fit_kernel.h"
+#include "neighbors/empty_cone.h"
+#include "neighbors/local_metric.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/LU>
 

@@ -3,7 +3,7 @@
 // normal, curvature, error and support.
 #pragma once
 
-#include "isopoints.h"
+#include "isosurface/isopoints.h"
 
 #include <cstdint>
 #include <vector>
@@ -35,7 +35,8 @@ fitRoots(const IsopointInput& input,
          StepTimer& step);
 
 /** \brief Count "cubic_roots", "quadratic_roots", "linear_singular", "linear_step",
- * "linear_far", "bridged" and "rim". \param outcomes, supports one per point */
+ * "linear_far", "bridged" and "rim".
+ * \param outcomes, supports one per point */
 void
 countRoots(const std::vector<RootOutcome>& outcomes,
            const std::vector<std::uint8_t>& supports,

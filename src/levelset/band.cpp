@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "band.h"
+#include "levelset/band.h"
 
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/parallel.h"
+#include "neighbors/nearest_finder.h"
 
 #include <algorithm>
 #include <cmath>

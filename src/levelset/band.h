@@ -3,8 +3,8 @@
 // Molchanov, Linsen 2010), or all.
 #pragma once
 
-#include "../derivatives/stencils.h"
-#include <pcl_uvol/neighbors/sample_set.h>
+#include "derivatives/stencils.h"
+#include "neighbors/sample_set.h"
 
 #include <cstdint>
 #include <vector>

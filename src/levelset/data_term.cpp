@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "data_term.h"
+#include "levelset/data_term.h"
 
-#include "evolution_kernel.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "levelset/evolution_kernel.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/QR>
 

@@ -2,7 +2,7 @@
 // The data term of a level set: f - f_iso as a distance, and how noisy it is.
 #pragma once
 
-#include "band.h"
+#include "levelset/band.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution_kernel.h"
+#include "levelset/evolution_kernel.h"
 
-#include "../derivatives/stencil_lanes.h"
+#include "derivatives/stencil_lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

@@ -7,7 +7,7 @@
 // ("centres"), phi also one for every other neighbour behind them.
 #pragma once
 
-#include "../derivatives/stencil_view.h"
+#include "derivatives/stencil_view.h"
 
 namespace pcl_uvol {
 

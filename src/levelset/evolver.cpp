@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolver.h"
+#include "levelset/evolver.h"
 
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <atomic>

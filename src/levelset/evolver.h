@@ -2,9 +2,9 @@
 // Time integration of the level-set equation on a band (thesis 3.5).
 #pragma once
 
-#include "band.h"
-#include "data_term.h"
-#include "evolution_kernel.h"
+#include "levelset/band.h"
+#include "levelset/data_term.h"
+#include "levelset/evolution_kernel.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <algorithm>

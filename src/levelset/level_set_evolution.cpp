@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "../neighbors/sample_values.h"
-#include "band.h"
-#include "data_term.h"
-#include "evolver.h"
-#include "reinitialization.h"
+#include "common/parameter_json.h"
+#include "common/records.h"
+#include "levelset/band.h"
+#include "levelset/data_term.h"
+#include "levelset/evolver.h"
+#include "levelset/reinitialization.h"
+#include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
+#include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <pcl/common/io.h>
 
@@ -518,8 +518,5 @@ cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi)
   }
   return result;
 }
-
-template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PointXYZI>;
-template class PCL_UVOL_EXPORTS LevelSetEvolution<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

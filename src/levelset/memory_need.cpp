@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "band.h"
-#include <pcl_uvol/levelset/memory_need.h>
-#include <pcl_uvol/neighbors/memory_need.h>
+#include "levelset/memory_need.h"
+
+#include "levelset/band.h"
+#include "neighbors/memory_need.h"
 
 #include <cmath>
 

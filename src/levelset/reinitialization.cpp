@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reinitialization.h"
+#include "levelset/reinitialization.h"
 
-#include "../isosurface/isopoints.h"
-#include "evolution_kernel.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "isosurface/isopoints.h"
+#include "levelset/evolution_kernel.h"
+#include "neighbors/nearest_finder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Back to a distance function with the same zero level (thesis 3.4).
 #pragma once
 
-#include "band.h"
+#include "levelset/band.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <vector>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multivariate/attributes.h"
+
+#include "common/parallel.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/multivariate/attributes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multivariate/cluster_hull.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/cluster_hull.h>
 
 #include <algorithm>
 #include <limits>

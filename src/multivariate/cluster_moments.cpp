@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_moments.h"
+#include "multivariate/cluster_moments.h"
 
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
 
 #include <algorithm>
 #include <functional>
@@ -21,7 +21,9 @@ using Index = Eigen::Index;
 
 /** Rows of an index list, first the mean so that large offsets lose no digits. */
 Moments
-momentsOf(const AttributeTable& table, const std::uint32_t* rows, std::size_t count)
+computeMoments(const AttributeTable& table,
+               const std::uint32_t* rows,
+               std::size_t count)
 {
   const auto m = static_cast<Index>(table.columns());
   const auto row = [&](std::size_t i) {
@@ -125,9 +127,9 @@ momentsPerCluster(const AttributeTable& table,
   std::vector<Moments> parts(pieces.size());
   parallelBlocks(pieces.size(), 1, threads, [&](std::size_t p, std::size_t) {
     const auto& rows = members[pieces[p].cluster];
-    parts[p] = momentsOf(table,
-                         &rows[pieces[p].begin],
-                         std::min(block_rows, rows.size() - pieces[p].begin));
+    parts[p] = computeMoments(table,
+                              &rows[pieces[p].begin],
+                              std::min(block_rows, rows.size() - pieces[p].begin));
   });
   std::vector<Moments> moments(members.size());
   for (std::size_t p = 0; p < pieces.size(); ++p)

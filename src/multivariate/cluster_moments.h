@@ -2,7 +2,7 @@
 // Means and covariances of clusters: all that a projection is chosen by.
 #pragma once
 
-#include <pcl_uvol/multivariate/attributes.h>
+#include "multivariate/attributes.h"
 
 #include <Eigen/Core>
 
@@ -28,8 +28,10 @@ struct Moments {
 };
 
 /** \brief Moments of the noise, which may be no rows, and then of the clusters by
- * label. \param labels one per row; negative ones are noise \throws InvalidArgument for
- * a table without rows or columns, or sizes that disagree */
+ * label.
+ * \param labels one per row; negative ones are noise
+ * \throws InvalidArgument for a table without rows or columns, or sizes that disagree
+ */
 std::vector<Moments>
 momentsPerCluster(const AttributeTable& table,
                   const std::vector<std::int32_t>& labels,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_separation.h"
+#include "multivariate/cluster_separation.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -41,7 +41,7 @@ constexpr double least_eigenvalue = 1e-9;
 
 /** The Fisher ratio, and the discriminant in the subspace. */
 double
-ratioOf(const Matrix3d& covariance, const Vector3d& offset, Vector3d& discriminant)
+computeRatio(const Matrix3d& covariance, const Vector3d& offset, Vector3d& discriminant)
 {
   discriminant = covariance.llt().solve(offset);
   return std::max(offset.dot(discriminant), 0.0);
@@ -172,30 +172,32 @@ ClusterSeparation::project(const MatrixXd& basis) const
 }
 
 double
-ClusterSeparation::smallestOf(const std::vector<Pair>& pairs,
-                              const MatrixXd& basis) const
+ClusterSeparation::findSmallestRatio(const std::vector<Pair>& pairs,
+                                     const MatrixXd& basis) const
 {
   const Projected projected = project(basis);
   double smallest = std::numeric_limits<double>::infinity();
   Vector3d discriminant;
   for (const auto& [a, b] : pairs)
-    smallest = std::min(smallest,
-                        ratioOf(projected.covariances[a] + projected.covariances[b],
-                                projected.means[a] - projected.means[b],
-                                discriminant));
+    smallest =
+        std::min(smallest,
+                 computeRatio(projected.covariances[a] + projected.covariances[b],
+                              projected.means[a] - projected.means[b],
+                              discriminant));
   return smallest;
 }
 
 double
 ClusterSeparation::smallestRatio(const MatrixXd& basis) const
 {
-  return std::min(smallestOf(separable_, basis), smallestOf(inseparable_, basis));
+  return std::min(findSmallestRatio(separable_, basis),
+                  findSmallestRatio(inseparable_, basis));
 }
 
 double
 ClusterSeparation::smallestOfSeparable(const MatrixXd& basis) const
 {
-  return smallestOf(separable_, basis);
+  return findSmallestRatio(separable_, basis);
 }
 
 MatrixXd
@@ -243,10 +245,10 @@ ClusterSeparation::discriminants() const
     const Projected projected = project(basis);
     Vector3d discriminant;
     for (auto& [ratio, pair] : order)
-      ratio = ratioOf(projected.covariances[pair.first] +
-                          projected.covariances[pair.second],
-                      projected.means[pair.first] - projected.means[pair.second],
-                      discriminant);
+      ratio = computeRatio(projected.covariances[pair.first] +
+                               projected.covariances[pair.second],
+                           projected.means[pair.first] - projected.means[pair.second],
+                           discriminant);
   }
   return basis;
 }
@@ -260,9 +262,9 @@ ClusterSeparation::softMinimum(const MatrixXd& basis, double sharpness) const
   for (std::size_t p = 0; p < separable_.size(); ++p) {
     const auto& [a, b] = separable_[p];
     ratios[p] =
-        ratio_floor + ratioOf(projected.covariances[a] + projected.covariances[b],
-                              projected.means[a] - projected.means[b],
-                              discriminants[p]);
+        ratio_floor + computeRatio(projected.covariances[a] + projected.covariances[b],
+                                   projected.means[a] - projected.means[b],
+                                   discriminants[p]);
   }
   const double smallest = *std::min_element(ratios.begin(), ratios.end());
   std::vector<double> weights(separable_.size());

@@ -4,7 +4,7 @@
 // all directions count alike, and steps of one length suit all of them.
 #pragma once
 
-#include "cluster_moments.h"
+#include "multivariate/cluster_moments.h"
 
 #include <Eigen/Core>
 
@@ -85,9 +85,9 @@ private:
   project(const Eigen::MatrixXd& basis) const;
 
   double
-  smallestOf(const std::vector<Pair>& pairs, const Eigen::MatrixXd& basis) const;
+  findSmallestRatio(const std::vector<Pair>& pairs, const Eigen::MatrixXd& basis) const;
 
-  /** Of the separable pairs. */
+  /** The smallest ratio of the separable pairs. */
   SoftMinimum
   softMinimum(const Eigen::MatrixXd& basis, double sharpness) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_tree.h"
+#include "multivariate/cluster_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -204,7 +204,7 @@ condenseTree(std::size_t count,
 }
 
 std::vector<double>
-stabilitiesOf(const CondensedTree& tree)
+computeStabilities(const CondensedTree& tree)
 {
   std::vector<double> births, stabilities(tree.clusters.size(), 0.0);
   for (const CondensedCluster& cluster : tree.clusters)

@@ -3,7 +3,7 @@
 // clusters while lesser parts only leave them.
 #pragma once
 
-#include <pcl_uvol/multivariate/spanning_tree.h>
+#include "multivariate/spanning_tree.h"
 
 #include <cstdint>
 #include <limits>
@@ -47,7 +47,7 @@ condenseTree(std::size_t count,
 
 /** \brief Excess of mass of every cluster. */
 std::vector<double>
-stabilitiesOf(const CondensedTree& tree);
+computeStabilities(const CondensedTree& tree);
 
 /** \brief The clusters that do not overlap and have the largest sum of stabilities, as
  * one flag per cluster. */

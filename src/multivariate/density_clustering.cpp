@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "cluster_tree.h"
-#include <pcl_uvol/multivariate/impl/density_clustering.hpp>
-#include <pcl_uvol/multivariate/spanning_tree.h>
+#include "common/parameter_json.h"
+#include "multivariate/cluster_attributes.h"
+#include "multivariate/cluster_tree.h"
+#include "multivariate/spanning_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -169,7 +169,7 @@ clusterAttributes(const AttributeTable& table,
   {
     const StepTimer step(report, "cluster_tree");
     const CondensedTree tree = condenseTree(table.rows(), edges, min_size);
-    const auto stabilities = stabilitiesOf(tree);
+    const auto stabilities = computeStabilities(tree);
     const bool is_cut = parameters.cut_distance > 0.0;
     auto chosen =
         is_cut
@@ -188,12 +188,13 @@ clusterAttributes(const AttributeTable& table,
 
 Clustering
 clusterCloud(const CloudView& cloud,
-             const std::vector<std::uint32_t>& use,
+             const pcl::Indices& indices,
              const ClusteringParameters& parameters,
              unsigned threads,
              Report& report)
 {
   checkParameters(parameters);
+  const std::vector<std::uint32_t> use(indices.begin(), indices.end());
   const AttributeTable table = readAttributes(
       cloud, use, parameters.attributes, parameters.is_standardized, threads, report);
   Clustering of_rows = clusterAttributes(table, parameters, threads, report);
@@ -221,8 +222,5 @@ ClusteringParameters::fromJson(const std::string& text)
 {
   return readJson<ClusteringParameters>(text);
 }
-
-template class PCL_UVOL_EXPORTS DensityClustering<pcl::PointXYZI>;
-template class PCL_UVOL_EXPORTS DensityClustering<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

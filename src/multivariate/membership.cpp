@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multivariate/membership.h"
+
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/multivariate/membership.h>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@ struct Particle {
   std::array<float, 3> x;
   float h;
   float value;
-  std::uint32_t index; ///< in the cloud
+  std::uint32_t index; ///< of its value
 };
 
 struct Box {
@@ -123,7 +124,8 @@ public:
   }
 
 private:
-  /** By the longest side of the positions; ties by index, so that there is one tree. */
+  /** Splits the longest side of the positions; ties are broken by index, so that there
+   * is one tree. */
   void
   split(const Node& node)
   {
@@ -286,22 +288,23 @@ membership(const std::vector<std::int32_t>& labels, std::int32_t cluster)
 
 std::vector<float>
 smoothMembership(const CloudView& cloud,
+                 const pcl::Indices& indices,
                  const std::vector<float>& values,
                  const std::vector<float>& smoothing_lengths,
                  unsigned threads,
                  Report& report)
 {
-  checkInput(cloud.count, values, smoothing_lengths);
+  checkInput(indices.size(), values, smoothing_lengths);
   std::vector<Particle> particles;
-  particles.reserve(cloud.count);
-  for (std::uint32_t i = 0; i < cloud.count; ++i) {
-    const float* xyz = cloud.xyz(i);
+  particles.reserve(indices.size());
+  for (std::uint32_t i = 0; i < indices.size(); ++i) {
+    const float* xyz = cloud.xyz(static_cast<std::size_t>(indices[i]));
     const float h = smoothing_lengths[i];
     if (std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]) &&
         std::isfinite(h) && h > 0.0f)
       particles.push_back({{xyz[0], xyz[1], xyz[2]}, h, values[i], i});
   }
-  report.count("not_smoothed", cloud.count - particles.size());
+  report.count("not_smoothed", indices.size() - particles.size());
   std::vector<float> smooth(values);
   if (particles.empty())
     return smooth;

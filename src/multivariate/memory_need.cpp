@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_tree.h"
-#include <pcl_uvol/multivariate/memory_need.h>
-#include <pcl_uvol/multivariate/spanning_tree.h>
+#include "multivariate/memory_need.h"
+
+#include "multivariate/point_tree.h"
+#include "multivariate/spanning_tree.h"
 
 namespace pcl_uvol {
 
@@ -15,7 +16,7 @@ constexpr double fewest_listed = 8.0;
 /** A shortest edge on its way to the tree: two places and a weight. */
 constexpr double candidate_bytes = 2 * index_bytes + float_bytes;
 
-/** Of the tree's edges, those that the first round finds, in parts of all: most points
+/** The tree's edges that the first round finds, in parts of all: most points
  * have the same nearest one as another point. */
 constexpr double first_edges = 0.65;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "multivariate/mesh_distance.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/mesh_distance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +105,8 @@ private:
       }
   }
 
-  /** Of barycentric coordinates: no line slips through between two triangles. */
+  /** The slack of barycentric coordinates: no line slips through between two triangles.
+   */
   static constexpr double tolerance = 1e-9;
   static constexpr int most_cells = GridShape::largest_side;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_tree.h"
+#include "multivariate/point_tree.h"
 
-#include "point_order.h"
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
+#include "multivariate/point_order.h"
 
 #include <algorithm>
 #include <utility>

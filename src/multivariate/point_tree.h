@@ -198,7 +198,7 @@ private:
   const PointTree& tree_;
   const std::vector<float>& sq_cores_;
   const std::vector<std::uint32_t>* components_ = nullptr;
-  /** Of the boxes of the levels above 0: the least core, and the component if all
+  /** For the boxes of the levels above 0: the least core, and the component if all
    * points share one. */
   std::vector<std::vector<float>> least_sq_cores_;
   std::vector<std::vector<std::uint32_t>> shared_components_;

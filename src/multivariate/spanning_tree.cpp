@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "point_tree.h"
+#include "multivariate/spanning_tree.h"
+
+#include "common/parallel.h"
+#include "multivariate/point_tree.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/multivariate/spanning_tree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -308,7 +309,7 @@ checkValues(const std::vector<float>& values, std::size_t columns)
 }
 
 std::vector<double>
-extentsOf(const std::vector<float>& values, std::size_t columns)
+measureExtents(const std::vector<float>& values, std::size_t columns)
 {
   std::vector<double> extents;
   for (std::size_t column = 0; column < columns; ++column) {
@@ -329,7 +330,7 @@ extentsOf(const std::vector<float>& values, std::size_t columns)
 int
 scale(std::vector<float>& values, std::size_t columns, unsigned threads)
 {
-  const std::vector<double> extents = extentsOf(values, columns);
+  const std::vector<double> extents = measureExtents(values, columns);
   int exponent = 0;
   std::frexp(*std::max_element(extents.begin(), extents.end()), &exponent);
   const double factor = std::ldexp(1.0, -exponent);

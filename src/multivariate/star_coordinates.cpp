@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cluster_moments.h"
-#include "cluster_separation.h"
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "multivariate/cluster_attributes.h"
+#include "multivariate/cluster_moments.h"
+#include "multivariate/cluster_separation.h"
+#include "multivariate/projections.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -72,6 +74,8 @@ makeProjection(const AttributeTable& table, const VectorXd& mean, MatrixXd axes)
 {
   Projection projection;
   projection.names = table.names;
+  projection.offsets = table.means;
+  projection.units = table.units;
   projection.mean.assign(mean.data(), mean.data() + mean.size());
   for (Index k = 0; k < 3; ++k) {
     Index largest = 0;
@@ -106,11 +110,12 @@ checkParameters(const StarCoordinateParameters& parameters)
 MatrixXd
 bestAxes(const ClusterSeparation& separation,
          const std::vector<MatrixXd>& starts,
-         const StarCoordinateParameters& parameters)
+         const StarCoordinateParameters& parameters,
+         unsigned threads)
 {
   std::vector<MatrixXd> ends(starts.size());
   std::vector<double> ratios(starts.size());
-  parallelBlocks(starts.size(), 1, parameters.threads, [&](std::size_t s, std::size_t) {
+  parallelBlocks(starts.size(), 1, threads, [&](std::size_t s, std::size_t) {
     ends[s] = separation.ascend(separation.toBasis(starts[s]), parameters.steps);
     ratios[s] = separation.smallestOfSeparable(ends[s]);
   });
@@ -125,7 +130,8 @@ MatrixXd
 optimizedAxes(const ClusterSeparation& separation,
               const MatrixXd& covariance,
               const MatrixXd& covariance_with_noise,
-              const StarCoordinateParameters& parameters)
+              const StarCoordinateParameters& parameters,
+              unsigned threads)
 {
   MatrixXd discriminants =
       completeAxes(separation.toFunctionals(separation.discriminants()), covariance);
@@ -136,7 +142,7 @@ optimizedAxes(const ClusterSeparation& separation,
     starts.push_back(completeAxes(
         separation.toFunctionals(separation.centreAxes(favours_close)), covariance));
   starts.push_back(completeAxes(MatrixXd(), covariance_with_noise));
-  return completeAxes(bestAxes(separation, starts, parameters), covariance);
+  return completeAxes(bestAxes(separation, starts, parameters, threads), covariance);
 }
 
 } // namespace
@@ -166,13 +172,14 @@ Projection
 starCoordinates(const AttributeTable& table,
                 const std::vector<std::int32_t>& labels,
                 const StarCoordinateParameters& parameters,
+                unsigned threads,
                 Report& report)
 {
   checkParameters(parameters);
   std::vector<Moments> clusters;
   {
     StepTimer step(report, "moments");
-    clusters = momentsPerCluster(table, labels, parameters.threads);
+    clusters = momentsPerCluster(table, labels, threads);
   }
   StepTimer step(report, "optimization");
   const Moments all = joined(clusters);
@@ -183,14 +190,14 @@ starCoordinates(const AttributeTable& table,
         " clusters, so there is nothing to keep apart: the projection is to their "
         "principal axes.");
   if (clusters.size() < 2 || table.columns() <= 3)
-    return principalAxes(table, parameters.threads);
+    return principalAxes(table, threads);
 
   const Moments clustered = joined(clusters);
   const MatrixXd covariance = perUnitTrace(clustered.covariance());
   const ClusterSeparation separation(clusters, clustered, parameters.regularization);
   report.count("inseparable_pairs", separation.countInseparable());
   const MatrixXd axes =
-      optimizedAxes(separation, covariance, all.covariance(), parameters);
+      optimizedAxes(separation, covariance, all.covariance(), parameters, threads);
   const MatrixXd frame =
       perUnitTrace(separation.covarianceOfCentres()) + weight_of_rows * covariance;
   return makeProjection(table, all.mean, turned(axes, frame));
@@ -200,13 +207,14 @@ double
 smallestFisherRatio(const AttributeTable& table,
                     const std::vector<std::int32_t>& labels,
                     const Projection& projection,
-                    const StarCoordinateParameters& parameters)
+                    const StarCoordinateParameters& parameters,
+                    unsigned threads)
 {
   checkParameters(parameters);
   if (projection.names != table.names)
     throw InvalidArgument("The projection was made for other attributes than those of "
                           "the table.");
-  std::vector<Moments> clusters = momentsPerCluster(table, labels, parameters.threads);
+  std::vector<Moments> clusters = momentsPerCluster(table, labels, threads);
   clusters.erase(clusters.begin());
   if (clusters.size() < 2)
     return std::numeric_limits<double>::infinity();
@@ -218,6 +226,50 @@ smallestFisherRatio(const AttributeTable& table,
     functionals.col(k) = Eigen::Map<const VectorXd>(
         projection.rows[static_cast<std::size_t>(k)].data(), m);
   return separation.smallestRatio(separation.toBasis(functionals));
+}
+
+ProjectedPoints
+detail::projectPoints(const CloudView& cloud,
+                      const pcl::Indices& indices,
+                      const std::vector<int>& labels,
+                      const StarCoordinateParameters& parameters,
+                      unsigned threads,
+                      Report& report)
+{
+  if (!labels.empty() && labels.size() != cloud.count)
+    throw InvalidArgument("There are " + std::to_string(labels.size()) +
+                          " labels for " + std::to_string(cloud.count) + " points.");
+  const std::vector<std::uint32_t> use(indices.begin(), indices.end());
+  const AttributeTable table = readAttributes(
+      cloud, use, parameters.attributes, parameters.is_standardized, threads, report);
+  ProjectedPoints result;
+  result.sources.assign(table.points.begin(), table.points.end());
+  if (labels.empty())
+    result.labels = clusterAttributes(table, {}, threads, report).labels;
+  else
+    for (const std::uint32_t point : table.points)
+      result.labels.push_back(labels[point]);
+  result.projection =
+      parameters.method == ProjectionMethod::Star
+          ? starCoordinates(table, result.labels, parameters, threads, report)
+          : principalAxes(table, threads);
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    result.places.push_back(result.projection.project(table.row(row)));
+  result.smallest_ratio =
+      smallestFisherRatio(table, result.labels, result.projection, parameters, threads);
+  return result;
+}
+
+std::string
+StarCoordinateParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+StarCoordinateParameters
+StarCoordinateParameters::fromJson(const std::string& text)
+{
+  return readJson<StarCoordinateParameters>(text);
 }
 
 } // namespace pcl_uvol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/neighbors/angle_criterion.h>
+#include "neighbors/angle_criterion.h"
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "local_metric.h"
+#include "neighbors/anisotropy.h"
+
+#include "neighbors/local_metric.h"
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
 #include <cmath>

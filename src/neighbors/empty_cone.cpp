@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "empty_cone.h"
+#include "neighbors/empty_cone.h"
 
-#include <pcl_uvol/common/dispatch.h>
+#include "common/dispatch.h"
 
 #include <cmath>
 

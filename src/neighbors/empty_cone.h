@@ -3,7 +3,7 @@
 // do beside the border of a cloud or of a gap in it.
 #pragma once
 
-#include "empty_cone_kernel.h"
+#include "neighbors/empty_cone_kernel.h"
 
 namespace pcl_uvol {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "empty_cone_kernel.h"
+#include "neighbors/empty_cone_kernel.h"
 
-#include "../common/register_bytes.h"
+#include "common/register_bytes.h"
 
 #include <cmath>
 

@@ -13,7 +13,7 @@ constexpr std::size_t cone_directions = 80;
 /** Neighbours come in multiples of it, whatever the instruction set. */
 constexpr std::size_t cone_lanes = 16;
 
-/** \brief Of all directions the one that is farthest from any neighbour: the cosine of
+/** \brief The direction that is farthest from any neighbour: the cosine of
  * its angle to the nearest one; -1 without neighbours.
  * \param directions unit vectors: all x, all y, all z; aligned to 64 bytes
  * \param x, y, z neighbours as seen from the point, aligned to 64 bytes; scaled to unit

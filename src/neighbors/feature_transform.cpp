@@ -2,7 +2,7 @@
 // The nearest site of every cell, axis by axis: rows are swept, then columns along y
 // and along z take the lower envelope of parabolas (Meijster et al. 2000, Felzenszwalb
 // and Huttenlocher 2012).
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Building the bit-indexed kd-tree (thesis Table 2.2), boxes around samples and the
 // range of a scalar per node.
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "neighbors/kd_tree.h"
+
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -191,8 +192,8 @@ private:
   static constexpr std::uint16_t empty = std::numeric_limits<std::uint16_t>::max();
   static_assert(task_samples < empty, "places are numbers of records");
 
-  /** By multiplication with odd numbers, of which the upper bits are the best mixed
-   * (Knuth, The Art of Computer Programming 3, 6.4). */
+  /** Hashes by multiplication with odd numbers, of which the upper bits are the best
+   * mixed (Knuth, The Art of Computer Programming 3, 6.4). */
   std::size_t
   hash(const Position& position) const
   {
@@ -393,7 +394,7 @@ private:
 /** Smallest power of two of parts that leaves no part more than that many samples:
  * nodes that hold more have lower numbers. */
 std::size_t
-partsOf(std::uint32_t count, std::uint32_t most)
+countParts(std::uint32_t count, std::uint32_t most)
 {
   std::size_t parts = 1;
   while (parts * most < count)
@@ -462,8 +463,8 @@ KdTree::build(std::vector<SampleRecord>& records,
 {
   root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
   axis_at_depth_ = axes;
-  planes_.assign(partsOf(root_.count, 1), SplitPlane{0.0f, 0});
-  boxes_.resize(2 * partsOf(root_.count, bucket_samples));
+  planes_.assign(countParts(root_.count, 1), SplitPlane{0.0f, 0});
+  boxes_.resize(2 * countParts(root_.count, bucket_samples));
   Builder builder(*this, records, planes_, boxes_, step);
   bool is_built = false;
   TaskGroup::run(threads, [&] { is_built = builder.build(getRoot()); });

@@ -2,8 +2,8 @@
 // Cells of the bit-indexed kd-tree that touch: the surrounding neighbours of one cell
 // (thesis 2.2.2 - 2.2.4) and the pairs of touching cells that an isosurface passes
 // between.
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "common/parallel.h"
+#include "neighbors/kd_tree.h"
 
 #include <algorithm>
 #include <atomic>

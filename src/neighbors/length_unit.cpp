@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/length_unit.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/length_unit.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "local_metric.h"
+#include "neighbors/local_metric.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -34,7 +34,7 @@ constexpr float sq_cosine = 0.2f;
 
 /** Of the longest and the shortest of some lengths. */
 double
-ratioOf(const Eigen::Vector3d& squares)
+computeRatio(const Eigen::Vector3d& squares)
 {
   return std::sqrt(squares.maxCoeff() / squares.minCoeff());
 }
@@ -165,14 +165,14 @@ LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
       squares[i] =
           eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
     spacings_ = axes * squares.asDiagonal() * axes.transpose();
-    ratio_ = ratioOf(squares);
+    ratio_ = computeRatio(squares);
     const Solver seen(metric_ * spacings_ * metric_.transpose());
     if (round == 0 && ratio_ < least_ratio)
       return false;
     const Eigen::Vector3d factors =
         (squares.minCoeff() * squares.cwiseInverse()).cwiseSqrt();
     metric_ = axes * factors.asDiagonal() * axes.transpose();
-    if (round > 0 && ratioOf(seen.eigenvalues()) < even_ratio)
+    if (round > 0 && computeRatio(seen.eigenvalues()) < even_ratio)
       return true;
   }
   ratio_ = std::numeric_limits<double>::infinity();

@@ -3,8 +3,8 @@
 // cells and layers at a wall are as dense as a cubic lattice in a metric of their own.
 #pragma once
 
-#include "metric_finder.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/metric_finder.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Core>
 
@@ -96,8 +96,8 @@ private:
   void
   gather(std::uint32_t sample, const std::uint32_t* neighbors, std::size_t count);
 
-  /** Let the metric look farther where no line leads, as across layers. \return false
-   * if lines lead everywhere */
+  /** Let the metric look farther where no line leads, as across layers.
+   * \return false if lines lead everywhere */
   bool
   stretchAcross(const LineMoments& lines);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/neighbors/kd_tree.h>
-#include <pcl_uvol/neighbors/memory_need.h>
+#include "neighbors/memory_need.h"
+
+#include "neighbors/kd_tree.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "metric_finder.h"
+#include "neighbors/metric_finder.h"
 
 #include <Eigen/LU>
 

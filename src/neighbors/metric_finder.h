@@ -3,7 +3,7 @@
 // linear image of the space.
 #pragma once
 
-#include <pcl_uvol/neighbors/sample_set.h>
+#include "neighbors/sample_set.h"
 
 #include <Eigen/Core>
 
@@ -21,7 +21,8 @@ namespace pcl_uvol {
  * NearestFinder shares its work among close points. */
 class MetricFinder {
 public:
-  /** \param samples must outlive the finder \param k >= 1 */
+  /** \param samples must outlive the finder
+   * \param k >= 1 */
   MetricFinder(const SampleSet& samples, std::size_t k)
       : samples_(samples)
       , k_(k)
@@ -30,7 +31,8 @@ public:
 
   /** \brief The k nearest by the length of metric * (x - point), all samples where
    * there are no more; of equally far ones those of lower index. In leaf order. Valid
-   * until the next call. \param metric regular */
+   * until the next call.
+   * \param metric regular */
   const std::vector<std::uint32_t>&
   find(const Position& point, const Eigen::Matrix3d& metric);
 

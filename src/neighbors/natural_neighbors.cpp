@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/impl/natural_neighbors.hpp>
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "neighbors/neighborhood_finder.h"
+#include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <pcl/point_types.h>
 
@@ -106,11 +107,12 @@ computeNaturalNeighbors(const SampleSet& samples,
 
 NeighborGraph
 detail::computeNaturalNeighbors(const CloudView& cloud,
-                                const std::vector<std::uint32_t>& use,
+                                const pcl::Indices& indices,
                                 const NaturalNeighborParameters& parameters,
                                 unsigned threads,
                                 Report& report)
 {
+  const std::vector<std::uint32_t> use(indices.begin(), indices.end());
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, report);
   const auto candidates = makeCandidates(
@@ -132,8 +134,5 @@ NaturalNeighborParameters::fromJson(const std::string& text)
 {
   return readJson<NaturalNeighborParameters>(text);
 }
-
-template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZ>;
-template class PCL_UVOL_EXPORTS NaturalNeighbors<pcl::PointXYZI>;
 
 } // namespace pcl_uvol

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nearest_kernel.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
+#include "neighbors/nearest_finder.h"
+
+#include "common/dispatch.h"
+#include "neighbors/nearest_kernel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nearest_kernel.h"
+#include "neighbors/nearest_kernel.h"
 
 #if defined(__AVX512F__)
 #include <immintrin.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/nearest_neighbors.h"
+
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <flann/algorithms/dist.h>
 #include <flann/algorithms/kdtree_single_index.h>
@@ -34,7 +35,7 @@ checkCount(std::size_t k)
 constexpr float least_factor = 0x1p-20f, largest_factor = 0x1p20f;
 
 pcl::PointCloud<pcl::PointXYZ>::Ptr
-cloudOf(const SampleSet& samples)
+makeSearchCloud(const SampleSet& samples)
 {
   const float factor = samples.getUnit().factor;
   const float back =
@@ -160,7 +161,7 @@ computeNearestNeighbors(const SampleSet& samples,
   const std::size_t count = samples.size();
   const std::size_t row = std::min(k, count - 1);
   StepTimer step(report, "nearest_neighbors", count);
-  search->setInputCloud(cloudOf(samples));
+  search->setInputCloud(makeSearchCloud(samples));
   NeighborGraph graph;
   graph.offsets.assign(count + 1, 0);
   graph.indices = parallelGather<std::uint32_t>(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/neighbor_candidates.h"
+
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <algorithm>
 #include <cmath>

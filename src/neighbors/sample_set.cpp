@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/sample_set.h"
+
+#include "common/parallel.h"
+#include "neighbors/length_unit.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/length_unit.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +20,8 @@ struct Gathered {
   Strays strays;
 };
 
-/** Records of the points that are samples. \param all gets what became of the others */
+/** Records of the points that are samples.
+ * \param all gets what became of the others */
 std::vector<SampleRecord>
 gatherRecords(const float* xyz,
               std::size_t stride,

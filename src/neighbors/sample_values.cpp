@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sample_values.h"
+#include "neighbors/sample_values.h"
 
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ gatherValues(const SampleSet& samples,
   std::vector<std::uint32_t> members;
   for (const SampleSet::Merged& merged : samples.getMerged()) {
     members.assign(merged.members.begin(), merged.members.end());
-    const std::uint32_t source = representativeOf(
+    const std::uint32_t source = chooseRepresentative(
         members, [&](auto member) { return input_values[member]; }, conflicting);
     scalar.values[merged.sample] = input_values[source];
     scalar.sources[merged.sample] = source;

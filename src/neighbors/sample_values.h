@@ -3,12 +3,12 @@
 // starts from.
 #pragma once
 
+#include "common/scalar_field.h"
+#include "common/value_frame.h"
+#include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/common/value_frame.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ readValues(const CloudView& cloud,
            const ValueFrame& frame,
            unsigned threads);
 
-/** \brief The indices whose point has a value. \throws InvalidArgument if there is none
- */
+/** \brief The indices whose point has a value.
+ * \throws InvalidArgument if there is none */
 template <typename Value>
 std::vector<std::uint32_t>
 pointsWithValue(const std::vector<Value>& values,
@@ -56,9 +56,9 @@ struct SampleValues {
  * \param conflicting gets one more if values differ */
 template <typename ValueOf>
 std::uint32_t
-representativeOf(std::vector<std::uint32_t>& members,
-                 const ValueOf& value_of,
-                 std::uint64_t& conflicting)
+chooseRepresentative(std::vector<std::uint32_t>& members,
+                     const ValueOf& value_of,
+                     std::uint64_t& conflicting)
 {
   std::stable_sort(members.begin(), members.end(), [&](auto a, auto b) {
     return value_of(a) < value_of(b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
+#include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
 #include <algorithm>

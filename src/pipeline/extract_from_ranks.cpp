@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/distributed/byte_stream.h>
-#include <pcl_uvol/distributed/run_stage.h>
-#include <pcl_uvol/pipeline/extract_from_ranks.h>
+#include "pipeline/extract_from_ranks.h"
+
+#include "common/parallel.h"
+#include "distributed/byte_stream.h"
+#include "distributed/run_stage.h"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include <pcl_uvol/common/scalar_field.h>
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "neighbors/anisotropy.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -69,6 +69,23 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
         "removed_bridged", filterIsopoints(isopoints, edges, [](const PointIso& point) {
           return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
         }));
+}
+
+/** Isopoints follow one another by isovalue. */
+std::vector<std::size_t>
+countPerIsovalue(const pcl::PointCloud<PointIso>& isopoints,
+                 const std::vector<double>& isovalues)
+{
+  std::vector<std::size_t> counts;
+  auto begin = isopoints.begin();
+  for (const double isovalue : isovalues) {
+    const auto end = std::find_if(begin, isopoints.end(), [&](const PointIso& point) {
+      return point.isovalue != static_cast<float>(isovalue);
+    });
+    counts.push_back(static_cast<std::size_t>(end - begin));
+    begin = end;
+  }
+  return counts;
 }
 
 std::optional<ErrorSummary>
@@ -281,7 +298,9 @@ finishIsosurface(const Dataset& samples,
 {
   orientIsopoints(isopoints, parameters, threads, report);
   dropIsopoints(isopoints, edges, parameters, report);
+  report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
+  result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
   result.surface.origin = samples.origin;
   result.surface.double_coordinates = samples.double_coordinates;
   {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of IsosurfacePipeline, from the samples to the surface with all fields.
-#include <pcl_uvol/isosurface/memory_need.h>
+#include "pipeline/memory_need.h"
+
+#include "levelset/memory_need.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/levelset/memory_need.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
-#include <pcl_uvol/surface/memory_need.h>
 
 #include <algorithm>
 
@@ -56,15 +56,22 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
   forecast.hold((2.0 * sizeof(PointIso) + point_step) * isopoints);
 }
 
-std::vector<SurfaceSize>
-IsosurfacePipeline::estimateSurfaces() const
+double
+IsosurfacePipeline::estimateMemory() const
 {
   const IsosurfaceParameters parameters = resolveParameters();
-  return pcl_uvol::estimateSurfaces(viewOf(samples_->cloud),
-                                    parameters.field,
-                                    parameters.isovalues,
-                                    parameters.scale,
-                                    threads_);
+  const auto& cloud = samples_->cloud;
+  MemoryForecast forecast(0.0);
+  addMemoryNeed(parameters_,
+                static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
+                static_cast<double>(cloud.point_step),
+                estimateSurfaces(viewOf(cloud),
+                                 parameters.field,
+                                 parameters.isovalues,
+                                 parameters.scale,
+                                 threads_),
+                forecast);
+  return forecast.getPeak();
 }
 
 } // namespace pcl_uvol

@@ -46,7 +46,7 @@ constexpr Side sides[] = {{"front", {0, -1, 0}, {0, 0, 1}},
 } // namespace
 
 double
-lengthUnitOf(const BoundingSphere& bounds)
+chooseLengthUnit(const BoundingSphere& bounds)
 {
   // Radii of clouds that are drawn in their own unit: squares of parts of a pixel, and
   // of distances a thousand times as large, are far inside float's range.

@@ -41,7 +41,7 @@ constexpr std::uint32_t gray[colors_per_map] = {
 
 constexpr const std::uint32_t* maps[] = {viridis, inferno, coolwarm, gray};
 
-/** Of values without a number. */
+/** The colour of values without a number. */
 constexpr Color no_value{0.5f, 0.5f, 0.5f};
 
 Color

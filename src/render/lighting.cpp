@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lighting.h"
+#include "render/lighting.h"
 
 #include <pcl_uvol/common/exceptions.h>
 

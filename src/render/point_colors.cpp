@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/point_colors.h"
+
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/render/point_colors.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/render/surface_cloud.h>
-#include <pcl_uvol/surface/footprints.h>
+#include "render/surface_cloud.h"
+
+#include "common/parallel.h"
+#include "surface/footprints.h"
 
 #include <algorithm>
 #include <atomic>
@@ -77,7 +78,7 @@ SurfaceCloud::place(unsigned threads)
                              coordinates_[2][i] * coordinates_[2][i]);
   bounds_.radius = unit.toInput(std::sqrt(static_cast<double>(sq_radius)));
   // Powers of two, so that nothing is rounded.
-  length_factor_ = static_cast<float>(unit.toInput(lengthUnitOf(bounds_)));
+  length_factor_ = static_cast<float>(unit.toInput(chooseLengthUnit(bounds_)));
   for (auto& coordinates : coordinates_)
     for (float& coordinate : coordinates)
       coordinate *= length_factor_;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lighting.h"
-#include <pcl_uvol/common/random.h>
+#include "render/voronoi_slices.h"
+
+#include "common/random.h"
+#include "render/lighting.h"
 #include <pcl_uvol/render/color_map.h>
-#include <pcl_uvol/render/voronoi_slices.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
-#include <pcl_uvol/surface/footprints.h>
+#include "surface/footprints.h"
+
+#include "common/parallel.h"
+#include "neighbors/nearest_finder.h"
 
 #include <Eigen/Geometry>
 
@@ -23,8 +24,9 @@ constexpr std::size_t run_points = 16;
  * whose lines lie far apart. */
 constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
 
-/** Of the largest radius among the nearest points: an outlier gets no more. Isopoints
- * come in clumps, so that the nearest alone may have much less room than all around. */
+/** In parts of the largest radius among the nearest points: an outlier gets no more.
+ * Isopoints come in clumps, so that the nearest alone may have much less room than all
+ * around. */
 constexpr float largest_growth = 3.0f;
 constexpr std::size_t compared_neighbors = 8;
 
@@ -59,7 +61,8 @@ public:
     return sq_extent_;
   }
 
-  /** Cut off what is nearer to a neighbour. \param index of it */
+  /** Cut off what is nearer to a neighbour.
+   * \param index of it */
   void
   cut(const Eigen::Vector2f& neighbor, std::uint32_t index)
   {

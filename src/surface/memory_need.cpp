@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "splat_growth.h"
+#include "neighbors/memory_need.h"
+
+#include "common/random.h"
+#include "surface/memory_need.h"
+#include "surface/splat_growth.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/neighbors/memory_need.h>
-#include <pcl_uvol/surface/memory_need.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ constexpr std::size_t patches = 2, patch_points = 2048, patches_part = 64;
 /** Fewer points are no patch. */
 constexpr std::size_t fewest_points = 256;
 
-/** Of a patch, those that count: splats do not grow across its rim. */
+/** The points of a patch that count: splats do not grow across its rim. */
 constexpr std::size_t inner_part = 4;
 
 /** Where there is no patch: points of a surface that is sampled no finer than its
@@ -40,7 +41,7 @@ struct Extent {
 };
 
 Extent
-extentOf(const CloudView& cloud)
+measureExtent(const CloudView& cloud)
 {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   Extent extent;
@@ -84,7 +85,7 @@ takePatch(const CloudView& cloud,
 
 /** Points in the middle of a patch, ascending. */
 std::vector<std::uint32_t>
-innerOf(const CloudView& cloud, std::vector<std::uint32_t> patch)
+findInnerPoints(const CloudView& cloud, std::vector<std::uint32_t> patch)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
@@ -127,7 +128,7 @@ estimateSplats(const CloudView& cloud,
       std::min(patch_points, cloud.count / (patches * patches_part));
   if (most < fewest_points)
     return usual_splats;
-  Extent extent = extentOf(cloud);
+  Extent extent = measureExtent(cloud);
   SplatParameters of_patch = parameters;
   if (!parameters.delta_is_length)
     of_patch.delta = parameters.delta * extent.side;
@@ -139,7 +140,7 @@ estimateSplats(const CloudView& cloud,
       Report ignored;
       const auto grown =
           detail::generateSplats(cloud, patch, of_patch, threads, ignored);
-      const auto inner = innerOf(cloud, patch);
+      const auto inner = findInnerPoints(cloud, patch);
       points += inner.size();
       splats += static_cast<std::size_t>(std::count_if(
           grown.sources.begin(), grown.sources.end(), [&](std::uint32_t source) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "surface/oriented_points.h"
+
+#include "common/parallel.h"
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/surface/oriented_points.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <algorithm>

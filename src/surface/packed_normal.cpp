@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/surface/packed_normal.h>
+#include "surface/packed_normal.h"
 
 #include <cmath>
 

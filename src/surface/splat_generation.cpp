@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include "splat_growth.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/surface/footprints.h>
-#include <pcl_uvol/surface/impl/splat_generation.hpp>
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "common/random.h"
+#include "common/scalar_field.h"
+#include "surface/footprints.h"
+#include "surface/splat_growth.h"
+#include <pcl_uvol/surface/splat_generation.h>
 
 #include <algorithm>
 #include <array>
@@ -360,9 +360,5 @@ SplatParameters::fromJson(const std::string& text)
 {
   return readJson<SplatParameters>(text);
 }
-
-template class PCL_UVOL_EXPORTS SplatGeneration<PointIso>;
-template class PCL_UVOL_EXPORTS SplatGeneration<pcl::PointNormal>;
-template class PCL_UVOL_EXPORTS SplatGeneration<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "splat_growth.h"
+#include "surface/splat_growth.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

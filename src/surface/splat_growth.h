@@ -3,10 +3,10 @@
 // (thesis 4.2.1).
 #pragma once
 
+#include "neighbors/nearest_finder.h"
+#include "surface/footprints.h"
+#include "surface/oriented_points.h"
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
-#include <pcl_uvol/surface/footprints.h>
-#include <pcl_uvol/surface/oriented_points.h>
 
 #include <Eigen/Core>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../common/parameter_json.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/common/scalar_field.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
-#include <pcl_uvol/surface/impl/surface_normals.hpp>
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "neighbors/nearest_neighbors.h"
+#include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -118,7 +118,7 @@ checkParameters(const SurfaceNormalParameters& parameters)
 
 /** The sample that stands for each input point. */
 std::vector<std::uint32_t>
-samplesOf(const SampleSet& samples, std::size_t points)
+collectSamples(const SampleSet& samples, std::size_t points)
 {
   std::vector<std::uint32_t> sample_of(points, no_sample);
   for (std::uint32_t i = 0; i < samples.size(); ++i)
@@ -197,7 +197,7 @@ estimateSurfaceNormals(const CloudView& cloud,
       fits[i] =
           fitPlane(samples->getPositions(), static_cast<std::uint32_t>(i), graph[i]);
   });
-  const std::vector<std::uint32_t> sample_of = samplesOf(*samples, cloud.count);
+  const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   const Orientation orientation(
       cloud, parameters.view_point, samples->getUnit().factor);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -274,10 +274,5 @@ SurfaceNormalParameters::fromJson(const std::string& text)
 {
   return readJson<SurfaceNormalParameters>(text);
 }
-
-template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointXYZ, pcl::Normal>;
-template class PCL_UVOL_EXPORTS SurfaceNormalEstimation<pcl::PointNormal, pcl::Normal>;
-template class PCL_UVOL_EXPORTS
-    SurfaceNormalEstimation<pcl::PCLPointCloud2, pcl::PointNormal>;
 
 } // namespace pcl_uvol

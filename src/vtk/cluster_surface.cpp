@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/cluster_hull.h>
-#include <pcl_uvol/multivariate/mesh_distance.h>
-#include <pcl_uvol/multivariate/spanning_tree.h>
+#include "common/parameter_json.h"
+#include "multivariate/cluster_hull.h"
+#include "multivariate/mesh_distance.h"
+#include "multivariate/spanning_tree.h"
+#include "vtk/contour.h"
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
-#include <pcl_uvol/vtk/contour.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,18 +31,18 @@ struct Members {
 
 Members
 finiteMembers(const CloudView& cloud,
-              const std::vector<std::uint32_t>& members,
-              const std::array<float, 3>& scale)
+              const pcl::Indices& members,
+              const Eigen::Array3f& scale)
 {
   Members finite;
-  for (const std::uint32_t member : members) {
-    const float* const p = cloud.xyz(member);
+  for (const auto member : members) {
+    const float* const p = cloud.xyz(static_cast<std::size_t>(member));
     const Position position{{scale[0] * p[0], scale[1] * p[1], scale[2] * p[2]}};
     if (!std::isfinite(position[0]) || !std::isfinite(position[1]) ||
         !std::isfinite(position[2]))
       continue;
     finite.positions.push_back(position);
-    finite.points.push_back(member);
+    finite.points.push_back(static_cast<std::uint32_t>(member));
   }
   return finite;
 }
@@ -65,36 +65,37 @@ shapeAround(const std::vector<Position>& positions,
 /** The distance to use: beyond the longest edge of the spanning tree unless given. */
 double
 chooseDistance(const std::vector<Position>& positions,
-               const ClusterSurfaceSettings& settings,
+               const ClusterSurfaceParameters& parameters,
+               unsigned threads,
                Report& report)
 {
-  if (!(settings.distance >= 0.0) || !std::isfinite(settings.distance))
+  if (!(parameters.distance >= 0.0) || !std::isfinite(parameters.distance))
     throw InvalidArgument("The distance of a surface from a cluster is a number above "
                           "0, or 0 for that of the spanning tree.");
-  const double longest = longestSpanningEdge(positions, settings.threads, report);
-  if (settings.distance > 0.0) {
-    if (settings.distance < 0.5 * longest)
+  const double longest = longestSpanningEdge(positions, threads, report);
+  if (parameters.distance > 0.0) {
+    if (parameters.distance < 0.5 * longest)
       report.warnings.push_back(
           "The longest edge of the cluster's spanning tree is " +
           std::to_string(longest) +
           ": at less than half of it the surface falls into pieces.");
-    return settings.distance;
+    return parameters.distance;
   }
   if (longest == 0.0)
     throw InvalidArgument("All points of the cluster lie at one place, which gives no "
                           "distance: it must be given.");
   // One cell more: the field is known between the centres of cells only.
-  const double cell = shapeAround(positions, longest, settings.cells).spacing[0];
+  const double cell = shapeAround(positions, longest, parameters.cells).spacing[0];
   // The grid grows with the distance. None is large enough for 3 cells.
-  const double extent = cell * settings.cells - 2.0 * longest;
-  const double cells_left = settings.cells - 2.0 * smallest_distance;
+  const double extent = cell * parameters.cells - 2.0 * longest;
+  const double cells_left = parameters.cells - 2.0 * smallest_distance;
   const double least = cells_left > 0.0 ? smallest_distance * extent / cells_left : 0.0;
   return std::max(longest + cell, 1.0001 * least);
 }
 
 /** The site whose cell is nearest to every vertex: one of those of the cells around. */
 std::vector<std::uint32_t>
-regionsOf(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid& grid)
+findRegions(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid& grid)
 {
   const GridShape& shape = grid.getShape();
   std::vector<std::uint32_t> regions;
@@ -129,7 +130,7 @@ shrinkToHull(const Members& members,
 {
   const StepTimer timer(report, "hull");
   const ClusterHull hull =
-      makeClusterHull(surface.mesh.triangles, regionsOf(surface.mesh.vertices, grid));
+      makeClusterHull(surface.mesh.triangles, findRegions(surface.mesh.vertices, grid));
   if (hull.triangles.empty())
     throw InvalidArgument(
         "The cluster has no hull: fewer than three of its points meet "
@@ -146,7 +147,7 @@ shrinkToHull(const Members& members,
 }
 
 void
-checkScale(const std::array<float, 3>& scale)
+checkScale(const Eigen::Array3f& scale)
 {
   for (const float factor : scale)
     if (!(factor > 0.0f) || !std::isfinite(factor))
@@ -157,14 +158,15 @@ checkScale(const std::array<float, 3>& scale)
 } // namespace
 
 ClusterSurface
-makeClusterSurface(const CloudView& cloud,
-                   const std::vector<std::uint32_t>& members,
-                   ClusterSurfaceKind kind,
-                   const ClusterSurfaceSettings& settings,
-                   Report& report)
+detail::encloseCluster(const CloudView& cloud,
+                       const pcl::Indices& members,
+                       const ClusterSurfaceParameters& parameters,
+                       unsigned threads,
+                       Report& report)
 {
-  checkScale(settings.scale);
-  const Members finite = finiteMembers(cloud, members, settings.scale);
+  const ClusterSurfaceKind kind = parameters.kind;
+  checkScale(parameters.scale);
+  const Members finite = finiteMembers(cloud, members, parameters.scale);
   const std::vector<Position>& positions = finite.positions;
   report.count("non_finite", members.size() - positions.size());
   if (positions.empty())
@@ -174,8 +176,8 @@ makeClusterSurface(const CloudView& cloud,
     throw InvalidArgument("A hull needs three points or more, and the cluster has " +
                           std::to_string(positions.size()) + ".");
   ClusterSurface surface;
-  surface.distance = chooseDistance(positions, settings, report);
-  const GridShape shape = shapeAround(positions, surface.distance, settings.cells);
+  surface.distance = chooseDistance(positions, parameters, threads, report);
+  const GridShape shape = shapeAround(positions, surface.distance, parameters.cells);
   if (surface.distance < smallest_distance * shape.spacing[0])
     throw InvalidArgument("The distance " + std::to_string(surface.distance) +
                           " is too small for cells of " +
@@ -189,28 +191,40 @@ makeClusterSurface(const CloudView& cloud,
                          sizeof(Position) / sizeof(float),
                          all,
                          way,
-                         settings.threads,
+                         threads,
                          report);
   const auto contour = [&](const std::vector<float>& distances) {
     const StepTimer timer(report, "contour");
     surface.mesh = contourGrid(shape, distances, surface.distance);
   };
-  contour(grid.computeDistances(settings.threads));
+  contour(grid.computeDistances(threads));
   if (kind != ClusterSurfaceKind::Distance)
     shrinkToHull(finite, grid, surface, report);
   if (kind == ClusterSurfaceKind::HullDistance) {
-    contour(distanceToMesh(shape, surface.mesh, settings.threads, report));
+    contour(distanceToMesh(shape, surface.mesh, threads, report));
     surface.points.clear();
   }
   for (auto& vertex : surface.mesh.vertices)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      vertex[axis] /= settings.scale[axis];
+      vertex[axis] /= parameters.scale[static_cast<Eigen::Index>(axis)];
   // Exactly the points, whatever the scale.
   for (std::size_t i = 0; i < surface.points.size(); ++i)
     std::copy_n(cloud.xyz(surface.points[i]), 3, surface.mesh.vertices[i].begin());
   report.count("vertices", surface.mesh.vertices.size());
   report.count("triangles", surface.mesh.triangles.size());
   return surface;
+}
+
+std::string
+ClusterSurfaceParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+ClusterSurfaceParameters
+ClusterSurfaceParameters::fromJson(const std::string& text)
+{
+  return readJson<ClusterSurfaceParameters>(text);
 }
 
 } // namespace pcl_uvol

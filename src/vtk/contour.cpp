@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "vtk/contour.h"
+
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/vtk/contour.h>
 
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>

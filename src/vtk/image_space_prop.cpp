@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "foreign_drawing.h"
-#include "window_view.h"
-#include <pcl_uvol/gl/gl_backend.h>
+#include "gl/gl_backend.h"
+#include "vtk/scoped_gl_state.h"
+#include "vtk/window_view.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
 
 #include <vtkBoundingBox.h>
@@ -111,8 +111,8 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
   if (window == nullptr)
     throw InvalidArgument("Image-space rendering needs an OpenGL window of VTK.");
   WindowView shown = makeWindowView(renderer, *GetMatrix(), renderer_.getBounds());
-  const std::shared_ptr<GlContext> context = wrapContextOf(*window);
-  const ForeignDrawing drawing(*window, *context);
+  const std::shared_ptr<GlContext> context = wrapContext(*window);
+  const ScopedGlState drawing(*window, *context);
   GlBackend& backend = backendFor(*window, context);
   shown.target.name = drawing.getFramebuffer();
   renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Symbols: model takes the cloud's to world coordinates, view these to those of the eye
 // (x right, y up, z backward), projection these to clip space.
-#include "window_view.h"
+#include "vtk/window_view.h"
 
 #include <pcl_uvol/common/exceptions.h>
 

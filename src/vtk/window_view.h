@@ -2,8 +2,8 @@
 // VTK's camera as that of image-space rendering.
 #pragma once
 
-#include <pcl_uvol/gl/gl_backend.h>
-#include <pcl_uvol/render/image_space/backend.h>
+#include "gl/gl_backend.h"
+#include "render/image_space/frame.h"
 
 class vtkMatrix4x4;
 class vtkRenderer;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps of an extraction one by one, beside a copy of the samples' memory in the
 // same run: how far each is from the machine's limit. Radial test of thesis Table 2.9.
+#include "common/parallel.h"
 #include "radial_cloud.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <benchmark/benchmark.h>

@@ -2,9 +2,10 @@
 // The 41 nearest samples of every isopoint: boxes of our own tree beside FLANN, whose
 // index holds only the samples near the surface. One thread. Radial test of thesis
 // Table 2.9.
+#include "neighbors/nearest_finder.h"
+#include "neighbors/sample_set.h"
 #include "radial_cloud.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <benchmark/benchmark.h>
 #include <flann/algorithms/dist.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tree, all neighbourhoods and one isosurface beside CGAL's parallel Delaunay
 // triangulation with its edges, on the radial test of thesis Table 2.9, in one run.
+#include "neighbors/neighborhood_finder.h"
 #include "radial_cloud.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // PCA normals beside pcl::NormalEstimationOMP for the sizes of thesis Table 4.3, in one
 // run; search trees included.
+#include "common/parallel.h"
+#include "neighbors/sample_set.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <benchmark/benchmark.h>

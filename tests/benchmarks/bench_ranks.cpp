@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a process does with its share of the samples, by itself: the levels of the
 // decomposition, which every process works through for all of its samples. One thread.
+#include "distributed/decomposition.h"
 #include "radial_cloud.h"
-#include <pcl_uvol/distributed/decomposition.h>
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames per second of image-space rendering, beside VTK's point mapper, which draws
 // the points alone: no hole filled, nothing smoothed. VTK needs a display (xvfb-run).
+#include "generation/mesh_scatter.h"
 #include "radial_cloud.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
@@ -93,7 +94,7 @@ make(Surface surface)
 
 /** Null without the folder of real data. */
 uvol_test::SurfaceCloudPtr
-cloudOf(Surface surface)
+makeSearchCloud(Surface surface)
 {
   static std::map<Surface, uvol_test::SurfaceCloudPtr> clouds;
   auto& cloud = clouds[surface];
@@ -134,7 +135,7 @@ void
 imageSpace(benchmark::State& state)
 {
   const auto surface = static_cast<Surface>(state.range(0));
-  const auto cloud = cloudOf(surface);
+  const auto cloud = makeSearchCloud(surface);
   if (!cloud) {
     state.SkipWithError("the folder of real data is not there ($PCL_UVOL_DATA)");
     return;
@@ -183,7 +184,7 @@ vtkPointMapper(benchmark::State& state)
     return;
   }
   const auto surface = static_cast<Surface>(state.range(0));
-  const auto cloud = cloudOf(surface);
+  const auto cloud = makeSearchCloud(surface);
   if (!cloud) {
     state.SkipWithError("the folder of real data is not there ($PCL_UVOL_DATA)");
     return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams: growth with cells and with sites (thesis Tables 2.5 and
 // 2.6), by the exact transform and by cones on the GL depth test.
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/gl/conic_sections.h>
+#include "common/random.h"
+#include "gl/conic_sections.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Density clustering of planted clusters, and projections that keep them apart.
+#include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
 #include "multivariate/star_clusters.h"
-#include <pcl_uvol/multivariate/density_clustering.h>
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The experiment of thesis 3.6: gradients by local fits at random samples beside
 // central differences of step 1 on the function itself.
+#include "common/parallel.h"
+#include "derivatives/local_fit.h"
+#include "neighbors/nearest_neighbors.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/statistics.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
-#include <pcl_uvol/derivatives/local_fit.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <cmath>
 #include <cstdio>

@@ -26,7 +26,7 @@ EmbreeTracer::EmbreeTracer(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
   if (is_user) {
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(splats.size()));
     rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, boundsOf, nullptr);
+    rtcSetGeometryBoundsFunction(geometry, findBounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, meet);
     rtcSetGeometryOccludedFunction(geometry, block);
   }
@@ -55,7 +55,7 @@ EmbreeTracer::~EmbreeTracer()
 }
 
 void
-EmbreeTracer::boundsOf(const RTCBoundsFunctionArguments* arguments)
+EmbreeTracer::findBounds(const RTCBoundsFunctionArguments* arguments)
 {
   const auto& tracer = *static_cast<const EmbreeTracer*>(arguments->geometryUserPtr);
   const pcl_uvol::PointSplat& splat = tracer.splats_[arguments->primID];

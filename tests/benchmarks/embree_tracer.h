@@ -23,7 +23,7 @@ private:
   struct Query;
 
   static void
-  boundsOf(const RTCBoundsFunctionArguments* arguments);
+  findBounds(const RTCBoundsFunctionArguments* arguments);
 
   static void
   meet(const RTCIntersectFunctionNArguments* arguments);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thesis Tables 3.1 to 3.3: level sets of a volume resampled at random positions, step
 // by step, beside the memory bandwidth of the same run.
+#include "common/parallel.h"
+#include "neighbors/nearest_neighbors.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/noisy_shapes.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/io/volume.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <chrono>
 #include <cmath>

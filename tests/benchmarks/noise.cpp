@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces of noisy samples: direct, after a local mean or a local fit of the
 // values, and by level sets.
+#include "common/parallel.h"
+#include "neighbors/nearest_neighbors.h"
 #include "support/clouds.h"
 #include "support/noisy_shapes.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/QR>

@@ -32,8 +32,8 @@ public:
   PeerTracer&
   operator=(const PeerTracer&) = delete;
 
-  /** One directional light from the eye's left shoulder. \param mirrored part of the
-   * light that every surface mirrors */
+  /** One directional light from the eye's left shoulder.
+   * \param mirrored part of the light that every surface mirrors */
   void
   render(const pcl_uvol::Camera& camera,
          int size,

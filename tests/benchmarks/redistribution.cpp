@@ -3,8 +3,8 @@
 // processes spend by themselves is measured apart from that in which they communicate,
 // so that it means something where they share cores.
 // usage: redistribution SAMPLES_PER_PROCESS LEVELS GROUPS...
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/distributed/redistribute.h>
+#include "common/random.h"
+#include "distributed/redistribute.h"
 #include <pcl_uvol/mpi/mpi_communicator.h>
 
 #include <vtkMPIController.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams and the kd-tree as sources of neighbours: thesis Tables 2.7
 // to 2.9 and Figure 2.16.
+#include "generation/analytic_fields.h"
+#include "neighbors/neighborhood_finder.h"
 #include "support/clouds.h"
-#include <pcl_uvol/common/analytic_fields.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <algorithm>
 #include <chrono>

@@ -25,7 +25,7 @@ while read -r tool arguments; do
   # shellcheck disable=SC2086 # arguments are words
   "$tools/$tool" $arguments -json >"$report.raw" 2>>"$report.raw" ||
     { echo "failed: $tool $arguments" >&2; cat "$report.raw" >&2; exit 1; }
-  sed -e '/"milliseconds"/,/}/d' -e '/"memory"/d' -e '/"backend"/d' "$report.raw" >"$report"
+  sed -e '/"milliseconds"/,/}/d' -e '/"memory": {/,/}/d' -e '/"backend"/d' "$report.raw" >"$report"
   rm "$report.raw"
 done <"$list"
 find . -type f | LC_ALL=C sort | xargs -d '\n' sha256sum

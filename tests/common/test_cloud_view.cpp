@@ -3,7 +3,7 @@
 #include "support/clouds.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
-#include <pcl_uvol/isosurface/impl/isosurface_extraction.hpp>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The origin of coordinates in double, whatever a few of them are, and what is said of
 // digits that float has no room for.
+#include "common/coordinate_range.h"
+#include "common/value_frame.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/coordinate_range.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/value_frame.h>
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ makeSite(std::size_t count, const Point& corner = {391000.0, 5819000.0, 30.0})
 }
 
 CoordinateRange
-rangeOf(const Points& points)
+findRange(const Points& points)
 {
   CoordinateRange range;
   for (const Point& point : points)
@@ -45,14 +45,14 @@ rangeOf(const Points& points)
 std::string
 noteOf(const Points& points)
 {
-  const CoordinateRange range = rangeOf(points);
+  const CoordinateRange range = findRange(points);
   return range.describeRounding(range.findOrigin());
 }
 
 TEST(CoordinateRange, RowsWithoutPositionMoveNoOrigin)
 {
   Points points = makeSite(5000);
-  const Point origin = rangeOf(points).findOrigin();
+  const Point origin = findRange(points).findOrigin();
   EXPECT_NEAR(391500.0, origin[0], 500.0);
   EXPECT_NEAR(5819500.0, origin[1], 500.0);
   EXPECT_EQ("", noteOf(points));
@@ -60,7 +60,7 @@ TEST(CoordinateRange, RowsWithoutPositionMoveNoOrigin)
   for (std::size_t i = 0; i < points.size(); i += 10)
     points[i] = {0.0, 0.0, 0.0};
   points[77] = {1e20, 391000.0, -9999.0};
-  const Point robust = rangeOf(points).findOrigin();
+  const Point robust = findRange(points).findOrigin();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     EXPECT_NEAR(robust[axis], origin[axis], 500.0);
     const double step = std::exp2(std::floor(std::log2(500.0)));
@@ -94,7 +94,7 @@ TEST(CoordinateRange, AnyOrderAndDivisionGiveOneOrigin)
 {
   Points points = makeSite(20000);
   points[9] = {0.0, 0.0, 0.0};
-  const Point expected = rangeOf(points).findOrigin();
+  const Point expected = findRange(points).findOrigin();
   const std::string note = noteOf(points);
   CoordinateRange parts[3];
   std::reverse(points.begin(), points.end());
@@ -147,10 +147,10 @@ TEST(CoordinateRange, WhatFloatCannotHoldIsRefusedUnlessItIsAStray)
 {
   Points points = makeSite(100, {0.0, 0.0, 0.0});
   points[3][0] = 1e300;
-  EXPECT_NO_THROW(rangeOf(points).findOrigin());
+  EXPECT_NO_THROW(findRange(points).findOrigin());
   for (Point& point : points)
     point[1] *= 1e300;
-  EXPECT_THROW(rangeOf(points).findOrigin(), pcl_uvol::InvalidArgument);
+  EXPECT_THROW(findRange(points).findOrigin(), pcl_uvol::InvalidArgument);
 }
 
 pcl_uvol::ValueFrame

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The origin of large coordinates, and records of bytes that become datasets.
+#include "common/records.h"
 #include "io/random_dataset.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
 
 using namespace pcl_uvol;
 using namespace uvol_test;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/dispatch.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/dispatch.h>
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What memory there is and what the process takes. Work that does not fit into memory
 // is refused, in figures that people can read.
+#include "common/memory.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
 
 #include <gtest/gtest.h>
 

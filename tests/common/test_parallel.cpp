@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/parallel.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/parallel.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,10 @@
 // Parameters of all stages: they survive JSON, and equality sees every member.
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
+#include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
+#include <pcl_uvol/multivariate/star_coordinates.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -66,7 +69,10 @@ using AllParameters = testing::Types<IsosurfaceParameters,
                                      pcl_uvol::GradientParameters,
                                      pcl_uvol::SurfaceNormalParameters,
                                      pcl_uvol::SplatParameters,
-                                     pcl_uvol::ClusteringParameters>;
+                                     pcl_uvol::ClusteringParameters,
+                                     pcl_uvol::StarCoordinateParameters,
+                                     pcl_uvol::MembershipParameters,
+                                     pcl_uvol::VoronoiParameters>;
 TYPED_TEST_SUITE(StageParameters, AllParameters);
 
 TYPED_TEST(StageParameters, SurviveJson)
@@ -124,6 +130,15 @@ TEST(Parameters, NameWhatIsWrongInJson)
   EXPECT_EQ("The parameter normal_neighbors is -3 in JSON: it must be a whole number "
             "from 0.",
             refusal(R"({"normal_neighbors": -3})"));
+  try {
+    pcl_uvol::MembershipParameters::fromJson(R"({"cluster": 2147483648})");
+    ADD_FAILURE() << "no int";
+  }
+  catch (const InvalidArgument& error) {
+    EXPECT_EQ("The parameter cluster is 2147483648 in JSON: it must be a whole number.",
+              error.message());
+  }
+  EXPECT_EQ(-1, pcl_uvol::MembershipParameters::fromJson(R"({"cluster": -1})").cluster);
   EXPECT_EQ("The parameter smooth is 1 in JSON: it must be true or false.",
             refusal(R"({"smooth": 1})"));
   EXPECT_EQ(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/parallel.h"
 #include "support/clouds.h"
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gradients and mean curvatures of scattered fields: exact where the polynomial is, of
 // the order that it has, and nothing made up where samples do not tell.
+#include "derivatives/local_fit.h"
+#include "neighbors/nearest_neighbors.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
-#include <pcl_uvol/derivatives/impl/gradient_estimation.hpp>
-#include <pcl_uvol/derivatives/local_fit.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

@@ -66,8 +66,8 @@ struct Block {
   {
     const StencilView view = stencils.view();
     const std::size_t group = center / stencil_lanes, lane = center % stencil_lanes;
-    return static_cast<double>(
-               view.weightsOf(group)[(j * view.rows + row) * stencil_lanes + lane]) *
+    return static_cast<double>(view.computeWeights(
+               group)[(j * view.rows + row) * stencil_lanes + lane]) *
            view.scalesOf(group)[row * stencil_lanes + lane] *
            (row < 3 ? unit : unit * unit);
   }

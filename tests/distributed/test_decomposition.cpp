@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The top of the tree, found over ranks, is the top of the tree.
+#include "common/random.h"
+#include "distributed/piece.h"
+#include "neighbors/sample_set.h"
 #include "support/clouds.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/distributed/piece.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ decompose(const Positions& positions,
 }
 
 pcl_uvol::SampleSet::ConstPtr
-samplesOf(const Positions& positions)
+collectSamples(const Positions& positions)
 {
   std::vector<std::uint32_t> all(positions.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -188,7 +188,7 @@ TEST(Decompositions, AreTheTopOfTheTree)
   };
   for (const auto& one : cases) {
     SCOPED_TRACE(one.name);
-    const auto samples = samplesOf(one.positions);
+    const auto samples = collectSamples(one.positions);
     ASSERT_EQ(one.positions.size(), samples->size());
     for (const std::size_t ranks : {1, 3}) {
       int passes = 0;
@@ -215,7 +215,7 @@ TEST(Decompositions, KeepWhatIsLeftOfAPass)
   const Positions positions = makePositions(300000, [](std::uint64_t i) {
     return Position{{at(i, 0), at(i, 1), at(i, 2)}};
   });
-  const auto samples = samplesOf(positions);
+  const auto samples = collectSamples(positions);
   for (const std::size_t ranks : {1, 3}) {
     int passes = 0;
     decompose(
@@ -234,7 +234,7 @@ TEST(Decompositions, TakeOnePassOverFew)
   const Positions positions = makePositions(512, [](std::uint64_t i) {
     return Position{{at(i, 0), at(i, 1), at(i, 2)}};
   });
-  const auto samples = samplesOf(positions);
+  const auto samples = collectSamples(positions);
   int passes = 0;
   decompose(
       positions,
@@ -254,7 +254,7 @@ TEST_P(DecompositionOfEveryShape, IsTheTopOfTheTree)
   for (const auto& point : *cloud)
     if (std::isfinite(point.x + point.y + point.z))
       positions.push_back({{point.x + 0.0f, point.y + 0.0f, point.z + 0.0f}});
-  const auto samples = samplesOf(positions);
+  const auto samples = collectSamples(positions);
   positions.assign(samples->getPositions().begin(),
                    samples->getPositions().begin() +
                        static_cast<std::ptrdiff_t>(samples->size()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points are found wherever they are.
+#include "distributed/fetch_points.h"
 #include "support/environment.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/distributed/fetch_points.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

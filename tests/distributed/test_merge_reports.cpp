@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports of several processes are one.
+#include "distributed/merge_reports.h"
 #include "support/thread_ranks.h"
-#include <pcl_uvol/distributed/merge_reports.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples come to the owners of their pieces, in one step or in two.
+#include "distributed/redistribute.h"
 #include "support/clouds.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/distributed/redistribute.h>
 
 #include <gtest/gtest.h>
 

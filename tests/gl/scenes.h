@@ -2,8 +2,8 @@
 // What both backends draw, and how far their pictures may differ.
 #pragma once
 
+#include "render/image_space/frame.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/render/image_space/backend.h>
 
 #include <gtest/gtest.h>
 #include <pcl/common/io.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layers of cones against brute force.
+#include "gl/conic_sections.h"
 #include "support/environment.h"
-#include <pcl_uvol/gl/conic_sections.h>
 
 #include <algorithm>
 #include <cmath>

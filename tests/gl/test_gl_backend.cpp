@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OpenGL against plain C++: both backends draw the same pictures.
+#include "gl/gl_backend.h"
 #include "gl/scenes.h"
-#include <pcl_uvol/gl/gl_backend.h>
-#include <pcl_uvol/render/image_space/cpu_backend.h>
+#include "render/image_space/cpu_backend.h"
 
 #include <algorithm>
 #include <cmath>

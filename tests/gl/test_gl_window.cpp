@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Drawing into somebody else's framebuffer, as in a window that shows other things too.
+#include "gl/gl_backend.h"
 #include "gl/scenes.h"
-#include <pcl_uvol/gl/gl_backend.h>
 
 #include <GL/glcorearb.h>
 #include <memory>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs one kernel on a fixed input for callgrind, which counts what happens inside
 // measured() only. usage: count_kernels KERNEL
+#include "neighbors/nearest_neighbors.h"
+#include "neighbors/neighborhood_finder.h"
 #include "support/clouds.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/neighbors/natural_neighbors.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <cstdio>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Folds, and what leaving them out tells of a model.
+#include "common/scalar_field.h"
 #include "support/interpolation_cases.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 
 #include <gtest/gtest.h>

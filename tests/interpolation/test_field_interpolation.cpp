@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The field between samples: what every model has to keep to.
+#include "common/scalar_field.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/interpolation/impl/field_interpolation.hpp>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing kernels and sums of them over particles, against integrals and all pairs.
+#include "common/random.h"
 #include "src/interpolation/kernel_sums.h"
-#include <pcl_uvol/common/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kriging of whole clouds: exact at samples, calibrated on simulated fields, the same
 // in stretched and turned coordinates.
+#include "common/random.h"
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
-#include <pcl_uvol/common/random.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The equations of kriging against the textbook's bordered matrix in long double, and
 // variograms against what they were made from.
+#include "common/random.h"
 #include "src/interpolation/kriging_system.h"
-#include <pcl_uvol/common/random.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

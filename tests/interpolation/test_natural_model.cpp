@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Natural neighbours by exact Voronoi cells, against counted volumes, linear functions
 // and layouts in which many samples lie on one sphere.
+#include "common/random.h"
 #include "src/interpolation/natural_model.h"
-#include <pcl_uvol/common/random.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Datasets of any fields with random content, and their comparison.
 #pragma once
 
+#include "common/scalar_field.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // Scenes as text, and what their clouds hold.
 #pragma once
 
+#include "io/scene_file.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/scene_file.h>
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 
 namespace uvol_test {
 
-/** \brief Splats as text, with further columns. \param rows what these hold; a row that
- * starts with ! gets a splat without radius */
+/** \brief Splats as text, with further columns.
+ * \param rows what these hold; a row that starts with ! gets a splat without radius */
 inline std::string
 splatTable(const std::string& columns, const std::vector<std::string>& rows)
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files whose headers lie, through every reader: a result that is right, or one plain
 // sentence; no hang and no memory that the file does not justify.
+#include "common/memory.h"
+#include "common/printable.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/common/printable.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
 
@@ -46,7 +46,7 @@ pointsOf(const std::string& path)
 }
 
 std::string
-volumeOf(const std::string& path)
+makeVolume(const std::string& path)
 {
   return sentenceOf(path, [&] { loadVolume(path); });
 }
@@ -109,7 +109,7 @@ TEST(BrokenFiles, MetaImages)
 {
   const TemporaryFolder folder;
   writeFile(folder / "good.mha", metaImage());
-  EXPECT_EQ("", volumeOf(folder / "good.mha"));
+  EXPECT_EQ("", makeVolume(folder / "good.mha"));
   const auto with = [](const std::string& from, const std::string& to) {
     return Broken{"a.mha", metaImage(from, to)};
   };
@@ -135,19 +135,19 @@ TEST(BrokenFiles, MetaImages)
                  with("MET_SHORT", "MET_SHORT\nElementSpacing = 1 1"),
                  with("MET_SHORT", "MET_SHORT\nTransformMatrix = 0 1 0 1 0 0 0 0 1"),
                  with("BinaryData = True", "BinaryData = False")},
-                volumeOf);
+                makeVolume);
 }
 
 TEST(BrokenFiles, Nrrds)
 {
   const TemporaryFolder folder;
   writeFile(folder / "good.nrrd", nrrd());
-  EXPECT_EQ("", volumeOf(folder / "good.nrrd"));
+  EXPECT_EQ("", makeVolume(folder / "good.nrrd"));
   std::string comments;
   for (int i = 0; i < 200000; ++i)
     comments += "# a\n";
   writeFile(folder / "comments.nrrd", nrrd("endian", comments + "endian"));
-  EXPECT_EQ("", volumeOf(folder / "comments.nrrd"));
+  EXPECT_EQ("", makeVolume(folder / "comments.nrrd"));
   const auto with = [](const std::string& from, const std::string& to) {
     return Broken{"a.nrrd", nrrd(from, to)};
   };
@@ -166,14 +166,14 @@ TEST(BrokenFiles, Nrrds)
                  with("raw\n", "raw\nline skip: 18446744073709551615\n"),
                  with("raw\n", "raw\nspace directions: (1,0,0) (0,1 (0,0,1)\n"),
                  with("raw\n", "raw\nspace directions: (0,1,0) (1,0,0) (0,0,1)\n")},
-                volumeOf);
+                makeVolume);
 }
 
 TEST(BrokenFiles, ImagesOfVtk)
 {
   const TemporaryFolder folder;
   writeFile(folder / "good.vti", vti("0 1 0 0 0 0", "0 1 0 0 0 0", "1 2"));
-  EXPECT_EQ("", volumeOf(folder / "good.vti"));
+  EXPECT_EQ("", makeVolume(folder / "good.vti"));
   expectRefused(
       {{"a.vti", vti("0 9 0 9 0 9", "0 1 0 0 0 0", "1 2")},
        {"a.vti", vti("5 -5 0 0 0 0", "5 -5 0 0 0 0", "1")},
@@ -190,7 +190,7 @@ TEST(BrokenFiles, ImagesOfVtk)
        {"a.vti",
         "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 1999 0 1999 0 1999\">"
         "<Piece Extent=\"0 1999 0 1999 0 1999\"/></ImageData></VTKFile>"}},
-      volumeOf);
+      makeVolume);
 }
 
 TEST(BrokenFiles, PointsOfVtk)
@@ -351,7 +351,7 @@ TEST(BrokenFiles, EveryOneEverFound)
       continue;
     const bool measured = !isSanitized() && resetPeakMemory();
     const auto before = static_cast<double>(residentMemory());
-    const bool refused = pointsOf(path) != "" && volumeOf(path) != "";
+    const bool refused = pointsOf(path) != "" && makeVolume(path) != "";
     sentenceOf(path, [&] { loadMesh(path); });
     if (refused && measured) {
       EXPECT_LT(static_cast<double>(peakMemory()) - before,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Voronoi diagrams as image files: what is written is what the diagram says.
+#include "io/grid_file.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/grid_file.h>
 #include <pcl_uvol/io/volume.h>
 
 #include <gtest/gtest.h>

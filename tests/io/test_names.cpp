@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every name of a field through every writer and back.
+#include "common/printable.h"
 #include "random_dataset.h"
-#include <pcl_uvol/common/printable.h>
 
 #include <vtkDataSet.h>
 #include <vtkPointData.h>

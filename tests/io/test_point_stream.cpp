@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A file read in blocks gives the very bytes of the file read whole.
+#include "common/memory.h"
+#include "io/point_stream.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
-#include <pcl_uvol/io/point_stream.h>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What processes read of files is all of it, and what they write is there or not.
+#include "io/rank_files.h"
 #include "random_dataset.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/rank_files.h>
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>

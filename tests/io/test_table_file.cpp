@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tables are written whole, or refused in one sentence.
+#include "io/table_file.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/table_file.h>
 
 #include <gtest/gtest.h>
 

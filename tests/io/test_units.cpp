@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Results do not depend on the unit of length, nor on a few points or values that lie
 // far from the others.
+#include "common/records.h"
+#include "io/point_stream.h"
+#include "pipeline/extract_from_ranks.h"
+#include "pipeline/extract_out_of_core.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/extract_out_of_core.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/extract_from_ranks.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Volumes, meshes and what a file holds.
+#include "generation/mesh_scatter.h"
+#include "pipeline/dataset_info.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/dataset_info.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
 

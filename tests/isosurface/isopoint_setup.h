@@ -2,8 +2,8 @@
 // Samples with values, as the kernels of isosurface extraction take them.
 #pragma once
 
+#include "neighbors/neighbor_candidates.h"
 #include "src/isosurface/isopoints.h"
-#include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <Eigen/Core>
 

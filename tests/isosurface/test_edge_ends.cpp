@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges index the points that they end at.
+#include "isosurface/edge_ends.h"
 #include "support/environment.h"
-#include <pcl_uvol/isosurface/edge_ends.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How large isosurfaces will be is told before they are extracted.
+#include "isosurface/memory_need.h"
 #include "support/smooth_fields.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/isosurface/memory_need.h>
 
 #include <gtest/gtest.h>
 

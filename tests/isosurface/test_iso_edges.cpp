@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every field of the samples on the isopoints: numbers interpolated, names of things
 // copied.
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 
 #include <gtest/gtest.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints against brute force and analytic truth, and what becomes of awkward input.
+#include "common/memory.h"
+#include "neighbors/sample_set.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/neighbor_oracle.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 

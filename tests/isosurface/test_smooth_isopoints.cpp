@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints on local fits: how near they are to the true surface, whether they know it,
 // and that they stay where they belong.
+#include "common/random.h"
+#include "generation/analytic_fields.h"
 #include "support/clouds.h"
 #include "support/smooth_fields.h"
-#include <pcl_uvol/common/analytic_fields.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>

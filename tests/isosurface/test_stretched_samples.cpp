@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples that lie denser along one direction than along others: their isopoints are as
 // good, and as sure of themselves, as those of a cubic lattice.
+#include "common/random.h"
+#include "generation/analytic_fields.h"
 #include "support/clouds.h"
 #include "support/stretched_samples.h"
-#include <pcl_uvol/common/analytic_fields.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "support/environment.h"
-#include <pcl_uvol/levelset/impl/level_set_evolution.hpp>
+#include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <cmath>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Points whose clusters are known, and how well labels agree with them.
 #pragma once
 
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/attributes.h>
+#include "common/random.h"
+#include "multivariate/attributes.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,9 +3,9 @@
 // dimensions; and what tests of projections ask of them.
 #pragma once
 
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/attributes.h>
-#include <pcl_uvol/multivariate/star_coordinates.h>
+#include "common/random.h"
+#include "multivariate/attributes.h"
+#include "multivariate/projections.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -182,7 +182,7 @@ optimize(const LabelledTable& planted)
 {
   pcl_uvol::Report report;
   return pcl_uvol::starCoordinates(
-      planted.table, planted.labels, pcl_uvol::StarCoordinateParameters(), report);
+      planted.table, planted.labels, pcl_uvol::StarCoordinateParameters(), 0, report);
 }
 
 inline double

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Attributes of a cloud as rows of numbers (thesis 2.6).
+#include "multivariate/attributes.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/attributes.h>
 
 #include <gtest/gtest.h>
 #include <pcl/point_types.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of closed surfaces, shrunk to the vertices of a hull (thesis 2.6).
+#include "common/random.h"
+#include "multivariate/cluster_hull.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/cluster_hull.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

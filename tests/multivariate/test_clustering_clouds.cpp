@@ -21,7 +21,7 @@ using pcl_uvol::InvalidArgument;
 constexpr double least_agreement = 0.95;
 
 pcl::PointCloud<pcl::PointXYZI>::Ptr
-cloudOf(const PlantedClusters& planted)
+makeSearchCloud(const PlantedClusters& planted)
 {
   pcl::PointCloud<pcl::PointXYZI>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZI>);
   for (std::size_t i = 0; i < planted.labels.size(); ++i) {
@@ -38,7 +38,7 @@ cloudOf(const PlantedClusters& planted)
 TEST(DensityClusteringOfClouds, ClustersACloudOfAnyUnits)
 {
   const auto planted = plantClusters(3, 400, 1);
-  const auto cloud = cloudOf(planted);
+  const auto cloud = makeSearchCloud(planted);
   for (auto& point : *cloud) {
     point.x *= 1e-9f;
     point.intensity *= 1e12f;
@@ -80,7 +80,7 @@ TEST(DensityClusteringOfClouds, ReadsCloudsWithoutAPointType)
 {
   const auto planted = plantClusters(3, 400, 1);
   pcl::PCLPointCloud2::Ptr bytes(new pcl::PCLPointCloud2);
-  pcl::toPCLPointCloud2(*cloudOf(planted), *bytes);
+  pcl::toPCLPointCloud2(*makeSearchCloud(planted), *bytes);
   pcl_uvol::DensityClustering<pcl::PCLPointCloud2> clustering;
   clustering.setInputCloud(bytes);
   clustering.setAttributes({"x", "y", "intensity"});
@@ -93,7 +93,7 @@ TEST(DensityClusteringOfClouds, UsesTheIndicesOnly)
 {
   const auto planted = plantClusters(3, 0, 1);
   pcl_uvol::DensityClustering<pcl::PointXYZI> clustering;
-  clustering.setInputCloud(cloudOf(planted));
+  clustering.setInputCloud(makeSearchCloud(planted));
   clustering.setAttributes({"x", "y", "intensity"});
   pcl::IndicesPtr indices(new pcl::Indices);
   for (int i = 700; i < 2200; ++i)
@@ -112,7 +112,7 @@ TEST(DensityClusteringOfClouds, BadInputThrowsAndLeavesTheLabels)
   pcl_uvol::DensityClustering<pcl::PointXYZI> clustering;
   std::vector<int> labels = {7};
   EXPECT_THROW(clustering.compute(labels), InvalidArgument);
-  clustering.setInputCloud(cloudOf(plantClusters(3, 0, 1)));
+  clustering.setInputCloud(makeSearchCloud(plantClusters(3, 0, 1)));
   EXPECT_THROW(clustering.compute(labels), InvalidArgument) << "no attributes";
   clustering.setAttributes({"y", "temperature"});
   EXPECT_THROW(clustering.compute(labels), InvalidArgument);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clusters that were planted are found again, whatever the order, the units, the
 // threads (thesis 2.6).
+#include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/density_clustering.h>
 
 #include <gtest/gtest.h>
 

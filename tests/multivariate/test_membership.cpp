@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Membership of clusters as a field, and its smoothing by the kernel of particles.
+#include "common/random.h"
+#include "multivariate/membership.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/membership.h>
 
 #include <gtest/gtest.h>
 #include <pcl/point_types.h>
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace {
 
 using namespace pcl_uvol;
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+pcl::Indices
+allOf(const Cloud& cloud)
+{
+  pcl::Indices all(cloud.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 std::vector<float>
 smooth(const Cloud& cloud,
@@ -23,7 +32,8 @@ smooth(const Cloud& cloud,
        unsigned threads = 0)
 {
   Report report;
-  return smoothMembership(viewOf(cloud), values, lengths, threads, report);
+  return smoothMembership(
+      viewOf(cloud), allOf(cloud), values, lengths, threads, report);
 }
 
 /** Particles whose smoothing lengths vary by four orders of magnitude. */
@@ -157,8 +167,12 @@ TEST(SmoothMembership, BadParticlesKeepTheirsAndDoNotCount)
   }
   particles.values.resize(particles.cloud.size(), 0.25f);
   Report report;
-  const auto after = smoothMembership(
-      viewOf(particles.cloud), particles.values, particles.lengths, 0, report);
+  const auto after = smoothMembership(viewOf(particles.cloud),
+                                      allOf(particles.cloud),
+                                      particles.values,
+                                      particles.lengths,
+                                      0,
+                                      report);
   EXPECT_EQ(report.getCount("not_smoothed"), 6u);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), after.begin()));
   for (std::size_t i = before.size(); i < after.size(); ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Distance fields of meshes against the distances to their triangles.
+#include "multivariate/mesh_distance.h"
 #include "support/meshes.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/mesh_distance.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

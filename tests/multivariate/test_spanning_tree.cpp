@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Minimum spanning trees against Prim's method on all pairs (thesis 2.6).
 #include "multivariate/planted_clusters.h"
+#include "multivariate/spanning_tree.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/spanning_tree.h>
 
 #include <gtest/gtest.h>
 

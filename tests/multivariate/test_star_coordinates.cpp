@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projections of planted clusters: that they keep apart what principal axes do not,
 // what form they have, and what they do with tables that leave nothing to choose.
+#include "common/random.h"
+#include "multivariate/projections.h"
 #include "multivariate/star_clusters.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -86,10 +86,10 @@ TEST(StarCoordinates, AscentGainsOnTheStarts)
   StarCoordinateParameters parameters;
   Report report;
   const double ascended = ratioIn(
-      planted, starCoordinates(planted.table, planted.labels, parameters, report));
+      planted, starCoordinates(planted.table, planted.labels, parameters, 0, report));
   parameters.steps = 0;
   const double start = ratioIn(
-      planted, starCoordinates(planted.table, planted.labels, parameters, report));
+      planted, starCoordinates(planted.table, planted.labels, parameters, 0, report));
   EXPECT_GT(ascended, 1.5 * start);
   EXPECT_GE(start, ratioIn(planted, principalAxes(planted.table)));
 }
@@ -220,20 +220,20 @@ TEST(StarCoordinates, AnyNumberOfThreadsGivesTheSameBytes)
 {
   for (const LabelledTable& planted : allPlanted()) {
     StarCoordinateParameters parameters;
-    parameters.threads = 1;
     Report report;
     const Projection one =
-        starCoordinates(planted.table, planted.labels, parameters, report);
+        starCoordinates(planted.table, planted.labels, parameters, 1, report);
     const Projection axes = principalAxes(planted.table, 1);
     const double ratio =
-        smallestFisherRatio(planted.table, planted.labels, one, parameters);
+        smallestFisherRatio(planted.table, planted.labels, one, parameters, 1);
     for (const unsigned threads : {2u, 3u, 8u}) {
-      parameters.threads = threads;
-      expectSame(one,
-                 starCoordinates(planted.table, planted.labels, parameters, report));
+      expectSame(
+          one,
+          starCoordinates(planted.table, planted.labels, parameters, threads, report));
       expectSame(axes, principalAxes(planted.table, threads));
-      EXPECT_EQ(ratio,
-                smallestFisherRatio(planted.table, planted.labels, one, parameters));
+      EXPECT_EQ(
+          ratio,
+          smallestFisherRatio(planted.table, planted.labels, one, parameters, threads));
     }
   }
 }

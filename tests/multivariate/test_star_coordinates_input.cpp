@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projections of tables that leave nothing to choose, or hold what is easily divided
 // by.
+#include "multivariate/projections.h"
 #include "multivariate/star_clusters.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(StarCoordinatesInput, NoClustersGivePrincipalAxesAndAWarning)
     const std::vector<std::int32_t> labels(planted.table.rows(), label);
     Report report;
     const Projection projection =
-        starCoordinates(planted.table, labels, StarCoordinateParameters(), report);
+        starCoordinates(planted.table, labels, StarCoordinateParameters(), 0, report);
     EXPECT_EQ(report.warnings.size(), 1u);
     EXPECT_EQ(report.warnings[0].find(label < 0 ? "The rows are in 0 clusters"
                                                 : "The rows are in 1 clusters"),
@@ -61,7 +61,7 @@ TEST(StarCoordinatesInput, EqualCentresAreCounted)
       .add(2, 200, unit(5, 3, 9.0), VectorXd::Ones(5));
   Report report;
   const Projection projection = starCoordinates(
-      planter.get().table, planter.get().labels, StarCoordinateParameters(), report);
+      planter.get().table, planter.get().labels, StarCoordinateParameters(), 0, report);
   EXPECT_EQ(report.getCount("inseparable_pairs"), 1u);
   EXPECT_EQ(ratioIn(planter.get(), projection), 0.0);
   expectOrthonormal(projection, 3);
@@ -115,7 +115,7 @@ TEST(StarCoordinatesInput, BadInputIsRefused)
   labels.pop_back();
   StarCoordinateParameters parameters;
   Report report;
-  EXPECT_THROW(starCoordinates(planted.table, labels, parameters, report),
+  EXPECT_THROW(starCoordinates(planted.table, labels, parameters, 0, report),
                InvalidArgument);
   EXPECT_THROW(smallestFisherRatio(planted.table, labels, principalAxes(planted.table)),
                InvalidArgument);
@@ -126,7 +126,7 @@ TEST(StarCoordinatesInput, BadInputIsRefused)
   EXPECT_THROW(ratioIn(planted, principalAxes(makeLong().table)), InvalidArgument);
   for (const double bad : {0.0, -1.0, 2.0, std::nan("")}) {
     parameters.regularization = bad;
-    EXPECT_THROW(starCoordinates(planted.table, planted.labels, parameters, report),
+    EXPECT_THROW(starCoordinates(planted.table, planted.labels, parameters, 0, report),
                  InvalidArgument);
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/anisotropy.h"
 #include "support/clouds.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/anisotropy.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The unit of length of samples: a power of two that few points have no say in.
+#include "neighbors/length_unit.h"
+#include "neighbors/sample_set.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/length_unit.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Touching cells, angle criterion and natural neighbours against brute force, and where
 // coordinates coincide.
+#include "neighbors/angle_criterion.h"
+#include "neighbors/kd_tree.h"
+#include "neighbors/neighborhood_finder.h"
+#include "neighbors/sample_set.h"
 #include "support/clouds.h"
 #include "support/neighbor_oracle.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/angle_criterion.h>
-#include <pcl_uvol/neighbors/kd_tree.h>
 #include <pcl_uvol/neighbors/natural_neighbors.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <gtest/gtest.h>
 

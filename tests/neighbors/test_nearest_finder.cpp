@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The k nearest samples of points anywhere, against brute force.
+#include "neighbors/nearest_finder.h"
 #include "support/clouds.h"
 #include "support/environment.h"
-#include <pcl_uvol/neighbors/nearest_finder.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nearest neighbours against brute force: equal distances, whatever FLANN takes among
 // ties.
+#include "neighbors/nearest_neighbors.h"
 #include "support/clouds.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/nearest_neighbors.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Candidates from discrete Voronoi diagrams against brute force on the grid.
+#include "neighbors/neighbor_candidates.h"
+#include "neighbors/neighborhood_finder.h"
 #include "support/clouds.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/natural_neighbors.h>
-#include <pcl_uvol/neighbors/neighbor_candidates.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams against brute force.
+#include "common/random.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
 #include <gtest/gtest.h>

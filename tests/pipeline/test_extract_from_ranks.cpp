@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several ranks find together what one process finds alone, byte for byte.
+#include "pipeline/extract_from_ranks.h"
 #include "support/clouds.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/pipeline/extract_from_ranks.h>
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 // A renderer of all planes on the CPU, for tests of single passes.
 #pragma once
 
+#include "render/image_space/frame.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is left out before drawing must not be seen: block by block against brute force.
+#include "render/image_space/block_view.h"
+#include "render/image_space/pixel_box.h"
 #include "render/renderer_setup.h"
-#include <pcl_uvol/render/image_space/block_view.h>
-#include <pcl_uvol/render/image_space/pixel_box.h>
 #include <pcl_uvol/render/image_space/settings.h>
 #include <pcl_uvol/render/lighting.h>
 
@@ -108,7 +108,7 @@ expectNothingSeenLeftOut(const Frame& frame,
 }
 
 SurfaceCloud
-cloudOf(const pcl::PointCloud<pcl::PointNormal>& points)
+makeSearchCloud(const pcl::PointCloud<pcl::PointNormal>& points)
 {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -120,7 +120,7 @@ cloudOf(const pcl::PointCloud<pcl::PointNormal>& points)
 
 TEST(BlockView, LeavesNothingOutThatIsSeen)
 {
-  const SurfaceCloud cloud = cloudOf(*makeTorusKnot(60000, 1));
+  const SurfaceCloud cloud = makeSearchCloud(*makeTorusKnot(60000, 1));
   const pcl_uvol::ImageSpaceSettings settings;
   LeftOut left_out;
   for (int i = 0; i < 24; ++i) {
@@ -141,7 +141,7 @@ TEST(BlockView, LeavesNothingOutThatIsSeen)
 
 TEST(BlockView, IsSparseByPixels)
 {
-  const SurfaceCloud cloud = cloudOf(*makeTorusKnot(60000, 1));
+  const SurfaceCloud cloud = makeSearchCloud(*makeTorusKnot(60000, 1));
   const pcl_uvol::ImageSpaceSettings settings;
   const auto countSparse = [&](int size) {
     const Camera camera =
@@ -159,7 +159,7 @@ TEST(BlockView, IsSparseByPixels)
 
 TEST(BlockView, LightsAreSeenFromTheEye)
 {
-  const SurfaceCloud cloud = cloudOf(*makeSphere(100, 1));
+  const SurfaceCloud cloud = makeSearchCloud(*makeSphere(100, 1));
   Camera camera;
   camera.eye = Eigen::Vector3d(0.0, 0.0, 5.0);
   camera.at = Eigen::Vector3d::Zero();

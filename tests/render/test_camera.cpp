@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The camera: directions, fitting, and how a view projects.
+#include "render/image_space/frame.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/image_space/backend.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // No holes between points, however far apart, and no bulges.
+#include "render/image_space/frame.h"
 #include "render/renderer_setup.h"
 
 #include <algorithm>

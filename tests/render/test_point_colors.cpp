@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours of points: their own in either form, and those of a scalar field.
 #include "io/random_dataset.h"
+#include "render/point_colors.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/point_colors.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

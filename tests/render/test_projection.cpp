@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Projection and pixel filling against brute force (thesis 4.3.1, 4.3.2).
+#include "render/image_space/frame.h"
 #include "render/renderer_setup.h"
 
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scans drawn from their vertices against their meshes: no hole where the mesh is, and
 // nothing behind it shines through.
+#include "generation/mesh_scatter.h"
+#include "render/image_space/frame.h"
 #include "support/environment.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shading, filters and lines against analytic truth (thesis 4.3.1, 4.3.3 to 4.3.5).
+#include "render/image_space/frame.h"
 #include "render/renderer_setup.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ TEST(Shading, IsBlinnPhong)
 
 /** Weights of Table 4.1, row by row. */
 std::array<int, 9>
-weightsOf(pcl_uvol::SmoothingFilter filter)
+computeWeights(pcl_uvol::SmoothingFilter filter)
 {
   if (filter == pcl_uvol::SmoothingFilter::Box)
     return {1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -98,7 +99,7 @@ TEST(Smoothing, IsTable4_1WithoutTheBackground)
     renderer.render(rough);
     renderer.settings().smoothing = filter;
     renderer.render(smooth);
-    const auto weights = weightsOf(filter);
+    const auto weights = computeWeights(filter);
     int largest = 0;
     for (int row = 1; row < 149; ++row)
       for (int column = 1; column < 149; ++column) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points prepared for drawing: normals and blocks.
+#include "render/surface_cloud.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/surface_cloud.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Slices of Voronoi diagrams: a colour per region, at the place of its cells.
+#include "common/random.h"
+#include "render/voronoi_slices.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/render/voronoi_slices.h>
 
 #include <gtest/gtest.h>
 

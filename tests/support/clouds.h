@@ -2,7 +2,7 @@
 // Seeded clouds of every awkward shape: what the neighbour search must survive.
 #pragma once
 
-#include <pcl_uvol/neighbors/sample_set.h>
+#include "neighbors/sample_set.h"
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>

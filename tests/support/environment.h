@@ -58,8 +58,8 @@ dataFolder();
 bool
 isSanitized();
 
-/** \brief Forget how much memory the process had at most. \return false where the
- * system does not allow it */
+/** \brief Forget how much memory the process had at most.
+ * \return false where the system does not allow it */
 bool
 resetPeakMemory();
 

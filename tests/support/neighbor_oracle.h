@@ -3,8 +3,8 @@
 // ranks, all pairs. Slow and obvious.
 #pragma once
 
-#include <pcl_uvol/neighbors/angle_criterion.h>
-#include <pcl_uvol/neighbors/kd_tree.h>
+#include "neighbors/angle_criterion.h"
+#include "neighbors/kd_tree.h"
 
 #include <cstdint>
 #include <set>

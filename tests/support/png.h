@@ -9,7 +9,8 @@
 namespace uvol_test {
 
 /** \brief The colours of a PNG file, opaque where it has no opacity; an empty image for
- * anything else. \param channels set to those of the file */
+ * anything else.
+ * \param channels set to those of the file */
 pcl_uvol::Image
 readPng(const std::string& path, int& channels);
 

@@ -11,8 +11,8 @@
 
 namespace uvol_test {
 
-/** \brief Render a window and read its colours back. \param scale tiles in each
- * direction, each as large as the window */
+/** \brief Render a window and read its colours back.
+ * \param scale tiles in each direction, each as large as the window */
 inline pcl_uvol::Image
 screenshot(vtkRenderWindow& window, int scale = 1)
 {

@@ -2,7 +2,7 @@
 // Every version of a vector kernel that this machine can run.
 #pragma once
 
-#include <pcl_uvol/common/dispatch.h>
+#include "common/dispatch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/smooth_fields.h"
 
-#include <pcl_uvol/common/random.h>
+#include "common/random.h"
 
 #include <algorithm>
 #include <cmath>

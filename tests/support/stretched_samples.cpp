@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/stretched_samples.h"
 
-#include <pcl_uvol/common/random.h>
+#include "common/random.h"
 
 #include <Eigen/Geometry>
 

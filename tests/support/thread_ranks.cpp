@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/thread_ranks.h"
 
-#include <pcl_uvol/distributed/byte_stream.h>
+#include "distributed/byte_stream.h"
 
 #include <algorithm>
 #include <condition_variable>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How many splats there will be is told by patches of the surface.
 #include "splat_setup.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/surface/memory_need.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discs that leave no hole, rims, and the nearest points.
 #include "support/surfaces.h"
-#include <pcl_uvol/surface/footprints.h>
+#include "surface/footprints.h"
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which points of a cloud are taken, and with what normals.
 #include "support/surfaces.h"
+#include "surface/oriented_points.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/surface/oriented_points.h>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>

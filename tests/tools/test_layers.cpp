@@ -17,12 +17,16 @@ TEST(Layers, IncludesGoDownwards)
 
 TEST(Layers, ABreachIsNoticed)
 {
-  for (const char* include : {"pcl_uvol/isosurface/iso_edges.h", "vtkPolyData.h"}) {
+  for (const char* include : {"<pcl_uvol/isosurface/iso_edges.h>",
+                              "\"isosurface/isopoints.h\"",
+                              "\"neighbors/kd_tree.h\"",
+                              "\"bad_too.h\"",
+                              "<vtkPolyData.h>"}) {
     const uvol_test::TemporaryFolder folder;
     const std::string header = "include/pcl_uvol/neighbors";
     uvol_test::runCommand("mkdir -p '" + (folder / header) + "'");
     uvol_test::writeFile(folder / (header + "/bad.h"),
-                         "#include <" + std::string(include) + ">\n");
+                         "#include " + std::string(include) + "\n");
     EXPECT_EQ(1, uvol_test::runCommand(check + (folder / "")).exit_code) << include;
   }
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every real data set through uvol_info and uvol_isosurface at isovalues of its README;
 // the edges of the small ones against brute force.
+#include "common/scalar_field.h"
+#include "neighbors/sample_set.h"
 #include "support/environment.h"
 #include "support/neighbor_oracle.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 

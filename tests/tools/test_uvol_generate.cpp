@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_generate from the outside: values, bytes, real volumes, wrong command lines.
+#include "common/scalar_field.h"
+#include "generation/analytic_fields.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/analytic_fields.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
 
@@ -19,7 +19,7 @@ using uvol_test::TemporaryFolder;
 
 /** Numbers of some fields, point by point. */
 std::vector<std::vector<double>>
-columnsOf(const std::string& path, const std::vector<std::string>& names)
+findColumns(const std::string& path, const std::vector<std::string>& names)
 {
   const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
   std::vector<std::vector<double>> columns;
@@ -44,7 +44,7 @@ TEST(UvolGenerate, ValuesAreThoseOfTheFieldAtTheWrittenPlace)
                                      field.name + " -samples " + samples);
       ASSERT_EQ(0, result.exit_code) << result.err;
       EXPECT_EQ("", result.err);
-      const auto columns = columnsOf(file, {"x", "y", "z", field.name});
+      const auto columns = findColumns(file, {"x", "y", "z", field.name});
       ASSERT_EQ(1000u, columns[3].size());
       for (std::size_t i = 0; i < 1000; ++i)
         EXPECT_EQ(static_cast<float>(
@@ -58,7 +58,7 @@ TEST(UvolGenerate, RadialSamplesHaveTheMeanSpacingOfTheThesis)
   const TemporaryFolder folder;
   const std::string file = folder / "out.pcd";
   ASSERT_EQ(0, runCommand("uvol_generate '" + file + "' -n 64000").exit_code);
-  const auto x = columnsOf(file, {"x"}).front();
+  const auto x = findColumns(file, {"x"}).front();
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   EXPECT_NEAR(40.317, *high - *low, 0.02); // 160 (64000 / 4e6)^(1/3)
 }
@@ -71,7 +71,7 @@ TEST(UvolGenerate, NoiseHasTheGivenStandardDeviation)
             runCommand("uvol_generate '" + file +
                        "' -n 40000 -field sphere -noise 0.25 -seed 3")
                 .exit_code);
-  const auto columns = columnsOf(file, {"x", "y", "z", "sphere"});
+  const auto columns = findColumns(file, {"x", "y", "z", "sphere"});
   double sum = 0.0, sum_sq = 0.0;
   for (std::size_t i = 0; i < 40000; ++i) {
     const double noise =
@@ -114,7 +114,7 @@ TEST(UvolGenerate, ResamplesEveryRealVolume)
         runCommand("uvol_generate '" + path + "' '" + file + "' -n 200000");
     ASSERT_EQ(0, result.exit_code) << result.err;
     const auto volume = pcl_uvol::loadVolume(path);
-    const auto columns = columnsOf(file, {"x", "y", "z", volume.name});
+    const auto columns = findColumns(file, {"x", "y", "z", volume.name});
     ASSERT_EQ(200000u, columns[3].size());
     for (std::size_t i = 0; i < columns[3].size(); i += 1000)
       EXPECT_EQ(static_cast<float>(

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -53,7 +54,7 @@ TEST_F(UvolInfo, TellsRangesSpacingAndWhatIsMissing)
 
 TEST_F(UvolInfo, SelectsRowsFieldsAndColumns)
 {
-  expectTold(runOn(cloud, "-where 'rho>=2'"), {"2 to 10", "removed_by_where"});
+  expectTold(runOn(cloud, "-where 'rho>=2'"), {"2 to 10", "removed by where"});
   expectTold(runOn(cloud, "-field x"), {"histogram of x"});
   expectTold(runOn("a,b,c,d\n1,2,3,4\n5,6,7,8\n", "-xyz 1,2,3 -field a"),
              {"lower corner: 2 3 4"});
@@ -72,8 +73,15 @@ TEST_F(UvolInfo, JsonIsOneObject)
 {
   const auto result = runOn(cloud, "-json");
   EXPECT_EQ(0, result.exit_code);
-  EXPECT_EQ('{', result.out.front());
-  EXPECT_EQ("}\n", result.out.substr(result.out.size() - 2));
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report["lower_corner"], (std::vector<double>{500000.5, 0.0, 0.0}));
+  EXPECT_EQ(report["spacing"]["max"], 2);
+  EXPECT_EQ(report["ranges"]["rho"]["mean"], 4);
+  EXPECT_EQ(report["ranges"]["rho"]["missing"], 1);
+  EXPECT_EQ(report["histogram"].size(), 16u);
+  EXPECT_EQ(report["counts"]["non_finite"], 1);
+  const auto unknown = runOn("x,y,z,f\n0,0,0,nan\n1,0,0,inf\n", "-json");
+  EXPECT_TRUE(nlohmann::json::parse(unknown.out)["ranges"]["f"]["min"].is_null());
 }
 
 TEST_F(UvolInfo, RefusesWhatIsWrong)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main job from the outside: files in and out, exit codes, sentences, nothing left
 // behind.
+#include "common/scalar_field.h"
 #include "support/clouds.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <Eigen/Core>
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace {
@@ -64,7 +65,7 @@ editedCsv(const std::function<std::string(double x, double y, double z)>& label)
 
 /** Coordinates with the origin added, in the order of the file. */
 std::vector<double>
-coordinatesOf(const std::string& path)
+readCoordinates(const std::string& path)
 {
   const pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path);
   std::vector<double> xyz;
@@ -120,7 +121,7 @@ protected:
 TEST_F(Isosurface, WritesOrientedPointsWithEveryField)
 {
   const auto result =
-      run(in_ + " " + out_ + " -field density -iso 14,16 -interpolation linear");
+      run(in_ + " " + out_ + " -field density -iso 14,16 -interpolation linear -v");
   ASSERT_EQ(0, result.exit_code) << result.err;
   for (const char* word :
        {"read", "tree", "neighborhoods", "write", "total", "isopoints"})
@@ -260,7 +261,7 @@ TEST_F(Isosurface, ShiftedCloudsGiveShiftedIsopoints)
       ASSERT_EQ(0, run(in_ + " " + a + " -field density -iso 15" + ascii).exit_code);
       ASSERT_EQ(0,
                 run(shifted + " " + b + " -field density -iso 15" + ascii).exit_code);
-      const auto expected = coordinatesOf(a), found = coordinatesOf(b);
+      const auto expected = readCoordinates(a), found = readCoordinates(b);
       ASSERT_EQ(expected.size(), found.size()) << ending << ascii;
       for (std::size_t i = 0; i < found.size(); ++i)
         ASSERT_NEAR(expected[i], found[i] - shift[i % 3], 16e-6) << ending << ascii;
@@ -285,6 +286,38 @@ TEST_F(Isosurface, SelectsRowsFieldsAndScales)
   const auto json = run(in_ + " " + out_ + " -field density -iso 15 -json");
   EXPECT_EQ(0, json.exit_code);
   EXPECT_EQ('{', json.out.front());
+}
+
+TEST_F(Isosurface, ReportsAreShortForPeopleAndNumbersForPrograms)
+{
+  const std::string all = in_ + " " + out_ + " -field density -iso 14,16";
+  const auto first = nlohmann::json::parse(run(all + " -json").out);
+  const double median = first["estimated_error"]["median"];
+  EXPECT_GT(median, 0.0);
+  const std::string options = all + " -max-error " + std::to_string(median);
+  const auto told = run(options);
+  ASSERT_EQ(0, told.exit_code) << told.err;
+  EXPECT_LT(std::count(told.out.begin(), told.out.end(), '\n'), 12) << told.out;
+  EXPECT_EQ(std::string::npos, told.out.find(" ms")) << told.out;
+  EXPECT_EQ(std::string::npos, told.out.find(" 0,")) << told.out; // nothing to tell
+  const auto report = nlohmann::json::parse(run(options + " -json").out);
+  EXPECT_EQ(report["isovalues"], (std::vector<double>{14.0, 16.0}));
+  EXPECT_LE(report["estimated_error"]["largest"], median);
+  EXPECT_GT(report["memory"]["peak"], 1e6);
+  EXPECT_GT(report["counts"]["removed_by_error"], 0);
+  // What is counted is what is written.
+  const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(out_);
+  EXPECT_EQ(report["counts"]["isopoints"], surface.cloud.width);
+  const std::vector<std::size_t> each = report["isopoints_per_isovalue"];
+  ASSERT_EQ(each.size(), 2u);
+  EXPECT_EQ(each[0] + each[1], surface.cloud.width);
+  EXPECT_GT(each[0], 0u);
+  EXPECT_GT(each[1], 0u);
+  for (const auto& count : report["counts"].items())
+    EXPECT_FALSE(report["milliseconds"].contains(count.key())) << count.key();
+  const auto empty = nlohmann::json::parse(
+      run(in_ + " " + out_ + " -field density -iso 1e9 -json").out + "");
+  EXPECT_TRUE(empty["estimated_error"].is_null());
 }
 
 TEST_F(Isosurface, AnIsovalueOutsideTheRangeGivesAnEmptyFileAndAWarning)

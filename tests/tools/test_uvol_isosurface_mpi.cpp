@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes of MPI write what one process writes, or one sentence and nothing.
+#include "common/scalar_field.h"
+#include "io/rank_files.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/mpi_job.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/rank_files.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets from the outside: uvol_levelset, and uvol_isosurface -smooth.
+#include "common/scalar_field.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_normals from the outside: normals beside all other fields, sides, exit codes.
+#include "common/scalar_field.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>

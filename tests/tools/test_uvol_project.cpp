@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_project from the outside: data of many dimensions become points, axes and
 // pictures.
+#include "common/random.h"
 #include "support/environment.h"
 #include "support/png.h"
 #include "tools/tool_test.h"
-#include <pcl_uvol/common/random.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ truthOf(std::size_t i)
 
 /** Attribute of a point: three clusters, in units that differ by orders. */
 double
-attributeOf(std::size_t i, std::size_t column)
+escapeAttribute(std::size_t i, std::size_t column)
 {
   constexpr double centers[3][columns] = {
       {0, 0, 0, 0, 1}, {9, 0, 0, 5, 2}, {0, 9, 5, 0, 3}};
@@ -48,7 +48,7 @@ makeTable(const std::string& header = "a,b,c,d,e,truth")
   csv << header << '\n';
   for (std::size_t i = 0; i < points; ++i) {
     for (std::size_t column = 0; column < columns; ++column)
-      csv << attributeOf(i, column) << ',';
+      csv << escapeAttribute(i, column) << ',';
     csv << truthOf(i) << '\n';
   }
   return csv.str();
@@ -169,7 +169,7 @@ TEST_F(ProjectTool, DataWithoutPositionsBecomeACloud)
       const auto labels = fieldOf(out, "label"), d = fieldOf(out, "d");
       for (std::size_t i = 0; i < points; ++i) {
         EXPECT_EQ(truthOf(i), labels[i]) << i;
-        EXPECT_NEAR(attributeOf(i, 3), d[i], 1e-4);
+        EXPECT_NEAR(escapeAttribute(i, 3), d[i], 1e-4);
       }
     }
 }
@@ -213,7 +213,7 @@ TEST_F(ProjectTool, StarCoordinatesKeepClustersApart)
   const auto ratio = [&](const char* method) {
     const auto result = run(attributes_ + "-label truth -json -method " + method);
     EXPECT_EQ(0, result.exit_code) << result.err;
-    const std::string key = "\"smallest Fisher ratio\": \"";
+    const std::string key = "\"smallest_Fisher_ratio\": ";
     const std::size_t at = result.out.find(key);
     EXPECT_NE(std::string::npos, at) << result.out;
     return at == std::string::npos ? 0.0
@@ -308,7 +308,7 @@ TEST_F(ProjectTool, ConstantAttributesAreLeftOutWithAWarning)
   std::string table = "a,b,c,d,e,same\n";
   for (std::size_t i = 0; i < points; ++i) {
     for (std::size_t column = 0; column < columns; ++column)
-      table += std::to_string(attributeOf(i, column)) + ',';
+      table += std::to_string(escapeAttribute(i, column)) + ',';
     table += "7\n";
   }
   uvol_test::writeFile(in_, table);

@@ -73,7 +73,7 @@ TEST_F(RaytraceTool, DrawsAScene)
 {
   const CommandResult result = run(sceneOf("1 0 0") + " " + picture_);
   ASSERT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.out.find("primary_rays")) << result.out;
+  EXPECT_NE(std::string::npos, result.out.find("primary rays")) << result.out;
   const auto image = read(picture_);
   ASSERT_EQ(40u, image.width);
   ASSERT_EQ(30u, image.height);
@@ -140,7 +140,7 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
   const std::string extract = "uvol_isosurface " + samples + " " + out + " -iso 0 ";
   EXPECT_EQ(2, runCommand(extract + "-raytrace").exit_code);
   const CommandResult result = runCommand(extract + "-raytrace -png " + picture_ +
-                                          " -size 50 -reflect 0.3 -delta 0.001");
+                                          " -size 50 -reflect 0.3 -delta 0.001 -v");
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.out.find("picture_trace")) << result.out;
   EXPECT_EQ(50u, read(picture_).width);

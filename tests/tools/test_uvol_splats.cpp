@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_splats from the outside: splats with the fields of their points, exit codes,
 // sentences.
+#include "common/scalar_field.h"
+#include "render/point_colors.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/render/point_colors.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <gtest/gtest.h>

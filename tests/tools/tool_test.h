@@ -2,9 +2,9 @@
 // A tool that makes one file of another one, in a folder of its own.
 #pragma once
 
+#include "common/scalar_field.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/scalar_field.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>

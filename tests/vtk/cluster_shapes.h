@@ -2,11 +2,11 @@
 // Clusters of known shape, and what is true of surfaces around them.
 #pragma once
 
+#include "common/random.h"
+#include "multivariate/cluster_hull.h"
+#include "multivariate/spanning_tree.h"
 #include "support/meshes.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/multivariate/cluster_hull.h>
-#include <pcl_uvol/multivariate/spanning_tree.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <Eigen/Geometry>
@@ -26,7 +26,7 @@ namespace uvol_test {
 using Eigen::Vector3d;
 using pcl_uvol::ClusterSurface;
 using pcl_uvol::ClusterSurfaceKind;
-using pcl_uvol::ClusterSurfaceSettings;
+using pcl_uvol::ClusterSurfaceParameters;
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::Mesh;
 using pcl_uvol::Report;
@@ -37,10 +37,10 @@ constexpr double pi = 3.14159265358979323846;
 constexpr std::uint32_t cells = 96;
 using Points = std::vector<Vector3d>;
 
-inline ClusterSurfaceSettings
+inline ClusterSurfaceParameters
 settingsOf(double distance)
 {
-  ClusterSurfaceSettings settings;
+  ClusterSurfaceParameters settings;
   settings.cells = cells;
   settings.distance = distance;
   return settings;
@@ -61,15 +61,23 @@ public:
 
   ClusterSurface
   enclose(ClusterSurfaceKind kind,
-          const ClusterSurfaceSettings& settings,
-          Report& report) const
+          const ClusterSurfaceParameters& settings,
+          Report& report,
+          unsigned threads = 0) const
   {
+    ClusterSurfaceParameters parameters = settings;
+    parameters.kind = kind;
     pcl_uvol::CloudView view;
     view.data = reinterpret_cast<const std::uint8_t*>(floats_.data());
     view.count = floats_.size() / 5;
     view.point_step = 5 * sizeof(float);
     view.xyz_offset = sizeof(float);
-    return makeClusterSurface(view, members_, kind, settings, report);
+    return pcl_uvol::detail::encloseCluster(
+        view,
+        pcl::Indices(members_.begin(), members_.end()),
+        parameters,
+        threads,
+        report);
   }
 
   ClusterSurface
@@ -78,11 +86,10 @@ public:
           std::uint32_t along = cells,
           unsigned threads = 0) const
   {
-    ClusterSurfaceSettings settings = settingsOf(distance);
+    ClusterSurfaceParameters settings = settingsOf(distance);
     settings.cells = along;
-    settings.threads = threads;
     Report report;
-    return enclose(kind, settings, report);
+    return enclose(kind, settings, report, threads);
   }
 
   Vector3d

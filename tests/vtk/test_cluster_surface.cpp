@@ -2,6 +2,8 @@
 // Surfaces around clusters: what they enclose, and how far away they are.
 #include "vtk/cluster_shapes.h"
 
+#include <pcl/point_types.h>
+
 namespace {
 
 using namespace uvol_test;
@@ -196,8 +198,8 @@ TEST(ClusterSurfaces, MeasureDistancesInTheStretchedSpace)
   Points stretched;
   for (const Vector3d& point : ball)
     stretched.emplace_back(scale * point.array());
-  ClusterSurfaceSettings settings = settingsOf(0.3);
-  settings.scale = {{1.0f, 2.0f, 0.5f}};
+  ClusterSurfaceParameters settings = settingsOf(0.3);
+  settings.scale = {1.0f, 2.0f, 0.5f};
   for (const auto kind : all_kinds) {
     Report report;
     const ClusterSurface surface = Cluster(ball).enclose(kind, settings, report);
@@ -214,8 +216,8 @@ TEST(ClusterSurfaces, MeasureDistancesInTheStretchedSpace)
 TEST(ClusterSurfaces, HaveTheirPointsAsVerticesWhateverTheScale)
 {
   const Cluster ball(ballOf(1000, 9));
-  ClusterSurfaceSettings settings = settingsOf(0.3);
-  settings.scale = {{0.7f, 1.1f, 0.9f}};
+  ClusterSurfaceParameters settings = settingsOf(0.3);
+  settings.scale = {0.7f, 1.1f, 0.9f};
   Report report;
   const ClusterSurface hull = ball.enclose(ClusterSurfaceKind::Hull, settings, report);
   for (std::uint32_t i = 0; i < hull.points.size(); ++i)
@@ -230,7 +232,7 @@ TEST(ClusterSurfaces, RefuseScalesThatAreNone)
                              std::numeric_limits<float>::infinity(),
                              std::numeric_limits<float>::quiet_NaN()})
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ClusterSurfaceSettings settings = settingsOf(0.3);
+      ClusterSurfaceParameters settings = settingsOf(0.3);
       settings.scale[axis] = factor;
       Report report;
       EXPECT_THROW(ball.enclose(ClusterSurfaceKind::Distance, settings, report),
@@ -375,6 +377,29 @@ TEST(ClusterSurfaces, DoNotDependOnThreads)
       EXPECT_EQ(first.distance, other.distance);
     }
   }
+}
+
+TEST(ClusterSurfaceGeneration, IsAStageWithParameters)
+{
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (std::uint64_t i = 0; i < 500; ++i)
+    cloud->push_back({static_cast<float>(uniformAt(1, i, 0)),
+                      static_cast<float>(uniformAt(1, i, 1)),
+                      static_cast<float>(uniformAt(1, i, 2))});
+  pcl_uvol::ClusterSurfaceGeneration<pcl::PointXYZ> generation;
+  ClusterSurface surface;
+  EXPECT_THROW(generation.compute(surface), InvalidArgument);
+  generation.setInputCloud(cloud);
+  generation.setKind(ClusterSurfaceKind::Hull);
+  generation.setDistance(0.3);
+  generation.compute(surface);
+  EXPECT_EQ(surface.points.size(), surface.mesh.vertices.size());
+  EXPECT_EQ(surface.distance, 0.3);
+  EXPECT_EQ(generation.getReport().getCount("members"), 500u);
+  const auto& parameters = generation.getParameters();
+  EXPECT_TRUE(parameters == ClusterSurfaceParameters::fromJson(parameters.toJson()));
+  EXPECT_EQ(ClusterSurfaceParameters::fromJson(R"({"kind": "hull"})").kind,
+            ClusterSurfaceKind::Hull);
 }
 
 } // namespace

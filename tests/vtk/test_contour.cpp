@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces of grids: where they lie, and that they are closed.
+#include "common/random.h"
 #include "support/meshes.h"
+#include "vtk/contour.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/random.h>
-#include <pcl_uvol/vtk/contour.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -60,7 +60,7 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
   bar.VisibilityOff();
   if (isScalar(field)) {
     const auto fixed = look_.getRange();
-    const auto range = chosen_ == 0 && fixed ? *fixed : rangeOf(cloud, field);
+    const auto range = chosen_ == 0 && fixed ? *fixed : findRange(cloud, field);
     renderer.setColorRange(range[0], range[1]);
     vtkNew<vtkLookupTable> table;
     fill(*table, look_.colorMap());

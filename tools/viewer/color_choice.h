@@ -2,7 +2,7 @@
 // What colours the viewer's surface: one of its fields after the other.
 #pragma once
 
-#include "common/render_options.h"
+#include "shared/render_options.h"
 
 #include <pcl/PCLPointCloud2.h>
 

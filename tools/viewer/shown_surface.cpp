@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/shown_surface.h"
 
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/scalar_field.h>
 
 #include <Eigen/Geometry>
 
@@ -42,7 +42,7 @@ ballAround(const pcl::PCLPointCloud2& points)
 } // namespace
 
 std::array<double, 2>
-rangeOf(const pcl::PCLPointCloud2& points, const std::string& name)
+findRange(const pcl::PCLPointCloud2& points, const std::string& name)
 {
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(points);
   const pcl_uvol::ScalarField field(cloud.fields, name);
@@ -73,7 +73,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
     cloud_ = samples_;
     return;
   }
-  range_ = rangeOf(*samples_, field_);
+  range_ = findRange(*samples_, field_);
   if (!(range_[0] < range_[1]))
     throw InvalidArgument("All values of " + field_ +
                           " are equal: there is no isosurface between them.");

@@ -66,7 +66,7 @@ public:
     return origin_;
   }
 
-  /** \brief Of the last extraction; empty for a surface given as points. */
+  /** \brief The report of the last extraction; empty for a surface given as points. */
   const pcl_uvol::Report&
   getReport() const
   {
@@ -86,6 +86,6 @@ private:
 /** \brief Least and largest finite value of a field.
  * \throws InvalidArgument for an unknown field or one without a finite value */
 std::array<double, 2>
-rangeOf(const pcl::PCLPointCloud2& cloud, const std::string& field);
+findRange(const pcl::PCLPointCloud2& cloud, const std::string& field);
 
 } // namespace uvol_tools

@@ -62,7 +62,7 @@ observe(vtkObject& object,
 
 /** "ERROR: In file, line 5\nImageSpaceProp (0x1): Words.\n\n" -> "Words." */
 std::string
-wordsOf(const std::string& error)
+extractWords(const std::string& error)
 {
   const std::size_t start = error.find("): ");
   std::string words = error.substr(start == std::string::npos ? 0 : start + 3);
@@ -96,7 +96,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
   colors_.emplace(look_, *cloud);
   observe(*prop_, vtkCommand::ErrorEvent, [this](const char* text) {
-    error_ = wordsOf(text);
+    error_ = extractWords(text);
     std::cerr << "uvol_viewer: " << error_ << '\n';
   });
   const pcl_uvol::Background background = renderer.settings().background;

@@ -2,7 +2,7 @@
 // The window of uvol_viewer: mouse, keys, slider, colour bar.
 #pragma once
 
-#include "common/render_options.h"
+#include "shared/render_options.h"
 #include "viewer/color_choice.h"
 #include "viewer/shown_surface.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
@@ -45,8 +45,8 @@ public:
   void
   press(char key);
 
-  /** \brief Write what the window shows as a PNG file. \throws pcl_uvol::Exception if
-   * it could not be drawn, IOError */
+  /** \brief Write what the window shows as a PNG file.
+   * \throws pcl_uvol::Exception if it could not be drawn, IOError */
   void
   save(const std::string& path);
 

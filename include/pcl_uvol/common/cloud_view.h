@@ -66,7 +66,8 @@ struct CloudBytes {
 PCL_UVOL_EXPORTS CloudView
 makeView(const CloudBytes& bytes, const std::vector<pcl::PCLPointField>& fields);
 
-/** \brief Indices that a user gave. \param stage name for the messages
+/** \brief Indices that a user gave.
+ * \param stage name for the messages
  * \throws InvalidArgument for none, and for one that is no point of the cloud */
 PCL_UVOL_EXPORTS void
 checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage);

@@ -8,6 +8,7 @@
 #include <pcl/PCLPointCloud2.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,8 +48,9 @@ PCL_UVOL_EXPORTS void
 setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
 
 /** \brief Add a field of single numbers behind the others, or replace the one of that
- * name. \param values one per point \throws InvalidArgument for another number of
- * values, and for x, y and z @{ */
+ * name.
+ * \param values one per point
+ * \throws InvalidArgument for another number of values, and for x, y and z @{ */
 PCL_UVOL_EXPORTS void
 setField(Dataset& dataset, const std::string& name, const std::vector<float>& values);
 PCL_UVOL_EXPORTS void
@@ -56,5 +58,14 @@ setField(Dataset& dataset,
          const std::string& name,
          const std::vector<std::int32_t>& values);
 /** @} */
+
+/** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
+ * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right
+ * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added,
+ * float32 fields with the float nearest to the number.
+ * \return the number of points removed
+ * \throws InvalidArgument for a malformed expression or an unknown field */
+PCL_UVOL_EXPORTS std::size_t
+selectRows(Dataset& dataset, const std::string& where);
 
 } // namespace pcl_uvol

@@ -33,7 +33,8 @@ toWord(Enum value)
   return "";
 }
 
-/** \brief The value that a word stands for. \return whether there is one */
+/** \brief The value that a word stands for.
+ * \return whether there is one */
 template <typename Enum>
 bool
 fromWord(const std::string& word, Enum& value)

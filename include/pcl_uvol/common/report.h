@@ -36,6 +36,10 @@ struct PCL_UVOL_EXPORTS Report {
   void
   count(const std::string& name, std::uint64_t value);
 
+  /** \brief Make that the count of that name, whatever it was. */
+  void
+  setCount(const std::string& name, std::uint64_t value);
+
   /** \brief The count of that name, 0 if there is none. */
   std::uint64_t
   getCount(const std::string& name) const;

@@ -3,15 +3,14 @@
 // the samples themselves (thesis 3.2, 3.3).
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/derivatives/local_fit.h>
+#include <pcl_uvol/derivatives/fit_scheme.h>
 
-#include <pcl/pcl_base.h>
 #include <pcl/point_traits.h>
 #include <pcl/search/search.h>
 
@@ -54,8 +53,8 @@ namespace detail {
 /** \brief The kernel of GradientEstimation for any cloud.
  * \param indices points to take part, as neighbours and in the result
  * \param search null: FLANN
- * \return one gradient per index \throws InvalidArgument as GradientEstimation::compute
- */
+ * \return one gradient per index
+ * \throws InvalidArgument as GradientEstimation::compute */
 PCL_UVOL_EXPORTS std::vector<PointGradient>
 estimateGradients(const CloudView& cloud,
                   const pcl::Indices& indices,
@@ -75,10 +74,11 @@ estimateGradients(const CloudView& cloud,
  * derivatives, with the linear one from the gradients of the neighbours' normalised
  * gradients (thesis 3.3). Where samples lie on a plane or a line, the derivatives
  * across it are 0. Exact duplicates count as one sample, with the lower median of their
- * values. \tparam PointInT with x, y, z \tparam PointOutT with gradient_x/y/z; with
- * mean_curvature it gets that too */
+ * values.
+ * \tparam PointInT with x, y, z
+ * \tparam PointOutT with gradient_x/y/z; with mean_curvature it gets that too */
 template <typename PointInT, typename PointOutT = PointGradient>
-class GradientEstimation : public pcl::PCLBase<PointInT>,
+class GradientEstimation : public CloudStage<PointInT>,
                            public ParameterStage<GradientParameters> {
 public:
   using Ptr = std::shared_ptr<GradientEstimation<PointInT, PointOutT>>;
@@ -137,9 +137,9 @@ public:
 
   /** \brief One output point per input point or index. A point without finite
    * coordinates or value gets NaN, as does an only sample, and the output is then not
-   * dense. \throws
-   * InvalidArgument without an input cloud, for an unknown field, no usable sample, or
-   * k out of range; the output is then untouched
+   * dense.
+   * \throws InvalidArgument without an input cloud, for an unknown field, no usable
+   * sample, or k out of range; the output is then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, reduced_fits, singular_fits. */
@@ -149,5 +149,34 @@ public:
 private:
   pcl::search::Search<pcl::PointXYZ>::Ptr search_;
 };
+
+template <typename PointInT, typename PointOutT>
+void
+GradientEstimation<PointInT, PointOutT>::compute(pcl::PointCloud<PointOutT>& output)
+{
+  std::vector<PointGradient> gradients;
+  this->withInput("GradientEstimation",
+                  [&](const CloudView& cloud, const pcl::Indices& indices) {
+                    startReport();
+                    gradients = detail::estimateGradients(
+                        cloud, indices, parameters_, search_, threads_, report_);
+                  });
+  output.resize(gradients.size());
+  const bool organized = gradients.size() == this->input_->size();
+  output.width =
+      organized ? this->input_->width : static_cast<std::uint32_t>(gradients.size());
+  output.height = organized ? this->input_->height : 1;
+  output.header = this->input_->header;
+  output.is_dense = report_.getCount("non_finite") == 0 &&
+                    report_.getCount("no_value") == 0 &&
+                    report_.getCount("samples") > 1;
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    output[i].gradient_x = gradients[i].gradient_x;
+    output[i].gradient_y = gradients[i].gradient_y;
+    output[i].gradient_z = gradients[i].gradient_z;
+    if constexpr (pcl::traits::has_field<PointOutT, pcl::fields::mean_curvature>::value)
+      output[i].mean_curvature = gradients[i].mean_curvature;
+  }
+}
 
 } // namespace pcl_uvol

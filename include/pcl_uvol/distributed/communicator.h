@@ -29,7 +29,7 @@ public:
   virtual std::size_t
   size() const = 0;
 
-  /** \brief Of this process, below size(). */
+  /** \brief The number of this process, below size(). */
   virtual std::size_t
   rank() const = 0;
 

@@ -62,7 +62,8 @@ public:
   }
   /** @} */
 
-  /** \brief Of an array of several components, from 0; -1: their length. Default 0. */
+  /** \brief The component of an array of several components, from 0; -1: their length.
+   * Default 0. */
   vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
   vtkGetMacro(ArrayComponent, int);
 

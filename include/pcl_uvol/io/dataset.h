@@ -6,7 +6,6 @@
 #include <pcl_uvol/common/export.h>
 
 #include <array>
-#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -32,8 +31,8 @@ struct PCL_UVOL_EXPORTS SaveOptions {
 };
 
 /** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu
- * or .vts, by the ending of the name (any case). Non-finite positions are kept. \throws
- * IOError in one sentence that names the file and, for text, the line */
+ * or .vts, by the ending of the name (any case). Non-finite positions are kept.
+ * \throws IOError in one sentence that names the file and, for text, the line */
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
@@ -51,15 +50,6 @@ saveDataset(const std::string& path,
 PCL_UVOL_EXPORTS void
 checkSavePath(const std::string& path,
               const std::vector<pcl::PCLPointField>& fields = {});
-
-/** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
- * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right
- * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added,
- * float32 fields with the float nearest to the number.
- * \return the number of points removed
- * \throws InvalidArgument for a malformed expression or an unknown field */
-PCL_UVOL_EXPORTS std::size_t
-selectRows(Dataset& dataset, const std::string& where);
 
 /** \brief Write a file so that it appears whole or not at all: the writer gets the name
  * of a temporary file beside it, which is flushed, checked and renamed when the writer

@@ -10,7 +10,8 @@
 namespace pcl_uvol {
 
 /** \brief Write the colours of an image as PNG, with opacity where a pixel is not
- * opaque. The file appears whole or not at all. \throws IOError */
+ * opaque. The file appears whole or not at all.
+ * \throws IOError */
 PCL_UVOL_EXPORTS void
 savePng(const std::string& path, const Image& image);
 

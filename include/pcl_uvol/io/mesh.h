@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes as files, and points spread over them: test data for everything that takes
-// surfaces.
+// Meshes as files.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/io/dataset.h>
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,8 +17,8 @@ PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
 
 /** \brief Write a mesh as PLY. The file appears whole or not at all.
- * \param vertices with any fields \throws IOError, also for a name that does not end in
- * .ply */
+ * \param vertices with any fields
+ * \throws IOError, also for a name that does not end in .ply */
 PCL_UVOL_EXPORTS void
 saveMesh(const std::string& path,
          const Dataset& vertices,
@@ -36,16 +33,5 @@ checkMeshPath(const std::string& path);
 /** \brief The vertices of a mesh with their normals, as points. */
 PCL_UVOL_EXPORTS Dataset
 toDataset(const Mesh& mesh);
-
-/** \brief A point on a mesh, relative to its origin, and the normal of its triangle. */
-struct MeshPoint {
-  std::array<float, 3> position, normal;
-};
-
-/** \brief Points spread evenly by area: one in every n-th part of it, at a place that
- * depends on seed and index only.
- * \throws InvalidArgument for a mesh without area */
-PCL_UVOL_EXPORTS std::vector<MeshPoint>
-scatterOverMesh(const Mesh& mesh, std::uint64_t n, std::uint64_t seed);
 
 } // namespace pcl_uvol

@@ -30,15 +30,16 @@ struct PCL_UVOL_EXPORTS Volume {
 };
 
 /** \brief True if loadVolume is the one to read that file: by the ending of its name
- * (any case), for .vtk by its header as well. \throws IOError for a .vtk file that
- * cannot be opened */
+ * (any case), for .vtk by its header as well.
+ * \throws IOError for a .vtk file that cannot be opened */
 PCL_UVOL_EXPORTS bool
 isVolumeFile(const std::string& path);
 
 /** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip), .mha and .mhd (raw,
  * ascii, zipped), both with their data attached, beside them or in slices, .vti, and
- * structured points in .vtk. Axes that descend are turned. \throws IOError in one
- * sentence that names the file, also where the axes are not parallel to x, y and z */
+ * structured points in .vtk. Axes that descend are turned.
+ * \throws IOError in one sentence that names the file, also where the axes are not
+ * parallel to x, y and z */
 PCL_UVOL_EXPORTS Volume
 loadVolume(const std::string& path);
 

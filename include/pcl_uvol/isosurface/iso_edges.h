@@ -31,7 +31,8 @@ struct IsoEdge {
 using IsoEdges = std::vector<IsoEdge>;
 
 /** \brief Leave only the isopoints, and their edges, that keep says yes to.
- * \return how many went \throws InvalidArgument if sizes disagree */
+ * \return how many went
+ * \throws InvalidArgument if sizes disagree */
 PCL_UVOL_EXPORTS std::size_t
 filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
                 IsoEdges& edges,
@@ -41,11 +42,11 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
  * under its own name, type and count.
  *
  * Floating-point fields are interpolated linearly, NaN where a sample that counts is
- * NaN; integers, labels and packed colours come from the nearer sample. \param
- * isopoints as many points as edges; comes out without padding fields, and so that
- * viewOf() takes it \param
- * threads 0 (default) = all cores \throws InvalidArgument if sizes disagree or an edge
- * points outside the samples */
+ * NaN; integers, labels and packed colours come from the nearer sample.
+ * \param isopoints as many points as edges; comes out without padding fields, and so
+ * that viewOf() takes it
+ * \param threads 0 (default) = all cores
+ * \throws InvalidArgument if sizes disagree or an edge points outside the samples */
 PCL_UVOL_EXPORTS void
 interpolateFields(const CloudView& samples,
                   const IsoEdges& edges,
@@ -60,8 +61,9 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
                   unsigned threads = 0);
 
 /** \brief The same for points that stand for one point of another cloud each: the
- * fields that they lack are copied. \param sources index of the other point, one per
- * point \throws InvalidArgument as interpolateFields */
+ * fields that they lack are copied.
+ * \param sources index of the other point, one per point
+ * \throws InvalidArgument as interpolateFields */
 PCL_UVOL_EXPORTS void
 copyFields(const pcl::PCLPointCloud2& cloud,
            const std::vector<std::uint32_t>& sources,

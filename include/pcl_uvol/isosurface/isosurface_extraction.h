@@ -3,18 +3,15 @@
 // point cloud, no grid, no mesh.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/isosurface/isosurface_parameters.h>
-#include <pcl_uvol/neighbors/neighbor_candidates.h>
-#include <pcl_uvol/neighbors/sample_set.h>
 
 #include <Eigen/Core>
-#include <pcl/pcl_base.h>
 
 #include <cstdint>
 #include <memory>
@@ -24,6 +21,9 @@
 #include <vector>
 
 namespace pcl_uvol {
+
+class NeighborCandidates;
+class SampleSet;
 
 /** \brief Setters and the kernel of IsosurfaceExtraction, for any point type. */
 class PCL_UVOL_EXPORTS IsosurfaceExtractionBase
@@ -133,9 +133,8 @@ public:
     return edges_;
   }
 
-  /** \brief Samples and tree of the last extract(), for other stages on the same cloud.
-   */
-  const SampleSet::ConstPtr&
+  /** \brief Samples and tree of the last extract(). */
+  const std::shared_ptr<const SampleSet>&
   getSamples() const
   {
     return samples_;
@@ -174,8 +173,9 @@ private:
   struct Scalar;
 
   std::shared_ptr<const Scalar> scalar_;
-  SampleSet::ConstPtr samples_;
-  NeighborCandidates::ConstPtr candidates_; // of samples_, as these parameters ask:
+  std::shared_ptr<const SampleSet> samples_;
+  std::shared_ptr<const NeighborCandidates>
+      candidates_; // of samples_, as these parameters ask:
   NeighborSource candidate_source_ = NeighborSource::KdTree;
   std::uint32_t candidate_cells_ = 0;
   std::vector<std::uint32_t> sampled_;             // input points behind samples_
@@ -201,17 +201,15 @@ private:
  * where linear interpolation along the edge puts it, with the edge's outside vector. A
  * value equal to the isovalue counts as above. Linear isopoints that fall together are
  * merged. The tree is built once per cloud: further isovalues and fields reuse it.
- * Memory: about 60 bytes per sample besides the cloud. \tparam PointT any registered
- * point type with x, y, z, or pcl::PCLPointCloud2 */
+ * Memory: about 60 bytes per sample besides the cloud.
+ * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class IsosurfaceExtraction : public pcl::PCLBase<PointT>,
+class IsosurfaceExtraction : public CloudStage<PointT>,
                              public IsosurfaceExtractionBase {
 public:
   using Ptr = std::shared_ptr<IsosurfaceExtraction<PointT>>;
   using ConstPtr = std::shared_ptr<const IsosurfaceExtraction<PointT>>;
-  using Cloud = std::conditional_t<std::is_same_v<PointT, pcl::PCLPointCloud2>,
-                                   pcl::PCLPointCloud2,
-                                   pcl::PointCloud<PointT>>;
+  using Cloud = typename CloudStage<PointT>::Cloud;
 
   /** \brief The cloud must not change until the next call: values and tree are kept.
    */
@@ -230,9 +228,9 @@ public:
    *
    * Samples with a non-finite coordinate or scalar are left out, exact duplicates
    * merged (to the lower median of their values); both are counted. An isovalue outside
-   * the range of the values gives no points and a warning in the report. \throws
-   * InvalidArgument for a missing or empty cloud, an unknown field, no or a non-finite
-   * isovalue, a bad scale, or no usable sample; isopoints are then untouched
+   * the range of the values gives no points and a warning in the report.
+   * \throws InvalidArgument for a missing or empty cloud, an unknown field, no or a
+   * non-finite isovalue, a bad scale, or no usable sample; isopoints are then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, crossing_samples, edges, coincident, isopoints; with
@@ -253,8 +251,38 @@ private:
   void
   extractAs(OutputT& isopoints);
 
-  /** Of the last extraction: PCLBase can be given another cloud past setInputCloud. */
+  /** The cloud of the last extraction: PCLBase can be given another cloud past
+   * setInputCloud. */
   typename Cloud::ConstPtr extracted_;
 };
+
+template <typename PointT>
+template <typename OutputT>
+void
+IsosurfaceExtraction<PointT>::extractAs(OutputT& isopoints)
+{
+  this->withInput("IsosurfaceExtraction",
+                  [&](const CloudView& cloud, const pcl::Indices& indices) {
+                    if (this->input_ != extracted_)
+                      forgetSamples();
+                    extracted_ = this->input_;
+                    extractFrom(cloud, indices, isopoints);
+                    isopoints.header = this->input_->header;
+                  });
+}
+
+template <typename PointT>
+void
+IsosurfaceExtraction<PointT>::extract(pcl::PointCloud<PointIso>& isopoints)
+{
+  extractAs(isopoints);
+}
+
+template <typename PointT>
+void
+IsosurfaceExtraction<PointT>::extract(pcl::PCLPointCloud2& isopoints)
+{
+  extractAs(isopoints);
+}
 
 } // namespace pcl_uvol

@@ -3,13 +3,11 @@
 // level is the isosurface, computed at the samples themselves, no grid.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
-
-#include <pcl/pcl_base.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -70,7 +68,7 @@ cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi);
  * quadratic scheme (288 linear) and 60. \tparam PointT any registered point type with
  * x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class LevelSetEvolution : public pcl::PCLBase<PointT>,
+class LevelSetEvolution : public CloudStage<PointT>,
                           public ParameterStage<LevelSetParameters> {
 public:
   using Ptr = std::shared_ptr<LevelSetEvolution<PointT>>;
@@ -315,13 +313,52 @@ public:
 
 private:
   /** Runs with the cloud and the indices that are set. */
-  LevelSet
-  evolveInput();
+  /** Calls take(cloud, indices, level_set). */
+  template <typename TakeT>
+  void
+  evolveInput(const TakeT& take);
 
   std::size_t snapshot_steps_ = 0;
   SnapshotCallback snapshot_;
   LevelSetSummary summary_;
   std::vector<std::uint32_t> sources_;
 };
+
+template <typename PointT>
+template <typename TakeT>
+void
+LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
+{
+  this->withInput(
+      "LevelSetEvolution", [&](const CloudView& cloud, const pcl::Indices& indices) {
+        startReport();
+        summary_ = LevelSetSummary();
+        LevelSet level_set = detail::evolveLevelSet(
+            cloud, indices, parameters_, snapshot_steps_, snapshot_, threads_, report_);
+        summary_ = level_set.summary;
+        sources_ = level_set.sources;
+        take(cloud, indices, level_set);
+      });
+}
+
+template <typename PointT>
+void
+LevelSetEvolution<PointT>::evolve(std::vector<float>& phi)
+{
+  evolveInput([&](const CloudView&, const pcl::Indices&, LevelSet& level_set) {
+    phi = std::move(level_set.phi);
+  });
+}
+
+template <typename PointT>
+void
+LevelSetEvolution<PointT>::evolve(pcl::PCLPointCloud2& cloud)
+{
+  evolveInput(
+      [&](const CloudView& view, const pcl::Indices& indices, LevelSet& level_set) {
+        cloud = detail::addPhi(view, indices, level_set.phi, threads_, report_);
+        cloud.header = this->input_->header;
+      });
+}
 
 } // namespace pcl_uvol

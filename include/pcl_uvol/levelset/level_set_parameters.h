@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
-#include <pcl_uvol/derivatives/local_fit.h>
+#include <pcl_uvol/derivatives/fit_scheme.h>
 #include <pcl_uvol/isosurface/isosurface_parameters.h>
 #include <pcl_uvol/levelset/initial_function.h>
 

@@ -53,8 +53,8 @@ public:
   /** @} */
 
   /** \brief Tell the others how this process fares, where they call this function or
-   * one of those above. Once one has failed nothing is told any more. \return the first
-   * process that failed, size() for none */
+   * one of those above. Once one has failed nothing is told any more.
+   * \return the first process that failed, size() for none */
   std::size_t
   agree(bool has_failed);
 

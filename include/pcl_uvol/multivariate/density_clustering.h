@@ -3,14 +3,11 @@
 // HDBSCAN* of Campello, Moulavi and Sander 2013.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/multivariate/attributes.h>
-
-#include <pcl/pcl_base.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -83,21 +80,11 @@ struct Clustering {
 
 namespace detail {
 
-/** \brief The kernel of DensityClustering for any points.
- * \param report gets the counts "points", "clusters" and "noise", and times
- * \return per row of the table
- * \throws InvalidArgument as DensityClustering::compute */
-PCL_UVOL_EXPORTS Clustering
-clusterAttributes(const AttributeTable& table,
-                  const ClusteringParameters& parameters,
-                  unsigned threads,
-                  Report& report);
-
-/** \brief Clustering with labels and probabilities per point of a cloud: those without
- * a row of the table have label -1 and probability 0. */
+/** \brief Clustering with labels and probabilities per point of a cloud: those
+ * that lack an attribute have label -1 and probability 0. */
 PCL_UVOL_EXPORTS Clustering
 clusterCloud(const CloudView& cloud,
-             const std::vector<std::uint32_t>& use,
+             const pcl::Indices& indices,
              const ClusteringParameters& parameters,
              unsigned threads,
              Report& report);
@@ -125,7 +112,7 @@ clusterCloud(const CloudView& cloud,
  * and 10 neighbours.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class DensityClustering : public pcl::PCLBase<PointT>,
+class DensityClustering : public CloudStage<PointT>,
                           public ParameterStage<ClusteringParameters> {
 public:
   using Ptr = std::shared_ptr<DensityClustering<PointT>>;
@@ -241,5 +228,20 @@ private:
   std::vector<float> probabilities_;
   std::vector<ClusterNode> tree_;
 };
+
+template <typename PointT>
+void
+DensityClustering<PointT>::compute(std::vector<int>& labels)
+{
+  this->withInput(
+      "DensityClustering", [&](const CloudView& cloud, const pcl::Indices& indices) {
+        startReport();
+        Clustering clustering =
+            detail::clusterCloud(cloud, indices, parameters_, threads_, report_);
+        labels.assign(clustering.labels.begin(), clustering.labels.end());
+        probabilities_ = std::move(clustering.probabilities);
+        tree_ = std::move(clustering.tree);
+      });
+}
 
 } // namespace pcl_uvol

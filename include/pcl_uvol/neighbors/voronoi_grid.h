@@ -124,7 +124,8 @@ public:
 };
 
 /** \brief Per cell the distance to its site, between the centres of cells, in units of
- * the coordinates. \param nearest site of every cell, none of them no_site */
+ * the coordinates.
+ * \param nearest site of every cell, none of them no_site */
 PCL_UVOL_EXPORTS std::vector<float>
 siteDistances(const GridShape& shape,
               const std::vector<GridCell>& sites,

@@ -6,16 +6,15 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/memory.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/isosurface/memory_need.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <Eigen/Core>
 #include <pcl/pcl_base.h>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +33,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    * do not replace. */
   Dataset surface;
   IsoEdges edges;       ///< one per isopoint, indices into the samples
+  std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;    ///< that was taken
   Eigen::Array3f scale; ///< that was taken
   /** With `smooth`: one per isovalue. */
@@ -79,15 +79,17 @@ public:
   run();
 
   /** \brief The field and the scale that run() takes: those of the parameters, with the
-   * automatic ones filled in. \throws InvalidArgument without an input, and where the
-   * samples do not tell which field is meant */
+   * automatic ones filled in.
+   * \throws InvalidArgument without an input, and where the samples do not tell which
+   * field is meant */
   IsosurfaceParameters
   resolveParameters() const;
 
-  /** \brief How large the surfaces of run() will be, one per isovalue, from some of the
-   * samples: what addMemoryNeed takes. */
-  std::vector<SurfaceSize>
-  estimateSurfaces() const;
+  /** \brief Bytes that run() will take at most besides its input, about, from some of
+   * the samples.
+   * \throws as resolveParameters() */
+  double
+  estimateMemory() const;
 
 private:
   struct Isopoints {
@@ -133,16 +135,5 @@ extractZeroLevel(const CloudView& samples,
                  pcl::PointCloud<PointIso>& isopoints,
                  IsoEdges& edges,
                  Report& report);
-
-/** \brief Add the memory of IsosurfacePipeline::run() to a forecast.
- * \param points, point_step of the samples, which the forecast holds already
- * \param surfaces see estimateSurfaces; fewer than isovalues, or none, where their
- * sizes are not known */
-PCL_UVOL_EXPORTS void
-addMemoryNeed(const IsosurfacePipelineParameters& parameters,
-              double points,
-              double point_step,
-              std::vector<SurfaceSize> surfaces,
-              MemoryForecast& forecast);
 
 } // namespace pcl_uvol

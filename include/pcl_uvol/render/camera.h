@@ -21,7 +21,7 @@ struct BoundingSphere {
  * radius is beyond 2^-20 to 2^20: a power of two brings it near 1, so that squares of
  * lengths are numbers in float. */
 PCL_UVOL_EXPORTS double
-lengthUnitOf(const BoundingSphere& bounds);
+chooseLengthUnit(const BoundingSphere& bounds);
 
 /** \brief Perspective projection from a point, in the coordinates of the cloud. */
 struct PCL_UVOL_EXPORTS Camera {
@@ -40,7 +40,8 @@ struct PCL_UVOL_EXPORTS Camera {
   /** \brief Look at the centre of a sphere from a direction, so far away that the
    * sphere fills that part of the image's smaller side.
    * \param from towards the eye, of any length
-   * \param aspect width / height \param fill in (0, 1] */
+   * \param aspect width / height
+   * \param fill in (0, 1] */
   static Camera
   fit(const BoundingSphere& sphere,
       const Eigen::Vector3d& from,
@@ -64,8 +65,8 @@ struct PCL_UVOL_EXPORTS Camera {
   static const std::vector<std::string>&
   viewNames();
 
-  /** \brief Turned about the upward axis through the point looked at. \param angle
-   * degrees, counter-clockwise as seen from above */
+  /** \brief Turned about the upward axis through the point looked at.
+   * \param angle degrees, counter-clockwise as seen from above */
   Camera
   orbited(double angle) const;
 };

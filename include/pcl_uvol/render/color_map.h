@@ -38,8 +38,9 @@ public:
   Color
   at(double position) const;
 
-  /** \brief One colour per value. \param low, high finite, low <= high; a range of one
-   * value gives the middle of the map */
+  /** \brief One colour per value.
+   * \param low, high finite, low <= high; a range of one value gives the middle of the
+   * map */
   std::vector<Rgba>
   apply(const std::vector<float>& values, double low, double high) const;
 

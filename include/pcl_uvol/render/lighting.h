@@ -36,9 +36,9 @@ struct Light {
    * the cloud. */
   Eigen::Vector3d position{-0.4, 0.5, 0.8};
   Color color{1.0f, 1.0f, 1.0f};
-  /** Of a source that casts soft shadows: a length, or of a directional light the
-   * tangent of the angle that it is seen at. 0 (default): hard shadows. Image space
-   * casts none. */
+  /** The radius of a source that casts soft shadows: a length, or of a directional
+   * light the tangent of the angle that it is seen at. 0 (default): hard shadows. Image
+   * space casts none. */
   double radius = 0.0;
 };
 

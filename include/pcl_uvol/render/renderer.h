@@ -39,6 +39,22 @@ public:
     supersampling_ = factor;
   }
 
+  int
+  getWidth() const
+  {
+    return width_;
+  }
+  int
+  getHeight() const
+  {
+    return height_;
+  }
+  int
+  getSupersampling() const
+  {
+    return supersampling_;
+  }
+
 protected:
   Renderer() = default;
   ~Renderer() = default;
@@ -47,8 +63,8 @@ protected:
   void
   checkPictureSize(int largest) const;
 
-  /** \brief The camera that was set, else the default one. \param bounds of what is
-   * drawn */
+  /** \brief The camera that was set, else the default one.
+   * \param bounds of what is drawn */
   Camera
   cameraFor(const BoundingSphere& bounds) const;
 

@@ -3,14 +3,12 @@
 // 4.2.1).
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
-
-#include <pcl/pcl_base.h>
 
 #include <cstdint>
 #include <memory>
@@ -118,7 +116,7 @@ findSplats(const CloudView& cloud,
  * the input. Every finite point that has a normal is covered by a splat within delta.
  * \tparam PointT with x, y, z; normals if it has them, else they are estimated */
 template <typename PointT>
-class SplatGeneration : public pcl::PCLBase<PointT>,
+class SplatGeneration : public CloudStage<PointT>,
                         public ParameterStage<SplatParameters> {
 public:
   using Ptr = std::shared_ptr<SplatGeneration<PointT>>;
@@ -168,10 +166,10 @@ public:
 
   /** \brief Cover the input. Counts of the report: points, non_finite, without_normal,
    * duplicates, splats, and widened (splats that are larger than delta or a rim allows,
-   * to leave no hole). \throws InvalidArgument without an input cloud, without a finite
-   * point that has a normal, for a delta or lambda out of range, an extent beyond
-   * float's squares; the output is then untouched
-   */
+   * to leave no hole).
+   * \throws InvalidArgument without an input cloud, without a finite point that has a
+   * normal, for a delta or lambda out of range, an extent beyond float's squares; the
+   * output is then untouched */
   void
   compute(pcl::PointCloud<PointSplat>& splats);
 
@@ -185,5 +183,21 @@ public:
 private:
   std::vector<std::uint32_t> sources_;
 };
+
+template <typename PointT>
+void
+SplatGeneration<PointT>::compute(pcl::PointCloud<PointSplat>& splats)
+{
+  this->withInput(
+      "SplatGeneration", [&](const CloudView& cloud, const pcl::Indices& indices) {
+        startReport();
+        const std::vector<std::uint32_t> use(indices.begin(), indices.end());
+        Splats generated =
+            detail::generateSplats(cloud, use, parameters_, threads_, report_);
+        splats = std::move(generated.cloud);
+        splats.header = this->input_->header;
+        sources_ = std::move(generated.sources);
+      });
+}
 
 } // namespace pcl_uvol

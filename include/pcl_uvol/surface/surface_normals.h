@@ -3,7 +3,7 @@
 // neighbours, oriented by an outside vector (thesis 4.1); never by a spanning tree.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
@@ -11,7 +11,6 @@
 #include <pcl_uvol/common/stage.h>
 
 #include <Eigen/Core>
-#include <pcl/pcl_base.h>
 #include <pcl/search/search.h>
 
 #include <cstddef>
@@ -100,10 +99,11 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
  * point's own normal, the outside vector, where the point type has one that is not
  * zero, else towards the view point. Where the neighbours lie on one line or are fewer
  * than two the outside vector itself is taken, and counted as "degenerate_normals".
- * Exact duplicates count as one neighbour. \tparam PointInT with x, y, z \tparam
- * PointOutT with normal_x/y/z and curvature */
+ * Exact duplicates count as one neighbour.
+ * \tparam PointInT with x, y, z
+ * \tparam PointOutT with normal_x/y/z and curvature */
 template <typename PointInT, typename PointOutT = pcl::Normal>
-class SurfaceNormalEstimation : public pcl::PCLBase<PointInT>,
+class SurfaceNormalEstimation : public CloudStage<PointInT>,
                                 public ParameterStage<SurfaceNormalParameters> {
 public:
   using Ptr = std::shared_ptr<SurfaceNormalEstimation<PointInT, PointOutT>>;
@@ -162,14 +162,44 @@ public:
   }
 
   /** \brief One output point per input point or index. A point with a non-finite
-   * coordinate gets NaN, and the output is then not dense. \throws InvalidArgument
-   * without an input cloud, without a finite point, for k < 2 or a bad scale; the
-   * output is then untouched */
+   * coordinate gets NaN, and the output is then not dense.
+   * \throws InvalidArgument without an input cloud, without a finite point, for k < 2
+   * or a bad scale; the output is then untouched */
   void
   compute(pcl::PointCloud<PointOutT>& output);
 
 private:
   pcl::search::Search<pcl::PointXYZ>::Ptr search_;
 };
+
+template <typename PointInT, typename PointOutT>
+void
+SurfaceNormalEstimation<PointInT, PointOutT>::compute(
+    pcl::PointCloud<PointOutT>& output)
+{
+  std::vector<SurfaceNormal> normals;
+  this->withInput("SurfaceNormalEstimation",
+                  [&](const CloudView& cloud, const pcl::Indices& indices) {
+                    startReport();
+                    const std::vector<std::uint32_t> use(indices.begin(),
+                                                         indices.end());
+                    normals = detail::estimateSurfaceNormals(
+                        cloud, use, parameters_, search_, threads_, report_);
+                  });
+  output.resize(normals.size());
+  const bool organized =
+      normals.size() == std::size_t(this->input_->width) * this->input_->height;
+  output.width =
+      organized ? this->input_->width : static_cast<std::uint32_t>(normals.size());
+  output.height = organized ? this->input_->height : 1;
+  output.header = this->input_->header;
+  output.is_dense = report_.getCount("non_finite") == 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    output[i].normal_x = normals[i].normal[0];
+    output[i].normal_y = normals[i].normal[1];
+    output[i].normal_z = normals[i].normal[2];
+    output[i].curvature = normals[i].curvature;
+  }
+}
 
 } // namespace pcl_uvol

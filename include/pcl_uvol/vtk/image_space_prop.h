@@ -45,8 +45,8 @@ public:
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
   /** \brief The surface: x, y, z as float32, and normals as of ImageSpaceRenderer. It
-   * must not change until the next call. \param cloud null (default): nothing is drawn
-   */
+   * must not change until the next call.
+   * \param cloud null (default): nothing is drawn */
   void
   setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/render/image_space/block_view.h>
+#include "render/image_space/block_view.h"
 
 #include <algorithm>
 #include <cmath>

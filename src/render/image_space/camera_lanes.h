@@ -2,8 +2,8 @@
 // For vector kernels: points in camera space, and their keys in the pixels of a band.
 #pragma once
 
-#include "octahedral_lanes.h"
-#include "projection_kernel.h"
+#include "render/image_space/octahedral_lanes.h"
+#include "render/image_space/projection_kernel.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -31,7 +31,8 @@ pixelsPerLength(const Projection& p, const Vector& c)
   return p.focal * (1.0f / c.z);
 }
 
-/** Of a disc, which is its point's footprint if that is too large for a filler. */
+/** Radius of a disc, which is its point's footprint if that is too large for a filler.
+ */
 inline Floats
 discRadius(const Projection& p,
            const Floats& radius,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fill_kernel.h"
-#include "projector.h"
-#include "tile_finisher.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/render/image_space/cpu_backend.h>
+#include "render/image_space/cpu_backend.h"
+
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "render/image_space/fill_kernel.h"
+#include "render/image_space/projector.h"
+#include "render/image_space/tile_finisher.h"
 
 #include <algorithm>
 #include <utility>
@@ -108,7 +109,7 @@ private:
     return count;
   }
 
-  /** Of a cell; there is one more all around. */
+  /** The index of a cell; one more row and column lie all around. */
   std::size_t
   index(int row, int cell) const
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "disc_kernel.h"
+#include "render/image_space/disc_kernel.h"
 
-#include "camera_lanes.h"
+#include "render/image_space/camera_lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

@@ -4,7 +4,7 @@
 // instruction set.
 #pragma once
 
-#include "projection_kernel.h"
+#include "render/image_space/projection_kernel.h"
 
 namespace pcl_uvol {
 

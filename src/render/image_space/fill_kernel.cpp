@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fill_kernel.h"
+#include "render/image_space/fill_kernel.h"
 
-#include "../../common/lanes.h"
+#include "common/lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

@@ -3,7 +3,7 @@
 // compiled once per instruction set.
 #pragma once
 
-#include "projection_kernel.h"
+#include "render/image_space/projection_kernel.h"
 
 namespace pcl_uvol {
 
@@ -19,7 +19,8 @@ struct PixelFill {
  * pixel sees its neighbours as they were. */
 struct FillKernels {
   /** \brief Background pixels, unless a mask of Figure 4.8 says that they lie beyond
-   * the silhouette. \param fills room for last - first */
+   * the silhouette.
+   * \param fills room for last - first */
   std::size_t (*findBackground)(
       PixelKey* row, std::ptrdiff_t stride, int first, int last, PixelFill* fills);
 

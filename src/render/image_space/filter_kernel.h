@@ -4,7 +4,7 @@
 // compiled once per instruction set.
 #pragma once
 
-#include "shading_kernel.h"
+#include "render/image_space/shading_kernel.h"
 
 namespace pcl_uvol {
 
@@ -67,7 +67,8 @@ struct FilterKernels {
                     float threshold,
                     const ShadedRow& target);
 
-  /** \brief Red, green, blue, opacity in 8 bits. \param image room for count pixels */
+  /** \brief Red, green, blue, opacity in 8 bits.
+   * \param image room for count pixels */
   void (*output)(const ShadedRow& row,
                  int count,
                  const RowBackground& background,

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../lighting.h"
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
+#include "render/image_space/cpu_backend.h"
+#include "render/lighting.h"
+#include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/render/image_space/cpu_backend.h>
-#include <pcl_uvol/render/image_space/impl/image_space_renderer.hpp>
-#include <pcl_uvol/render/point_colors.h>
-
-#include <pcl/impl/pcl_base.hpp>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +114,13 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
   return *surface_;
 }
 
+BoundingSphere
+ImageSpaceRendererBase::findBounds(const CloudView& cloud,
+                                   const pcl::IndicesConstPtr& indices)
+{
+  return prepare(cloud, indices).getBounds();
+}
+
 void
 ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
 {
@@ -178,9 +183,5 @@ ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
   const StepTimer timer(report_, "frame");
   painter(frame, report_);
 }
-
-template class PCL_UVOL_EXPORTS ImageSpaceRenderer<PointIso>;
-template class PCL_UVOL_EXPORTS ImageSpaceRenderer<pcl::PointNormal>;
-template class PCL_UVOL_EXPORTS ImageSpaceRenderer<pcl::PCLPointCloud2>;
 
 } // namespace pcl_uvol

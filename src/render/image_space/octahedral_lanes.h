@@ -2,7 +2,7 @@
 // For vector kernels: packed normals (surface_cloud.h) of a register of points.
 #pragma once
 
-#include "../../common/lanes.h"
+#include "common/lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

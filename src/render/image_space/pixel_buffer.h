@@ -2,9 +2,9 @@
 // The pixels of a frame: depth and point, with the guard band of View.
 #pragma once
 
-#include "disc_kernel.h"
-#include <pcl_uvol/render/image_space/backend.h>
-#include <pcl_uvol/render/image_space/pixel_box.h>
+#include "render/image_space/disc_kernel.h"
+#include "render/image_space/frame.h"
+#include "render/image_space/pixel_box.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "projector.h"
+#include "render/image_space/projector.h"
 
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
-#include <pcl_uvol/render/image_space/block_view.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "render/image_space/block_view.h"
 
 #include <algorithm>
 
@@ -52,7 +52,7 @@ struct BlockPlan {
 };
 
 BlockPlan
-planOf(const SurfaceBlock& block, const Frame& frame)
+planBlock(const SurfaceBlock& block, const Frame& frame)
 {
   const BlockView seen(frame, block);
   const bool culls = frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
@@ -116,7 +116,7 @@ Projector::project()
   parallelBlocks(
       blocks.size(), blocks_per_task, frame_.threads, [&](auto begin, auto end) {
         for (std::size_t i = begin; i < end; ++i)
-          plans[i] = planOf(blocks[i], frame_);
+          plans[i] = planBlock(blocks[i], frame_);
       });
   buffer_.bounds = {0, 0, 0, 0};
   for (const BlockPlan& plan : plans)

@@ -2,7 +2,7 @@
 // The first pass: points into pixels (thesis 4.3.1).
 #pragma once
 
-#include "pixel_buffer.h"
+#include "render/image_space/pixel_buffer.h"
 
 namespace pcl_uvol {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shading_kernel.h"
+#include "render/image_space/shading_kernel.h"
 
-#include "octahedral_lanes.h"
+#include "render/image_space/octahedral_lanes.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 

@@ -3,7 +3,7 @@
 // headers: the file is compiled once per instruction set.
 #pragma once
 
-#include "disc_kernel.h"
+#include "render/image_space/disc_kernel.h"
 
 namespace pcl_uvol {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shading_setup.h"
+#include "render/image_space/shading_setup.h"
 
 #include <algorithm>
 #include <cmath>

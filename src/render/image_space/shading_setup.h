@@ -2,8 +2,8 @@
 // What the shading kernel needs to know of a frame.
 #pragma once
 
-#include "shading_kernel.h"
-#include <pcl_uvol/render/image_space/backend.h>
+#include "render/image_space/frame.h"
+#include "render/image_space/shading_kernel.h"
 
 #include <vector>
 

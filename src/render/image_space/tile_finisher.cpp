@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tile_finisher.h"
+#include "render/image_space/tile_finisher.h"
 
-#include "shading_setup.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "render/image_space/shading_setup.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,7 +28,7 @@ const KernelTable<const FilterKernels*> filter_table{
     &baseline::filter_kernels, &avx2::filter_kernels, &avx512::filter_kernels};
 
 FilterWeights
-weightsOf(SmoothingFilter filter)
+computeWeights(SmoothingFilter filter)
 {
   switch (filter) {
   case SmoothingFilter::Box:
@@ -238,7 +238,7 @@ private:
   smooth(int iteration)
   {
     const PassTimer timer(clock_, PassClock::Smooth);
-    const FilterWeights weights = weightsOf(frame_.settings.smoothing);
+    const FilterWeights weights = computeWeights(frame_.settings.smoothing);
     const int around = halo_ - iteration;
     for (int row = -around; row < rows_ + around; ++row)
       filters_.smooth(

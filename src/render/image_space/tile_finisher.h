@@ -3,8 +3,8 @@
 // tile by tile, so that what lies between the passes stays in the cache.
 #pragma once
 
-#include "filter_kernel.h"
-#include "pixel_buffer.h"
+#include "render/image_space/filter_kernel.h"
+#include "render/image_space/pixel_buffer.h"
 
 #include <array>
 #include <atomic>

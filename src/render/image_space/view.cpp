@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/image_space/frame.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/image_space/backend.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/** Of the far distance: points nearer than that are not drawn. */
+/** In parts of the far distance: points nearer than that are not drawn. */
 constexpr double near_part = 1e-4;
 
 /** Room beyond the farthest point for discs and rounding. */
@@ -25,7 +25,7 @@ View::View(const Camera& camera,
            int image_height)
     : width(image_width)
     , height(image_height)
-    , unit(lengthUnitOf(bounds))
+    , unit(chooseLengthUnit(bounds))
 {
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
     throw InvalidArgument("An image of " + std::to_string(width) + " x " +

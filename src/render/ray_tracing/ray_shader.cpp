@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ray_shader.h"
+#include "render/ray_tracing/ray_shader.h"
 
-#include "../lighting.h"
-#include <pcl_uvol/common/random.h>
+#include "common/random.h"
+#include "render/lighting.h"
 
 #include <Eigen/Geometry>
 
@@ -35,8 +35,8 @@ constexpr double least_rise = 1e-3;
 struct Fresnel {
   double mirrored, cosine_behind;
 
-  /** \param ratio of refractive indices, in front over behind \param cosine of the
-   * angle of incidence */
+  /** \param ratio of refractive indices, in front over behind
+   * \param cosine of the angle of incidence */
   Fresnel(double ratio, double cosine)
   {
     const double sq_cosine = 1.0 - ratio * ratio * (1.0 - cosine * cosine);

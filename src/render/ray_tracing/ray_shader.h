@@ -2,7 +2,7 @@
 // Colours of rays: light, shadows, mirrors and glass (thesis 4.2.2).
 #pragma once
 
-#include "world.h"
+#include "render/ray_tracing/world.h"
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <Eigen/Core>
@@ -20,20 +20,22 @@ struct RayCounts {
 /** \brief What comes along a primary ray. */
 struct ShadedRay {
   Eigen::Vector4d color; ///< red, green, blue and opacity
-  /** Of the surface it meets, to the outside; 0 if it meets none. */
+  /** Normal of the surface it meets, to the outside; 0 if it meets none. */
   Eigen::Vector3d normal;
 };
 
 /** \brief Shades one ray after another; one object per thread. */
 class RayShader {
 public:
-  /** \param world must outlive the shader \param camera for lights that follow it */
+  /** \param world must outlive the shader
+   * \param camera for lights that follow it */
   RayShader(const World& world,
             const RayTracingSettings& settings,
             const Camera& camera);
 
-  /** \brief \param height of the pixel in the image, 0 below to 1 above, for the
-   * background \param number of the ray, for what is random about it */
+  /** \brief
+   * \param height of the pixel in the image, 0 below to 1 above, for the background
+   * \param number of the ray, for what is random about it */
   ShadedRay
   shade(const Ray& ray, double height, std::uint64_t number);
 
@@ -65,8 +67,8 @@ private:
   Eigen::Vector3d
   reflectLight(const Seen& seen);
 
-  /** What of a light reaches a place, in [0, 1]. \param towards a vector to its centre
-   */
+  /** What of a light reaches a place, in [0, 1].
+   * \param towards a vector to its centre */
   double
   visibility(const Light& light, const Seen& seen, const Eigen::Vector3d& towards);
 

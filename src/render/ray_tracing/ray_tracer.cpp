@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "../lighting.h"
-#include "ray_shader.h"
-#include "world.h"
+#include "common/parallel.h"
+#include "render/lighting.h"
+#include "render/ray_tracing/ray_shader.h"
+#include "render/ray_tracing/world.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/parallel.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 

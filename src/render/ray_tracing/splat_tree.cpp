@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "splat_tree.h"
+#include "render/ray_tracing/splat_tree.h"
 
-#include "tree_builder.h"
-#include <pcl_uvol/common/dispatch.h>
-#include <pcl_uvol/common/parallel.h>
+#include "common/dispatch.h"
+#include "common/parallel.h"
+#include "render/ray_tracing/tree_builder.h"
 
 #include <Eigen/Geometry>
 
@@ -30,11 +30,11 @@ constexpr float box_room = 1e-6f;
 /** Hits that are looked for at first. */
 constexpr std::size_t first_room = 64;
 
-/** Of all splats, coordinates relative to a centre. */
+/** The boxes of all splats, in coordinates relative to a centre. */
 std::vector<ItemBox>
-boxesOf(const pcl::PointCloud<PointSplat>& splats,
-        const Eigen::Vector3d& center,
-        unsigned threads)
+computeBoxes(const pcl::PointCloud<PointSplat>& splats,
+             const Eigen::Vector3d& center,
+             unsigned threads)
 {
   std::vector<ItemBox> boxes(splats.size());
   parallelBlocks(splats.size(), block_splats, threads, [&](auto begin, auto end) {
@@ -117,7 +117,7 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
                        (splat.getVector3fMap().cast<double>() - center_).norm() +
                            splat.radius);
   radius_ *= 1.0 + box_room;
-  WideTree tree = buildWideTree(boxesOf(splats, center_, threads), threads);
+  WideTree tree = buildWideTree(computeBoxes(splats, center_, threads), threads);
   nodes_ = std::move(tree.nodes);
   const std::size_t leaves = tree.leaf_begin.size() - 1;
   leaves_.resize(leaves);
@@ -153,7 +153,7 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
 }
 
 std::optional<double>
-SplatTree::entryOf(const Ray& ray, double near, double far) const
+SplatTree::findEntry(const Ray& ray, double near, double far) const
 {
   const Eigen::Vector3d offset = ray.origin - center_;
   const double b = offset.dot(ray.direction);
@@ -183,7 +183,7 @@ SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
 bool
 SplatTree::isBlocked(const Ray& ray, double near, double far) const
 {
-  const auto entry = entryOf(ray, near, far);
+  const auto entry = findEntry(ray, near, far);
   return entry && kernels_->isBlocked(arrays(), localRay(ray, *entry, near, far));
 }
 
@@ -194,7 +194,7 @@ SplatTree::intersect(const Ray& ray,
                      std::vector<SplatHit>& hits,
                      SplatSurfaceHit& hit) const
 {
-  const auto entry = entryOf(ray, near, far);
+  const auto entry = findEntry(ray, near, far);
   if (!entry)
     return false;
   const TreeRay local = localRay(ray, *entry, near, far);

@@ -5,7 +5,7 @@
 // tests/benchmarks/README.md has the octree's times beside those of this tree.
 #pragma once
 
-#include "splat_tree_kernel.h"
+#include "render/ray_tracing/splat_tree_kernel.h"
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/render/camera.h>
@@ -81,7 +81,7 @@ private:
   /** Distance at which a ray comes into the ball around all splats, 0 within it;
    * nothing if it does not. */
   std::optional<double>
-  entryOf(const Ray& ray, double near, double far) const;
+  findEntry(const Ray& ray, double near, double far) const;
 
   /** The ray from its entry on: float would not hold distances from far away. */
   TreeRay

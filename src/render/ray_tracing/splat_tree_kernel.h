@@ -52,9 +52,10 @@ struct SplatHit {
 /** \brief One instruction set's versions. */
 struct SplatTreeKernels {
   /** \brief All splats that a ray meets not farther behind any of them than that part
-   * of its radius, and some behind; in no particular but always the same order. \param
-   * part of the radius \param room of hits \return their number; more than there is
-   * room for: nothing is known */
+   * of its radius, and some behind; in no particular but always the same order.
+   * \param part of the radius
+   * \param room of hits
+   * \return their number; more than there is room for: nothing is known */
   std::size_t (*collect)(const TreeArrays& tree,
                          const TreeRay& ray,
                          float part,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree_builder.h"
+#include "render/ray_tracing/tree_builder.h"
 
-#include <pcl_uvol/common/parallel.h>
+#include "common/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -89,7 +89,7 @@ public:
   }
 
   Range
-  rangeOf(std::uint32_t begin, std::uint32_t end) const
+  findRange(std::uint32_t begin, std::uint32_t end) const
   {
     Range range{begin, end, {}};
     for (std::uint32_t i = begin; i < end; ++i)
@@ -117,9 +117,9 @@ public:
         break;
       const std::uint32_t begin = parts[worst].begin, end = parts[worst].end;
       const std::uint32_t cut = split(parts[worst], depth);
-      parts[worst] = rangeOf(begin, cut);
+      parts[worst] = findRange(begin, cut);
       parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(worst) + 1,
-                   rangeOf(cut, end));
+                   findRange(cut, end));
     }
     return parts;
   }
@@ -169,8 +169,8 @@ public:
   }
 
 private:
-  /** Reorder a range of more than tree_width items; \return where its second part
-   * begins. */
+  /** Reorder a range of more than tree_width items;
+   * \return where its second part begins. */
   std::uint32_t
   split(const Range& range, int depth)
   {
@@ -255,7 +255,8 @@ private:
   std::vector<std::uint32_t>& items_;
 };
 
-/** Append the nodes and leaves of a subtree. \return its root */
+/** Append the nodes and leaves of a subtree.
+ * \return its root */
 std::uint32_t
 append(const WideTree& subtree, WideTree& tree)
 {
@@ -281,7 +282,7 @@ buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads)
   std::iota(tree.items.begin(), tree.items.end(), 0u);
   Builder builder(boxes, tree.items);
   const std::vector<Range> parts =
-      builder.divide(builder.rangeOf(0, static_cast<std::uint32_t>(boxes.size())), 0);
+      builder.divide(builder.findRange(0, static_cast<std::uint32_t>(boxes.size())), 0);
   std::vector<WideTree> subtrees(parts.size());
   parallelBlocks(parts.size(), 1, threads, [&](std::size_t i, std::size_t) {
     if (parts[i].count() > tree_width)

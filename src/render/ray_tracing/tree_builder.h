@@ -3,7 +3,7 @@
 // heuristic (Wald 2007: binned).
 #pragma once
 
-#include "splat_tree_kernel.h"
+#include "render/ray_tracing/splat_tree_kernel.h"
 
 #include <cstdint>
 #include <vector>

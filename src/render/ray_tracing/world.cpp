@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world.h"
+#include "render/ray_tracing/world.h"
 
-#include "../lighting.h"
+#include "render/lighting.h"
 
 #include <Eigen/Geometry>
 
@@ -68,7 +68,7 @@ colorOf(const PlaneObject& plane, const Eigen::Vector3d& position)
 
 /** A ball around balls: about the centre of their box. */
 BoundingSphere
-boundsOf(const Scene& scene, const std::vector<SplatTree>& trees)
+findBounds(const Scene& scene, const std::vector<SplatTree>& trees)
 {
   std::vector<BoundingSphere> balls;
   for (const SplatTree& tree : trees)
@@ -100,7 +100,7 @@ World::World(Scene scene, unsigned threads)
         *object.splats, object.colors, toRgba(object.material.color), threads);
   for (PlaneObject& plane : scene_.planes)
     plane.normal.normalize();
-  bounds_ = boundsOf(scene_, trees_);
+  bounds_ = findBounds(scene_, trees_);
   rounding_ = float_rounding * bounds_.radius;
 }
 

@@ -2,7 +2,7 @@
 // A scene that rays can be sent through.
 #pragma once
 
-#include "splat_tree.h"
+#include "render/ray_tracing/splat_tree.h"
 #include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/ray_tracing/scene.h>
 
@@ -16,7 +16,7 @@ namespace pcl_uvol {
 struct SurfaceHit {
   double distance;
   Eigen::Vector3d position;
-  /** Of length 1, to the outside: as it is shaded, and as it is. @{ */
+  /** Normals of length 1, to the outside: as it is shaded, and as it is. @{ */
   Eigen::Vector3d normal, plane_normal;
   /** @} */
   Eigen::Vector3d color;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "src/render/image_space/projection_kernel.h"
-#include <pcl_uvol/surface/packed_normal.h>
+#include "surface/packed_normal.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,114 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The door between image-space rendering and what carries out its passes: plain C++
-// (CpuBackend) or OpenGL (gl/gl_backend.h). All give the same picture.
+// The door between image-space rendering and what carries out its passes: plain C++ or
+// OpenGL (gl/context.h). All give the same picture.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/image_space/settings.h>
-#include <pcl_uvol/render/surface_cloud.h>
 
 #include <string>
 
 namespace pcl_uvol {
 
-/** \brief A camera as the passes use it. Camera space: origin in the eye, x right, y
- * down, z forward, so that a point at (x, y, z) lies in the pixel
- * (floor(center_x + focal x / z), floor(center_y + focal y / z)) of the buffers. These
- * are larger than the image by a guard band on every side, so that filters find what is
- * just outside of the image. Lengths are in the unit that lengthUnitOf() gives for the
- * cloud's bounds, as those of a SurfaceCloud are. */
-struct PCL_UVOL_EXPORTS View {
-  /** Width of the guard band in pixels. */
-  static constexpr int guard = 8;
-  /** Largest width and height of an image: buffers, and a texel around them, are
-   * textures of at most 16384. */
-  static constexpr int largest_size = 16384 - 2 * guard - 2;
-
-  int width, height;        ///< of the image
-  double unit;              ///< lengths of the cloud times this are those of the view
-  float rotation[9];        ///< from cloud to camera space, row by row
-  float translation[3];     ///< the cloud's centre in camera space
-  float focal;              ///< pixels
-  float center_x, center_y; ///< of the image in the buffers, pixels
-  float near;               ///< points with a smaller z are not drawn
-  float far; ///< distance to the eye with depth 1: beyond every point of the cloud
-
-  /** \throws InvalidArgument for a size that is not in [1, largest_size] or a bad
-   * camera */
-  View(const Camera& camera,
-       const BoundingSphere& bounds,
-       int image_width,
-       int image_height);
-
-  int
-  bufferWidth() const
-  {
-    return width + 2 * guard;
-  }
-
-  int
-  bufferHeight() const
-  {
-    return height + 2 * guard;
-  }
-};
+struct Frame;
 
 /** \brief Which planes of an image are filled in besides color. */
 struct ImagePlanes {
   bool depth = false, normal = false, id = false;
 };
-
-/** \brief One frame's work. */
-struct PCL_UVOL_EXPORTS Frame {
-  const SurfaceCloud& cloud;
-  const View& view;
-  const ImageSpaceSettings& settings;
-  ImagePlanes planes;
-  unsigned threads; ///< 0 = all cores
-
-  /** \brief True if points may be discs. */
-  bool
-  hasFootprints() const
-  {
-    return settings.footprints && !cloud.getFootprints().empty();
-  }
-
-  /** \brief Least distance of two layers as a depth: that of the settings, and with
-   * footprints not less than two discs, as these stand out from each other: a disc must
-   * not hide behind its own surface, or the layer in front of it grows over it. */
-  float
-  layerDistance() const;
-
-  /** \brief Where a light is, seen from the eye and in the axes of the cloud; of a
-   * directional light the direction it comes from, of any length. */
-  Eigen::Vector3d
-  lightVector(const Light& light) const;
-};
-
-/** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
- * masks close what is left open, holes of radius sqrt(2) at most. */
-constexpr float smallest_footprint = 1.4f;
-
-/** \brief Points with a larger footprint, in pixels, have all of it where others are
- * fillers: the hole beside them is too large for one disc in its rim, which leaves it
- * half as wide, and the masks close no more than sqrt(2) around its middle. */
-constexpr float largest_filler = 2.8f;
-
-/** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
- * blended into each other. In the other blocks discs only fill holes: they have the
- * radius of fillers, and lie deeper than their points, so that these stay sharp. */
-constexpr float sparse_footprint = 2.5f;
-
-/** \brief Discs are blended over so many of their radii: normals and colours then
- * change smoothly from point to point, while the discs themselves stay as large as they
- * are. */
-constexpr float blend_reach = 1.5f;
-
-/** \brief How much deeper than its point a filler lies, in radii of its own. */
-constexpr float filler_depth = 0.5f;
 
 /** \brief Carries out the passes. */
 class PCL_UVOL_EXPORTS ImageSpaceBackend {

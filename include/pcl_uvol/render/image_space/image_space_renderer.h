@@ -3,15 +3,13 @@
 // points with normals.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/image_space/backend.h>
 #include <pcl_uvol/render/image_space/settings.h>
 #include <pcl_uvol/render/renderer.h>
-
-#include <pcl/pcl_base.h>
 
 #include <array>
 #include <functional>
@@ -22,6 +20,9 @@
 #include <vector>
 
 namespace pcl_uvol {
+
+class SurfaceCloud;
+struct View;
 
 /** \brief Parameters and the kernel of ImageSpaceRenderer, for any point type.
  *
@@ -105,14 +106,17 @@ protected:
            const View& view,
            const Painter& painter);
 
-  const SurfaceCloud&
-  prepare(const CloudView& cloud, const pcl::IndicesConstPtr& indices);
+  BoundingSphere
+  findBounds(const CloudView& cloud, const pcl::IndicesConstPtr& indices);
 
   /** \brief The next frame reads the cloud anew. */
   void
   forgetSurface();
 
 private:
+  const SurfaceCloud&
+  prepare(const CloudView& cloud, const pcl::IndicesConstPtr& indices);
+
   void
   colorSurface(const CloudView& cloud);
 
@@ -140,14 +144,14 @@ private:
  * renderer.render(image);
  * \endcode
  * Normals point outwards: points that look away from the eye are not drawn. The cloud
- * is sorted once, further frames reuse it. \tparam PointT any registered point type
- * with x, y, z, or pcl::PCLPointCloud2 */
+ * is sorted once, further frames reuse it.
+ * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
-class ImageSpaceRenderer : public pcl::PCLBase<PointT>, public ImageSpaceRendererBase {
+class ImageSpaceRenderer : public CloudStage<PointT>, public ImageSpaceRendererBase {
 public:
-  using Cloud = std::conditional_t<std::is_same_v<PointT, pcl::PCLPointCloud2>,
-                                   pcl::PCLPointCloud2,
-                                   pcl::PointCloud<PointT>>;
+  using Ptr = std::shared_ptr<ImageSpaceRenderer<PointT>>;
+  using ConstPtr = std::shared_ptr<const ImageSpaceRenderer<PointT>>;
+  using Cloud = typename CloudStage<PointT>::Cloud;
 
   /** \brief The cloud, and indices, must not change until the next call: points are
    * kept. */
@@ -159,21 +163,55 @@ public:
     forgetSurface();
   }
 
-  /** \brief Draw the cloud. \throws InvalidArgument for a missing or empty cloud, a
-   * cloud without a finite point, a bad camera, size or threshold, an unknown field */
+  /** \brief Draw the cloud.
+   * \throws InvalidArgument for a missing or empty cloud, a cloud without a finite
+   * point, a bad camera, size or threshold, an unknown field */
   void
   render(Image& image);
 
   /** \brief Prepare the cloud and let somebody else draw it, into a window say. Camera,
    * size, supersampling and backend of this object are not used.
-   * \param view made for getBounds() \throws as render(), and what the painter throws
-   */
+   * \param view made for getBounds()
+   * \throws as render(), and what the painter throws */
   void
   draw(const View& view, const Painter& painter);
 
-  /** \brief A ball around what render() draws: for cameras. \throws as render() */
+  /** \brief A ball around what render() draws: for cameras.
+   * \throws as render() */
   BoundingSphere
   getBounds();
 };
+
+template <typename PointT>
+void
+ImageSpaceRenderer<PointT>::render(Image& image)
+{
+  this->withInput("ImageSpaceRenderer",
+                  [&](const CloudView& cloud, const pcl::Indices&) {
+                    renderFrom(cloud, this->indices_, image);
+                  });
+}
+
+template <typename PointT>
+void
+ImageSpaceRenderer<PointT>::draw(const View& view, const Painter& painter)
+{
+  this->withInput("ImageSpaceRenderer",
+                  [&](const CloudView& cloud, const pcl::Indices&) {
+                    drawFrom(cloud, this->indices_, view, painter);
+                  });
+}
+
+template <typename PointT>
+BoundingSphere
+ImageSpaceRenderer<PointT>::getBounds()
+{
+  BoundingSphere bounds;
+  this->withInput("ImageSpaceRenderer",
+                  [&](const CloudView& cloud, const pcl::Indices&) {
+                    bounds = findBounds(cloud, this->indices_);
+                  });
+  return bounds;
+}
 
 } // namespace pcl_uvol

@@ -44,11 +44,15 @@ struct RayTracingSettings {
  * built at the first picture. The picture does not depend on the number of threads. */
 class PCL_UVOL_EXPORTS RayTracer : public Renderer {
 public:
+  using Ptr = std::shared_ptr<RayTracer>;
+  using ConstPtr = std::shared_ptr<const RayTracer>;
+
   RayTracer();
   ~RayTracer();
 
-  /** \brief What to draw. \throws InvalidArgument for a scene without objects, a
-   * material, light or shape out of its range, a splat that is not finite */
+  /** \brief What to draw.
+   * \throws InvalidArgument for a scene without objects, a material, light or shape out
+   * of its range, a splat that is not finite */
   void
   setScene(const Scene& scene);
 
@@ -73,8 +77,9 @@ public:
   getBounds();
 
   /** \brief Draw: colour, and normals where they are asked for. Counts of the report:
-   * primary_rays, secondary_rays, shadow_rays. \throws InvalidArgument without a scene,
-   * for a bad camera, size or setting; the image is then untouched */
+   * primary_rays, secondary_rays, shadow_rays.
+   * \throws InvalidArgument without a scene, for a bad camera, size or setting; the
+   * image is then untouched */
   void
   render(Image& image);
 

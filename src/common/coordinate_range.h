@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The origin that float coordinates need, from what the coordinates in double are like.
+#pragma once
+
+#include "common/number_range.h"
+#include "common/sketch.h"
+#include <pcl_uvol/common/export.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Takes points one after another and tells the origin of them all: the same for
+ * any order and division of them. */
+class PCL_UVOL_EXPORTS CoordinateRange {
+public:
+  using Point = std::array<double, 3>;
+
+  /** \brief Take a point; a coordinate that is not finite counts for nothing. */
+  void
+  add(const Point& point)
+  {
+    bool is_finite = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (std::isfinite(point[axis]))
+        axes_[axis].add(point[axis]);
+      else
+        is_finite = false;
+    if (!is_finite)
+      return;
+    ++count_;
+    sketch_.add(point);
+  }
+
+  /** \brief Take what another range has taken. */
+  void
+  add(const CoordinateRange& other);
+
+  /** \brief What setCoordinates() promises of an origin. A few points far from the
+   * others, such as (0, 0, 0) for a position that is not known, have no say.
+   * \throws InvalidArgument for coordinates beyond float */
+  Point
+  findOrigin() const;
+
+  /** \brief A sentence where float, relative to that origin, rounds coordinates by more
+   * than a thousandth of the distance between neighbours, which is estimated from some
+   * hundred points; else empty. */
+  std::string
+  describeRounding(const Point& origin) const;
+
+private:
+  /** One coordinate of the points of the sketch. */
+  std::vector<double>
+  getSketch(std::size_t axis) const;
+
+  std::array<NumberRange, 3> axes_;
+  Sketch<3> sketch_;
+  std::uint64_t count_ = 0; ///< finite points
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forecast the memory of a run, and refuse work that does not fit before it begins.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief Bytes that the process can still take without swapping or being killed: the
+ * least that the system, the control groups and the limits of the process leave; the
+ * largest number where none of them tells. */
+PCL_UVOL_EXPORTS std::uint64_t
+availableMemory();
+
+/** \brief What the memory limits of control groups leave, of versions 1 and 2: a
+ * container's. Files that are kept in memory count as available, since they give way.
+ * \param groups the file that tells the groups of the process
+ * \param root where the groups are mounted
+ * \return the largest number without a limit */
+PCL_UVOL_EXPORTS std::uint64_t
+availableInControlGroups(const std::string& groups = "/proc/self/cgroup",
+                         const std::string& root = "/sys/fs/cgroup");
+
+/** \brief Bytes of memory that the process has in use, code included; 0 where the
+ * system does not tell. */
+PCL_UVOL_EXPORTS std::uint64_t
+residentMemory();
+
+/** \brief The most of it so far (VmHWM). */
+PCL_UVOL_EXPORTS std::uint64_t
+peakMemory();
+
+/** \brief "1.6 GB": two digits, in powers of 1000. */
+PCL_UVOL_EXPORTS std::string
+formatBytes(double bytes);
+
+/** \brief
+ * \param what as a subject: "A grid of 9 x 9 x 9 cells"
+ * \param taken bytes of it that the process has in use already
+ * \throws InvalidArgument with both figures if more is needed than is available */
+PCL_UVOL_EXPORTS void
+checkMemory(const std::string& what, double bytes, double taken = 0.0);
+
+/** \brief Bytes of a step besides its input. */
+struct MemoryNeed {
+  double peak = 0.0; ///< at most, while it runs
+  double kept = 0.0; ///< of what it leaves
+};
+
+/** \brief Adds up what lives at the same time, in the order of a run: a forecast of its
+ * peak.
+ *
+ * \code
+ * MemoryForecast forecast(0.0);
+ * forecast.hold(16.0 * points); // an array
+ * forecast.run(step);           // beside it
+ * forecast.release(16.0 * points);
+ * \endcode */
+class MemoryForecast {
+public:
+  /** \param held bytes in use from the start */
+  explicit MemoryForecast(double held)
+      : held_(held)
+      , peak_(held)
+  {
+  }
+
+  void
+  hold(double bytes)
+  {
+    held_ += bytes;
+    peak_ = std::max(peak_, held_);
+  }
+
+  void
+  release(double bytes)
+  {
+    held_ -= bytes;
+  }
+
+  void
+  run(const MemoryNeed& step)
+  {
+    peak_ = std::max(peak_, held_ + step.peak);
+    hold(step.kept);
+  }
+
+  double
+  getHeld() const
+  {
+    return held_;
+  }
+
+  double
+  getPeak() const
+  {
+    return peak_;
+  }
+
+private:
+  double held_, peak_;
+};
+
+} // namespace pcl_uvol

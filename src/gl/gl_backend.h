@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Image-space rendering in OpenGL 3.3: off screen into an image, or into a window.
+#pragma once
+
+#include "render/image_space/frame.h"
+#include <pcl_uvol/gl/context.h>
+
+#include <memory>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief A framebuffer of somebody else's, and what his camera does to depths. */
+struct GlFramebuffer {
+  unsigned name = 0; ///< of OpenGL; 0 is the window itself
+  int x = 0, y = 0;  ///< of the lower left corner of the image in it, pixels
+  /** From camera space (View: x right, y down, z forward) to clip space, row by row.
+   * Its rows for z and w give the depth of a pixel; places come from the View. */
+  float projection[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+};
+
+/** \brief Keeps the last cloud and the textures of the last size on the graphics card:
+ * 20 bytes per point, 28 with footprints; 42 per pixel, and 32 more each for normals or
+ * feature lines and for footprints. All members may be called from any thread that the
+ * context can be used from, one at a time. */
+class PCL_UVOL_EXPORTS GlBackend : public ImageSpaceBackend {
+public:
+  /** \throws GlError if the context lacks a function, InvalidArgument without one */
+  explicit GlBackend(const std::shared_ptr<GlContext>& context);
+  ~GlBackend() override;
+  GlBackend(const GlBackend&) = delete;
+  GlBackend&
+  operator=(const GlBackend&) = delete;
+
+  /** \brief "osmesa, OpenGL 4.5 (Core Profile) Mesa 22.3.6, llvmpipe (...)". */
+  std::string
+  describe() const override;
+
+  /** \throws GlError if an image is too large, a cloud has too many points for a
+   * texture, or the driver fails */
+  void
+  render(const Frame& frame, Image& image, Report& report) override;
+
+  /** \brief Draw a frame over what a framebuffer holds already, hidden by what is
+   * nearer. The settings' background and the planes of the frame have no meaning here.
+   * Most of the state of OpenGL is different afterwards: save and restore what you
+   * need.
+   * \throws as render() */
+  void
+  renderToFramebuffer(const Frame& frame, const GlFramebuffer& target, Report& report);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace pcl_uvol

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes of reading a file, as far as its header tells.
+#pragma once
+
+#include "common/memory.h"
+#include <pcl_uvol/common/export.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief A cloud before it is read. */
+struct PCL_UVOL_EXPORTS CloudHeader {
+  std::uint64_t points = 0;
+  std::size_t point_step = 0; ///< bytes of a point of Dataset::cloud
+  MemoryNeed reading;         ///< of loadDataset; the cloud is kept
+};
+
+/** \brief What the header of a .pcd or .ply file promises. Nothing for
+ * other formats, whose size shows when they are read, and for files that cannot be
+ * read or hold less than they promise: reading says what is wrong with them. */
+PCL_UVOL_EXPORTS std::optional<CloudHeader>
+peekHeader(const std::string& path);
+
+} // namespace pcl_uvol

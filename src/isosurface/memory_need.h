@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How large isosurfaces will be, told by a thinned cloud, and the bytes of their
+// extraction.
+#pragma once
+
+#include "common/memory.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief About how large the isosurface of one isovalue is. */
+struct SurfaceSize {
+  double crossing = 0.0;  ///< samples next to it
+  double isopoints = 0.0; ///< edges across it
+};
+
+/** \brief The sizes of isosurfaces before they are extracted, from some samples at
+ * random: of N samples c N^(2/3) lie next to a surface. It assumes that the surface is
+ * resolved by the thinned cloud and that the field is smooth: of finer detail and of
+ * noise there is more.
+ * \param scale factors per axis
+ * \return one per isovalue; of size 0 where the field does not tell */
+PCL_UVOL_EXPORTS std::vector<SurfaceSize>
+estimateSurfaces(const CloudView& cloud,
+                 const std::string& field,
+                 const std::vector<double>& isovalues,
+                 const Eigen::Array3f& scale,
+                 unsigned threads);
+
+/** \brief The memory of IsosurfaceExtraction besides the cloud: 52 to 68 bytes per
+ * sample, and per isopoint 76 that remain, as many again while they are joined, and 40
+ * for their edges.
+ * \param surfaces one per isovalue */
+PCL_UVOL_EXPORTS MemoryNeed
+isosurfaceNeed(double samples, const std::vector<SurfaceSize>& surfaces);
+
+} // namespace pcl_uvol

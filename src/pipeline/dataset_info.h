@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a cloud holds: ranges, histograms, spacing, isovalues worth a look.
+#pragma once
+
+#include "common/scalar_field.h"
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Finite values of a scalar. */
+struct ValueStatistics {
+  std::uint64_t finite = 0, missing = 0;
+  double min = 0.0, max = 0.0, mean = 0.0;   ///< 0 if nothing is finite
+  std::array<std::uint64_t, 16> histogram{}; ///< equal bins from min to max
+  /** Quantiles 0.25, 0.5, 0.75 and 0.95 of the values strictly between min and max,
+   * without repetition: every one has samples on both sides. What -iso may start with.
+   */
+  std::vector<double> isovalues;
+};
+
+/** \brief Statistics of finite numbers; NaN and infinities count as missing. */
+PCL_UVOL_EXPORTS ValueStatistics
+describeValues(const std::vector<double>& values);
+
+/** \brief Values of a scalar field, one per point. */
+PCL_UVOL_EXPORTS std::vector<double>
+readFieldValues(const Dataset& dataset, const ScalarField& field);
+
+/** \brief Positions of a cloud. */
+struct PositionStatistics {
+  std::uint64_t non_finite = 0;
+  std::uint64_t duplicates = 0;           ///< points at a position that came before
+  std::array<double, 3> lower{}, upper{}; ///< with the origin added, 0 without points
+  /** Distance to the nearest other position: smallest, median, largest; 0 for fewer
+   * than two positions. */
+  double spacing_min = 0.0, spacing_median = 0.0, spacing_max = 0.0;
+  /** One sentence each: positions so far out that the others do not count them. */
+  std::vector<std::string> warnings;
+};
+
+/** \brief Bounds, duplicates and spacing; nothing but the count where no position is
+ * finite. */
+PCL_UVOL_EXPORTS PositionStatistics
+describePositions(const Dataset& dataset, unsigned threads);
+
+} // namespace pcl_uvol

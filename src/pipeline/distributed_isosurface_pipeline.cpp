@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "distributed/fetch_points.h"
+#include "isosurface/edge_ends.h"
+#include "pipeline/extract_from_ranks.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+using Isopoints = std::vector<std::vector<GlobalIsopoint>>;
+
+/** Refuses what needs samples of other processes. */
+void
+checkDistributed(const IsosurfacePipelineParameters& parameters)
+{
+  checkParameters(parameters);
+  if (parameters.automatic_scale)
+    throw InvalidArgument("An automatic scale is not offered for samples of several "
+                          "processes, as none sees them all: give three factors.");
+  if (parameters.smooth)
+    throw InvalidArgument(
+        "A level set is not offered for samples of several processes.");
+  if (parameters.normals != NormalMethod::Auto &&
+      parameters.normals != NormalMethod::Edge)
+    throw InvalidArgument("Isopoints of several processes have the normals of their "
+                          "fits, else of their edges; others are not offered.");
+}
+
+/** The isopoints of this process with the fields of the samples at their edges. */
+IsosurfaceResult
+finishIsopoints(const Isopoints& isopoints,
+                const Dataset& part,
+                std::uint64_t first_index,
+                const IsosurfacePipelineParameters& parameters,
+                Communicator& communicator,
+                unsigned threads,
+                Report&& report)
+{
+  EdgeEnds ends = findEdgeEnds(isopoints);
+  pcl::PointCloud<PointIso> points;
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    for (const GlobalIsopoint& isopoint : isopoints[i])
+      points.push_back(toPointIso(isopoint, parameters.isosurface.isovalues[i]));
+  Dataset samples = withoutCloud(part);
+  samples.cloud =
+      fetchPoints(part.cloud, first_index, ends.points, communicator, report);
+  return finishIsosurface(samples,
+                          std::move(points),
+                          std::move(ends.edges),
+                          parameters,
+                          threads,
+                          std::move(report));
+}
+
+} // namespace
+
+IsosurfaceResult
+DistributedIsosurfacePipeline::run()
+{
+  if (!part_)
+    throw InvalidArgument("DistributedIsosurfacePipeline has no input: call setInput.");
+  checkDistributed(parameters_);
+  startReport();
+  IsosurfacePipelineParameters parameters = parameters_;
+  parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
+  IsosurfaceParameters& isosurface = parameters.isosurface;
+  if (isosurface.field.empty())
+    isosurface.field = ScalarField::defaultName(part_->cloud.fields);
+  const CloudView view = viewOf(part_->cloud);
+  const ScalarField field(view.fields, isosurface.field);
+  const std::uint64_t first_index = findFirstIndex(view.count, communicator_);
+  const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
+  Isopoints isopoints =
+      extractFromRanks(readSamples(view, field, frame, first_index, threads_, report_),
+                       isosurface,
+                       frame,
+                       communicator_,
+                       threads_,
+                       report_);
+  if (is_gathered_)
+    isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
+  IsosurfaceResult result = finishIsopoints(isopoints,
+                                            *part_,
+                                            first_index,
+                                            parameters,
+                                            communicator_,
+                                            threads_,
+                                            std::move(report_));
+  report_ = result.report;
+  return result;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The memory of IsosurfacePipeline, from the samples to the surface with all fields.
+#pragma once
+
+#include "isosurface/memory_need.h"
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Add the memory of IsosurfacePipeline::run() to a forecast.
+ * \param points, point_step of the samples, which the forecast holds already
+ * \param surfaces see estimateSurfaces; fewer than isovalues, or none, where their
+ * sizes are not known */
+PCL_UVOL_EXPORTS void
+addMemoryNeed(const IsosurfacePipelineParameters& parameters,
+              double points,
+              double point_step,
+              std::vector<SurfaceSize> surfaces,
+              MemoryForecast& forecast);
+
+} // namespace pcl_uvol

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of a surface with their normals: what splats and pictures are made of.
+#pragma once
+
+#include "neighbors/sample_set.h"
+#include "surface/packed_normal.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Finite, distinct points in leaf order, each with a normal. */
+struct OrientedPoints {
+  SampleSet::ConstPtr samples;
+  std::vector<PackedNormal> normals; ///< per sample
+  /** Normals have no meaningful sign: back faces are as good as front faces. */
+  bool two_sided = false;
+};
+
+/** \brief Take points and normals from a cloud. Points with a non-finite coordinate or
+ * without a usable normal are left out and counted as "non_finite" and
+ * "without_normal", exact duplicates merged. A cloud that has no normals at all gets
+ * estimated ones, which have no meaningful sign, with a warning.
+ * \param use indices of the points to take
+ * \throws InvalidArgument if no point is left */
+PCL_UVOL_EXPORTS OrientedPoints
+orientPoints(const CloudView& cloud,
+             const std::vector<std::uint32_t>& use,
+             unsigned threads,
+             Report& report);
+
+} // namespace pcl_uvol

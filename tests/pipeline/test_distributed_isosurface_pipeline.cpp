@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline of several ranks gives what that of one process gives.
+#include "common/records.h"
+#include "support/clouds.h"
+#include "support/thread_ranks.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <mutex>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::DistributedIsosurfacePipeline;
+using pcl_uvol::InvalidArgument;
+using pcl_uvol::IsosurfacePipelineParameters;
+
+/** Samples from first to last. */
+std::shared_ptr<Dataset>
+takePart(const pcl::PointCloud<pcl::PointXYZI>& cloud,
+         std::size_t first,
+         std::size_t last)
+{
+  pcl::PointCloud<pcl::PointXYZI> part;
+  for (std::size_t i = first; i < last; ++i)
+    part.push_back(cloud[i]);
+  auto dataset = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(part, dataset->cloud);
+  return dataset;
+}
+
+IsosurfacePipelineParameters
+makeParameters()
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "intensity";
+  parameters.isosurface.isovalues = {0.4, 0.5};
+  return parameters;
+}
+
+TEST(DistributedIsosurfacePipeline, GathersTheSurfaceOfOneProcess)
+{
+  const auto cloud = uvol_test::makeCloud("uniform", 3000, 4);
+  IsosurfacePipelineParameters alone = makeParameters();
+  alone.normals = pcl_uvol::NormalMethod::Edge;
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(takePart(*cloud, 0, cloud->size()));
+  pipeline.setParameters(alone);
+  const auto expected = pipeline.run();
+  ASSERT_GT(expected.surface.cloud.width, 100u);
+
+  for (const std::size_t ranks : {1u, 3u}) {
+    std::mutex mutex;
+    std::size_t isopoints = 0;
+    uvol_test::runRanks(ranks, [&](pcl_uvol::Communicator& communicator) {
+      const std::size_t rank = communicator.rank(), size = cloud->size();
+      DistributedIsosurfacePipeline distributed(communicator);
+      distributed.setInput(
+          takePart(*cloud, rank * size / ranks, (rank + 1) * size / ranks));
+      distributed.setParameters(makeParameters());
+      distributed.setGathered(true);
+      const auto found = distributed.run();
+      distributed.setGathered(false);
+      const auto part = distributed.run();
+      const std::lock_guard lock(mutex);
+      isopoints += part.surface.cloud.width;
+      if (rank == 0)
+        EXPECT_EQ(found.surface.cloud.data, expected.surface.cloud.data);
+      else
+        EXPECT_EQ(found.surface.cloud.width, 0u);
+    });
+    EXPECT_EQ(isopoints, expected.surface.cloud.width) << ranks;
+  }
+}
+
+TEST(DistributedIsosurfacePipeline, RefusesWhatNeedsAllSamples)
+{
+  const auto cloud = uvol_test::makeCloud("uniform", 300, 4);
+  uvol_test::runRanks(1, [&](pcl_uvol::Communicator& communicator) {
+    DistributedIsosurfacePipeline pipeline(communicator);
+    EXPECT_THROW(pipeline.run(), InvalidArgument); // no input
+    pipeline.setInput(takePart(*cloud, 0, cloud->size()));
+    for (int what = 0; what < 3; ++what) {
+      IsosurfacePipelineParameters parameters = makeParameters();
+      parameters.automatic_scale = what == 0;
+      parameters.smooth = what == 1;
+      if (what == 2)
+        parameters.normals = pcl_uvol::NormalMethod::Pca;
+      pipeline.setParameters(parameters);
+      EXPECT_THROW(pipeline.run(), InvalidArgument) << what;
+    }
+  });
+}
+
+} // namespace

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "charts/drawing.h"
+
+#include "io/vtk_messages.h"
+
+#include <vtkFreeTypeTools.h>
+#include <vtkImageData.h>
+#include <vtkStdString.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace uvol_tools {
+
+using pcl_uvol::Image;
+
+void
+blend(Image& image, int column, int row, const Ink& ink, double opacity)
+{
+  if (column < 0 || row < 0 || column >= static_cast<int>(image.width) ||
+      row >= static_cast<int>(image.height))
+    return;
+  std::uint8_t* const pixel =
+      &image.color[4 * (static_cast<std::size_t>(row) * image.width +
+                        static_cast<std::size_t>(column))];
+  const double below = pixel[3] / 255.0 * (1.0 - opacity), sum = opacity + below;
+  if (sum <= 0.0)
+    return;
+  for (int k = 0; k < 3; ++k)
+    pixel[k] = static_cast<std::uint8_t>(std::lround(
+        (ink[static_cast<std::size_t>(k)] * opacity + pixel[k] * below) / sum));
+  pixel[3] = static_cast<std::uint8_t>(std::lround(255.0 * sum));
+}
+
+void
+writeText(Image& image,
+          const std::string& text,
+          int size,
+          int column,
+          int row,
+          TextAnchor anchor,
+          const Ink& ink)
+{
+  vtkNew<vtkTextProperty> font;
+  font->SetFontSize(size);
+  font->SetFontFamilyToArial();
+  font->SetColor(1.0, 1.0, 1.0);
+  vtkNew<vtkImageData> letters;
+  int extent[2];
+  constexpr int dpi = 72;
+  const pcl_uvol::io::VtkMessages messages;
+  if (!vtkFreeTypeTools::GetInstance()->RenderString(
+          font, vtkStdString(text), dpi, letters, extent))
+    return;
+  const int left = column - (anchor == TextAnchor::Left     ? 0
+                             : anchor == TextAnchor::Center ? extent[0] / 2
+                                                            : extent[0]);
+  for (int y = 0; y < extent[1]; ++y)
+    for (int x = 0; x < extent[0]; ++x) {
+      const auto* const letter =
+          static_cast<const std::uint8_t*>(letters->GetScalarPointer(x, y, 0));
+      blend(image, left + x, row + extent[1] / 2 - y, ink, letter[3] / 255.0);
+    }
+}
+
+void
+drawLine(Image& image,
+         double x0,
+         double y0,
+         double x1,
+         double y1,
+         double width,
+         const Ink& ink)
+{
+  const double dx = x1 - x0, dy = y1 - y0, sq_length = dx * dx + dy * dy;
+  const double border = 0.5 * width + 1.0;
+  const int left = static_cast<int>(std::floor(std::min(x0, x1) - border)),
+            right = static_cast<int>(std::ceil(std::max(x0, x1) + border)),
+            top = static_cast<int>(std::floor(std::min(y0, y1) - border)),
+            bottom = static_cast<int>(std::ceil(std::max(y0, y1) + border));
+  for (int row = top; row <= bottom; ++row)
+    for (int column = left; column <= right; ++column) {
+      const double along =
+          sq_length > 0.0
+              ? std::clamp(((column - x0) * dx + (row - y0) * dy) / sq_length, 0.0, 1.0)
+              : 0.0;
+      const double distance =
+          std::hypot(column - x0 - along * dx, row - y0 - along * dy);
+      const double opacity = std::clamp(0.5 * width + 0.5 - distance, 0.0, 1.0);
+      if (opacity > 0.0)
+        blend(image, column, row, ink, opacity);
+    }
+}
+
+std::string
+shortNumber(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::vector<double>
+roundValues(double low, double high)
+{
+  if (!(high > low))
+    return {low};
+  constexpr double wanted = 5.0;
+  const double rough = (high - low) / wanted;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double part = rough / power;
+  const double step = power * (part > 5.0   ? 10.0
+                               : part > 2.0 ? 5.0
+                               : part > 1.0 ? 2.0
+                                            : 1.0);
+  std::vector<double> values;
+  for (double i = std::ceil(low / step); i * step <= high + 1e-9 * step; ++i)
+    values.push_back(i * step);
+  return values;
+}
+
+} // namespace uvol_tools

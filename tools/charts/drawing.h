@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Letters and lines over the pixels of an image.
+#pragma once
+
+#include <pcl_uvol/render/image.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+using Ink = std::array<std::uint8_t, 3>;
+
+/** \brief Lay a color over a pixel; nothing outside the image. */
+void
+blend(pcl_uvol::Image& image, int column, int row, const Ink& ink, double opacity);
+
+enum class TextAnchor { Left, Center, Right };
+
+/** \brief Write a line of text around a row.
+ * \param size of the font, pixels
+ * \param column of the anchor */
+void
+writeText(pcl_uvol::Image& image,
+          const std::string& text,
+          int size,
+          int column,
+          int row,
+          TextAnchor anchor,
+          const Ink& ink);
+
+/** \brief A straight line with soft edges; coordinates of pixel centres are whole. */
+void
+drawLine(pcl_uvol::Image& image,
+         double x0,
+         double y0,
+         double x1,
+         double y1,
+         double width,
+         const Ink& ink);
+
+/** \brief At most four digits. */
+std::string
+shortNumber(double value);
+
+/** \brief Round values within a range, some five of them. */
+std::vector<double>
+roundValues(double low, double high);
+
+} // namespace uvol_tools

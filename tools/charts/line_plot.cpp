@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "charts/line_plot.h"
+
+#include "charts/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace uvol_tools {
+
+using pcl_uvol::Image;
+
+namespace {
+
+constexpr std::uint32_t width = 720, height = 440;
+constexpr int left = 70, right = 700, top = 20, bottom = 390, font = 14;
+constexpr double line_width = 2.0;
+
+constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
+constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
+
+bool
+isDrawn(double value)
+{
+  return value > 0.0 && std::isfinite(value);
+}
+
+/** Whole powers of ten around all values. */
+struct Decades {
+  int low, high;
+};
+
+Decades
+decadesOf(const std::vector<PlotLine>& lines)
+{
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  for (const PlotLine& line : lines)
+    for (const double value : line.values)
+      if (isDrawn(value)) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+  if (high == 0.0)
+    return {-1, 0};
+  const auto from = static_cast<int>(std::floor(std::log10(low)));
+  return {from, std::max(from + 1, static_cast<int>(std::ceil(std::log10(high))))};
+}
+
+} // namespace
+
+Image
+drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
+{
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.color.assign(std::size_t{4} * width * height, 255);
+
+  std::size_t count = 2;
+  for (const PlotLine& line : lines)
+    count = std::max(count, line.values.size());
+  const auto x = [&](double i) {
+    return left + (right - left) * (i - 1.0) / (static_cast<double>(count) - 1.0);
+  };
+  const Decades decades = decadesOf(lines);
+  const auto y = [&](double value) {
+    return bottom + (top - bottom) * (std::log10(value) - decades.low) /
+                        (decades.high - decades.low);
+  };
+
+  for (int power = decades.low; power <= decades.high; ++power) {
+    const double row = y(std::pow(10.0, power));
+    drawLine(image, left, row, right, row, 1.0, gray);
+    writeText(image,
+              shortNumber(std::pow(10.0, power)),
+              font,
+              left - font / 2,
+              static_cast<int>(std::lround(row)),
+              TextAnchor::Right,
+              black);
+  }
+  for (const double i : roundValues(1.0, static_cast<double>(count))) {
+    drawLine(image, x(i), bottom, x(i), bottom + font / 2, 1.0, black);
+    writeText(image,
+              shortNumber(i),
+              font,
+              static_cast<int>(std::lround(x(i))),
+              bottom + font * 5 / 4,
+              TextAnchor::Center,
+              black);
+  }
+  drawLine(image, left, bottom, right, bottom, 1.0, black);
+  drawLine(image, left, top, left, bottom, 1.0, black);
+  writeText(image,
+            abscissa,
+            font,
+            (left + right) / 2,
+            bottom + font * 5 / 2,
+            TextAnchor::Center,
+            black);
+
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Ink& ink = inks[k % std::size(inks)];
+    const std::vector<double>& values = lines[k].values;
+    for (std::size_t i = 1; i < values.size(); ++i)
+      if (isDrawn(values[i - 1]) && isDrawn(values[i]))
+        drawLine(image,
+                 x(static_cast<double>(i)),
+                 y(values[i - 1]),
+                 x(static_cast<double>(i + 1)),
+                 y(values[i]),
+                 line_width,
+                 ink);
+    const int row = top + font + static_cast<int>(k) * font * 3 / 2;
+    drawLine(image, right - 2 * font, row, right, row, line_width, ink);
+    writeText(
+        image, lines[k].name, font, right - 3 * font, row, TextAnchor::Right, black);
+  }
+  return image;
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/isosurface_options.h"
+
+#include "shared/scale_option.h"
+
+namespace uvol_tools {
+
+IsosurfaceOptions::IsosurfaceOptions()
+{
+  parameters.isosurface.field.clear(); // intensity, else the only candidate
+}
+
+void
+IsosurfaceOptions::declareSamples(Options& options, bool automatic)
+{
+  options.numbers(
+      "iso", "v,...", 0, parameters.isosurface.isovalues, "isovalues (required)");
+  options.text("field",
+               "name",
+               parameters.isosurface.field,
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
+               "else the only candidate)");
+  options.text("where",
+               "expr",
+               where,
+               "use only the points for which it holds: \"experiment=1 && T>4\"");
+  options.text("scale",
+               automatic ? "sx,sy,sz|auto" : "sx,sy,sz",
+               scale_,
+               std::string("measure distances in a stretched space") +
+                   (automatic ? "; auto: equal spread per axis" : ""));
+  options.numbers("xyz",
+                  "ix,iy,iz",
+                  3,
+                  xyz_,
+                  "columns of a text file that hold the coordinates, from 0");
+  options.choice("outside",
+                 parameters.isosurface.outside,
+                 "the side normals point to: where values are lower or higher");
+}
+
+void
+IsosurfaceOptions::declareMethod(Options& options)
+{
+  options.choice("criterion",
+                 parameters.isosurface.criterion,
+                 "angle criterion against kept or against all closer candidates");
+  options.choice("interpolation",
+                 parameters.isosurface.interpolation,
+                 "isopoints on local polynomial fits, or along the edges");
+}
+
+void
+IsosurfaceOptions::finish()
+{
+  if (parameters.isosurface.isovalues.empty())
+    throw UsageError(
+        "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
+  const ScaleOption scale(scale_);
+  parameters.automatic_scale = scale.isAutomatic();
+  parameters.isosurface.scale = scale.getFactors();
+}
+
+pcl_uvol::LoadOptions
+IsosurfaceOptions::makeLoadOptions() const
+{
+  pcl_uvol::LoadOptions options;
+  for (std::size_t i = 0; i < xyz_.size(); ++i) {
+    options.xyz_columns[i] = static_cast<int>(xyz_[i]);
+    if (options.xyz_columns[i] < 0 || options.xyz_columns[i] != xyz_[i])
+      throw UsageError("-xyz takes three column numbers from 0.");
+  }
+  return options;
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an isosurface is extracted from, and how: options of the tools that do.
+#pragma once
+
+#include "shared/options.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Options that fill the parameters of the pipeline. */
+struct IsosurfaceOptions {
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  std::string where;
+
+  IsosurfaceOptions();
+
+  /** \brief -iso, -field, -where, -scale, -xyz, -outside.
+   * \param automatic -scale takes auto */
+  void
+  declareSamples(Options& options, bool automatic = true);
+
+  /** \brief -criterion, -interpolation. */
+  void
+  declareMethod(Options& options);
+
+  /** \brief Complete the parameters by what has been parsed.
+   * \throws UsageError without an isovalue, and for a scale that is none */
+  void
+  finish();
+
+  /** \throws UsageError for columns that are none */
+  pcl_uvol::LoadOptions
+  makeLoadOptions() const;
+
+private:
+  std::string scale_;
+  std::vector<double> xyz_;
+};
+
+/** \brief Numbers between commas. */
+template <typename T>
+std::string
+joined(const T& numbers)
+{
+  std::ostringstream text;
+  for (const auto& number : numbers)
+    text << (text.tellp() > 0 ? "," : "") << number;
+  return text.str();
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/memory_guard.h"
+
+#include "io/memory_need.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+namespace uvol_tools {
+
+namespace {
+
+/** Pages that are touched after the start, code and tables of libraries most of all
+ * (measured on runs with a thousand points). */
+constexpr double later_bytes = 2e6;
+
+} // namespace
+
+MemoryGuard::MemoryGuard(std::string task)
+    : task_(std::move(task))
+    , base_(static_cast<double>(pcl_uvol::residentMemory()) + later_bytes)
+{
+}
+
+void
+MemoryGuard::checkFile(const std::string& path, const Work& work)
+{
+  const auto cloud = pcl_uvol::peekHeader(path);
+  if (!cloud)
+    return;
+  const auto points = static_cast<double>(cloud->points);
+  pcl_uvol::MemoryForecast forecast(base_);
+  forecast.run(cloud->reading);
+  if (work)
+    work(points, static_cast<double>(cloud->point_step), forecast);
+  forecast_ = forecast.getPeak();
+  check(points);
+}
+
+void
+MemoryGuard::checkCloud(const pcl_uvol::Dataset& dataset, const Work& work)
+{
+  const auto points = static_cast<double>(dataset.cloud.width) *
+                      static_cast<double>(dataset.cloud.height);
+  const auto step = static_cast<double>(dataset.cloud.point_step);
+  pcl_uvol::MemoryForecast forecast(base_);
+  // Rows that were left out leave their room.
+  forecast.hold(static_cast<double>(dataset.cloud.data.capacity()));
+  work(points, step, forecast);
+  // What reading took is known by now.
+  forecast_ = std::max(forecast.getPeak(), static_cast<double>(pcl_uvol::peakMemory()));
+  check(points);
+}
+
+Fact
+MemoryGuard::describe() const
+{
+  const auto peak = static_cast<double>(pcl_uvol::peakMemory());
+  return {"memory",
+          "forecast " + pcl_uvol::formatBytes(forecast_) + ", peak " +
+              pcl_uvol::formatBytes(peak),
+          Fact::Members{{"forecast", {std::round(forecast_)}}, {"peak", {peak}}}};
+}
+
+void
+MemoryGuard::check(double points) const
+{
+  std::ostringstream subject;
+  subject << task_ << " of " << static_cast<std::uint64_t>(points) << " points";
+  pcl_uvol::checkMemory(
+      subject.str(), forecast_, static_cast<double>(pcl_uvol::residentMemory()));
+}
+
+} // namespace uvol_tools

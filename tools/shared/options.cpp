@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parsing of one-dash options against a tool's table, and -h.
+#include "shared/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace uvol_tools {
+
+namespace {
+
+std::string named_file; // a tool has one command line
+
+/** The whole text as a number; false for anything else, such as 1.5m or nothing. */
+template <typename T>
+bool
+parseWhole(const std::string& text, T& value)
+{
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, value);
+  return parsed.ec == std::errc() && parsed.ptr == end;
+}
+
+double
+parseNumber(const std::string& option, const std::string& text)
+{
+  double value = 0.0;
+  if (!parseWhole(text, value) || !std::isfinite(value))
+    throw UsageError("-" + option + " takes numbers, and '" + text + "' is none.");
+  return value;
+}
+
+/** True for a value that may start with a minus sign: -0.5 or -1,0,2. */
+bool
+startsWithNumber(const std::string& text)
+{
+  double ignored;
+  const std::string first = text.substr(0, text.find(','));
+  return parseWhole(first, ignored);
+}
+
+std::string
+joined(const std::vector<std::string>& words, const char* separator)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+std::string
+shortest(double value)
+{
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/** Number of single-character edits from one word to another (Levenshtein). */
+std::size_t
+editDistance(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::uint64_t
+parseWholeIn(const std::string& name,
+             const std::string& value,
+             std::uint64_t minimum,
+             std::uint64_t maximum)
+{
+  std::uint64_t number = 0;
+  if (!parseWhole(value, number) || number < minimum || number > maximum)
+    throw UsageError("-" + name + " is a whole number from " + std::to_string(minimum) +
+                     " to " + std::to_string(maximum) + ", not '" + value + "'.");
+  return number;
+}
+
+} // namespace
+
+std::vector<double>
+parseNumbers(const std::string& option, const std::string& value, std::size_t count)
+{
+  std::vector<double> numbers;
+  for (std::size_t start = 0; start <= value.size();) {
+    const std::size_t end = std::min(value.find(',', start), value.size());
+    numbers.push_back(parseNumber(option, value.substr(start, end - start)));
+    start = end + 1;
+  }
+  if (count != 0 && numbers.size() != count)
+    throw UsageError("-" + option + " takes " + std::to_string(count) +
+                     " numbers joined by commas, and '" + value + "' has " +
+                     std::to_string(numbers.size()) + ".");
+  return numbers;
+}
+
+Options::Options(std::string tool, std::string synopsis, std::string purpose)
+    : tool_(std::move(tool))
+    , synopsis_(std::move(synopsis))
+    , purpose_(std::move(purpose))
+{
+  integer("threads", threads_, 0, 4096, "number of threads, 0 for all cores");
+  flag("v", verbose_, "tell all counts and the time of every step");
+  flag("json", json_, "print the report as one JSON object");
+}
+
+void
+Options::file(const std::string& name, std::string& target, bool required)
+{
+  positionals_.push_back({name, &target, required});
+}
+
+void
+Options::files(const std::string& name, std::vector<std::string>& targets)
+{
+  positionals_.push_back({name, nullptr, true, &targets});
+}
+
+void
+Options::flag(const std::string& name,
+              bool& target,
+              const std::string& help,
+              bool value)
+{
+  options_.push_back({name, "", help, {}, &target, value});
+}
+
+void
+Options::text(const std::string& name,
+              const std::string& placeholder,
+              std::string& target,
+              const std::string& help)
+{
+  options_.push_back({name, placeholder, help, [&target](const std::string& value) {
+                        target = value;
+                      }});
+}
+
+void
+Options::output(const std::string& name,
+                const std::string& placeholder,
+                std::string& target,
+                const std::string& help)
+{
+  text(name, placeholder, target, help);
+  options_.back().written = &target;
+}
+
+void
+Options::choice(const std::string& name,
+                const std::vector<std::string>& words,
+                std::string& target,
+                const std::string& help)
+{
+  choice(name, words, words, target, help, [&target](const std::string& word) {
+    target = word;
+  });
+}
+
+void
+Options::choice(const std::string& name,
+                const std::vector<std::string>& shown,
+                const std::vector<std::string>& allowed,
+                const std::string& default_word,
+                const std::string& help,
+                const std::function<void(const std::string&)>& assign)
+{
+  const auto check = [name, shown, allowed, assign](const std::string& value) {
+    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+      throw UsageError("-" + name + " is " + joined(shown, " or ") + ", not '" + value +
+                       "'.");
+    assign(value);
+  };
+  options_.push_back(
+      {name,
+       joined(shown, "|"),
+       default_word.empty() ? help : help + " (default " + default_word + ")",
+       check});
+}
+
+void
+Options::number(const std::string& name,
+                double& target,
+                double minimum,
+                double maximum,
+                const std::string& help)
+{
+  const auto assign = [name, minimum, maximum, &target](const std::string& value) {
+    const double number = parseNumber(name, value);
+    if (number < minimum || number > maximum)
+      throw UsageError("-" + name + " is from " + shortest(minimum) + " to " +
+                       shortest(maximum) + ", not " + value + ".");
+    target = number;
+  };
+  options_.push_back({name,
+                      "number",
+                      target >= minimum && std::isfinite(target)
+                          ? help + " (default " + shortest(target) + ")"
+                          : help,
+                      assign});
+}
+
+void
+Options::integer(const std::string& name,
+                 std::uint64_t& target,
+                 std::uint64_t minimum,
+                 std::uint64_t maximum,
+                 const std::string& help)
+{
+  const auto assign = [name, minimum, maximum, &target](const std::string& value) {
+    target = parseWholeIn(name, value, minimum, maximum);
+  };
+  options_.push_back(
+      {name,
+       "n",
+       target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
+       assign});
+}
+
+void
+Options::integer(const std::string& name,
+                 int& target,
+                 int minimum,
+                 int maximum,
+                 const std::string& help)
+{
+  const auto assign = [name, minimum, maximum, &target](const std::string& value) {
+    target = static_cast<int>(parseWholeIn(name,
+                                           value,
+                                           static_cast<std::uint64_t>(minimum),
+                                           static_cast<std::uint64_t>(maximum)));
+  };
+  options_.push_back(
+      {name,
+       "n",
+       target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
+       assign});
+}
+
+void
+Options::numbers(const std::string& name,
+                 const std::string& placeholder,
+                 std::size_t count,
+                 std::vector<double>& target,
+                 const std::string& help)
+{
+  const auto assign = [name, count, &target](const std::string& value) {
+    target = parseNumbers(name, value, count);
+  };
+  options_.push_back({name, placeholder, help, assign});
+}
+
+bool
+Options::given(const std::string& name) const
+{
+  return std::any_of(options_.begin(), options_.end(), [&](const Option& option) {
+    return option.name == name && option.given;
+  });
+}
+
+Options::Option&
+Options::find(const std::string& argument)
+{
+  const std::string name = argument.substr(1);
+  const auto found =
+      std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
+        return option.name == name;
+      });
+  if (found != options_.end())
+    return *found;
+  const auto nearest = std::min_element(
+      options_.begin(), options_.end(), [&](const Option& a, const Option& b) {
+        return editDistance(a.name, name) < editDistance(b.name, name);
+      });
+  const bool similar = editDistance(nearest->name, name) <= 1 + name.size() / 4;
+  throw UsageError("There is no option " + argument +
+                   (similar ? "; did you mean -" + nearest->name + "?" : "."));
+}
+
+bool
+Options::parse(int argc, const char* const* argv)
+{
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (const std::string& argument : arguments) {
+    if (argument == "-h" || argument == "--help" || argument == "-help") {
+      printHelp();
+      return false;
+    }
+    if (argument == "-version" || argument == "--version") {
+      std::cout << tool_ << " of pcl_uvol " << PCL_UVOL_VERSION << '\n';
+      return false;
+    }
+  }
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument.size() < 2 || argument[0] != '-' || startsWithNumber(argument)) {
+      if (files.size() == positionals_.size() && !positionals_[0].targets)
+        throw UsageError("The argument '" + argument + "' is one too many.");
+      files.push_back(argument);
+      continue;
+    }
+    Option& option = find(argument);
+    if (option.given)
+      throw UsageError("The option " + argument + " was given twice.");
+    option.given = true;
+    if (option.flag != nullptr) {
+      *option.flag = option.flag_value;
+      continue;
+    }
+    const bool has_value = i + 1 < arguments.size() &&
+                           (arguments[i + 1].empty() || arguments[i + 1][0] != '-' ||
+                            startsWithNumber(arguments[i + 1]));
+    if (!has_value)
+      throw UsageError("The option " + argument +
+                       " needs a value: " + option.placeholder + ".");
+    option.assign(arguments[++i]);
+  }
+  assignFiles(files);
+  named_file = files.empty() ? std::string() : files.front();
+  checkFiles(files);
+  return true;
+}
+
+void
+Options::checkFiles(const std::vector<std::string>& files) const
+{
+  std::vector<std::string> inputs = files, outputs;
+  const std::size_t last = std::min(files.size(), positionals_.size());
+  if (last > 0 && positionals_[last - 1].name == "out") {
+    outputs.push_back(files.back());
+    inputs.pop_back();
+  }
+  for (const Option& option : options_)
+    if (option.given && option.written)
+      outputs.push_back(*option.written);
+  checkDistinct(inputs, outputs);
+}
+
+void
+Options::assignFiles(const std::vector<std::string>& files) const
+{
+  for (std::size_t i = files.size(); i < positionals_.size(); ++i)
+    if (positionals_[i].required)
+      throw UsageError("The argument <" + positionals_[i].name +
+                       "> is missing: " + tool_ + " " + synopsis_);
+  auto next = files.begin();
+  for (std::size_t i = 0; i < positionals_.size() && next != files.end(); ++i)
+    if (positionals_[i].targets != nullptr) {
+      const auto last = files.end() - static_cast<int>(positionals_.size() - i - 1);
+      positionals_[i].targets->assign(next, last);
+      next = last;
+    }
+    else
+      *positionals_[i].target = *next++;
+}
+
+void
+Options::printHelp() const
+{
+  constexpr std::size_t help_column = 28;
+  std::cout << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_
+            << "\n\nOptions:\n";
+  const auto print = [](const std::string& left, const std::string& help) {
+    std::cout << "  " << left
+              << std::string(left.size() < help_column ? help_column - left.size() : 2,
+                             ' ')
+              << help << '\n';
+  };
+  // The options of this tool first, those of every tool last.
+  for (std::size_t i = 2; i < options_.size() + 2; ++i) {
+    const Option& option = options_[i % options_.size()];
+    print("-" + option.name +
+              (option.placeholder.empty() ? "" : " " + option.placeholder),
+          option.help);
+  }
+  print("-h", "print this");
+  print("-version", "print the version");
+}
+
+const std::string&
+namedFile()
+{
+  return named_file;
+}
+
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text)
+{
+  static const std::string units = "KMGT";
+  std::string digits = text;
+  double factor = 1.0;
+  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+  if (unit != std::string::npos) {
+    digits.pop_back();
+    factor = std::pow(1000.0, static_cast<double>(unit + 1));
+  }
+  const double bytes = digits.empty() ? 0.0 : parseNumber(option, digits) * factor;
+  if (!(bytes >= 1.0 && bytes < 1e18))
+    throw UsageError("-" + option +
+                     " takes a number of bytes, as in 1500M or 2G, and '" + text +
+                     "' is none.");
+  return static_cast<std::uint64_t>(bytes);
+}
+
+} // namespace uvol_tools

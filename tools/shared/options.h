@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One table of options per tool, in PCL's manner (one dash, positional files), strict:
+// an unknown option, a missing or malformed value and a leftover argument are errors.
+#pragma once
+
+#include "shared/facts.h"
+#include <pcl_uvol/common/parameters.h>
+#include <pcl_uvol/common/report.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief A wrong command line: exit code 2. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief The options of a tool. Targets keep their value (the default) where the
+ * option is absent. -h, -version, -threads and -json are in every table. */
+class Options {
+public:
+  /** \param synopsis what stands behind the tool's name: "in.pcd out.ply [options]"
+   * \param purpose one or two sentences for -h */
+  Options(std::string tool, std::string synopsis, std::string purpose);
+
+  /** \brief Positional arguments, in this order; optional ones last. The last one is
+   * written if it is called "out", the others are read. */
+  void
+  file(const std::string& name, std::string& target, bool required = true);
+  /** \brief One or more of them, before all others. */
+  void
+  files(const std::string& name, std::vector<std::string>& targets);
+
+  /** \param value that the target gets where the option is given */
+  void
+  flag(const std::string& name,
+       bool& target,
+       const std::string& help,
+       bool value = true);
+  void
+  text(const std::string& name,
+       const std::string& placeholder,
+       std::string& target,
+       const std::string& help);
+  /** \brief A file to be written. */
+  void
+  output(const std::string& name,
+         const std::string& placeholder,
+         std::string& target,
+         const std::string& help);
+  /** \brief One of several words. */
+  void
+  choice(const std::string& name,
+         const std::vector<std::string>& words,
+         std::string& target,
+         const std::string& help);
+  /** \brief One of the words of an enumeration, see EnumWord. */
+  template <typename Enum>
+  void
+  choice(const std::string& name, Enum& target, const std::string& help)
+  {
+    std::vector<std::string> shown, all;
+    for (const auto& [value, word] : listWords(Enum())) {
+      all.emplace_back(word);
+      if (word == std::string(toWord(value)))
+        shown.emplace_back(word);
+    }
+    choice(name, shown, all, toWord(target), help, [&target](const std::string& word) {
+      fromWord(word, target);
+    });
+  }
+  /** \brief A finite number in [minimum, maximum]; a default that cannot be
+   * given is not shown. */
+  void
+  number(const std::string& name,
+         double& target,
+         double minimum,
+         double maximum,
+         const std::string& help);
+  void
+  integer(const std::string& name,
+          std::uint64_t& target,
+          std::uint64_t minimum,
+          std::uint64_t maximum,
+          const std::string& help);
+  /** \brief The same for numbers from 0 that are of type int. */
+  void
+  integer(const std::string& name,
+          int& target,
+          int minimum,
+          int maximum,
+          const std::string& help);
+  /** \brief Finite numbers joined by commas; count 0 takes one or more. */
+  void
+  numbers(const std::string& name,
+          const std::string& placeholder,
+          std::size_t count,
+          std::vector<double>& target,
+          const std::string& help);
+
+  /** \brief Parse; -h and -version print and return false (the tool then returns 0).
+   * \throws UsageError, also where a file would be read and written, or written twice
+   */
+  bool
+  parse(int argc, const char* const* argv);
+
+  /** \brief True if the option was given. */
+  bool
+  given(const std::string& name) const;
+
+  /** \brief Value of -threads: 0 = all cores. */
+  unsigned
+  threads() const
+  {
+    return static_cast<unsigned>(threads_);
+  }
+  bool
+  verbose() const
+  {
+    return verbose_;
+  }
+
+  bool
+  json() const
+  {
+    return json_;
+  }
+
+private:
+  struct Option {
+    std::string name, placeholder, help;
+    std::function<void(const std::string&)> assign; // empty for flags
+    bool* flag = nullptr;
+    bool flag_value = true;
+    bool given = false;
+    const std::string* written = nullptr; // the target that names a file to be written
+  };
+  struct Positional {
+    std::string name;
+    std::string* target;
+    bool required;
+    std::vector<std::string>* targets = nullptr; // of one that takes several
+  };
+
+  /** \param shown words in the help
+   * \param allowed those and other words for the same */
+  void
+  choice(const std::string& name,
+         const std::vector<std::string>& shown,
+         const std::vector<std::string>& allowed,
+         const std::string& default_word,
+         const std::string& help,
+         const std::function<void(const std::string&)>& assign);
+
+  Option&
+  find(const std::string& argument);
+
+  void
+  assignFiles(const std::vector<std::string>& files) const;
+
+  void
+  checkFiles(const std::vector<std::string>& files) const;
+
+  void
+  printHelp() const;
+
+  std::string tool_, synopsis_, purpose_;
+  std::vector<Option> options_;
+  std::vector<Positional> positionals_;
+  std::uint64_t threads_ = 0;
+  bool json_ = false, verbose_ = false;
+};
+
+/** \brief No file may be read and written, or written twice, by whatever names: links
+ * and ways to a folder are followed.
+ * \throws UsageError that names the file */
+void
+checkDistinct(const std::vector<std::string>& inputs,
+              const std::vector<std::string>& outputs);
+
+/** \brief Finite numbers joined by commas, as an option's value; count 0 takes one or
+ * more.
+ * \throws UsageError that names the option */
+std::vector<double>
+parseNumbers(const std::string& option, const std::string& value, std::size_t count);
+
+/** \brief Print facts, what was counted, and warnings: PCL's colours on a terminal,
+ * plain in a pipe. With -v all counts and times; with -json one JSON object (keys:
+ * those of the facts, counts, milliseconds, warnings).
+ * \param plain no colours: what looks like a terminal need not be one */
+void
+printReport(const Options& options,
+            const pcl_uvol::Report& report,
+            const Facts& facts = {},
+            bool plain = false);
+
+/** \brief The first file of the command line that was parsed, for sentences that name
+ * none. */
+const std::string&
+namedFile();
+
+/** \brief How a tool's body ended. */
+struct Outcome {
+  int exit_code = 0;
+  std::string sentence; ///< why it failed
+};
+
+/** \brief Run a tool's body: its exit code, or 1 for a failure, or 2 for a UsageError.
+ * Signals that would kill a writer (SIGXFSZ, SIGPIPE) become write errors. */
+Outcome
+catchErrors(const char* tool, const std::function<int()>& body);
+
+/** \brief Run a tool's body: 0, or 1 with one sentence on stderr for a failure, or 2
+ * for a UsageError. */
+int
+runTool(const char* tool, const std::function<int()>& body);
+
+/** \brief A number of bytes: digits, and K, M, G or T for powers of 1000.
+ * \throws UsageError that names the option */
+std::uint64_t
+parseBytes(const std::string& option, const std::string& text);
+
+} // namespace uvol_tools

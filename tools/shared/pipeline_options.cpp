@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/pipeline_options.h"
+
+#include "shared/level_set.h"
+#include "shared/memory_guard.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/neighbors/voronoi_grid.h>
+
+#include <filesystem>
+
+namespace uvol_tools {
+
+using pcl_uvol::NeighborSource;
+
+void
+PipelineOptions::declare(Options& options)
+{
+  options.file("in", input);
+  options.file("out", output);
+  declareSamples(options);
+  options.choice("neighbors",
+                 parameters.isosurface.neighbors,
+                 "candidates from touching cells of the tree, or from adjacent regions "
+                 "of a discrete Voronoi diagram: slower");
+  options.integer(
+      "grid",
+      grid_,
+      1,
+      pcl_uvol::GridShape::largest_side,
+      "cells of -neighbors voronoi along the longest side (default: 4 samples "
+      "to a cell)");
+  declareMethod(options);
+  options.flag("smooth",
+               parameters.smooth,
+               "smooth noisy or uneven samples by a level set first");
+  options.text("mu",
+               "m|auto",
+               mu_,
+               "with -smooth: weight of the data against smoothness, 0 to 1; auto: by "
+               "the noise");
+  options.integer("steps", steps_, 1, 1000000, "with -smooth: time steps at most");
+  options.choice("normals",
+                 parameters.normals,
+                 "of the fits, by principal components of the isopoints, or along the "
+                 "edges; auto: fit with fits, pca with linear interpolation");
+  options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to");
+  options.number("max-error",
+                 max_error_,
+                 0.0,
+                 std::numeric_limits<double>::max(),
+                 "leave out isopoints of a larger estimated error, in units of length");
+  options.flag("drop-bridged",
+               parameters.drop_bridged,
+               "leave out isopoints in gaps of the sampling");
+  options.text("max-memory",
+               "bytes",
+               max_memory_,
+               "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
+               "ply and text that are not compressed");
+  options.text("scratch",
+               "folder",
+               scratch_,
+               "with -max-memory: where they wait, 24 bytes each (default: beside the "
+               "output)");
+  options.flag("ascii", ascii, "write PCD and PLY as text");
+  picture.declare(options);
+}
+
+bool
+PipelineOptions::needsAllSamples() const
+{
+  return parameters.smooth || parameters.automatic_scale || !where.empty() ||
+         parameters.isosurface.neighbors == NeighborSource::Voronoi;
+}
+
+void
+PipelineOptions::checkCombinations(const Options& options) const
+{
+  using pcl_uvol::NormalMethod;
+  const bool fits = parameters.isosurface.interpolation == pcl_uvol::Interpolation::Fit;
+  if (parameters.normals == NormalMethod::Fit && !fits)
+    throw UsageError("-normals fit needs -interpolation fit.");
+  if (parameters.normals == NormalMethod::Edge && fits)
+    throw UsageError("-normals edge needs -interpolation linear.");
+  if (options.given("grid") &&
+      parameters.isosurface.neighbors != NeighborSource::Voronoi)
+    throw UsageError("-grid needs -neighbors voronoi.");
+  for (const char* const name : {"mu", "steps"})
+    if (options.given(name) && !parameters.smooth)
+      throw UsageError(std::string("-") + name + " needs -smooth.");
+  if (options.given("scratch") && !options.given("max-memory"))
+    throw UsageError("-scratch needs -max-memory.");
+  if (options.given("max-memory") && needsAllSamples())
+    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
+                     "-neighbors voronoi, which need all samples in memory.");
+  if ((options.given("max-error") || parameters.drop_bridged) && !fits)
+    throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
+}
+
+void
+PipelineOptions::finish(const Options& options)
+{
+  IsosurfaceOptions::finish();
+  parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(grid_);
+  parameters.normal_neighbors = k_;
+  parameters.level_set.mu = parseMu(mu_);
+  parameters.level_set.max_steps = steps_;
+  if (options.given("max-error"))
+    parameters.max_error = max_error_;
+  checkCombinations(options);
+  pcl_uvol::checkSavePath(output);
+  picture.check(options);
+}
+
+pcl_uvol::OutOfCoreSettings
+PipelineOptions::makeOutOfCoreSettings(const Options& options) const
+{
+  pcl_uvol::OutOfCoreSettings settings;
+  settings.max_memory = parseBytes("max-memory", max_memory_);
+  settings.scratch_folder =
+      scratch_.empty() ? std::filesystem::absolute(output).parent_path().string()
+                       : scratch_;
+  settings.threads = options.threads();
+  return settings;
+}
+
+} // namespace uvol_tools

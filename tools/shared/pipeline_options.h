@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of uvol_isosurface: files, and parameters of the whole pipeline.
+#pragma once
+
+#include "distributed/run_stage.h"
+#include "shared/isosurface_options.h"
+#include "shared/surface_picture.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief What the command line asks for. */
+struct PipelineOptions : IsosurfaceOptions {
+  std::string input, output;
+  bool ascii = false;
+  SurfacePicture picture;
+
+  void
+  declare(Options& options);
+
+  /** \brief Fill in the parameters that were declared, once the options are parsed.
+   * \throws UsageError for combinations that are not allowed
+   * \throws IOError for an output that cannot be written */
+  void
+  finish(const Options& options);
+
+  /** \brief Whether something asks for all samples at once. */
+  bool
+  needsAllSamples() const;
+
+  /** \brief The bound of memory, and where samples wait. \throws UsageError */
+  pcl_uvol::OutOfCoreSettings
+  makeOutOfCoreSettings(const Options& options) const;
+
+private:
+  void
+  checkCombinations(const Options& options) const;
+
+  std::string mu_ = "auto", max_memory_, scratch_;
+  std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors,
+                steps_ = parameters.level_set.max_steps;
+  double max_error_ = std::numeric_limits<double>::infinity();
+};
+
+} // namespace uvol_tools

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A tool's report for people (PCL's colours on a terminal, plain in a pipe) and
+// programs.
+#include "common/printable.h"
+#include "shared/options.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace uvol_tools {
+
+namespace {
+
+using pcl_uvol::printable;
+
+/** Switches the terminal's colour for its lifetime; nothing in a pipe. */
+class Colour {
+public:
+  Colour(std::ostream& out, bool active, const char* code)
+      : out_(out)
+      , active_(active)
+  {
+    if (active_)
+      out_ << "\033[" << code << 'm';
+  }
+  Colour(const Colour&) = delete;
+  Colour&
+  operator=(const Colour&) = delete;
+  ~Colour()
+  {
+    if (active_)
+      out_ << "\033[0m";
+  }
+
+private:
+  std::ostream& out_;
+  bool active_;
+};
+
+constexpr const char* value_colour = "0;36"; // PCL's cyan for figures
+constexpr const char* warning_colour = "0;33";
+
+template <typename T>
+void
+printRow(const std::string& name, const T& value, const char* unit, bool in_colour)
+{
+  std::cout << "  " << std::left << std::setw(24) << name;
+  {
+    const Colour colour(std::cout, in_colour, value_colour);
+    std::cout << std::right << std::setw(12) << value;
+  }
+  std::cout << unit << '\n';
+}
+
+/** A line of what was counted at all. */
+void
+printCounts(const pcl_uvol::Report& report, bool in_colour)
+{
+  const char* before = "";
+  for (const auto& [name, value] : report.counts)
+    if (value > 0) {
+      std::string words = name;
+      std::replace(words.begin(), words.end(), '_', ' ');
+      std::cout << before << words << ' ';
+      const Colour colour(std::cout, in_colour, value_colour);
+      std::cout << value;
+      before = ", ";
+    }
+  if (*before != '\0')
+    std::cout << '\n';
+}
+
+void
+printAll(const pcl_uvol::Report& report, bool in_colour)
+{
+  for (const auto& [name, value] : report.counts)
+    printRow(name, value, "", in_colour);
+  std::cout << std::fixed << std::setprecision(1);
+  for (const auto& [step, value] : report.milliseconds)
+    printRow(step, value, " ms", in_colour);
+}
+
+} // namespace
+
+void
+printReport(const Options& options,
+            const pcl_uvol::Report& report,
+            const Facts& facts,
+            bool plain)
+{
+  if (options.json()) {
+    nlohmann::ordered_json object;
+    for (const Fact& fact : facts)
+      if (!fact.getKey().empty())
+        object[fact.getKey()] = nlohmann::ordered_json::parse(fact.getJson());
+    for (const auto& [name, value] : report.counts)
+      object["counts"][name] = value;
+    for (const auto& [step, value] : report.milliseconds)
+      object["milliseconds"][step] = value;
+    object["warnings"] = report.warnings;
+    // File names need not be UTF-8.
+    std::cout << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
+    return;
+  }
+  const bool in_colour = !plain && isatty(STDOUT_FILENO) != 0;
+  for (const Fact& fact : facts)
+    if (!fact.getText().empty())
+      std::cout << printable(fact.getName()) << ": " << printable(fact.getText())
+                << '\n';
+  if (options.verbose())
+    printAll(report, in_colour);
+  else
+    printCounts(report, in_colour);
+  for (const std::string& warning : report.warnings) {
+    const Colour colour(
+        std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
+    std::cerr << "Warning: " << printable(warning) << '\n';
+  }
+}
+
+} // namespace uvol_tools

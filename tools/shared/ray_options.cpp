@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/ray_options.h"
+
+#include "render/point_colors.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/image_file.h>
+
+#include <algorithm>
+
+namespace uvol_tools {
+
+void
+RayOptions::declareRays(Options& options)
+{
+  options.integer(
+      "depth", settings_.depth, 0, 10000, "reflections and refractions in a row");
+  options.flag("no-shadows", shadows_, "light goes through everything", false);
+  options.integer("light-samples",
+                  settings_.light_samples,
+                  1,
+                  4096,
+                  "shadow rays to a light that has a radius");
+  options.integer("occlusion",
+                  settings_.occlusion_samples,
+                  0,
+                  4096,
+                  "rays that find how much ambient light reaches a place; 0: all");
+  options.number("occlusion-distance",
+                 settings_.occlusion_distance,
+                 0.0,
+                 1e30,
+                 "what is farther does not count; 0: a fifth of the scene's radius");
+}
+
+void
+RayOptions::declareSurface(Options& options)
+{
+  options.number("reflect", reflectivity_, 0.0, 1.0, "part of the light mirrored");
+  options.number("transparent", transparency_, 0.0, 1.0, "part let through");
+  options.number(
+      "index", refractive_index_, 0.01, 100.0, "refractive index of the inside");
+  splats_.declare(options);
+}
+
+const std::vector<std::string>&
+RayOptions::surfaceOptions()
+{
+  static const std::vector<std::string> names = {
+      "reflect", "transparent", "index", "delta", "delta-abs", "lambda"};
+  return names;
+}
+
+void
+RayOptions::check(const Options& options) const
+{
+  splats_.parameters(options);
+  if (reflectivity_ + transparency_ > 1.0)
+    throw UsageError("-reflect and -transparent are together at most 1.");
+}
+
+void
+RayOptions::apply(const Options& options, pcl_uvol::RayTracingSettings& settings) const
+{
+  if (options.given("depth"))
+    settings.depth = settings_.depth;
+  if (options.given("no-shadows"))
+    settings.shadows = shadows_;
+  if (options.given("light-samples"))
+    settings.light_samples = settings_.light_samples;
+  if (options.given("occlusion"))
+    settings.occlusion_samples = settings_.occlusion_samples;
+  if (options.given("occlusion-distance"))
+    settings.occlusion_distance = settings_.occlusion_distance;
+}
+
+pcl_uvol::Scene
+RayOptions::makeScene(const Options& options,
+                      const ViewOptions& view,
+                      const pcl_uvol::CloudView& cloud,
+                      std::array<double, 2>& range,
+                      pcl_uvol::Report& report) const
+{
+  pcl_uvol::Splats splats = pcl_uvol::findSplats(cloud,
+                                                 splats_.parameters(options),
+                                                 splats_.isGiven(options),
+                                                 options.threads(),
+                                                 report);
+  if (splats.cloud.empty())
+    throw pcl_uvol::InvalidArgument("None of the input's splats is usable.");
+  pcl_uvol::SplatObject object;
+  const std::string field = view.colorField(cloud);
+  if (!field.empty()) {
+    const auto colored =
+        pcl_uvol::colorPoints(cloud, field, view.colorMap(), view.getRange());
+    range = colored.range;
+    for (const std::uint32_t source : splats.sources)
+      object.colors.push_back(colored.colors[source]);
+  }
+  object.splats =
+      pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
+  static_cast<pcl_uvol::Material&>(object.material) = view.getMaterial();
+  object.material.reflectivity = reflectivity_;
+  object.material.transparency = transparency_;
+  object.material.refractive_index = refractive_index_;
+  pcl_uvol::Scene scene;
+  scene.splats.push_back(std::move(object));
+  scene.lights = view.getLights();
+  scene.background = view.getBackground();
+  return scene;
+}
+
+void
+traceFrames(const Options& options,
+            const ViewOptions& view,
+            pcl_uvol::RayTracer& tracer,
+            const std::optional<pcl_uvol::Camera>& camera,
+            const std::array<double, 3>& origin,
+            const std::function<void(pcl_uvol::Image&)>& decorate,
+            const std::string& output,
+            pcl_uvol::Report& report)
+{
+  tracer.setNumberOfThreads(options.threads());
+  tracer.setProgressCallback(report.progress);
+  const pcl_uvol::Camera first =
+      camera ? *camera : view.makeCamera(tracer.getBounds(), origin);
+  pcl_uvol::Report tracing;
+  for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
+    tracer.setCamera(view.turned(first, frame));
+    pcl_uvol::Image image;
+    tracer.render(image);
+    tracing = tracer.getReport();
+    decorate(image);
+    const pcl_uvol::StepTimer timer(report, "write");
+    pcl_uvol::savePng(view.frameName(output, frame), image);
+  }
+  report.merge(tracing);
+}
+
+void
+RayOptions::traceCloud(const Options& options,
+                       const ViewOptions& view,
+                       const pcl_uvol::CloudView& cloud,
+                       const std::array<double, 3>& origin,
+                       const std::string& output,
+                       pcl_uvol::Report& report) const
+{
+  std::array<double, 2> range{};
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(makeScene(options, view, cloud, range, report));
+  apply(options, tracer.settings());
+  tracer.setSupersampling(view.getSupersampling());
+  tracer.setSize(view.getWidth(), view.getHeight());
+  traceFrames(
+      options,
+      view,
+      tracer,
+      std::nullopt,
+      origin,
+      [&](pcl_uvol::Image& image) { view.decorate(cloud, range, image); },
+      output,
+      report);
+}
+
+} // namespace uvol_tools

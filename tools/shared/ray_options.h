@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ray tracing on the command line.
+#pragma once
+
+#include "shared/splat_options.h"
+#include "shared/view_options.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief What rays do, and the material of a single cloud. */
+class RayOptions {
+public:
+  /** \brief Depth, shadows, occlusion: what a scene may be told as well. */
+  void
+  declareRays(Options& options);
+
+  /** \brief Material and splats of a cloud. */
+  void
+  declareSurface(Options& options);
+
+  /** \brief
+   * \throws UsageError */
+  void
+  check(const Options& options) const;
+
+  /** \brief Change what was given on the command line. */
+  void
+  apply(const Options& options, pcl_uvol::RayTracingSettings& settings) const;
+
+  /** \brief Draw all frames of one cloud, covered by splats unless it has them.
+   * \param origin of its coordinates */
+  void
+  traceCloud(const Options& options,
+             const ViewOptions& view,
+             const pcl_uvol::CloudView& cloud,
+             const std::array<double, 3>& origin,
+             const std::string& output,
+             pcl_uvol::Report& report) const;
+
+  /** \brief Names of the options of a cloud's surface. */
+  static const std::vector<std::string>&
+  surfaceOptions();
+
+private:
+  /** \param range set to the values at the ends of its colours */
+  pcl_uvol::Scene
+  makeScene(const Options& options,
+            const ViewOptions& view,
+            const pcl_uvol::CloudView& cloud,
+            std::array<double, 2>& range,
+            pcl_uvol::Report& report) const;
+
+  SplatOptions splats_;
+  pcl_uvol::RayTracingSettings settings_;
+  bool shadows_ = true;
+  double reflectivity_ = 0.0, transparency_ = 0.0, refractive_index_ = 1.0;
+};
+
+/** \brief Draw all frames of a scene.
+ * \param origin of its coordinates
+ * \param camera that of the scene file, unless the command line has another one */
+void
+traceFrames(const Options& options,
+            const ViewOptions& view,
+            pcl_uvol::RayTracer& tracer,
+            const std::optional<pcl_uvol::Camera>& camera,
+            const std::array<double, 3>& origin,
+            const std::function<void(pcl_uvol::Image&)>& decorate,
+            const std::string& output,
+            pcl_uvol::Report& report);
+
+} // namespace uvol_tools

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/render_options.h"
+
+#include "gl/gl_backend.h"
+#include "render/image_space/cpu_backend.h"
+#include <pcl_uvol/io/image_file.h>
+
+#include <memory>
+
+namespace uvol_tools {
+
+namespace {
+
+constexpr double largest = 1e9;
+
+/** What -backend names: auto takes a graphics card if there is one, else the CPU, which
+ * is far faster than OpenGL in software. */
+std::shared_ptr<pcl_uvol::ImageSpaceBackend>
+makeBackend(const std::string& name)
+{
+  if (name == "cpu")
+    return std::make_shared<pcl_uvol::CpuBackend>();
+  const auto context = name == "auto" ? pcl_uvol::findHardwareContext()
+                                      : pcl_uvol::createHeadlessContext(name);
+  if (context)
+    return std::make_shared<pcl_uvol::GlBackend>(context);
+  return std::make_shared<pcl_uvol::CpuBackend>();
+}
+
+} // namespace
+
+void
+RenderOptions::declareView(Options& options)
+{
+  declareScene(options);
+  declareSupersampling(options);
+  options.choice("backend",
+                 {"auto", "cpu", "osmesa", "egl"},
+                 backend_,
+                 "what draws; auto: OpenGL on a GPU where there is one, else the CPU");
+}
+
+void
+RenderOptions::declarePasses(Options& options)
+{
+  using pcl_uvol::ImageSpaceSettings;
+  ImageSpaceSettings& s = settings_;
+  constexpr int most = 1000000;
+  options.flag("no-culling", s.cull_back_faces, "draw back faces as well", false);
+  options.flag(
+      "no-footprints", s.footprints, "every point is one pixel, however near", false);
+  options.integer("fill", s.background_fill, 0, most, "background fills at most");
+  options.integer("occluded", s.occluded_fill, 0, most, "occluded fills at most");
+  options.number(
+      "layers", s.layer_distance, 1e-9, 1.0, "least distance of two layers in depth");
+  options.flag("no-shading", s.shading, "a white surface, for lines alone", false);
+  options.choice("smoothing",
+                 {"none", "box", "gaussian", "alleviated"},
+                 smoothing_,
+                 "filter of colours");
+  options.integer(
+      "smoothings", s.smoothing_iterations, 0, 6, "times that it is applied");
+  options.flag("silhouettes", s.silhouettes, "draw silhouettes");
+  options.number("silhouette-threshold",
+                 s.silhouette_threshold,
+                 1e-9,
+                 largest,
+                 "least step in depth");
+  options.integer(
+      "thickness", s.silhouette_thickness, 1, 7, "of silhouettes, in pixels");
+  options.flag("features", s.feature_lines, "draw feature lines");
+  options.number("feature-threshold",
+                 s.feature_threshold,
+                 1e-9,
+                 largest,
+                 "least 1 - cos between normals");
+  options.numbers("line-color", "r,g,b", 3, line_color_, "of lines (default black)");
+  options.flag("no-antialias", s.anti_aliasing, "leave borders jagged", false);
+  options.number("antialias-threshold",
+                 s.anti_aliasing_threshold,
+                 1e-9,
+                 largest,
+                 "least step in depth that is smoothed");
+  declareLighting(options);
+}
+
+void
+RenderOptions::check(const Options& options)
+{
+  ViewOptions::check(options);
+  if (!line_color_.empty())
+    settings_.line_color = toColor("line-color", line_color_);
+  using Filter = pcl_uvol::SmoothingFilter;
+  settings_.smoothing = smoothing_ == "none"       ? Filter::None
+                        : smoothing_ == "box"      ? Filter::Box
+                        : smoothing_ == "gaussian" ? Filter::Gaussian
+                                                   : Filter::AlleviatedGaussian;
+  settings_.background = getBackground();
+  settings_.material = getMaterial();
+  settings_.lights = getLights();
+}
+
+void
+RenderOptions::applyLook(const Options& options,
+                         const pcl_uvol::CloudView& cloud,
+                         pcl_uvol::ImageSpaceRendererBase& renderer) const
+{
+  renderer.settings() = settings_;
+  renderer.setNumberOfThreads(options.threads());
+  renderer.setColorField(colorField(cloud));
+  renderer.setColorMap(colorMap());
+  if (const auto range = getRange())
+    renderer.setColorRange((*range)[0], (*range)[1]);
+}
+
+void
+RenderOptions::configure(const Options& options,
+                         const pcl_uvol::CloudView& cloud,
+                         pcl_uvol::ImageSpaceRendererBase& renderer) const
+{
+  applyLook(options, cloud, renderer);
+  renderer.setBackend(makeBackend(backend_));
+  renderer.setSize(getWidth(), getHeight());
+  renderer.setSupersampling(getSupersampling());
+}
+
+std::string
+RenderOptions::drawCloud(const Options& options,
+                         const pcl_uvol::Dataset& surface,
+                         const std::string& output,
+                         pcl_uvol::Report& report) const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
+  configure(options, cloud, renderer);
+  const pcl_uvol::Camera camera = makeCamera(renderer.getBounds(), surface.origin);
+  pcl_uvol::Image image;
+  pcl_uvol::Report drawing;
+  for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
+    renderer.setCamera(turned(camera, frame));
+    renderer.render(image);
+    drawing = renderer.getReport();
+    decorate(cloud, renderer.getColorRange(), image);
+    const pcl_uvol::StepTimer timer(report, "write");
+    pcl_uvol::savePng(frameName(output, frame), image);
+  }
+  report.merge(drawing);
+  return renderer.describeBackend();
+}
+
+} // namespace uvol_tools

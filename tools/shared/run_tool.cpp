@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From exceptions to exit codes: 0 success, 1 failure, 2 a wrong command line.
+#include "common/printable.h"
+#include "shared/options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+namespace uvol_tools {
+
+namespace {
+
+/** Signals that end a tool take its unfinished files with them. */
+void
+endBySignal(int signal)
+{
+  pcl_uvol::removeUnfinishedFiles();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/** A sentence that says which file it is about. */
+std::string
+withFile(const std::string& sentence)
+{
+  const std::string& file = namedFile();
+  return file.empty() || sentence.find(file) != std::string::npos
+             ? sentence
+             : file + ": " + sentence;
+}
+
+} // namespace
+
+Outcome
+catchErrors(const char* tool, const std::function<int()>& body)
+{
+  // Writing beyond a limit or into a closed pipe shall be an error, not a sudden death.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
+    if (std::signal(signal, endBySignal) == SIG_IGN) // as nohup asks for
+      std::signal(signal, SIG_IGN);
+  try {
+    const int exit_code = body();
+    if (!std::cout.flush())
+      return {1, "Standard output could not be written."};
+    return {exit_code, ""};
+  }
+  catch (const UsageError& error) {
+    return {2, std::string(error.what()) + " (" + tool + " -h lists the options)"};
+  }
+  catch (const pcl_uvol::IOError& error) { // which names its file
+    return {1, error.message()};
+  }
+  catch (const pcl_uvol::Exception& error) {
+    return {1, withFile(error.message())};
+  }
+  catch (const std::bad_alloc&) {
+    return {1, withFile("There is not enough memory.")};
+  }
+  catch (const std::length_error&) { // of a vector longer than any memory
+    return {1, withFile("There is not enough memory.")};
+  }
+  catch (const std::system_error&) { // of threads that the system does not give
+    return {1, withFile("There are not enough memory or threads for it.")};
+  }
+  catch (const std::exception& error) {
+    return {1, error.what()};
+  }
+}
+
+int
+runTool(const char* tool, const std::function<int()>& body)
+{
+  const Outcome outcome = catchErrors(tool, body);
+  if (!outcome.sentence.empty())
+    std::cerr << tool << ": " << pcl_uvol::printable(outcome.sentence) << '\n';
+  return outcome.exit_code;
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture that a tool draws of the surface it has made.
+#pragma once
+
+#include "common/memory.h"
+#include "shared/ray_options.h"
+#include "shared/render_options.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief -png, and everything that it is drawn by. */
+class SurfacePicture {
+public:
+  void
+  declare(Options& options);
+
+  /** \throws UsageError, and IOError for a path that is none */
+  void
+  check(const Options& options);
+
+  bool
+  isAskedFor() const
+  {
+    return !path_.empty();
+  }
+
+  /** \brief Draw it; a surface without points leaves no picture, with a warning.
+   * \param report gets the times, named picture_...
+   * \return what it was drawn on; "" for none */
+  std::string
+  draw(const Options& options,
+       const pcl_uvol::Dataset& surface,
+       pcl_uvol::Report& report) const;
+
+  /** \brief Add the memory of a picture of that many points to a forecast. */
+  void
+  addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast) const;
+
+private:
+  std::string path_;
+  bool is_ray_traced_ = false;
+  RenderOptions look_;
+  RayOptions rays_;
+};
+
+} // namespace uvol_tools

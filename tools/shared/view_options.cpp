@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/view_options.h"
+
+#include "charts/color_bar.h"
+#include "render/image_space/frame.h"
+#include "render/point_colors.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace uvol_tools {
+
+namespace {
+
+Eigen::Vector3d
+toVector(const std::vector<double>& numbers)
+{
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/** "640x480", or one number for a square. */
+bool
+parseSize(const std::string& text, int& width, int& height)
+{
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, width);
+  if (first.ec != std::errc())
+    return false;
+  height = width;
+  if (first.ptr == end)
+    return true;
+  if (*first.ptr != 'x')
+    return false;
+  const auto second = std::from_chars(first.ptr + 1, end, height);
+  return second.ec == std::errc() && second.ptr == end;
+}
+
+} // namespace
+
+pcl_uvol::Color
+toColor(const std::string& option, const std::vector<double>& numbers)
+{
+  for (const double number : numbers)
+    if (number < 0.0 || number > 1.0)
+      throw UsageError("-" + option + " takes three numbers from 0 to 1.");
+  return {static_cast<float>(numbers[0]),
+          static_cast<float>(numbers[1]),
+          static_cast<float>(numbers[2])};
+}
+
+void
+ViewOptions::declareScene(Options& options)
+{
+  options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
+  options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
+  options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
+  options.numbers("up", "x,y,z", 3, up_, "direction that is upwards (default 0,0,1)");
+  options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees");
+  options.text("size", "WxH", size_text_, "pixels of the picture (default 1024x1024)");
+  options.text("background",
+               "r,g,b|name",
+               background_text_,
+               "white, black, gradient, transparent, or a colour from 0 to 1 (default "
+               "white)");
+  options.text("color",
+               "field",
+               color_,
+               "colour by a scalar field, by rgb or by none (default: rgb if there)");
+  options.choice(
+      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
+  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
+  options.numbers(
+      "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
+}
+
+void
+ViewOptions::declareSupersampling(Options& options)
+{
+  options.integer(
+      "supersample", supersampling_, 1, 8, "rays per pixel in each direction");
+}
+
+void
+ViewOptions::declareOrbit(Options& options)
+{
+  options.integer("orbit", frames_, 1, 100000, "frames of a full turn about -up");
+}
+
+void
+ViewOptions::declareLighting(Options& options)
+{
+  options.text("lights",
+               "x,y,z;...",
+               lights_text_,
+               "directions that light comes from: x right, y up, z to the viewer");
+  options.number("ambient", material_.ambient, 0.0, 1e3, "light from everywhere");
+  options.number("diffuse", material_.diffuse, 0.0, 1e3, "of the lights");
+  options.number("specular", material_.specular, 0.0, 1e3, "highlights");
+  options.number("shininess", material_.shininess, 0.0, 1e4, "exponent of highlights");
+}
+
+void
+ViewOptions::parseBackground()
+{
+  pcl_uvol::Background& background = background_;
+  using Kind = pcl_uvol::Background::Kind;
+  if (background_text_ == "gradient")
+    background.kind = Kind::Gradient;
+  else if (background_text_ == "transparent")
+    background.kind = Kind::Transparent;
+  else if (background_text_ == "black")
+    background.color = {0.0f, 0.0f, 0.0f};
+  else if (background_text_ != "white") {
+    const auto color = parseNumbers("background", background_text_, 3);
+    background.color = toColor("background", color);
+  }
+}
+
+void
+ViewOptions::parseLights()
+{
+  if (lights_text_.empty())
+    return;
+  lights_.clear();
+  for (std::size_t begin = 0; begin <= lights_text_.size();) {
+    const std::size_t end =
+        std::min(lights_text_.find(';', begin), lights_text_.size());
+    pcl_uvol::Light light;
+    light.position =
+        toVector(parseNumbers("lights", lights_text_.substr(begin, end - begin), 3));
+    if (light.position.isZero())
+      throw UsageError("-lights takes directions, and 0,0,0 is none.");
+    lights_.push_back(light);
+    begin = end + 1;
+  }
+}
+
+void
+ViewOptions::check(const Options& options)
+{
+  constexpr int most = pcl_uvol::View::largest_size;
+  if (!parseSize(size_text_, width_, height_))
+    throw UsageError("-size is WxH in pixels, as in 1024x768, not '" + size_text_ +
+                     "'.");
+  for (const int size : {width_, height_})
+    if (size < 1 || size * supersampling_ > most)
+      throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
+                       std::to_string(most) + " pixels before averaging, not " +
+                       size_text_ + ".");
+  if (options.given("view") && options.given("eye"))
+    throw UsageError("-view and -eye both say where the camera is: give one of them.");
+  if (!options.given("eye") && options.given("at"))
+    throw UsageError("-at needs -eye.");
+  if (!range_.empty() && !(range_[0] < range_[1]))
+    throw UsageError("-range takes two numbers, the lower one first.");
+  if (!surface_color_.empty())
+    material_.color = toColor("surface-color", surface_color_);
+  parseBackground();
+  parseLights();
+}
+
+std::string
+ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
+{
+  if (color_ == "auto")
+    return pcl_uvol::hasColors(cloud) ? "rgb" : "";
+  return color_ == "none" ? "" : color_;
+}
+
+pcl_uvol::Camera
+ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
+                        const std::array<double, 3>& origin) const
+{
+  const Eigen::Vector3d shift(origin.data());
+  pcl_uvol::Camera camera =
+      pcl_uvol::Camera::fit(bounds, view_, fov_, static_cast<double>(width_) / height_);
+  if (!eye_.empty()) {
+    camera.eye = toVector(eye_) - shift;
+    camera.up = {0.0, 0.0, 1.0};
+    if (!at_.empty())
+      camera.at = toVector(at_) - shift;
+  }
+  if (!up_.empty())
+    camera.up = toVector(up_);
+  return camera;
+}
+
+pcl_uvol::Camera
+ViewOptions::turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const
+{
+  return camera.orbited(360.0 * static_cast<double>(frame) /
+                        static_cast<double>(frames_));
+}
+
+std::string
+ViewOptions::frameName(const std::string& output, std::uint64_t frame) const
+{
+  if (frames_ == 1)
+    return output;
+  const std::filesystem::path path(output);
+  std::ostringstream name;
+  name << path.stem().string() << '_'
+       << std::setw(static_cast<int>(std::to_string(frames_ - 1).size()))
+       << std::setfill('0') << frame << path.extension().string();
+  return (path.parent_path() / name.str()).string();
+}
+
+void
+ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
+                      const std::array<double, 2>& range,
+                      pcl_uvol::Image& image) const
+{
+  const std::string field = colorField(cloud);
+  if (has_bar_ && !field.empty() && field != "rgb" && field != "rgba")
+    uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], field);
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What pictures have in common on the command line, however they are drawn: camera,
+// size, background, colours and lights.
+#pragma once
+
+#include "shared/options.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/lighting.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Options of a picture or window. */
+class ViewOptions {
+public:
+  /** \brief Camera, size, background, colours. */
+  void
+  declareScene(Options& options);
+
+  void
+  declareSupersampling(Options& options);
+
+  void
+  declareOrbit(Options& options);
+
+  void
+  declareLighting(Options& options);
+
+  /** \brief What only some combinations allow, and what must parse: to be called before
+   * work whose result would be lost.
+   * \throws UsageError */
+  void
+  check(const Options& options);
+
+  /** \brief
+   * \param origin what was subtracted from the coordinates of the cloud: places on the
+   * command line are meant before that */
+  pcl_uvol::Camera
+  makeCamera(const pcl_uvol::BoundingSphere& bounds,
+             const std::array<double, 3>& origin) const;
+
+  /** \brief Frames of a full turn; 1 without -orbit. */
+  std::uint64_t
+  countFrames() const
+  {
+    return frames_;
+  }
+
+  /** \brief A camera turned for a frame. */
+  pcl_uvol::Camera
+  turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const;
+
+  /** \brief out.png, or out_007.png for a frame of several. */
+  std::string
+  frameName(const std::string& output, std::uint64_t frame) const;
+
+  /** \brief Draw the colour bar of a picture that is coloured by a scalar field.
+   * \param range values at the ends of the colours */
+  void
+  decorate(const pcl_uvol::CloudView& cloud,
+           const std::array<double, 2>& range,
+           pcl_uvol::Image& image) const;
+
+  /** \brief The field that colours the cloud; "" for one colour. */
+  std::string
+  colorField(const pcl_uvol::CloudView& cloud) const;
+
+  pcl_uvol::ColorMap
+  colorMap() const
+  {
+    return pcl_uvol::ColorMap(color_map_);
+  }
+
+  /** \brief Values at the ends of the colours; none: those of the field. */
+  std::optional<std::array<double, 2>>
+  getRange() const
+  {
+    if (range_.empty())
+      return std::nullopt;
+    return std::array<double, 2>{range_[0], range_[1]};
+  }
+
+  /** \brief True if there is nothing behind the surface, after check(). */
+  bool
+  isTransparent() const
+  {
+    return background_.kind == pcl_uvol::Background::Kind::Transparent;
+  }
+
+  /** \brief True if a colour bar is wanted. */
+  bool
+  hasBar() const
+  {
+    return has_bar_;
+  }
+
+  /** \brief Pixels. @{ */
+  int
+  getWidth() const
+  {
+    return width_;
+  }
+
+  int
+  getHeight() const
+  {
+    return height_;
+  }
+  /** @} */
+
+  int
+  getSupersampling() const
+  {
+    return supersampling_;
+  }
+
+  /** \brief After check(). @{ */
+  const pcl_uvol::Background&
+  getBackground() const
+  {
+    return background_;
+  }
+
+  const pcl_uvol::Material&
+  getMaterial() const
+  {
+    return material_;
+  }
+
+  const std::vector<pcl_uvol::Light>&
+  getLights() const
+  {
+    return lights_;
+  }
+  /** @} */
+
+private:
+  void
+  parseBackground();
+
+  void
+  parseLights();
+
+  std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
+  std::string color_ = "auto", color_map_ = "viridis", lights_text_;
+  std::vector<double> eye_, at_, up_, range_, surface_color_;
+  double fov_ = 30.0;
+  int width_ = 0, height_ = 0, supersampling_ = 1;
+  std::uint64_t frames_ = 1;
+  bool has_bar_ = true;
+  pcl_uvol::Background background_;
+  pcl_uvol::Material material_;
+  std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();
+};
+
+/** \brief The colour that three numbers say.
+ * \throws UsageError that names the option unless they lie in [0, 1] */
+pcl_uvol::Color
+toColor(const std::string& option, const std::vector<double>& numbers);
+
+} // namespace uvol_tools
