@@ -151,8 +151,12 @@ ConvexCell::closeBy(const Vector3d& normal, int tag)
   }
   std::sort(angles_.begin(), angles_.end());
   Face& face = addFace(tag);
-  for (const auto& angle : angles_)
-    face.vertices.push_back(rim_[angle.second]);
+  for (const auto& angle : angles_) {
+    // Two faces have every vertex in common.
+    const Vector3d& vertex = rim_[angle.second];
+    if (face.vertices.empty() || vertex != face.vertices.back())
+      face.vertices.push_back(vertex);
+  }
 }
 
 double
