@@ -13,6 +13,7 @@ constexpr std::size_t fit_lanes = 8;
 
 /** \brief One neighbour of each of the eight centres. */
 struct alignas(64) FitSample {
+  static constexpr bool has_value = true;
   float x[fit_lanes], y[fit_lanes], z[fit_lanes]; ///< relative to the centre, divided
                                                   ///< by the radius of the support;
                                                   ///< length 1 and more has no weight

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isosurface/fit_judgement.h"
 
-#include "common/dispatch.h"
-#include "isosurface/empty_cone_kernel.h"
+#include "neighbors/empty_cone.h"
 
 #include <Eigen/LU>
 
@@ -42,45 +41,12 @@ constexpr double farthest_from_jump = 0.5, smooth_error = 0.036;
  * little. */
 constexpr std::size_t most_labels = 4;
 
-/** Cosine of 57 degrees: half the opening of the widest cone without neighbours.
- * Uniform samples leave no such cone at 99.8 % of the isopoints. */
-constexpr float empty_cone = 0.5446f;
-
 /** Of the radius of the support: a nearest sample that far away lies on the border of a
  * gap. */
 constexpr double empty_ball = 0.5;
 
 /** Of the radius of the support: a longer edge reaches across a gap. */
 constexpr double bridging_edge = 1.0;
-
-const KernelTable<EmptyConeKernel> cone_kernels{
-    baseline::emptiestCone, avx2::emptiestCone, avx512::emptiestCone};
-
-/** The 74 directions of small whole numbers, about 15 degrees apart, and six of them
- * once more to fill the table. */
-struct ConeDirections {
-  alignas(64) float x[3][cone_directions];
-
-  ConeDirections()
-  {
-    std::size_t count = 0;
-    for (int a = -2; a <= 2; ++a)
-      for (int b = -2; b <= 2; ++b)
-        for (int c = -2; c <= 2; ++c) {
-          const int sq_length = a * a + b * b + c * c;
-          const bool primitive = a % 2 != 0 || b % 2 != 0 || c % 2 != 0;
-          if (!primitive || sq_length == 9)
-            continue;
-          const float length = std::sqrt(static_cast<float>(sq_length));
-          x[0][count] = static_cast<float>(a) / length;
-          x[1][count] = static_cast<float>(b) / length;
-          x[2][count++] = static_cast<float>(c) / length;
-        }
-    for (std::size_t i = 0; count < cone_directions; ++i, ++count)
-      for (auto& coordinate : x)
-        coordinate[count] = coordinate[i];
-  }
-};
 
 } // namespace
 
@@ -109,10 +75,9 @@ supportOf(const Surroundings& surroundings,
           double nearest,
           const NeighborDirections& directions)
 {
-  static const ConeDirections cones;
-  const float cosine = cone_kernels.get()(
-      cones.x, directions.x, directions.y, directions.z, directions.count);
-  if (cosine >= empty_cone && nearest <= empty_ball * surroundings.radius)
+  const bool is_open =
+      EmptyCone().isEmpty(directions.x, directions.y, directions.z, directions.count);
+  if (!is_open && nearest <= empty_ball * surroundings.radius)
     return IsoSupport::Measured;
   return surroundings.edge_length > bridging_edge * surroundings.radius
              ? IsoSupport::Bridged

@@ -3,8 +3,8 @@
 
 #include "common/dispatch.h"
 #include "common/parallel.h"
-#include "isosurface/empty_cone_kernel.h"
 #include "isosurface/fit_judgement.h"
+#include "neighbors/empty_cone_kernel.h"
 #include "neighbors/local_metric.h"
 #include "neighbors/nearest_finder.h"
 

@@ -2,7 +2,6 @@
 #include "neighbors/sample_values.h"
 
 #include "common/parallel.h"
-#include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,21 +42,6 @@ readValues(const CloudView& cloud,
                           : std::numeric_limits<float>::quiet_NaN();
       });
   return values;
-}
-
-std::vector<std::uint32_t>
-pointsWithValue(const std::vector<float>& values,
-                const std::vector<int>& indices,
-                const ScalarField& field)
-{
-  std::vector<std::uint32_t> use;
-  use.reserve(indices.size());
-  for (const int index : indices)
-    if (!std::isnan(values[static_cast<std::size_t>(index)]))
-      use.push_back(static_cast<std::uint32_t>(index));
-  if (use.empty())
-    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
-  return use;
 }
 
 SampleValues

@@ -7,9 +7,11 @@
 #include "common/value_frame.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/report.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -25,10 +27,21 @@ readValues(const CloudView& cloud,
 
 /** \brief The indices whose point has a value.
  * \throws InvalidArgument if there is none */
+template <typename Value>
 std::vector<std::uint32_t>
-pointsWithValue(const std::vector<float>& values,
+pointsWithValue(const std::vector<Value>& values,
                 const std::vector<int>& indices,
-                const ScalarField& field);
+                const ScalarField& field)
+{
+  std::vector<std::uint32_t> use;
+  use.reserve(indices.size());
+  for (const int index : indices)
+    if (!std::isnan(values[static_cast<std::size_t>(index)]))
+      use.push_back(static_cast<std::uint32_t>(index));
+  if (use.empty())
+    throw InvalidArgument("No sample has a finite value of " + field.getName() + ".");
+  return use;
+}
 
 /** \brief The scalar in leaf order. */
 struct SampleValues {
@@ -51,7 +64,7 @@ chooseRepresentative(std::vector<std::uint32_t>& members,
     return value_of(a) < value_of(b);
   });
   conflicting += value_of(members.front()) != value_of(members.back());
-  const float median = value_of(members[(members.size() - 1) / 2]);
+  const auto median = value_of(members[(members.size() - 1) / 2]);
   return *std::find_if(members.begin(), members.end(), [&](auto member) {
     return value_of(member) == median;
   });

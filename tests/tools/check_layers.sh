@@ -6,8 +6,8 @@ set -euo pipefail
 cd "$1"
 
 declare -A level=([common]=0 [generation]=1 [neighbors]=1 [distributed]=2 [derivatives]=2
-  [isosurface]=3 [levelset]=4 [surface]=4 [multivariate]=4 [render]=5 [pipeline]=6 [filters]=7
-  [io]=8 [gl]=9 [vtk]=10 [mpi]=10)
+  [interpolation]=3 [isosurface]=4 [levelset]=5 [surface]=5 [multivariate]=5 [render]=6 [pipeline]=7
+  [filters]=8 [io]=9 [gl]=10 [vtk]=11 [mpi]=11)
 breaches=0
 report() {
   echo "$1"

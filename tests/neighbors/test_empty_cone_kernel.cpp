@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The widest cone without neighbours against all pairs of directions and neighbours.
-#include "src/isosurface/empty_cone_kernel.h"
+#include "src/neighbors/empty_cone_kernel.h"
 #include "support/simd_levels.h"
 
 #include <Eigen/Core>

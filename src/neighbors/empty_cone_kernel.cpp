@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "isosurface/empty_cone_kernel.h"
+#include "neighbors/empty_cone_kernel.h"
 
 #include "common/register_bytes.h"
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How good a model is, told by samples that were left out: folds of samples, and the
+// errors of fields interpolated from the others.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/interpolation/interpolation_parameters.h>
+
+#include <pcl/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief A division of points into folds that are left out one after the other. It
+ * depends on the points alone. */
+class PCL_UVOL_EXPORTS Folds {
+public:
+  /** \brief Every point at random. Good for evenly spread samples; where samples follow
+   * one another closely, as along a track, the others tell too much.
+   * \param count of points \param folds 2 to count
+   * \throws InvalidArgument for folds out of range */
+  static Folds
+  byRandom(std::size_t count, std::size_t folds);
+
+  /** \brief Compact blocks of space, eight to a fold. Points without a place are in the
+   * first fold. \throws InvalidArgument for folds out of range, and as SampleSet::build
+   */
+  static Folds
+  byBlocks(const CloudView& cloud, std::size_t folds, unsigned threads);
+
+  /** \brief Points of the same value stay together: those of a drill hole, a dive, a
+   * flight. Points without a value are in the first fold.
+   * \throws InvalidArgument for an unknown field and one of fewer values than folds */
+  static Folds
+  byField(const CloudView& cloud, const std::string& field, std::size_t folds);
+
+  /** \brief Number of folds. */
+  std::size_t
+  size() const
+  {
+    return folds_;
+  }
+
+  /** \brief Fold of a point. */
+  std::size_t
+  operator[](std::size_t point) const
+  {
+    return fold_of_[point];
+  }
+
+private:
+  Folds(std::size_t folds, std::vector<std::uint32_t> fold_of);
+
+  std::size_t folds_;
+  std::vector<std::uint32_t> fold_of_;
+};
+
+/** \brief How a field was interpolated at points that were left out. */
+struct FieldScore {
+  std::string field;
+  std::size_t tested = 0;  ///< points with a value
+  std::size_t covered = 0; ///< of these, those that got one: the others lie outside
+  double rms = 0.0;        ///< root mean squared error, in units of the field
+  double bias = 0.0;       ///< mean error: interpolated less measured
+  double share = 0.0;      ///< of the points, those no farther off than their error;
+                           ///< NaN where the model tells none
+};
+
+/** \brief Interpolate at the points of each fold from those of the others.
+ * \param indices points to take part
+ * \param most points of a fold that are tested: random ones; 0: all
+ * \param report gets warnings of the model
+ * \return one per field \throws InvalidArgument as FieldInterpolation::interpolate, and
+ * for folds that leave no samples */
+PCL_UVOL_EXPORTS std::vector<FieldScore>
+crossValidate(const CloudView& cloud,
+              const pcl::Indices& indices,
+              const InterpolationParameters& parameters,
+              const Folds& folds,
+              std::size_t most,
+              unsigned threads,
+              Report& report);
+
+} // namespace pcl_uvol

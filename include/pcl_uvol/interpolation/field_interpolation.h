@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The field between scattered samples: values, gradients and standard errors anywhere,
+// of any number of fields in one pass.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/interpolation/interpolated_fields.h>
+#include <pcl_uvol/interpolation/interpolation_parameters.h>
+
+#include <pcl/pcl_base.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol {
+
+namespace detail {
+
+/** \brief Models of the fields of a cloud, ready for queries: trees and fits are kept.
+ */
+class PCL_UVOL_EXPORTS FieldInterpolator {
+public:
+  /** \param indices points to take part: a field is interpolated from those of them
+   * that have a finite value of it
+   * \param report gets the counts "non_finite", "duplicates" and
+   * "conflicting_duplicates" of fields with different samples one after another \throws
+   * InvalidArgument as FieldInterpolation::interpolate */
+  FieldInterpolator(const CloudView& cloud,
+                    const pcl::Indices& indices,
+                    const InterpolationParameters& parameters,
+                    unsigned threads,
+                    Report& report);
+  FieldInterpolator(const FieldInterpolator&) = delete;
+  FieldInterpolator&
+  operator=(const FieldInterpolator&) = delete;
+  ~FieldInterpolator();
+
+  /** \brief Answer queries. \param queries coordinates like those of the cloud
+   * \param report gets the counts of FieldInterpolation */
+  InterpolatedFields
+  interpolate(const std::vector<std::array<double, 3>>& queries,
+              unsigned threads,
+              Report& report) const;
+
+private:
+  struct Group;
+
+  InterpolationParameters parameters_;
+  std::vector<std::string> names_;
+  std::vector<Group> groups_;
+};
+
+/** \brief Places of the points of a cloud. */
+PCL_UVOL_EXPORTS std::vector<std::array<double, 3>>
+placesOf(const CloudView& cloud);
+
+} // namespace detail
+
+/** \brief Interpolates fields given at scattered points, at any other places.
+ *
+ * \code
+ * pcl_uvol::FieldInterpolation<pcl::PointXYZI> interpolation;
+ * interpolation.setInputCloud(samples);
+ * interpolation.setFields({"intensity"});
+ * pcl_uvol::InterpolatedFields result;
+ * interpolation.interpolate(queries, result);
+ * \endcode
+ * Exact duplicates among the samples count as one, with the lower median of their
+ * values. The tree and what the model keeps serve further queries until samples,
+ * indices or parameters change. An answer depends on its query alone.
+ *
+ * Memory: about 50 bytes per sample and 8 per sample and field; the model's own; 40
+ * bytes per query and field with gradients and errors. */
+template <typename PointT>
+class FieldInterpolation : public pcl::PCLBase<PointT>,
+                           public ParameterStage<InterpolationParameters> {
+public:
+  using Ptr = std::shared_ptr<FieldInterpolation<PointT>>;
+  using ConstPtr = std::shared_ptr<const FieldInterpolation<PointT>>;
+
+  /** \brief Any fields of the cloud, see ScalarField; default: none, which stands for
+   * the one of ScalarField::defaultName. */
+  void
+  setFields(const std::vector<std::string>& fields)
+  {
+    parameters_.fields = fields;
+  }
+  const std::vector<std::string>&
+  getFields() const
+  {
+    return parameters_.fields;
+  }
+
+  /** \brief Default: InterpolationModel::Fit. */
+  void
+  setModel(InterpolationModel model)
+  {
+    parameters_.model = model;
+  }
+  InterpolationModel
+  getModel() const
+  {
+    return parameters_.model;
+  }
+
+  /** \brief Give values outside of the data as well. Default: NaN there. */
+  void
+  setExtrapolate(bool extrapolate)
+  {
+    parameters_.extrapolate = extrapolate;
+  }
+  bool
+  getExtrapolate() const
+  {
+    return parameters_.extrapolate;
+  }
+
+  /** \brief Interpolate at the points of a cloud. A query without a place gets NaN, and
+   * so does one outside of the data, unless extrapolation was asked for.
+   * \throws InvalidArgument without an input cloud, for an unknown field, a field
+   * without a finite value, a parameter out of range; the result is then untouched
+   *
+   * Counts of the report: non_finite, duplicates, conflicting_duplicates (of samples),
+   * queries, measured, bridged, rim, outside, reduced, invalid. @{ */
+  template <typename QueryT>
+  void
+  interpolate(const pcl::PointCloud<QueryT>& queries, InterpolatedFields& result)
+  {
+    interpolateAt(detail::placesOf(viewOf(queries)), result);
+  }
+
+  void
+  interpolate(const pcl::PCLPointCloud2& queries, InterpolatedFields& result)
+  {
+    interpolateAt(detail::placesOf(viewOf(queries)), result);
+  }
+  /** @} */
+
+  /** \brief The same at places in double, in the coordinates of the samples. */
+  void
+  interpolateAt(const std::vector<std::array<double, 3>>& queries,
+                InterpolatedFields& result);
+
+private:
+  // What the interpolator was made of.
+  typename pcl::PCLBase<PointT>::PointCloudConstPtr cloud_;
+  pcl::Indices used_;
+  Parameters made_for_;
+  std::unique_ptr<detail::FieldInterpolator> interpolator_;
+  Report made_; ///< counts and warnings of making it
+};
+
+} // namespace pcl_uvol

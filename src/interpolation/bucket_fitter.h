@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Makes the polynomials of a bucket of samples: eight at a time by the vector kernel,
+// by a rank-revealing factorisation where that fails.
+#pragma once
+
+#include "derivatives/polynomial_kernel.h"
+#include "interpolation/field_model.h"
+#include "interpolation/sample_fits.h"
+#include "neighbors/empty_cone.h"
+#include "neighbors/nearest_finder.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief Fits of consecutive samples. */
+class BucketFitter {
+public:
+  /** \brief Samples with a weight in a fit; the next farther one sets the radius of the
+   * support. Twice the 20 terms of a cubic, as for isopoints. */
+  static constexpr std::size_t fitted_samples = 40;
+
+  /** \brief A fit has a weight where the sample would be among that many nearest ones.
+   */
+  static constexpr std::size_t blended_samples = 14;
+
+  explicit BucketFitter(const SampledFields& sampled);
+
+  BucketFits
+  fit(std::uint32_t begin, std::uint32_t count);
+
+private:
+  void
+  fitLanes(std::uint32_t begin, std::size_t first, std::size_t lanes, BucketFits& fits);
+
+  void
+  gather(std::uint32_t sample, std::size_t lane, std::size_t place, BucketFits& fits);
+
+  void
+  clear(std::size_t lane, std::size_t from);
+
+  void
+  fitReduced(std::uint32_t sample,
+             std::size_t lane,
+             std::size_t place,
+             BucketFits& fits) const;
+
+  bool
+  isInner(std::size_t lane, std::size_t neighbors);
+
+  const SampledFields& sampled_;
+  NearestFinder finder_;
+  EmptyCone cone_;
+  PolynomialKernel kernel_;
+  std::vector<PolynomialSample> samples_; ///< [neighbour]
+  struct alignas(64) LaneValues {
+    double value[polynomial_lanes];
+  };
+  std::vector<LaneValues> values_; ///< [field][neighbour]
+  std::vector<PolynomialFit> results_;
+  int weighted_[polynomial_lanes] = {};
+  std::vector<double> sq_dists_;
+  alignas(64) float directions_[3][64];
+  float length_ = 1.0f; ///< of the search before
+};
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/parallel.h"
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "common/value_frame.h"
+#include "interpolation/blended_fits.h"
+#include "interpolation/field_model.h"
+#include "interpolation/kernel_sums.h"
+#include "interpolation/kriging_model.h"
+#include "interpolation/natural_model.h"
+#include "interpolation/query_order.h"
+#include "interpolation/simple_models.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/interpolation/impl/field_interpolation.hpp>
+
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol {
+
+namespace detail {
+
+namespace {
+
+constexpr std::size_t block_points = 1u << 14;
+constexpr std::size_t block_queries = 512;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::unique_ptr<FieldModel>
+makeModel(const SampledFields& sampled,
+          const InterpolationParameters& parameters,
+          const std::vector<ValueFrame>& frames,
+          const std::vector<std::string>& names,
+          const CloudView& cloud,
+          unsigned threads)
+{
+  switch (parameters.model) {
+  case InterpolationModel::Nearest:
+    return std::make_unique<NearestModel>(sampled);
+  case InterpolationModel::Shepard:
+    return std::make_unique<ShepardModel>(sampled, parameters.shepard);
+  case InterpolationModel::Sibson:
+    return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Sibson);
+  case InterpolationModel::Laplace:
+    return std::make_unique<NaturalModel>(sampled, NaturalCoordinates::Laplace);
+  case InterpolationModel::Kriging:
+    return std::make_unique<KrigingModel>(sampled, parameters.kriging, frames, names);
+  case InterpolationModel::Sph:
+    return std::make_unique<KernelSums>(
+        sampled,
+        parameters.sph,
+        readParticles(cloud, *sampled.samples, parameters.sph),
+        threads);
+  default:
+    return std::make_unique<BlendedFits>(sampled, threads);
+  }
+}
+
+/** The finite values of a field in its frame, NaN elsewhere. */
+std::vector<double>
+readExactValues(const CloudView& cloud,
+                const ScalarField& field,
+                const ValueFrame& frame,
+                unsigned threads)
+{
+  std::vector<double> values(cloud.count);
+  parallelBlocks(cloud.count, block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // Adding zero turns -0 into 0, so that medians do not depend on its sign.
+      const double value = frame.apply(field.read(cloud.point(i))) + 0.0;
+      values[i] = std::isfinite(value) ? value : none;
+    }
+  });
+  return values;
+}
+
+/** The weaker of two, for fields with different samples. */
+FieldSupport
+weaker(FieldSupport a, FieldSupport b)
+{
+  constexpr int rank[] = {0, 1, 3, 4, 5, 2, 6};
+  return rank[static_cast<int>(a)] < rank[static_cast<int>(b)] ? b : a;
+}
+
+KdBox
+boxOf(const SampleSet& samples)
+{
+  return samples.getTree().getBox(samples.getTree().getRoot());
+}
+
+} // namespace
+
+/** Fields with the same samples, and their model. */
+struct FieldInterpolator::Group {
+  std::vector<std::uint32_t> use; ///< input indices
+  std::vector<std::size_t> fields;
+  std::vector<ValueFrame> frames;           ///< of each of them
+  std::vector<std::vector<double>> columns; ///< of each of them, by input index; empty
+                                            ///< once the model is made
+  SampledFields sampled;
+  std::unique_ptr<FieldModel> model;
+
+  void
+  build(const CloudView& cloud,
+        const InterpolationParameters& parameters,
+        const std::vector<std::string>& names,
+        unsigned threads,
+        Report& report)
+  {
+    sampled.samples = SampleSet::build(cloud.xyz(0),
+                                       cloud.stride(),
+                                       use,
+                                       toPosition(parameters.scale),
+                                       threads,
+                                       report);
+    gatherValues(threads, report);
+    columns.clear();
+    std::vector<std::string> own_names;
+    for (const std::size_t field : fields)
+      own_names.push_back(names[field]);
+    model = makeModel(sampled, parameters, frames, own_names, cloud, threads);
+  }
+
+  /** Values into leaf order; a merged sample takes the lower median of its members'. */
+  void
+  gatherValues(unsigned threads, Report& report)
+  {
+    const SampleSet& samples = *sampled.samples;
+    sampled.fields = fields.size();
+    sampled.values.resize(samples.size() * fields.size());
+    parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t f = 0; f < fields.size(); ++f)
+          sampled.values[i * fields.size() + f] = columns[f][samples.getInputIndex(i)];
+    });
+    std::uint64_t conflicting = 0;
+    std::vector<std::uint32_t> members;
+    for (const SampleSet::Merged& merged : samples.getMerged())
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        members.assign(merged.members.begin(), merged.members.end());
+        const std::uint32_t source = chooseRepresentative(
+            members, [&](auto member) { return columns[f][member]; }, conflicting);
+        sampled.values[merged.sample * fields.size() + f] = columns[f][source];
+      }
+    report.count("conflicting_duplicates", conflicting);
+  }
+
+  /** A query's place among the samples; false if it has none. */
+  bool
+  locate(const std::array<double, 3>& at, Query& query) const
+  {
+    const LengthUnit& unit = sampled.samples->getUnit();
+    const Position rounded{{static_cast<float>(at[0]),
+                            static_cast<float>(at[1]),
+                            static_cast<float>(at[2])}};
+    if (!isFinite(rounded) || !LengthUnit::isWithin(unit.apply(rounded)))
+      return false;
+    // A place in float is stretched as samples are, so that it may be that of one.
+    const Position stretched = unit.apply(rounded);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t i = static_cast<std::size_t>(axis);
+      query.x[axis] = static_cast<double>(rounded[axis]) == at[i]
+                          ? static_cast<double>(stretched[axis])
+                          : at[i] * static_cast<double>(unit.scale[axis]);
+    }
+    return true;
+  }
+
+  /** Bring the answer to a query of a block to its place, in units of the fields.
+   * \param to index of the query */
+  void
+  scatter(const Estimates& answers,
+          std::size_t from,
+          std::size_t to,
+          InterpolatedFields& result) const
+  {
+    result.support[to] = weaker(result.support[to], answers.support[from]);
+    if (answers.support[from] == FieldSupport::Outside && !answers.extrapolate)
+      return;
+    const Position& scale = sampled.samples->getUnit().scale;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const std::size_t source = from * fields.size() + f;
+      const std::size_t target = fields[f] * result.size + to;
+      result.values[target] = frames[f].toInput(answers.values[source]);
+      if (answers.errors)
+        result.errors[target] = answers.errors[source] / frames[f].factor;
+      if (answers.gradients)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          result.gradients[3 * target + axis] =
+              answers.gradients[3 * source + axis] / frames[f].factor *
+              static_cast<double>(scale[static_cast<int>(axis)]);
+    }
+  }
+};
+
+namespace {
+
+/** Answers of a group of fields, a block of queries after the other. */
+class BlockAnswers {
+public:
+  BlockAnswers(std::size_t fields, const InterpolationParameters& parameters)
+      : extrapolate_(parameters.extrapolate)
+      , values_(block_queries * fields, none)
+      , gradients_(parameters.gradients ? 3 * block_queries * fields : 0, none)
+      , errors_(parameters.errors ? block_queries * fields : 0, none)
+      , support_(block_queries, FieldSupport::Invalid)
+  {
+  }
+
+  Estimates
+  arrays()
+  {
+    return {values_.data(),
+            gradients_.empty() ? nullptr : gradients_.data(),
+            errors_.empty() ? nullptr : errors_.data(),
+            support_.data(),
+            extrapolate_};
+  }
+
+private:
+  bool extrapolate_;
+  std::vector<double> values_, gradients_, errors_;
+  std::vector<FieldSupport> support_;
+};
+
+void
+countSupport(const std::vector<FieldSupport>& support, Report& report)
+{
+  report.count("queries", support.size());
+  constexpr std::pair<const char*, FieldSupport> names[] = {
+      {"measured", FieldSupport::Measured},
+      {"bridged", FieldSupport::Bridged},
+      {"rim", FieldSupport::Rim},
+      {"outside", FieldSupport::Outside},
+      {"reduced", FieldSupport::Reduced},
+      {"invalid", FieldSupport::Invalid}};
+  for (const auto& [name, kind] : names)
+    report.count(
+        name,
+        static_cast<std::uint64_t>(std::count(support.begin(), support.end(), kind)));
+}
+
+} // namespace
+
+FieldInterpolator::FieldInterpolator(const CloudView& cloud,
+                                     const pcl::Indices& indices,
+                                     const InterpolationParameters& parameters,
+                                     unsigned threads,
+                                     Report& report)
+    : parameters_(parameters)
+    , names_(parameters.fields)
+{
+  checkParameters(parameters);
+  checkIndices(indices, cloud.count, "FieldInterpolation");
+  if (names_.empty())
+    names_.push_back(ScalarField::defaultName(cloud.fields));
+  for (std::size_t f = 0; f < names_.size(); ++f) {
+    const ScalarField field(cloud.fields, names_[f]);
+    const ValueFrame frame = findValueRange(cloud, field, threads).findFrame();
+    auto values = readExactValues(cloud, field, frame, threads);
+    auto use = pointsWithValue(values, indices, field);
+    const auto same =
+        std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+          return group.use == use;
+        });
+    Group& group = same == groups_.end() ? groups_.emplace_back() : *same;
+    group.use = std::move(use);
+    group.fields.push_back(f);
+    group.frames.push_back(frame);
+    group.columns.push_back(std::move(values));
+  }
+  for (Group& group : groups_)
+    group.build(cloud, parameters, names_, threads, report);
+}
+
+FieldInterpolator::~FieldInterpolator() = default;
+
+InterpolatedFields
+FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries,
+                               unsigned threads,
+                               Report& report) const
+{
+  InterpolatedFields result;
+  result.names = names_;
+  result.size = queries.size();
+  result.values.assign(names_.size() * queries.size(), none);
+  result.errors.assign(parameters_.errors ? result.values.size() : 0, none);
+  result.gradients.assign(parameters_.gradients ? 3 * result.values.size() : 0, none);
+  result.support.assign(queries.size(), FieldSupport::Measured);
+  StepTimer step(report, "interpolation", groups_.size() * queries.size());
+  for (const Group& group : groups_) {
+    std::vector<Query> places(queries.size());
+    std::vector<std::uint32_t> sources;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      if (group.locate(queries[i], places[sources.size()]))
+        sources.push_back(static_cast<std::uint32_t>(i));
+      else
+        result.support[i] = FieldSupport::Invalid;
+    places.resize(sources.size());
+    const auto order = orderInSpace(places, boxOf(*group.sampled.samples), threads);
+    parallelBlocks(order.size(), block_queries, threads, [&](auto begin, auto end) {
+      std::vector<Query> block;
+      for (std::size_t i = begin; i < end; ++i)
+        block.push_back(places[order[i]]);
+      BlockAnswers answers(group.fields.size(), parameters_);
+      group.model->evaluate(block.data(), block.size(), answers.arrays());
+      for (std::size_t i = begin; i < end; ++i)
+        group.scatter(answers.arrays(), i - begin, sources[order[i]], result);
+      step.advance(end - begin);
+    });
+    group.model->tell(report);
+  }
+  countSupport(result.support, report);
+  return result;
+}
+
+std::vector<std::array<double, 3>>
+placesOf(const CloudView& cloud)
+{
+  std::vector<std::array<double, 3>> places(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const float* const xyz = cloud.xyz(i);
+    places[i] = {xyz[0], xyz[1], xyz[2]};
+  }
+  return places;
+}
+
+} // namespace detail
+
+template class PCL_UVOL_EXPORTS FieldInterpolation<pcl::PointXYZI>;
+
+} // namespace pcl_uvol

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/kriging_model.h"
+
+#include "interpolation/kriging_system.h"
+#include "interpolation/query_search.h"
+#include "interpolation/support_finder.h"
+#include "neighbors/metric_finder.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/** Of the samples that estimates rest on: where octants are asked for, so many are
+ * looked through. */
+constexpr std::size_t octant_pool = 4;
+
+/** From offsets to those along the axes of the anisotropy, divided by the ratios of
+ * ranges: the axes are those of the coordinates turned about z, then the new x, then
+ * the new z. */
+Eigen::Matrix3d
+metricOf(const KrigingParameters& parameters)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  const auto turn = [&](Eigen::Index i, const Vector3d& axis) {
+    return Eigen::AngleAxisd(degree * static_cast<double>(parameters.rotation[i]), axis)
+        .toRotationMatrix();
+  };
+  const Eigen::Matrix3d axes = turn(0, Vector3d::UnitZ()) * turn(1, Vector3d::UnitX()) *
+                               turn(2, Vector3d::UnitZ());
+  const Vector3d ratios = parameters.ratios.matrix().cast<double>();
+  return ratios.cwiseInverse().asDiagonal() * axes.transpose();
+}
+
+/** Samples that an estimate rests on. */
+class NeighborhoodFinder {
+public:
+  NeighborhoodFinder(const SampleSet& samples,
+                     const KrigingParameters& parameters,
+                     const Eigen::Matrix3d& metric,
+                     const Query* queries,
+                     std::size_t count)
+      : samples_(samples)
+      , parameters_(parameters)
+      , metric_(metric)
+      , is_even_((parameters.ratios == 1.0f).all())
+      , queries_(queries)
+      , search_(samples, poolOf(parameters), queries, count)
+      , finder_(samples, poolOf(parameters))
+  {
+  }
+
+  /** \return offsets in the metric, by index of the sample */
+  const std::vector<std::pair<std::uint32_t, Vector3d>>&
+  find(std::size_t query)
+  {
+    found_.clear();
+    const auto add = [&](std::uint32_t sample) {
+      const Position& x = samples_.getPositions()[sample];
+      Vector3d offset;
+      for (int axis = 0; axis < 3; ++axis)
+        offset[axis] = static_cast<double>(x[axis]) - queries_[query].x[axis];
+      found_.emplace_back(sample, metric_ * offset);
+    };
+    if (is_even_) {
+      const auto near = search_.find(query);
+      std::for_each(near.samples, near.samples + near.size, add);
+    }
+    else
+      for (const std::uint32_t sample :
+           finder_.find(queries_[query].toPosition(), metric_))
+        add(sample);
+    if (parameters_.octants)
+      keepOctants();
+    std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+      return a.first < b.first;
+    });
+    return found_;
+  }
+
+private:
+  static std::size_t
+  poolOf(const KrigingParameters& parameters)
+  {
+    return parameters.octants ? octant_pool * parameters.k : parameters.k;
+  }
+
+  /** Keep no more than an eighth of k in each octant, the nearest. */
+  void
+  keepOctants()
+  {
+    std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+      const double to_a = a.second.squaredNorm(), to_b = b.second.squaredNorm();
+      return to_a != to_b ? to_a < to_b : a.first < b.first;
+    });
+    const std::size_t most = (parameters_.k + 7) / 8;
+    std::size_t counts[8] = {};
+    const auto isTooMany = [&](const auto& sample) {
+      const Vector3d& x = sample.second;
+      return ++counts[(x[0] < 0.0) + 2 * (x[1] < 0.0) + 4 * (x[2] < 0.0)] > most;
+    };
+    std::vector<std::pair<std::uint32_t, Vector3d>> kept;
+    for (const auto& sample : found_)
+      if (!isTooMany(sample))
+        kept.push_back(sample);
+    found_.swap(kept);
+  }
+
+  const SampleSet& samples_;
+  const KrigingParameters& parameters_;
+  const Eigen::Matrix3d& metric_;
+  bool is_even_;
+  const Query* queries_;
+  QuerySearch search_;
+  MetricFinder finder_;
+  std::vector<std::pair<std::uint32_t, Vector3d>> found_;
+};
+
+} // namespace
+
+KrigingModel::KrigingModel(const SampledFields& sampled,
+                           const KrigingParameters& parameters,
+                           const std::vector<ValueFrame>& frames,
+                           const std::vector<std::string>& names)
+    : sampled_(sampled)
+    , parameters_(parameters)
+    , metric_(metricOf(parameters))
+    , sparse_(sparseSamples(*sampled.samples))
+{
+  for (std::size_t f = 0; f < sampled.fields; ++f) {
+    const double factor = frames[f].factor * frames[f].factor;
+    const Variogram given{parameters.variogram,
+                          parameters.nugget * factor,
+                          parameters.sill * factor,
+                          parameters.range * sampled.samples->getUnit().factor};
+    variograms_.push_back(
+        fitVariogram(empiricalVariogram(sampled, f, metric_, parameters.trend), given));
+    if (!(variograms_.back().sill + variograms_.back().nugget > 0.0))
+      constant_.push_back(names[f]);
+  }
+}
+
+void
+KrigingModel::evaluate(const Query* queries,
+                       std::size_t count,
+                       const Estimates& estimates) const
+{
+  SupportFinder support(*sampled_.samples, sparse_);
+  support.expect(queries, count);
+  NeighborhoodFinder finder(*sampled_.samples, parameters_, metric_, queries, count);
+  Eigen::MatrixX3d offsets;
+  Eigen::VectorXd values;
+  for (std::size_t i = 0; i < count; ++i) {
+    estimates.support[i] = support.find(queries[i]);
+    if (estimates.support[i] == FieldSupport::Outside && !estimates.extrapolate)
+      continue;
+    const auto& near = finder.find(i);
+    const auto size = static_cast<Eigen::Index>(near.size());
+    offsets.resize(size, 3);
+    values.resize(size);
+    for (Eigen::Index j = 0; j < size; ++j)
+      offsets.row(j) = near[static_cast<std::size_t>(j)].second.transpose();
+    for (std::size_t f = 0; f < sampled_.fields; ++f) {
+      for (Eigen::Index j = 0; j < size; ++j)
+        values[j] = sampled_.valuesOf(near[static_cast<std::size_t>(j)].first)[f];
+      const Variogram& variogram = variograms_[f];
+      KrigingEstimate estimate{values[0], 0.0, Vector3d::Zero()};
+      if (variogram.sill + variogram.nugget > 0.0)
+        estimate =
+            KrigingSystem(offsets, variogram, parameters_.trend).estimate(values);
+      const std::size_t place = i * sampled_.fields + f;
+      estimates.values[place] = estimate.value;
+      if (estimates.errors)
+        estimates.errors[place] = std::sqrt(estimate.variance);
+      if (estimates.gradients) {
+        const Vector3d gradient = metric_.transpose() * estimate.gradient;
+        std::copy_n(gradient.data(), 3, estimates.gradients + 3 * place);
+      }
+    }
+  }
+}
+
+void
+KrigingModel::tell(Report& report) const
+{
+  for (const std::string& name : constant_)
+    report.warnings.push_back("The field " + name +
+                              " is the same at all samples: there is no variogram, and "
+                              "every estimate is that value, with error 0.");
+}
+
+} // namespace pcl_uvol::detail

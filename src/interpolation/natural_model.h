@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Natural-neighbour interpolation in three dimensions by exact Voronoi cells: Sibson's
+// coordinates (1981) and Laplace's (Belikov et al. 1997).
+#pragma once
+
+#include "interpolation/field_model.h"
+#include "interpolation/voronoi_cell.h"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief Which coordinates natural neighbours get. */
+enum class NaturalCoordinates {
+  Sibson, ///< the volume that the place's cell takes from the sample's one
+  Laplace ///< the area of the face between them by their distance
+};
+
+/** \brief Natural neighbours of one place after another, with their coordinates; one
+ * object per thread. */
+class NaturalNeighborFinder {
+public:
+  struct Neighbor {
+    std::uint32_t sample;
+    double weight;                  ///< before it is divided by the sum of all
+    std::array<double, 3> gradient; ///< of it; NaN for Laplace's
+  };
+
+  /** \param samples must outlive the finder */
+  NaturalNeighborFinder(const SampleSet& samples, NaturalCoordinates coordinates);
+
+  /** \brief Find those of a place that is no sample; see VoronoiCellFinder::find.
+   * \return false outside of the convex hull */
+  bool
+  find(const Query& place, const std::uint32_t* near, std::size_t count);
+
+  /** \brief By sample index. */
+  const std::vector<Neighbor>&
+  getNeighbors() const
+  {
+    return neighbors_;
+  }
+
+private:
+  double
+  stolenVolume(std::size_t face);
+
+  VoronoiCellFinder cells_;
+  NaturalCoordinates coordinates_;
+  std::vector<Neighbor> neighbors_;
+  std::vector<Eigen::Vector3d> offsets_; ///< of the samples of the faces
+  std::vector<std::pair<double, std::size_t>> others_;
+  ConvexCell part_;
+};
+
+/** \brief The mean of the natural neighbours' values by their coordinates: passes
+ * through the samples, exact for linear functions, ends at their convex hull. The
+ * standard error is the weighted standard deviation of the values. */
+class NaturalModel : public FieldModel {
+public:
+  NaturalModel(const SampledFields& sampled, NaturalCoordinates coordinates);
+
+  void
+  evaluate(const Query* queries,
+           std::size_t count,
+           const Estimates& estimates) const override;
+
+private:
+  const SampledFields& sampled_;
+  NaturalCoordinates coordinates_;
+  std::vector<Position> sparse_;
+};
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Polynomials around every sample, made bucket by bucket of the tree when they are
+// first asked for, and kept.
+#pragma once
+
+#include "interpolation/ball_tree.h"
+#include "interpolation/field_model.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief The polynomials of a bucket of samples.
+ *
+ * Memory per sample: 24 bytes and 168 per field. */
+struct BucketFits {
+  std::vector<double> radius;   ///< [sample] of the support of the fit: its unit
+  std::vector<double> sq_reach; ///< [sample] of the ball in which the fit has a weight
+  std::vector<bool> is_inner;   ///< [sample] neighbours on all sides
+  std::vector<bool> is_reduced; ///< [sample] neighbours on few planes or lines, or too
+                                ///< few of them: a polynomial of lower degree
+  std::vector<double> coefficients; ///< [sample][field][term], see PolynomialFit
+  std::vector<double> errors;       ///< [sample][field] standard errors at the sample
+};
+
+/** \brief Fits of all samples. Any number of threads may ask for them at once. */
+class SampleFits {
+public:
+  /** \param sampled must outlive the fits */
+  SampleFits(const SampledFields& sampled, unsigned threads);
+
+  /** \brief The balls in which fits have a weight. */
+  const BallTree&
+  getBalls() const
+  {
+    return balls_;
+  }
+
+  const BucketFits&
+  getFits(std::size_t bucket) const;
+
+  /** \brief Samples so far whose fits are of lower degree. */
+  std::uint64_t
+  countReduced() const;
+
+private:
+  double
+  boundReach(const BallTree::Bucket& bucket) const;
+
+  const SampledFields& sampled_;
+  BallTree balls_;
+  mutable std::vector<std::unique_ptr<const BucketFits>> fits_;
+  mutable std::vector<std::once_flag> once_;
+};
+
+} // namespace pcl_uvol::detail

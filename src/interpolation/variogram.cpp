@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/variogram.h"
+
+#include "neighbors/nearest_finder.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/** Samples out of all parts of a cloud, all pairs of which count. */
+constexpr std::size_t most_centers = 600;
+
+/** Nearest samples of each of them that make pairs with it: short distances. */
+constexpr std::size_t near_samples = 32;
+
+/** Classes of distance. Twice as wide as the one before every few of them: what is near
+ * matters to estimates. */
+constexpr std::size_t classes = 24;
+
+/** Of the diagonal of the cloud's box: farther pairs are few and from its ends. */
+constexpr double farthest_part = 1.0 / 3.0;
+
+/** Between the bounds of the nearest class and the farthest one, at least. */
+constexpr double least_spread = 1e-3;
+
+/** Ranges that are tried, and times that weights are made anew. */
+constexpr int tried_ranges = 64, refinements = 24, rounds = 4;
+
+double
+correlation(VariogramKind kind, double u)
+{
+  switch (kind) {
+  case VariogramKind::Exponential:
+    return std::exp(-u);
+  case VariogramKind::Gaussian:
+    return std::exp(-u * u);
+  case VariogramKind::Matern32:
+    return (1.0 + std::sqrt(3.0) * u) * std::exp(-std::sqrt(3.0) * u);
+  case VariogramKind::Matern52:
+    return (1.0 + std::sqrt(5.0) * u + 5.0 / 3.0 * u * u) *
+           std::exp(-std::sqrt(5.0) * u);
+  default:
+    return u < 1.0 ? 1.0 - u * (1.5 - 0.5 * u * u) : 0.0;
+  }
+}
+
+/** The derivative of the correlation, divided by u. */
+double
+correlationSlope(VariogramKind kind, double u)
+{
+  switch (kind) {
+  case VariogramKind::Exponential:
+    return -std::exp(-u) / u;
+  case VariogramKind::Gaussian:
+    return -2.0 * std::exp(-u * u);
+  case VariogramKind::Matern32:
+    return -3.0 * std::exp(-std::sqrt(3.0) * u);
+  case VariogramKind::Matern52:
+    return -5.0 / 3.0 * (1.0 + std::sqrt(5.0) * u) * std::exp(-std::sqrt(5.0) * u);
+  default:
+    return u < 1.0 ? -1.5 / u + 1.5 * u : 0.0;
+  }
+}
+
+Vector3d
+positionOf(const SampledFields& sampled, std::size_t sample)
+{
+  const Position& position = sampled.samples->getPositions()[sample];
+  return {position[0], position[1], position[2]};
+}
+
+/** Values of a field at some samples, less their trend. */
+class Residuals {
+public:
+  Residuals(const SampledFields& sampled,
+            std::size_t field,
+            const std::vector<std::size_t>& centers,
+            int trend)
+      : sampled_(sampled)
+      , field_(field)
+      , trend_(trend)
+      , middle_(Vector3d::Zero())
+  {
+    for (const std::size_t center : centers)
+      middle_ += positionOf(sampled, center);
+    middle_ /= static_cast<double>(centers.size());
+    Eigen::MatrixXd terms(static_cast<Eigen::Index>(centers.size()), trendTerms(trend));
+    Eigen::VectorXd values(terms.rows());
+    for (Eigen::Index i = 0; i < terms.rows(); ++i) {
+      const std::size_t center = centers[static_cast<std::size_t>(i)];
+      terms.row(i) = trendAt(positionOf(sampled, center) - middle_, trend);
+      values[i] = sampled.valuesOf(center)[field];
+    }
+    coefficients_ = terms.completeOrthogonalDecomposition().solve(values);
+  }
+
+  double
+  operator[](std::size_t sample) const
+  {
+    const double value = sampled_.valuesOf(sample)[field_];
+    return trend_ == 0 ? value
+                       : value - trendAt(positionOf(sampled_, sample) - middle_, trend_)
+                                     .dot(coefficients_);
+  }
+
+private:
+  const SampledFields& sampled_;
+  std::size_t field_;
+  int trend_;
+  Vector3d middle_;
+  Eigen::VectorXd coefficients_;
+};
+
+/** Nugget and sill that fit best for a range, and how well. */
+struct LinearFit {
+  double nugget, sill, misfit;
+};
+
+LinearFit
+fitLevels(const EmpiricalVariogram& empirical,
+          const std::vector<double>& weights,
+          const Variogram& given,
+          double range)
+{
+  const bool has_nugget = !std::isnan(given.nugget), has_sill = !std::isnan(given.sill);
+  double ww = 0.0, ws = 0.0, ss = 0.0, wv = 0.0, sv = 0.0;
+  std::vector<double> shape(empirical.distance.size());
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    shape[i] = 1.0 - correlation(given.kind, empirical.distance[i] / range);
+    const double v = empirical.value[i], w = weights[i];
+    ww += w;
+    ws += w * shape[i];
+    ss += w * shape[i] * shape[i];
+    wv += w * v;
+    sv += w * shape[i] * v;
+  }
+  // The best non-negative pair: both free, or one of them zero or given.
+  std::vector<std::pair<double, double>> pairs;
+  const double determinant = ww * ss - ws * ws;
+  if (has_nugget && has_sill)
+    pairs.emplace_back(given.nugget, given.sill);
+  else if (has_nugget)
+    pairs.emplace_back(given.nugget, std::max(0.0, (sv - given.nugget * ws) / ss));
+  else if (has_sill)
+    pairs.emplace_back(std::max(0.0, (wv - given.sill * ws) / ww), given.sill);
+  else {
+    pairs.emplace_back(0.0, std::max(0.0, sv / ss));
+    pairs.emplace_back(std::max(0.0, wv / ww), 0.0);
+    if (determinant > 1e-12 * ww * ss)
+      pairs.emplace_back((wv * ss - sv * ws) / determinant,
+                         (ww * sv - ws * wv) / determinant);
+  }
+  LinearFit best{0.0, 0.0, std::numeric_limits<double>::infinity()};
+  for (const auto& [nugget, sill] : pairs) {
+    if (!(nugget >= 0.0 && sill >= 0.0))
+      continue;
+    double misfit = 0.0;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+      const double rest = empirical.value[i] - nugget - sill * shape[i];
+      misfit += weights[i] * rest * rest;
+    }
+    if (misfit < best.misfit)
+      best = {nugget, sill, misfit};
+  }
+  return best;
+}
+
+} // namespace
+
+double
+Variogram::covariance(double h) const
+{
+  return sill * correlation(kind, h / range);
+}
+
+double
+Variogram::covarianceSlope(double h) const
+{
+  return sill * correlationSlope(kind, h / range) / (range * range);
+}
+
+Eigen::Index
+trendTerms(int degree)
+{
+  return degree == 0 ? 1 : (degree == 1 ? 4 : 10);
+}
+
+Eigen::RowVectorXd
+trendAt(const Vector3d& x, int degree)
+{
+  Eigen::RowVectorXd terms(trendTerms(degree));
+  terms[0] = 1.0;
+  if (degree > 0)
+    terms.segment<3>(1) = x.transpose();
+  if (degree > 1)
+    terms.segment<6>(4) << x[0] * x[0], x[0] * x[1], x[0] * x[2], x[1] * x[1],
+        x[1] * x[2], x[2] * x[2];
+  return terms;
+}
+
+EmpiricalVariogram
+empiricalVariogram(const SampledFields& sampled,
+                   std::size_t field,
+                   const Eigen::Matrix3d& metric,
+                   int trend)
+{
+  const SampleSet& samples = *sampled.samples;
+  const std::size_t step = (samples.size() + most_centers - 1) / most_centers;
+  std::vector<std::size_t> centers;
+  for (std::size_t i = 0; i < samples.size(); i += step)
+    centers.push_back(i);
+  const Residuals residuals(sampled, field, centers, trend);
+
+  struct Pair {
+    double distance, half_square;
+  };
+  std::vector<Pair> pairs;
+  const auto add = [&](std::size_t a, std::size_t b) {
+    const double distance =
+        (metric * (positionOf(sampled, a) - positionOf(sampled, b))).norm();
+    const double difference = residuals[a] - residuals[b];
+    pairs.push_back({distance, 0.5 * difference * difference});
+  };
+  NearestFinder finder(samples, near_samples + 1);
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const auto near = finder.find(samples.getPositions()[centers[i]], 1.0f);
+    for (std::size_t j = 0; j < near.size; ++j)
+      if (near.samples[j] != centers[i])
+        add(centers[i], near.samples[j]);
+    for (std::size_t j = 0; j < i; ++j)
+      add(centers[i], centers[j]);
+  }
+  EmpiricalVariogram empirical;
+  if (pairs.empty())
+    return empirical;
+  double farthest = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (const Pair& pair : pairs) {
+    farthest = std::max(farthest, farthest_part * pair.distance);
+    nearest = std::min(nearest, pair.distance);
+  }
+  // A few very close pairs should not stretch the classes.
+  nearest = std::max(nearest, least_spread * farthest);
+  std::array<double, classes> distance{}, value{}, count{};
+  for (const Pair& pair : pairs) {
+    if (pair.distance > farthest)
+      continue;
+    const double part = std::log(pair.distance / nearest) /
+                        std::max(std::log(farthest / nearest), 1e-9);
+    const auto index = static_cast<std::size_t>(
+        std::clamp(part * classes, 0.0, static_cast<double>(classes - 1)));
+    distance[index] += pair.distance;
+    value[index] += pair.half_square;
+    count[index] += 1.0;
+  }
+  for (std::size_t i = 0; i < classes; ++i)
+    if (count[i] > 0.0) {
+      empirical.distance.push_back(distance[i] / count[i]);
+      empirical.value.push_back(value[i] / count[i]);
+      empirical.pairs.push_back(count[i]);
+    }
+  return empirical;
+}
+
+Variogram
+fitVariogram(const EmpiricalVariogram& empirical, const Variogram& given)
+{
+  Variogram fitted = given;
+  const bool is_level = std::all_of(empirical.value.begin(),
+                                    empirical.value.end(),
+                                    [](double value) { return value == 0.0; });
+  if (is_level) { // a constant, or a single sample
+    fitted.nugget = std::isnan(given.nugget) ? 0.0 : given.nugget;
+    fitted.sill = std::isnan(given.sill) ? 0.0 : given.sill;
+    fitted.range = std::isnan(given.range) ? 1.0 : given.range;
+    return fitted;
+  }
+  const double shortest = std::log(0.5 * empirical.distance.front()),
+               longest = std::log(4.0 * empirical.distance.back());
+  std::vector<double> weights = empirical.pairs;
+  const auto misfitAt = [&](double log_range) {
+    return fitLevels(empirical, weights, given, std::exp(log_range)).misfit;
+  };
+  for (int round = 0; round < rounds; ++round) {
+    double best = std::log(given.range);
+    if (std::isnan(given.range)) {
+      const double step = (longest - shortest) / (tried_ranges - 1);
+      double least = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < tried_ranges; ++i)
+        if (const double misfit = misfitAt(shortest + i * step); misfit < least) {
+          least = misfit;
+          best = shortest + i * step;
+        }
+      // Between its neighbours, by thirds.
+      double low = std::max(shortest, best - step),
+             high = std::min(longest, best + step);
+      for (int i = 0; i < refinements; ++i) {
+        const double third = (high - low) / 3.0;
+        (misfitAt(low + third) <= misfitAt(high - third) ? high : low) +=
+            (misfitAt(low + third) <= misfitAt(high - third) ? -third : third);
+      }
+      best = 0.5 * (low + high);
+    }
+    const LinearFit levels = fitLevels(empirical, weights, given, std::exp(best));
+    fitted.range = std::exp(best);
+    fitted.nugget = levels.nugget;
+    fitted.sill = levels.sill;
+    double largest = 0.0;
+    for (const double distance : empirical.distance)
+      largest = std::max(largest, fitted.value(distance));
+    if (!(largest > 0.0))
+      break;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      // Not less than a millionth, or the first class would be all that counts.
+      const double model =
+          std::max(fitted.value(empirical.distance[i]), 1e-3 * largest);
+      weights[i] = empirical.pairs[i] / (model * model);
+    }
+  }
+  return fitted;
+}
+
+} // namespace pcl_uvol::detail

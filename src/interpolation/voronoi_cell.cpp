@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/voronoi_cell.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/** Half the side of the cube that a cell starts as, in diagonals of the samples' box:
+ * only cells next to the convex hull reach as far. */
+constexpr double cube_size = 256.0;
+
+/** Of squared distances: rounding of vertices. */
+constexpr double slack = 1e-11;
+
+} // namespace
+
+VoronoiCellFinder::VoronoiCellFinder(const SampleSet& samples)
+    : samples_(samples)
+{
+}
+
+Vector3d
+VoronoiCellFinder::offsetOf(std::uint32_t sample) const
+{
+  const Position& position = samples_.getPositions()[sample];
+  return {static_cast<double>(position[0]) - place_.x[0],
+          static_cast<double>(position[1]) - place_.x[1],
+          static_cast<double>(position[2]) - place_.x[2]};
+}
+
+bool
+VoronoiCellFinder::find(const Query& place,
+                        const std::uint32_t* near,
+                        std::size_t count)
+{
+  place_ = place;
+  const KdBox box = samples_.getTree().getBox(samples_.getTree().getRoot());
+  double sq_size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.low[axis], high = box.high[axis];
+    const double along = std::max(high, place.x[axis]) - std::min(low, place.x[axis]);
+    sq_size += along * along;
+  }
+  cell_.start(cube_size * std::sqrt(sq_size));
+  final_.clear();
+  neighbors_.assign(near, near + count);
+  std::sort(neighbors_.begin(), neighbors_.end(), [&](auto a, auto b) {
+    const auto& positions = samples_.getPositions();
+    const double to_a = sqDistance(place, positions[a]),
+                 to_b = sqDistance(place, positions[b]);
+    return to_a != to_b ? to_a < to_b : a < b;
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d offset = offsetOf(neighbors_[i]);
+    cell_.cut(offset, 0.5 * offset.squaredNorm(), static_cast<int>(i));
+  }
+  sq_reach_ = offsetOf(neighbors_.back()).squaredNorm();
+  is_bounded_ = true;
+  while (is_bounded_ && improve()) {
+  }
+  for (std::size_t i = 0; i < cell_.size(); ++i)
+    is_bounded_ = is_bounded_ && cell_[i].tag != ConvexCell::no_tag;
+  return is_bounded_;
+}
+
+bool
+VoronoiCellFinder::improve()
+{
+  // The farthest ones first: if the cell is not bounded, they tell so at once.
+  double sq_farthest = 0.25 * sq_reach_;
+  const Vector3d* farthest = nullptr;
+  int tag = 0;
+  for (std::size_t i = 0; i < cell_.size(); ++i)
+    for (const Vector3d& vertex : cell_[i].vertices)
+      if (vertex.squaredNorm() > sq_farthest && !isKnown(vertex)) {
+        sq_farthest = vertex.squaredNorm();
+        farthest = &vertex;
+        tag = cell_[i].tag;
+      }
+  if (!farthest)
+    return false;
+  final_.push_back(*farthest);
+  std::uint32_t sample;
+  if (findInBall(*farthest, sample)) {
+    const Vector3d offset = offsetOf(sample);
+    neighbors_.push_back(sample);
+    if (cell_.cut(offset,
+                  0.5 * offset.squaredNorm(),
+                  static_cast<int>(neighbors_.size()) - 1))
+      return true;
+    neighbors_.pop_back();
+  }
+  is_bounded_ = tag != ConvexCell::no_tag;
+  return true;
+}
+
+bool
+VoronoiCellFinder::isKnown(const Vector3d& vertex) const
+{
+  const double sq_tolerance = slack * slack * vertex.squaredNorm();
+  return std::any_of(final_.begin(), final_.end(), [&](const Vector3d& known) {
+    return (known - vertex).squaredNorm() <= sq_tolerance;
+  });
+}
+
+bool
+VoronoiCellFinder::findInBall(const Vector3d& vertex, std::uint32_t& found) const
+{
+  const KdTree& tree = samples_.getTree();
+  const std::vector<Position>& positions = samples_.getPositions();
+  const Query center{
+      {place_.x[0] + vertex[0], place_.x[1] + vertex[1], place_.x[2] + vertex[2]}};
+  double sq_least = (1.0 - slack) * vertex.squaredNorm();
+  bool is_found = false;
+  const auto sqGap = [&](const KdNode& node) {
+    const KdBox& box = tree.getBox(node);
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({static_cast<double>(box.low[axis]) - center.x[axis],
+                                   center.x[axis] - static_cast<double>(box.high[axis]),
+                                   0.0});
+      sum += gap * gap;
+    }
+    return sum;
+  };
+  std::pair<KdNode, double> stack[2 * 64];
+  std::size_t depth = 0;
+  stack[depth++] = {tree.getRoot(), sqGap(tree.getRoot())};
+  while (depth > 0) {
+    const auto [node, sq_gap] = stack[--depth];
+    if (sq_gap >= sq_least)
+      continue;
+    if (!KdTree::isBucket(node)) {
+      const KdNode left = node.left(), right = node.right();
+      const double to_left = sqGap(left), to_right = sqGap(right);
+      // The nearer one comes off the stack first.
+      if (to_left <= to_right) {
+        stack[depth++] = {right, to_right};
+        stack[depth++] = {left, to_left};
+      }
+      else {
+        stack[depth++] = {left, to_left};
+        stack[depth++] = {right, to_right};
+      }
+      continue;
+    }
+    for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
+      const double sq_dist = sqDistance(center, positions[i]);
+      if (sq_dist >= sq_least)
+        continue;
+      sq_least = sq_dist;
+      found = i;
+      is_found = true;
+    }
+  }
+  return is_found;
+}
+
+} // namespace pcl_uvol::detail

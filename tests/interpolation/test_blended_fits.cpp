@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Local polynomials as a partition of unity: exact for what they are, smooth, of the
+// order that they have, and sure of as much as they know.
+#include "support/clouds.h"
+#include "support/environment.h"
+#include "support/interpolation_cases.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace pcl_uvol;
+using namespace uvol_test;
+using Eigen::Vector3d;
+
+double
+cubic(const Vector3d& p)
+{
+  const double x = p[0] - 0.3, y = p[1] + 0.2, z = p[2];
+  return 2.0 + x - 3.0 * y + x * y + 2.0 * z * z - y * z + x * x * x - 2.0 * x * y * z +
+         y * y * z + 0.5 * z * z * z;
+}
+
+TEST(BlendedFits, ExactForCubics)
+{
+  const auto samples = sampleFunctions(
+      randomPlaces(3000, 1), {cubic, [](const Vector3d& x) { return 1e6 + cubic(x); }});
+  const auto result = interpolate(samples, {}, randomPlaces(2000, 2), 2);
+  const Places places = randomPlaces(2000, 2);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3d x = vectorOf(places[i]);
+    if (result.support[i] == FieldSupport::Outside)
+      continue;
+    EXPECT_NEAR(result.getValue(0, i), cubic(x), 1e-9);
+    EXPECT_NEAR(result.getValue(1, i) - 1e6, cubic(x), 2e-9);
+    EXPECT_LT((vectorOf(result.getGradient(0, i)) - gradientOf(cubic, x)).norm(), 1e-7);
+    EXPECT_LT(result.getError(0, i), 1e-8);
+  }
+}
+
+/** The gradient is the derivative of the values, also where fits come and go. */
+TEST(BlendedFits, ContinuouslyDifferentiable)
+{
+  const auto samples = sampleFunctions(randomPlaces(1000, 3), {franke});
+  Places line;
+  constexpr int steps = 4000;
+  constexpr double step = 0.8 / steps;
+  for (int i = 0; i <= steps; ++i)
+    line.push_back({0.1 + i * step, 0.5, 0.45});
+  const auto result = interpolate(samples, {}, line);
+  double roughness = 0.0;
+  for (int i = 1; i < steps; ++i) {
+    const double slope =
+        (result.getValue(0, i + 1) - result.getValue(0, i - 1)) / (2.0 * step);
+    EXPECT_NEAR(slope, result.getGradient(0, i)[0], 2e-4);
+    roughness = std::max(
+        roughness,
+        std::abs(result.getGradient(0, i)[0] - result.getGradient(0, i - 1)[0]));
+  }
+  EXPECT_LT(roughness, 0.05);
+}
+
+struct Deviation {
+  double value, gradient; ///< root mean squares
+  double share;           ///< of values no farther off than their error
+};
+
+Deviation
+deviationOf(std::size_t n, const Function& function, double noise = 0.0)
+{
+  Random random(99);
+  const Function noisy = [&](const Vector3d& x) {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i)
+      sum += random.uniform();
+    return function(x) + noise * sum;
+  };
+  const auto samples = sampleFunctions(randomPlaces(n, 4), {noisy});
+  const Places places = randomPlaces(3000, 5, 0.15, 0.85);
+  const auto result = interpolate(samples, {}, places);
+  Deviation deviation{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3d x = vectorOf(places[i]);
+    const double off = result.getValue(0, i) - function(x);
+    deviation.value += off * off;
+    deviation.gradient +=
+        (vectorOf(result.getGradient(0, i)) - gradientOf(function, x)).squaredNorm();
+    deviation.share += std::abs(off) <= result.getError(0, i);
+  }
+  const double count = static_cast<double>(places.size());
+  return {std::sqrt(deviation.value / count),
+          std::sqrt(deviation.gradient / count),
+          deviation.share / count};
+}
+
+TEST(BlendedFits, OrderOfConvergence)
+{
+  const Function waves = [](const Vector3d& x) {
+    return std::sin(4.0 * x[0]) * std::cos(3.0 * x[1]) + std::exp(x[2] * x[0]);
+  };
+  for (const Function& function : {Function(franke), waves}) {
+    const Deviation coarse = deviationOf(8000, function);
+    const Deviation fine = deviationOf(64000, function); // half the spacing
+    EXPECT_GE(std::log2(coarse.value / fine.value), 3.5);
+    EXPECT_GE(std::log2(coarse.gradient / fine.gradient), 2.5);
+  }
+}
+
+TEST(BlendedFits, ErrorsAreCalibrated)
+{
+  EXPECT_GE(deviationOf(16000, franke).share, 0.68);
+  const Deviation noisy = deviationOf(16000, franke, 0.1);
+  EXPECT_GE(noisy.share, 0.6);
+  EXPECT_LE(noisy.share, 0.9);
+  EXPECT_LT(noisy.value, 0.07); // of noise of 0.1
+}
+
+/** Samples on a plane or a line, or few of them, still give back a linear function at
+ * places among them; not so layers far apart, whose samples have no neighbours on
+ * others. */
+TEST(BlendedFits, LinearFunctionsOfEveryLayout)
+{
+  const Function linear = [](const Vector3d& x) {
+    return 3.0 + x[0] - 2.0 * x[1] + 0.5 * x[2];
+  };
+  for (const std::string& shape : cloudShapes()) {
+    if (shape == "slices" || shape == "one plane and noise")
+      continue;
+    for (const std::size_t n : {4, 12, 30, 400}) {
+      const auto cloud = makeCloud(shape, n, 6);
+      Places at, places;
+      for (const auto& point : *cloud)
+        at.push_back({point.x, point.y, point.z});
+      for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+        std::array<double, 3> middle;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          middle[axis] = 0.75 * at[i][axis] + 0.25 * at[i + 1][axis];
+        places.push_back(middle);
+      }
+      InterpolationParameters parameters;
+      parameters.extrapolate = true;
+      const auto result =
+          interpolate(sampleFunctions(at, {linear}), parameters, places);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        EXPECT_NEAR(result.getValue(0, i), linear(vectorOf(places[i])), 1e-5)
+            << shape << " " << n;
+    }
+  }
+}
+
+TEST(BlendedFits, ReducedFitsAreFlagged)
+{
+  Places at = randomPlaces(500, 7);
+  for (auto& place : at)
+    place[2] = 0.25;
+  Report report;
+  const auto result =
+      interpolate(sampleFunctions(at, {franke}), {}, {{0.5, 0.5, 0.25}}, 1, 0, &report);
+  EXPECT_GT(report.getCount("reduced_fits"), 0u);
+  EXPECT_NEAR(result.getValue(0, 0), franke({0.5, 0.5, 0.25}), 5e-3);
+  EXPECT_NE(result.support[0], FieldSupport::Measured);
+}
+
+/** Across a jump values overshoot by no more than half of it. */
+TEST(BlendedFits, StepsRingALittle)
+{
+  const auto samples =
+      sampleFunctions(randomPlaces(8000, 8),
+                      {[](const Vector3d& x) { return x[0] < 0.5 ? 0.0 : 1.0; }});
+  const Places places = randomPlaces(2000, 9, 0.1, 0.9);
+  const auto result = interpolate(samples, {}, places);
+  for (const double value : result.values) {
+    EXPECT_GT(value, -0.5);
+    EXPECT_LT(value, 1.5);
+  }
+}
+
+} // namespace

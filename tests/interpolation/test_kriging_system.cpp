@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The equations of kriging against the textbook's bordered matrix in long double, and
+// variograms against what they were made from.
+#include "common/random.h"
+#include "src/interpolation/kriging_system.h"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace pcl_uvol;
+using namespace pcl_uvol::detail;
+using Real = long double;
+using MatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using VectorX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+/** By definition, see VariogramKind. */
+Real
+correlationOf(VariogramKind kind, Real u)
+{
+  switch (kind) {
+  case VariogramKind::Exponential:
+    return std::exp(-u);
+  case VariogramKind::Gaussian:
+    return std::exp(-u * u);
+  case VariogramKind::Matern32:
+    return (1.0L + std::sqrt(3.0L) * u) * std::exp(-std::sqrt(3.0L) * u);
+  case VariogramKind::Matern52:
+    return (1.0L + std::sqrt(5.0L) * u + 5.0L / 3.0L * u * u) *
+           std::exp(-std::sqrt(5.0L) * u);
+  default:
+    return u < 1.0L ? 1.0L - 1.5L * u + 0.5L * u * u * u : 0.0L;
+  }
+}
+
+struct Case {
+  Eigen::MatrixX3d offsets;
+  Eigen::VectorXd values;
+};
+
+Case
+randomCase(Eigen::Index n, std::uint64_t seed)
+{
+  Case made{Eigen::MatrixX3d(n, 3), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto index = static_cast<std::uint64_t>(i);
+    for (int axis = 0; axis < 3; ++axis)
+      made.offsets(i, axis) =
+          2.0 * uniformAt(seed, index, static_cast<std::uint64_t>(axis)) - 1.0;
+    made.values[i] = 5.0 + uniformAt(seed, index, 3) + made.offsets(i, 0);
+  }
+  return made;
+}
+
+/** Value and variance at the origin by the bordered system. */
+std::pair<Real, Real>
+krige(const Case& at, const Variogram& variogram, int trend)
+{
+  const Eigen::Index n = at.offsets.rows(), p = trendTerms(trend);
+  MatrixX matrix = MatrixX::Zero(n + p, n + p);
+  VectorX right = VectorX::Zero(n + p);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const Real h = (at.offsets.row(i) - at.offsets.row(j)).cast<Real>().norm();
+      matrix(i, j) =
+          variogram.sill * correlationOf(variogram.kind, h / variogram.range) +
+          (i == j ? variogram.nugget : 0.0);
+    }
+    right[i] = variogram.sill *
+               correlationOf(variogram.kind,
+                             at.offsets.row(i).cast<Real>().norm() / variogram.range);
+    const auto terms = trendAt(at.offsets.row(i).transpose(), trend);
+    for (Eigen::Index k = 0; k < p; ++k)
+      matrix(i, n + k) = matrix(n + k, i) = terms[k];
+  }
+  right[n] = 1.0L;
+  const VectorX weights = matrix.fullPivLu().solve(right);
+  return {weights.head(n).dot(at.values.cast<Real>()),
+          static_cast<Real>(variogram.nugget) + variogram.sill - weights.dot(right)};
+}
+
+TEST(KrigingSystem, SolvesTheTextbooksEquations)
+{
+  for (const auto& word : listWords(VariogramKind()))
+    for (const int trend : {0, 1, 2})
+      for (const double nugget : {0.0, 0.2}) {
+        const Case at = randomCase(24, 7);
+        const Variogram variogram{word.value, nugget, 1.5, 1.3};
+        const auto [value, variance] = krige(at, variogram, trend);
+        const KrigingSystem system(at.offsets, variogram, trend);
+        const KrigingEstimate estimate = system.estimate(at.values);
+        // Gaussian covariances are as good as singular.
+        const double close = word.value == VariogramKind::Gaussian ? 1e-5 : 1e-9;
+        EXPECT_NEAR(estimate.value, static_cast<double>(value), close) << word.word;
+        EXPECT_NEAR(estimate.variance, static_cast<double>(variance), close);
+      }
+}
+
+TEST(KrigingSystem, GradientIsTheDerivative)
+{
+  const Case at = randomCase(20, 8);
+  constexpr double step = 1e-6;
+  for (const auto& word : listWords(VariogramKind()))
+    for (const int trend : {0, 1, 2}) {
+      const Variogram variogram{word.value, 0.1, 1.0, 1.1};
+      const Eigen::Vector3d gradient =
+          KrigingSystem(at.offsets, variogram, trend).estimate(at.values).gradient;
+      for (int axis = 0; axis < 3; ++axis) {
+        Eigen::MatrixX3d ahead = at.offsets, behind = at.offsets;
+        ahead.col(axis).array() -= step; // the origin moves ahead
+        behind.col(axis).array() += step;
+        const double slope =
+            (KrigingSystem(ahead, variogram, trend).estimate(at.values).value -
+             KrigingSystem(behind, variogram, trend).estimate(at.values).value) /
+            (2.0 * step);
+        EXPECT_NEAR(gradient[axis], slope, 1e-5) << word.word << trend;
+      }
+    }
+}
+
+TEST(KrigingSystem, FewSamplesLowerTheTrend)
+{
+  for (const Eigen::Index n : {1, 2, 3, 4, 9, 10}) {
+    const Case at = randomCase(n, 9);
+    const auto estimate =
+        KrigingSystem(at.offsets, {VariogramKind::Exponential, 0.0, 1.0, 1.0}, 2)
+            .estimate(at.values);
+    EXPECT_TRUE(std::isfinite(estimate.value));
+    EXPECT_GE(estimate.variance, 0.0);
+  }
+}
+
+TEST(Variogram, FitsFindWhatIsThere)
+{
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& word : listWords(VariogramKind())) {
+    const Variogram truth{word.value, 0.3, 2.0, 0.4};
+    EmpiricalVariogram empirical;
+    for (double h = 0.02; h < 2.0; h *= 1.25) {
+      empirical.distance.push_back(h);
+      empirical.value.push_back(truth.value(h));
+      empirical.pairs.push_back(100.0);
+    }
+    const Variogram fitted = fitVariogram(empirical, {word.value, nan, nan, nan});
+    EXPECT_NEAR(fitted.nugget, truth.nugget, 1e-3) << word.word;
+    EXPECT_NEAR(fitted.sill, truth.sill, 1e-3);
+    EXPECT_NEAR(fitted.range, truth.range, 1e-3);
+    // What is given stays.
+    const Variogram given = fitVariogram(empirical, {word.value, 0.3, nan, 0.4});
+    EXPECT_EQ(given.nugget, 0.3);
+    EXPECT_DOUBLE_EQ(given.range, 0.4);
+    EXPECT_NEAR(given.sill, truth.sill, 1e-9);
+  }
+}
+
+} // namespace
