@@ -11,7 +11,7 @@
 #include "interpolation/query_order.h"
 #include "interpolation/simple_models.h"
 #include "neighbors/sample_values.h"
-#include <pcl_uvol/interpolation/impl/field_interpolation.hpp>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <pcl/point_types.h>
 
@@ -329,7 +329,5 @@ placesOf(const CloudView& cloud)
 }
 
 } // namespace detail
-
-template class PCL_UVOL_EXPORTS FieldInterpolation<pcl::PointXYZI>;
 
 } // namespace pcl_uvol

@@ -12,8 +12,8 @@ struct LevelSetConstants {
   // What values of the field count (robust_values.cpp)
 
   /** Values count as no farther from the isovalue than so many medians of those next to
-   * the surface. Densities over ten decades diverged without a limit; 6 moved the
-   * surface where slopes differ along it. */
+   * the surface. Densities over ten decades diverged without a limit; this one leaves
+   * values alone where slopes differ along the surface by less. */
   float farthest_value = 30.0f;
   /** A sample is a spike where its value lies farther from the median of its neighbours
    * than so many of their median deviations: 4 standard deviations of noise. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
+#include "common/records.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>

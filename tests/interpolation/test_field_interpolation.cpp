@@ -4,7 +4,7 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
-#include <pcl_uvol/interpolation/impl/field_interpolation.hpp>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

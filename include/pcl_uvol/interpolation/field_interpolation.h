@@ -3,14 +3,11 @@
 // of any number of fields in one pass.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/cloud_stage.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/interpolation/interpolated_fields.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
-
-#include <pcl/pcl_base.h>
 
 #include <array>
 #include <cstddef>
@@ -78,11 +75,26 @@ placesOf(const CloudView& cloud);
  * Memory: about 50 bytes per sample and 8 per sample and field; the model's own; 40
  * bytes per query and field with gradients and errors. */
 template <typename PointT>
-class FieldInterpolation : public pcl::PCLBase<PointT>,
+class FieldInterpolation : public CloudStage<PointT>,
                            public ParameterStage<InterpolationParameters> {
 public:
   using Ptr = std::shared_ptr<FieldInterpolation<PointT>>;
   using ConstPtr = std::shared_ptr<const FieldInterpolation<PointT>>;
+
+  using Cloud = typename CloudStage<PointT>::Cloud;
+
+  /** \brief The samples. What is made of them is kept: a cloud that changes in place
+   * has to be set again. */
+  void
+  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
+  setInputCloud(const typename Cloud::ConstPtr& cloud)
+  {
+    if (cloud)
+      pcl::PCLBase<PointT>::setInputCloud(cloud);
+    else // PCLBase<PCLPointCloud2> would look into it
+      this->input_.reset();
+    interpolator_.reset();
+  }
 
   /** \brief Any fields of the cloud, see ScalarField; default: none, which stands for
    * the one of ScalarField::defaultName. */
@@ -155,5 +167,33 @@ private:
   std::unique_ptr<detail::FieldInterpolator> interpolator_;
   Report made_; ///< counts and warnings of making it
 };
+
+template <typename PointT>
+void
+FieldInterpolation<PointT>::interpolateAt(
+    const std::vector<std::array<double, 3>>& queries, InterpolatedFields& result)
+{
+  this->withInput("FieldInterpolation",
+                  [&](const CloudView& cloud, const pcl::Indices& indices) {
+                    startReport();
+                    if (!interpolator_ || cloud_ != this->input_ || used_ != indices ||
+                        made_for_ != parameters_) {
+                      interpolator_.reset();
+                      Report made;
+                      made.progress = report_.progress;
+                      interpolator_ = std::make_unique<detail::FieldInterpolator>(
+                          cloud, indices, parameters_, threads_, made);
+                      cloud_ = this->input_;
+                      used_ = indices;
+                      made_for_ = parameters_;
+                      report_.merge(made);
+                      made_ = made;
+                      made_.milliseconds.clear();
+                    }
+                    else
+                      report_.merge(made_);
+                    result = interpolator_->interpolate(queries, threads_, report_);
+                  });
+}
 
 } // namespace pcl_uvol

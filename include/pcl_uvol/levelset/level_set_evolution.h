@@ -341,11 +341,11 @@ LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
       "LevelSetEvolution", [&](const CloudView& cloud, const pcl::Indices& indices) {
         startReport();
         summary_ = LevelSetSummary();
-        LevelSet level_set = detail::evolveLevelSet(
+        LevelSet evolved = detail::evolveLevelSet(
             cloud, indices, parameters_, snapshot_steps_, snapshot_, threads_, report_);
-        summary_ = level_set.summary;
-        sources_ = level_set.sources;
-        take(cloud, indices, level_set);
+        summary_ = evolved.summary;
+        sources_ = evolved.sources;
+        take(cloud, indices, evolved);
       });
 }
 
@@ -353,8 +353,8 @@ template <typename PointT>
 void
 LevelSetEvolution<PointT>::evolve(std::vector<float>& phi)
 {
-  evolveInput([&](const CloudView&, const pcl::Indices&, LevelSet& level_set) {
-    phi = std::move(level_set.phi);
+  evolveInput([&](const CloudView&, const pcl::Indices&, LevelSet& evolved) {
+    phi = std::move(evolved.phi);
   });
 }
 
@@ -363,8 +363,8 @@ void
 LevelSetEvolution<PointT>::evolve(pcl::PCLPointCloud2& cloud)
 {
   evolveInput(
-      [&](const CloudView& view, const pcl::Indices& indices, LevelSet& level_set) {
-        cloud = detail::addPhi(view, indices, level_set.phi, threads_, report_);
+      [&](const CloudView& view, const pcl::Indices& indices, LevelSet& evolved) {
+        cloud = detail::addPhi(view, indices, evolved.phi, threads_, report_);
         cloud.header = this->input_->header;
       });
 }
