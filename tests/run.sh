@@ -10,11 +10,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-case ${1:-all:default} in
+asked=${1:-all:default}
+case $asked in
   all) parts=(default long) ;;
-  all:default | all:long) parts=("${1#all:}") ;;
+  all:default | all:long) parts=("${asked#all:}") ;;
   *)
-    echo "run.sh: there is no part '$1'; use all, all:default, all:long or no argument." >&2
+    echo "run.sh: there is no part '$asked'; use all, all:default, all:long or no argument." >&2
     exit 2
     ;;
 esac
