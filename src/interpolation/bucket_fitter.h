@@ -50,19 +50,20 @@ private:
   bool
   isInner(std::size_t lane, std::size_t neighbors);
 
+  struct alignas(64) LaneValues {
+    double value[polynomial_lanes];
+  };
+
+  alignas(64) float directions_[3][64];
   const SampledFields& sampled_;
   NearestFinder finder_;
   EmptyCone cone_;
   PolynomialKernel kernel_;
   std::vector<PolynomialSample> samples_; ///< [neighbour]
-  struct alignas(64) LaneValues {
-    double value[polynomial_lanes];
-  };
-  std::vector<LaneValues> values_; ///< [field][neighbour]
+  std::vector<LaneValues> values_;        ///< [field][neighbour]
   std::vector<PolynomialFit> results_;
-  int weighted_[polynomial_lanes] = {};
   std::vector<double> sq_dists_;
-  alignas(64) float directions_[3][64];
+  int weighted_[polynomial_lanes] = {};
   float length_ = 1.0f; ///< of the search before
 };
 

@@ -129,6 +129,7 @@ Folds::byField(const CloudView& cloud, const std::string& name, std::size_t fold
   checkFolds(folds, points.size(), ("values of " + name).c_str());
   // The largest groups first, each into the smallest fold so far.
   std::vector<std::pair<std::size_t, double>> groups;
+  groups.reserve(points.size());
   for (const auto& [value, count] : points)
     groups.emplace_back(count, value);
   std::sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) {
