@@ -58,6 +58,7 @@ private:
                                 threads_,
                                 report_);
       if (!built) {
+        // NOLINTNEXTLINE(bugprone-use-after-move): null leaves them where they were
         store_.putBack(piece, std::move(samples));
         coinciding[0] = 1;
         break;

@@ -155,7 +155,7 @@ Eigen::Vector3d
 SceneItem::direction()
 {
   const std::size_t first = taken_;
-  const Eigen::Vector3d direction = point();
+  Eigen::Vector3d direction = point();
   if (direction.norm() < shortest_direction)
     throwAt(placeOf(words_[first].column),
             "a direction has a length above 0; write '" + form_ + "'");

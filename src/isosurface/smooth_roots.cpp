@@ -378,6 +378,7 @@ smoothIsopoints(const IsopointInput& input,
   for (const RootFit& fit : fitRoots(input, isovalue, edges, points, step))
     outcomes.push_back(fit.outcome);
   std::vector<std::uint8_t> supports;
+  supports.reserve(points.size());
   for (const PointIso& point : points)
     supports.push_back(point.support);
   countRoots(outcomes, supports, report);
