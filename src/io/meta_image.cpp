@@ -2,8 +2,7 @@
 // Reads MetaImage: MetaIO, which VTK has, reads behind its buffers where headers lie.
 #include "common/numbers.h"
 #include "common/printable.h"
-#include "io/file_cursor.h"
-#include "io/volume_data.h"
+#include "io/volume_header.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -12,7 +11,6 @@ namespace io {
 namespace {
 
 using Type = pcl::PCLPointField;
-using Words = std::vector<std::string_view>;
 
 std::uint8_t
 datatypeOf(std::string_view name)
@@ -39,13 +37,9 @@ datatypeOf(std::string_view name)
 }
 
 /** Takes lines of the form "Key = value" up to ElementDataFile. */
-class HeaderParser {
+class HeaderParser : VolumeHeader {
 public:
-  explicit HeaderParser(const std::string& path)
-      : path_(path)
-      , cursor_(path)
-  {
-  }
+  using VolumeHeader::VolumeHeader;
 
   Volume
   read();
@@ -58,23 +52,12 @@ private:
   std::vector<double>
   numbersIn(std::size_t count) const;
   void
-  takeFiles(std::string_view value);
+  takeNumbers(std::string_view value);
   void
   finish();
 
-  [[noreturn]] void
-  throwInLine(const std::string& reason) const
-  {
-    throwUnreadable(path_, cursor_.tell().line, reason);
-  }
-
-  const std::string path_;
-  FileCursor cursor_;
-  Words words_; ///< of the value
-  Volume volume_;
-  VolumeData data_;
   std::uint64_t dimensions_ = 0, channels_ = 1;
-  bool has_spacing_ = false, has_sizes_ = false, compressed_ = false;
+  bool has_spacing_ = false, compressed_ = false;
   std::vector<double> matrix_;
 };
 
@@ -95,8 +78,7 @@ HeaderParser::numbersIn(std::size_t count) const
     throwInLine("there are " + std::to_string(words_.size()) + " numbers where " +
                 std::to_string(count) + " belong");
   for (std::size_t i = 0; i < count; ++i)
-    if (!parseNumber(words_[i], numbers[i]))
-      throwInLine(quoteText(words_[i]) + " is no number");
+    numbers[i] = parseWord(words_[i]);
   return numbers;
 }
 
@@ -148,23 +130,13 @@ HeaderParser::take(std::string_view key, std::string_view value)
 }
 
 void
-HeaderParser::takeFiles(std::string_view value)
+HeaderParser::takeNumbers(std::string_view value)
 {
-  if (value == "LOCAL") {
-    data_.files = {path_};
-    data_.offset = cursor_.tell().offset;
-    data_.skipped_bytes = 0;
-  }
-  else if (words_.size() > 1 && words_[0] == "LIST") {
-    std::string_view line;
-    while (cursor_.nextLine(line))
-      if (!trimmed(line).empty())
-        data_.files.push_back(besideFile(path_, trimmed(line)));
-  }
-  else if (value.find('%') != value.npos)
-    data_.files = filesOfPattern(path_, words_);
-  else
-    data_.files = {besideFile(path_, value)};
+  if (value != "LOCAL")
+    return takeFiles(value);
+  data_.files = {path_};
+  data_.offset = cursor_.tell().offset;
+  data_.skipped_bytes = 0;
 }
 
 void
@@ -201,7 +173,7 @@ HeaderParser::read()
     const std::string value(trimmed(line.substr(equals + 1)));
     splitWords(value, words_);
     if (key == "ElementDataFile" && !words_.empty()) {
-      takeFiles(value);
+      takeNumbers(value);
       finish();
       readValues(path_, data_, volume_);
       return std::move(volume_);

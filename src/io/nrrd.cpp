@@ -2,8 +2,7 @@
 // Reads NRRD: Teem writes behind its buffers where lines of the header are long.
 #include "common/numbers.h"
 #include "common/printable.h"
-#include "io/file_cursor.h"
-#include "io/volume_data.h"
+#include "io/volume_header.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -16,7 +15,6 @@ namespace io {
 namespace {
 
 using Type = pcl::PCLPointField;
-using Words = std::vector<std::string_view>;
 using Vector = std::array<double, 3>;
 
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
@@ -51,13 +49,9 @@ datatypeOf(const std::string& name)
 }
 
 /** Takes lines of the form "field: value" up to an empty one. */
-class HeaderParser {
+class HeaderParser : VolumeHeader {
 public:
-  explicit HeaderParser(const std::string& path)
-      : path_(path)
-      , cursor_(path)
-  {
-  }
+  using VolumeHeader::VolumeHeader;
 
   Volume
   read();
@@ -66,11 +60,7 @@ private:
   void
   take(const std::string& field, std::string_view value);
   void
-  takeFiles(std::string_view value);
-  void
   takeEncoding(const std::string& value);
-  double
-  numberIn(std::string_view text) const;
   std::vector<Vector>
   vectorsIn(std::string_view value) const;
   std::uint64_t
@@ -78,30 +68,10 @@ private:
   void
   finish();
 
-  [[noreturn]] void
-  throwInLine(const std::string& reason) const
-  {
-    throwUnreadable(path_, cursor_.tell().line, reason);
-  }
-
-  const std::string path_;
-  FileCursor cursor_;
-  Words words_; ///< of the value
-  Volume volume_;
-  VolumeData data_;
-  bool has_sizes_ = false, has_order_ = false;
+  bool has_order_ = false;
   std::vector<double> spacings_;
   std::vector<Vector> directions_, origin_;
 };
-
-double
-HeaderParser::numberIn(std::string_view text) const
-{
-  double number = 0.0;
-  if (!parseNumber(text, number))
-    throwInLine(quoteText(text) + " is no number");
-  return number;
-}
 
 std::uint64_t
 HeaderParser::countIn(std::string_view value) const
@@ -126,7 +96,7 @@ HeaderParser::vectorsIn(std::string_view value) const
       std::size_t start = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t comma = std::min(inside.find(',', start), inside.size());
-        vector[i] = numberIn(trimmed(inside.substr(start, comma - start)));
+        vector[i] = parseWord(trimmed(inside.substr(start, comma - start)));
         start = std::min(comma + 1, inside.size());
       }
       if (value[0] != '(' || end == value.size() || start != inside.size())
@@ -154,21 +124,6 @@ HeaderParser::takeEncoding(const std::string& value)
 }
 
 void
-HeaderParser::takeFiles(std::string_view value)
-{
-  if (value == "LIST" || (words_.size() == 2 && words_[0] == "LIST")) {
-    std::string_view line;
-    while (cursor_.nextLine(line))
-      if (!trimmed(line).empty())
-        data_.files.push_back(besideFile(path_, trimmed(line)));
-  }
-  else if (value.find('%') != value.npos)
-    data_.files = filesOfPattern(path_, words_);
-  else
-    data_.files = {besideFile(path_, value)};
-}
-
-void
 HeaderParser::take(const std::string& field, std::string_view value)
 {
   if (field == "type") {
@@ -186,7 +141,7 @@ HeaderParser::take(const std::string& field, std::string_view value)
   }
   else if (field == "spacings")
     for (const std::string_view word : words_)
-      spacings_.push_back(numberIn(word));
+      spacings_.push_back(parseWord(word));
   else if (field == "space directions")
     directions_ = vectorsIn(value);
   else if (field == "space origin")

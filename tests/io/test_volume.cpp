@@ -55,6 +55,31 @@ TEST_F(VolumeFiles, NrrdRawAndGzipAttachedAndDetached)
   expectVolume(folder_ / "c.nhdr");
 }
 
+TEST_F(VolumeFiles, LayersInFilesOfTheirOwn)
+{
+  writeFile(folder_ / "layer1.raw", bytes.substr(0, 6));
+  writeFile(folder_ / "layer2.raw", bytes.substr(6));
+  const std::string mhd = "NDims = 3\nDimSize = 3 2 2\nElementSpacing = 0.5 1 2\n"
+                          "ElementType = MET_UCHAR\nElementDataFile = ";
+  const std::string nhdr = nrrd_header + "encoding: raw\ndata file: ";
+  const std::string files[] = {"LIST\nlayer1.raw\nlayer2.raw\n",
+                               "LIST 2\nlayer1.raw\n\n layer2.raw \n",
+                               "layer%d.raw 1 2 1\n"};
+  for (const std::string& list : files) {
+    writeFile(folder_ / "a.mhd", mhd + list);
+    expectVolume(folder_ / "a.mhd");
+    writeFile(folder_ / "a.nhdr", nhdr + list);
+    expectVolume(folder_ / "a.nhdr");
+  }
+  for (const char* const wrong :
+       {"", "LIST\n", "LIST\nlayer1.raw\n", "LIST\nlayer2.raw\ngone.raw\n"}) {
+    writeFile(folder_ / "b.mhd", mhd + wrong);
+    EXPECT_THROW(loadVolume(folder_ / "b.mhd"), IOError) << wrong;
+    writeFile(folder_ / "b.nhdr", nhdr + wrong);
+    EXPECT_THROW(loadVolume(folder_ / "b.nhdr"), IOError) << wrong;
+  }
+}
+
 TEST_F(VolumeFiles, MetaImageAndVti)
 {
   const std::string header = "ObjectType = Image\nNDims = 3\nDimSize = 3 2 2\n"
