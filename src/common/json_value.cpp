@@ -8,6 +8,7 @@ namespace pcl_uvol::detail {
 
 using Json = nlohmann::ordered_json;
 
+// NOLINTNEXTLINE(bugprone-exception-escape): nlohmann moves without throwing
 struct JsonValue::Content {
   Json json;
 };

@@ -189,6 +189,15 @@ checkCount(const std::string& path,
     throwTruncated(path, element);
 }
 
+/** Lengths of lists are whole numbers of any type, see the header. */
+void
+checkLength(const std::string& path, const Property& property, double length)
+{
+  if (length < 0.0)
+    throwUnreadable(path,
+                    "a list " + quoteText(property.name) + " has a negative length");
+}
+
 /** Takes the numbers of an element from a binary body. */
 class BinaryElement {
 public:
@@ -243,9 +252,7 @@ BinaryElement::skip(const Property& property)
     std::uint8_t bytes[8];
     take(property.length_type, bytes);
     length = FieldComponent{0, property.length_type}.read(bytes);
-    if (length < 0)
-      throwUnreadable(path_,
-                      "a list " + quoteText(property.name) + " has a negative length");
+    checkLength(path_, property, length);
   }
   skip(static_cast<std::uint64_t>(length) * datatypeSize(property.datatype));
 }
@@ -440,8 +447,10 @@ FaceReader::takeProperty(const Property& property)
   const double length = property.length_type ? takeNumber(property.length_type) : 1.0;
   const bool corners = property.length_type && (property.name == "vertex_indices" ||
                                                 property.name == "vertex_index");
+  checkLength(path_, property, length);
+  const auto count = static_cast<std::uint64_t>(length);
   Triangle triangle{};
-  for (double k = 0.0; k < length; ++k) {
+  for (std::uint64_t k = 0; k < count; ++k) {
     const double number = takeNumber(property.datatype);
     if (!corners)
       continue;
@@ -449,9 +458,9 @@ FaceReader::takeProperty(const Property& property)
       throwUnreadable(path_, "a face names a vertex that is not there");
     triangle[1] = triangle[2];
     triangle[2] = static_cast<std::uint32_t>(number);
-    if (k == 0.0)
+    if (k == 0)
       triangle[0] = triangle[2];
-    if (k >= 2.0)
+    if (k >= 2)
       triangles_.push_back(triangle);
   }
 }

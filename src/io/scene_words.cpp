@@ -183,6 +183,7 @@ SceneItem::options(const std::vector<Option>& known,
     });
     if (option == known.end()) {
       std::vector<std::string> forms;
+      forms.reserve(known.size());
       for (const Option& other : known)
         forms.push_back(other.form);
       fail("unknown word " + quoteText(name) + "; options of " + item + " are " +

@@ -98,6 +98,7 @@ makeWritable(const Dataset& dataset)
   auto data = fromPointCloud(dataset);
   auto* const arrays = data->GetPointData();
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(arrays->GetNumberOfArrays()));
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
     names.push_back(escapeAttribute(arrays->GetArrayName(i)));
   makeUnique(names);

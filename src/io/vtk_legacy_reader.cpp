@@ -209,7 +209,7 @@ LegacyReader::readArray(std::string_view type_name,
                tuples,
                size,
                (cursor_.left() + 1) * (bits && header_.binary ? 8 : 1));
-  const Array array = makeArray(*type, name, components, tuples);
+  Array array = makeArray(*type, name, components, tuples);
   const std::uint64_t numbers = components * tuples;
   std::uint8_t* const bytes = bytesOf(*array);
   if (!header_.binary)
@@ -235,8 +235,7 @@ LegacyReader::readArray(std::string_view type_name,
     swapBytes(bytes, size, numbers); // the files are big-endian
   }
   if (type_name == "vtkidtype") { // written as int
-    const Array ids =
-        makeArray(*findLegacyType("vtktypeint64"), name, components, tuples);
+    Array ids = makeArray(*findLegacyType("vtktypeint64"), name, components, tuples);
     ids->DeepCopy(array);
     return ids;
   }

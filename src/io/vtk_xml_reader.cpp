@@ -284,7 +284,7 @@ Assembler::gather(ArrayReader& reader, bool coordinates, std::size_t index) cons
     reader.check(*arrays.back(), piece.points);
   }
   const ArrayTag& first = *arrays[0];
-  const auto array = makeArray(
+  auto array = makeArray(
       *first.type, coordinates ? "Points" : first.name, first.components, points_);
   const std::size_t tuple_bytes =
       datatypeSize(first.type->datatype) * static_cast<std::size_t>(first.components);

@@ -22,9 +22,9 @@ struct Surroundings {
   double radius;      ///< of the support
   double value_range; ///< of the fitted samples
   double edge_span;   ///< part of the range between the values at the ends of the edge
-  bool has_steps;     ///< the values are labels
   Position center;    ///< the linear root
   IsoSupport support;
+  bool has_steps; ///< the values are labels
 };
 
 /** \brief Directions from an isopoint to samples, which the call makes unit vectors. */

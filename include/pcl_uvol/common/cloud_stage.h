@@ -22,8 +22,27 @@ public:
                                    pcl::PCLPointCloud2,
                                    pcl::PointCloud<PointT>>;
 
+  /** \brief The cloud to work on; null: none. What was made of an earlier one, or of
+   * this one before it changed in place, is forgotten. */
+  void
+  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
+  setInputCloud(const typename Cloud::ConstPtr& cloud)
+  {
+    if (cloud)
+      pcl::PCLBase<PointT>::setInputCloud(cloud);
+    else // PCLBase<PCLPointCloud2> would look into it
+      this->input_.reset();
+    forgetInput();
+  }
+
 protected:
   CloudStage() = default;
+
+  /** \brief For stages that keep what they made of the input. */
+  virtual void
+  forgetInput()
+  {
+  }
 
   /** \brief Call work(cloud, indices): a view of the cloud, and the points to take.
    * \param stage name for the messages

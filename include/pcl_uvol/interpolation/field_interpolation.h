@@ -70,7 +70,8 @@ placesOf(const CloudView& cloud);
  * \endcode
  * Exact duplicates among the samples count as one, with the lower median of their
  * values. The tree and what the model keeps serve further queries until samples,
- * indices or parameters change. An answer depends on its query alone.
+ * indices or parameters change; a cloud that changes in place has to be set again. An
+ * answer depends on its query alone.
  *
  * Memory: about 50 bytes per sample and 8 per sample and field; the model's own; 40
  * bytes per query and field with gradients and errors. */
@@ -80,21 +81,6 @@ class FieldInterpolation : public CloudStage<PointT>,
 public:
   using Ptr = std::shared_ptr<FieldInterpolation<PointT>>;
   using ConstPtr = std::shared_ptr<const FieldInterpolation<PointT>>;
-
-  using Cloud = typename CloudStage<PointT>::Cloud;
-
-  /** \brief The samples. What is made of them is kept: a cloud that changes in place
-   * has to be set again. */
-  void
-  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
-  setInputCloud(const typename Cloud::ConstPtr& cloud)
-  {
-    if (cloud)
-      pcl::PCLBase<PointT>::setInputCloud(cloud);
-    else // PCLBase<PCLPointCloud2> would look into it
-      this->input_.reset();
-    interpolator_.reset();
-  }
 
   /** \brief Any fields of the cloud, see ScalarField; default: none, which stands for
    * the one of ScalarField::defaultName. */
@@ -160,6 +146,12 @@ public:
                 InterpolatedFields& result);
 
 private:
+  void
+  forgetInput() override
+  {
+    interpolator_.reset();
+  }
+
   // What the interpolator was made of.
   typename pcl::PCLBase<PointT>::PointCloudConstPtr cloud_;
   pcl::Indices used_;

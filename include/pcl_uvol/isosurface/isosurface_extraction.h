@@ -213,20 +213,6 @@ public:
   using ConstPtr = std::shared_ptr<const IsosurfaceExtraction<PointT>>;
   using Cloud = typename CloudStage<PointT>::Cloud;
 
-  /** \brief What is made of the cloud is kept: values and tree. Each extract() looks
-   * whether the cloud still holds what it held, some milliseconds for a million points:
-   * other values are read anew, for other positions the tree is built anew. */
-  void
-  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
-  setInputCloud(const typename Cloud::ConstPtr& cloud)
-  {
-    if (cloud)
-      pcl::PCLBase<PointT>::setInputCloud(cloud);
-    else // PCLBase<PCLPointCloud2> would look into it
-      this->input_.reset();
-    forgetSamples();
-  }
-
   /** \brief Extract the isopoints of all isovalues.
    *
    * Samples with a non-finite coordinate or scalar are left out, exact duplicates
@@ -250,6 +236,12 @@ public:
   extract(pcl::PCLPointCloud2& isopoints);
 
 private:
+  void
+  forgetInput() override
+  {
+    forgetSamples();
+  }
+
   template <typename OutputT>
   void
   extractAs(OutputT& isopoints);

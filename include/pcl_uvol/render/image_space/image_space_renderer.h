@@ -144,7 +144,7 @@ private:
  * renderer.render(image);
  * \endcode
  * Normals point outwards: points that look away from the eye are not drawn. The cloud
- * is sorted once, further frames reuse it.
+ * is sorted once, further frames reuse it; it, and indices, must not change between.
  * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class ImageSpaceRenderer : public CloudStage<PointT>, public ImageSpaceRendererBase {
@@ -152,16 +152,6 @@ public:
   using Ptr = std::shared_ptr<ImageSpaceRenderer<PointT>>;
   using ConstPtr = std::shared_ptr<const ImageSpaceRenderer<PointT>>;
   using Cloud = typename CloudStage<PointT>::Cloud;
-
-  /** \brief The cloud, and indices, must not change until the next call: points are
-   * kept. */
-  void
-  // NOLINTNEXTLINE: PCLBase<PCLPointCloud2> has it, but not as a virtual function
-  setInputCloud(const typename Cloud::ConstPtr& cloud)
-  {
-    pcl::PCLBase<PointT>::setInputCloud(cloud);
-    forgetSurface();
-  }
 
   /** \brief Draw the cloud.
    * \throws InvalidArgument for a missing or empty cloud, a cloud without a finite
@@ -180,6 +170,13 @@ public:
    * \throws as render() */
   BoundingSphere
   getBounds();
+
+private:
+  void
+  forgetInput() override
+  {
+    forgetSurface();
+  }
 };
 
 template <typename PointT>
