@@ -109,8 +109,9 @@ findInnerPoints(const CloudView& cloud, std::vector<std::uint32_t> patch)
 MemoryNeed
 surfaceNormalsNeed(double points, double k)
 {
-  // A normal in single precision, its curvature, and whether it is degenerate.
-  constexpr double fit_bytes = 5 * float_bytes;
+  // A normal in single precision, its curvature, and whether it is degenerate; the side
+  // to look to.
+  constexpr double fit_bytes = (5 + 3) * float_bytes;
   MemoryForecast forecast(0.0);
   forecast.run(sampleSetNeed(points));
   forecast.run(nearestNeighborsNeed(points, k));

@@ -24,6 +24,10 @@ constexpr double collinear_ratio = 1e-9;
 /** Cosine between normal and outside vector below which the neighbours vote as well: an
  * edge that grazes the surface may look to the wrong side of the fitted plane. */
 constexpr float clear_side = 0.3f;
+/** Share of the neighbours that have to look to a sample's side for them alone to vote:
+ * below it the sample is more likely to look the wrong way than to lie on a sheet of
+ * its own. */
+constexpr double least_share = 0.25;
 constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
 
 /** Fit of a sample in the stretched space. */
@@ -36,7 +40,7 @@ struct Fit {
 Fit
 fitPlane(const std::vector<Position>& positions,
          std::uint32_t sample,
-         const NeighborGraph::Row& neighbors)
+         const std::vector<std::uint32_t>& neighbors)
 {
   // Differences to the sample: far from the origin, sums of squares would lose all
   // digits.
@@ -104,6 +108,48 @@ private:
   std::vector<ScalarField> own_normal_;
 };
 
+/** Unit vector per sample to the side that it shall look to; zero: unknown. */
+std::vector<Eigen::Vector3f>
+collectSides(const SampleSet& samples, const Orientation& orientation, unsigned threads)
+{
+  std::vector<Eigen::Vector3f> sides(samples.size());
+  parallelBlocks(sides.size(), block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto sample = static_cast<std::uint32_t>(i);
+      sides[i] = orientation.at(samples.getInputIndex(sample));
+      sides[i].stableNormalize();
+    }
+  });
+  return sides;
+}
+
+/** The neighbours on the sample's own sheet: those that look to its side. Another sheet
+ * that is as near as the next points of the own one looks the other way, and a plane
+ * through both would be no tangent of either. Outside vectors may graze the surface, so
+ * that sides are told apart along the axis that most of them share, whatever their
+ * sign. \param found the result, a buffer to use again */
+void
+findOwnSheet(const std::vector<Eigen::Vector3f>& sides,
+             std::uint32_t sample,
+             const NeighborGraph::Row& neighbors,
+             std::vector<std::uint32_t>& found)
+{
+  const Eigen::Vector3f& own = sides[sample];
+  Eigen::Matrix3f products = own * own.transpose();
+  for (const std::uint32_t neighbor : neighbors)
+    products += sides[neighbor] * sides[neighbor].transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+  solver.computeDirect(products);
+  const Eigen::Vector3f axis = solver.eigenvectors().col(2);
+  found.clear();
+  for (const std::uint32_t neighbor : neighbors)
+    if (!(axis.dot(own) * axis.dot(sides[neighbor]) < 0.0f))
+      found.push_back(neighbor);
+  if (static_cast<double>(found.size()) <
+      least_share * static_cast<double>(neighbors.size()))
+    found.assign(neighbors.begin(), neighbors.end());
+}
+
 void
 checkParameters(const SurfaceNormalParameters& parameters)
 {
@@ -145,7 +191,7 @@ SurfaceNormal
 orient(const Fit& fit,
        std::uint32_t point,
        const NeighborGraph::Row& neighbors,
-       const SampleSet& samples,
+       const std::vector<Eigen::Vector3f>& sides,
        const Orientation& orientation,
        const Eigen::Array3f& scale)
 {
@@ -157,8 +203,7 @@ orient(const Fit& fit,
     float side = normal.dot(outside.normalized());
     if (std::abs(side) < clear_side)
       for (const std::uint32_t neighbor : neighbors)
-        side +=
-            normal.dot(orientation.at(samples.getInputIndex(neighbor)).normalized());
+        side += normal.dot(sides[neighbor]);
     if (side < 0.0f)
       normal = -normal;
   }
@@ -191,15 +236,20 @@ estimateSurfaceNormals(const CloudView& cloud,
   const NeighborGraph graph =
       findNeighbors(*samples, parameters.k, search, threads, report);
   const StepTimer timer(report, "normals");
-  std::vector<Fit> fits(samples->size());
-  parallelBlocks(fits.size(), block_points, threads, [&](auto begin, auto end) {
-    for (std::size_t i = begin; i < end; ++i)
-      fits[i] =
-          fitPlane(samples->getPositions(), static_cast<std::uint32_t>(i), graph[i]);
-  });
-  const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   const Orientation orientation(
       cloud, parameters.view_point, samples->getUnit().factor);
+  const std::vector<Eigen::Vector3f> sides =
+      collectSides(*samples, orientation, threads);
+  std::vector<Fit> fits(samples->size());
+  parallelBlocks(fits.size(), block_points, threads, [&](auto begin, auto end) {
+    std::vector<std::uint32_t> own_sheet;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto sample = static_cast<std::uint32_t>(i);
+      findOwnSheet(sides, sample, graph[i], own_sheet);
+      fits[i] = fitPlane(samples->getPositions(), sample, own_sheet);
+    }
+  });
+  const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
   std::atomic<std::uint64_t> degenerate{0};
@@ -209,7 +259,7 @@ estimateSurfaceNormals(const CloudView& cloud,
       if (sample == no_sample)
         continue;
       normals[i] =
-          orient(fits[sample], indices[i], graph[sample], *samples, orientation, scale);
+          orient(fits[sample], indices[i], graph[sample], sides, orientation, scale);
       if (fits[sample].degenerate)
         ++degenerate;
     }

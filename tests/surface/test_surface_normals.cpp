@@ -82,6 +82,50 @@ TEST(SurfaceNormals, TwoNearLayersKeepTheirSides)
               0.8f);
 }
 
+/** Two planes a distance apart that look away from each other, a point per unit of
+ * area; outside vectors lie up to 75 degrees off, as edges between samples do. */
+Cloud::Ptr
+makeSheets(float distance)
+{
+  uvol_test::Random random(3);
+  Cloud::Ptr cloud(new Cloud);
+  for (int i = 0; i < 8000; ++i) {
+    const float side = i % 2 == 0 ? 1.0f : -1.0f;
+    pcl::PointNormal point;
+    point.getVector3fMap() << static_cast<float>(63.0 * random.uniform()),
+        static_cast<float>(63.0 * random.uniform()), 0.5f * side * distance;
+    const double slant = std::tan(1.3 * random.uniform());
+    const double turn = 6.283185307 * random.uniform();
+    point.getNormalVector3fMap() << static_cast<float>(slant * std::cos(turn)),
+        static_cast<float>(slant * std::sin(turn)), side;
+    cloud->push_back(point);
+  }
+  return cloud;
+}
+
+TEST(SurfaceNormals, SheetsThatLookAwayFromEachOtherAreNotMixed)
+{
+  for (const float distance : {2.0f, 1.0f, 0.5f}) {
+    const auto sheets = makeSheets(distance);
+    const auto normals = estimate(sheets);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const float side = (*sheets)[i].z > 0.0f ? 1.0f : -1.0f;
+      wrong += side * normals[i].normal_z < 0.9999f ? 1 : 0;
+    }
+    EXPECT_LE(wrong, normals.size() / 40) << distance;
+  }
+}
+
+TEST(SurfaceNormals, APointThatLooksTheWrongWayKeepsThePlaneOfItsNeighbors)
+{
+  const auto sheets = makeSheets(0.0f);
+  for (auto& point : *sheets)
+    point.getNormalVector3fMap() << 0.0f, 0.0f, 1.0f;
+  (*sheets)[100].getNormalVector3fMap() << 0.0f, 0.7f, -0.7f;
+  EXPECT_NEAR(-1.0f, estimate(sheets)[100].normal_z, 1e-6f);
+}
+
 TEST(SurfaceNormals, WithoutNormalsTheViewPointDecides)
 {
   pcl::PointCloud<pcl::PointXYZ>::Ptr plane(new pcl::PointCloud<pcl::PointXYZ>);
