@@ -3,12 +3,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
 
 namespace {
+
+/** Logarithm of the mean density of a cluster over that where it splits off, times the
+ * dimension, which chance hardly reaches in points without clusters. Among 240 clouds
+ * of 200 and 1500 points, uniform or normally distributed in 1 to 5 dimensions, it did
+ * so in none with 10 or 30 neighbours and in 12 with 0, 2 or 5, where 3 or 5 dimensions
+ * were told from 200 points. */
+constexpr double chance_of_one_neighbor = 3.0;
+constexpr double most_by_chance = 1.7;
 
 /** The hierarchy of single linkage: points first, then the merger of every edge. */
 class Mergers {
@@ -221,18 +230,40 @@ computeStabilities(const CondensedTree& tree)
 }
 
 std::vector<std::uint8_t>
+findSignificantClusters(const CondensedTree& tree,
+                        const std::vector<double>& stabilities,
+                        std::size_t columns,
+                        std::size_t neighbors)
+{
+  const auto dimension = static_cast<double>(columns);
+  const double least = std::min(most_by_chance,
+                                chance_of_one_neighbor /
+                                    std::sqrt(static_cast<double>(neighbors) + 1.0)) /
+                       dimension;
+  std::vector<std::uint8_t> significant;
+  for (std::size_t c = 0; c < tree.clusters.size(); ++c) {
+    const double birth = birthDensity(tree, tree.clusters[c]);
+    const double excess = stabilities[c] / (tree.clusters[c].size * birth);
+    // Equal points have no density that a ratio could be made of: chance makes none.
+    significant.push_back(c == 0 || tree.clusters[c].death_distance == 0.0 ||
+                          dimension * std::log1p(excess) >= least);
+  }
+  return significant;
+}
+
+std::vector<std::uint8_t>
 chooseByPersistence(const CondensedTree& tree,
                     const std::vector<double>& stabilities,
-                    bool allow_root)
+                    const std::vector<std::uint8_t>& eligible)
 {
   const std::size_t count = tree.clusters.size();
   std::vector<std::uint8_t> chosen(count, 0);
   std::vector<double> of_children(count, 0.0); // the largest sums below
   for (std::size_t c = count; c-- > 0;) {
-    chosen[c] = stabilities[c] >= of_children[c] && (c > 0 || allow_root) ? 1 : 0;
+    chosen[c] = stabilities[c] >= of_children[c] && eligible[c] ? 1 : 0;
     if (c > 0)
       of_children[static_cast<std::size_t>(tree.clusters[c].parent)] +=
-          std::max(stabilities[c], of_children[c]);
+          chosen[c] ? stabilities[c] : of_children[c];
   }
   std::vector<std::uint8_t> within(count, 0);
   for (std::size_t c = 1; c < count; ++c) {

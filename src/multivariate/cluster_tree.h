@@ -49,12 +49,23 @@ condenseTree(std::size_t count,
 std::vector<double>
 computeStabilities(const CondensedTree& tree);
 
+/** \brief Which clusters are denser than where they split off by more than chance
+ * brings about in points without clusters, as one flag per cluster; the root always is.
+ * \param columns dimension of the space
+ * \param neighbors that tell the density: the fewer, the more it varies by chance */
+std::vector<std::uint8_t>
+findSignificantClusters(const CondensedTree& tree,
+                        const std::vector<double>& stabilities,
+                        std::size_t columns,
+                        std::size_t neighbors);
+
 /** \brief The clusters that do not overlap and have the largest sum of stabilities, as
- * one flag per cluster. */
+ * one flag per cluster.
+ * \param eligible one flag per cluster: the others are not chosen */
 std::vector<std::uint8_t>
 chooseByPersistence(const CondensedTree& tree,
                     const std::vector<double>& stabilities,
-                    bool allow_root);
+                    const std::vector<std::uint8_t>& eligible);
 
 /** \brief The clusters that exist at a distance. */
 std::vector<std::uint8_t>

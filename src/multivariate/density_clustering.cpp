@@ -119,6 +119,31 @@ assignMembers(const CondensedTree& tree,
   return clustering;
 }
 
+/** What the user should know of the labels; empty: nothing. */
+std::string
+judgeClusters(std::size_t points,
+              std::size_t clusters,
+              std::size_t noise,
+              std::size_t min_size,
+              const ClusteringParameters& parameters)
+{
+  if (clusters > 0)
+    return 2 * noise <= points
+               ? std::string()
+               : std::to_string(noise) + " of " + std::to_string(points) +
+                     " points belong to no cluster: the clusters that were found tell "
+                     "little about these data.";
+  const std::string none = "No cluster found among " + std::to_string(points) +
+                           " points: none of at least " + std::to_string(min_size) +
+                           " points ";
+  if (parameters.cut_distance > 0.0)
+    return none + "hangs together at the distance " +
+           std::to_string(parameters.cut_distance) +
+           "; a larger distance or a smaller least size may find some.";
+  return none + "stands out from the others by more than chance; a smaller least size "
+                "may find some, or all points may be allowed to be a single cluster.";
+}
+
 void
 countClusters(const Clustering& clustering,
               std::size_t min_size,
@@ -126,25 +151,17 @@ countClusters(const Clustering& clustering,
               Report& report)
 {
   const auto& labels = clustering.labels;
-  const auto most = std::max_element(labels.begin(), labels.end());
+  const auto clusters =
+      static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end()) + 1);
+  const auto noise =
+      static_cast<std::size_t>(std::count(labels.begin(), labels.end(), -1));
   report.count("points", labels.size());
-  report.count("clusters", static_cast<std::uint64_t>(*most) + 1);
-  report.count(
-      "noise",
-      static_cast<std::uint64_t>(std::count(labels.begin(), labels.end(), -1)));
-  if (*most >= 0)
-    return;
-  std::string text = "No cluster found among " + std::to_string(labels.size()) +
-                     " points: none of at least " + std::to_string(min_size) +
-                     " points ";
-  if (parameters.cut_distance > 0.0)
-    text += "hangs together at the distance " +
-            std::to_string(parameters.cut_distance) +
-            "; a larger distance or a smaller least size may find some.";
-  else
-    text += "stands out from the others; a smaller least size may find some, or all "
-            "points may be allowed to be a single cluster.";
-  report.warnings.push_back(text);
+  report.count("clusters", clusters);
+  report.count("noise", noise);
+  const std::string text =
+      judgeClusters(labels.size(), clusters, noise, min_size, parameters);
+  if (!text.empty())
+    report.warnings.push_back(text);
 }
 
 } // namespace
@@ -171,10 +188,11 @@ clusterAttributes(const AttributeTable& table,
     const CondensedTree tree = condenseTree(table.rows(), edges, min_size);
     const auto stabilities = computeStabilities(tree);
     const bool is_cut = parameters.cut_distance > 0.0;
-    auto chosen =
-        is_cut
-            ? chooseByDistance(tree, parameters.cut_distance)
-            : chooseByPersistence(tree, stabilities, parameters.allow_single_cluster);
+    auto eligible = findSignificantClusters(
+        tree, stabilities, table.columns(), parameters.neighbors);
+    eligible.front() = parameters.allow_single_cluster ? 1 : 0;
+    auto chosen = is_cut ? chooseByDistance(tree, parameters.cut_distance)
+                         : chooseByPersistence(tree, stabilities, eligible);
     // All other clusters are large enough from birth on.
     if (tree.clusters.front().size < min_size)
       chosen.front() = 0;

@@ -3,6 +3,7 @@
 // threads (thesis 2.6).
 #include "multivariate/cluster_attributes.h"
 #include "multivariate/planted_clusters.h"
+#include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <gtest/gtest.h>
@@ -180,6 +181,39 @@ TEST(DensityClustering, PersistenceWeighsParentsAgainstChildren)
               is_apart ? 2 : 1);
     EXPECT_EQ(found.tree.size(), 5u);
   }
+}
+
+TEST(DensityClustering, ChanceMakesNoClusters)
+{
+  for (const std::size_t columns : {1u, 2u, 3u, 4u})
+    for (const std::size_t count : {300u, 1000u, 3000u})
+      for (std::uint64_t seed = 0; seed < 3; ++seed) {
+        uvol_test::Random random(seed);
+        std::vector<float> values;
+        for (std::size_t i = 0; i < count * columns; ++i)
+          values.push_back(static_cast<float>(random.uniform()));
+        const auto found = cluster(columns, values);
+        EXPECT_EQ(-1, *std::max_element(found.labels.begin(), found.labels.end()))
+            << columns << " columns, " << count << " points, seed " << seed;
+      }
+}
+
+TEST(DensityClustering, ADenseSpotInUniformNoiseIsFound)
+{
+  uvol_test::Random random(1);
+  std::vector<float> values;
+  for (std::size_t i = 0; i < 2000 * 3; ++i)
+    values.push_back(static_cast<float>(random.uniform()));
+  for (std::size_t i = 0; i < 100 * 3; ++i)
+    values.push_back(static_cast<float>(0.4 + 0.1 * random.uniform()));
+  Report report;
+  const Clustering found =
+      pcl_uvol::detail::clusterAttributes(tableOf(3, values), {}, 0, report);
+  for (std::size_t i = 2000; i < 2100; ++i)
+    EXPECT_EQ(0, found.labels[i]);
+  EXPECT_EQ(0, *std::max_element(found.labels.begin(), found.labels.end()));
+  ASSERT_EQ(1u, report.warnings.size());
+  EXPECT_NE(std::string::npos, report.warnings[0].find("belong to no cluster"));
 }
 
 TEST(DensityClustering, CutsAtADistance)
