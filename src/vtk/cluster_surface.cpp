@@ -121,6 +121,20 @@ findRegions(const std::vector<std::array<float, 3>>& vertices, const VoronoiGrid
   return regions;
 }
 
+/** A hull has one corner per cell at most: it tells little of points that share them.
+ */
+void
+warnOfSharedCells(std::size_t members, std::size_t filled_cells, Report& report)
+{
+  if (2 * filled_cells < members)
+    report.warnings.push_back("The " + std::to_string(members) +
+                              " points of the cluster lie in " +
+                              std::to_string(filled_cells) +
+                              " cells of the grid, and the hull goes through one of "
+                              "each: a finer grid helps, "
+                              "or to leave out points that lie far from the others.");
+}
+
 /** Turns a surface at a distance into the hull. */
 void
 shrinkToHull(const Members& members,
@@ -129,6 +143,7 @@ shrinkToHull(const Members& members,
              Report& report)
 {
   const StepTimer timer(report, "hull");
+  warnOfSharedCells(members.positions.size(), grid.getSites().size(), report);
   const ClusterHull hull =
       makeClusterHull(surface.mesh.triangles, findRegions(surface.mesh.vertices, grid));
   if (hull.triangles.empty())

@@ -333,6 +333,20 @@ TEST(ClusterSurfaces, ChooseADistanceForDensePoints)
   EXPECT_EQ(std::vector<long>{0}, generaOf(surface.mesh));
 }
 
+/** One stray makes the grid so coarse that most points share a cell with others. */
+TEST(ClusterSurfaces, TellThatMembersShareCells)
+{
+  Points points = ballOf(2000, 4);
+  Report report;
+  Cluster(points).enclose(ClusterSurfaceKind::Hull, settingsOf(0.0), report);
+  EXPECT_TRUE(report.warnings.empty());
+  points.emplace_back(60.0, 0.0, 0.0);
+  Cluster(points).enclose(ClusterSurfaceKind::Hull, settingsOf(0.0), report);
+  ASSERT_EQ(1u, report.warnings.size());
+  EXPECT_NE(std::string::npos,
+            report.warnings[0].find("The 2001 points of the cluster lie in"));
+}
+
 TEST(ClusterSurfaces, RefuseWhatTheyCannotEnclose)
 {
   const Cluster ball(ballOf(500, 4));
