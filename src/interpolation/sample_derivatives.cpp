@@ -144,8 +144,9 @@ computeDerivatives(const CloudView& cloud,
   std::atomic<std::uint64_t> reduced{0};
   StepTimer step(report, "derivatives", samples.size());
   parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
-    const BucketFits fits = BucketFitter(sampled).fit(
-        static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end - begin));
+    const BucketFits fits = BucketFitter(sampled, true)
+                                .fit(static_cast<std::uint32_t>(begin),
+                                     static_cast<std::uint32_t>(end - begin));
     reduced += static_cast<std::uint64_t>(
         std::count(fits.is_reduced.begin(), fits.is_reduced.end(), true));
     std::vector<PointDerivatives> derivatives(sampled.fields);
