@@ -378,6 +378,7 @@ forecastMemory(const Arguments& arguments)
       forecast.run({(2.0 * step + number_bytes) * points, number_bytes * points});
       step += number_bytes;
     };
+    arguments.attributes.addFieldsNeed(points, step, forecast);
     forecast.hold(number_bytes * points); // labels
     if (arguments.attributes.areGiven()) {
       pcl_uvol::MemoryNeed need = pcl_uvol::clusteringNeed(
@@ -419,10 +420,14 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  Dataset dataset = uvol_tools::loadPoints(
-      arguments.input, report, uvol_tools::withoutPositions(), arguments.where);
+  Dataset dataset = uvol_tools::loadPoints(arguments.input,
+                                           report,
+                                           uvol_tools::withoutPositions(),
+                                           arguments.where,
+                                           options.threads());
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   memory.checkCloud(dataset, forecastMemory(arguments));
+  arguments.attributes.addFields(options, dataset, report);
   std::vector<pcl_uvol::ClusterNode> tree;
   const auto labels = findLabels(options, arguments, dataset, tree, report);
   Facts facts = {{"input", arguments.input},

@@ -18,6 +18,7 @@ using pcl_uvol::Report;
 using pcl_uvol::ValueStatistics;
 using uvol_tools::Fact;
 using uvol_tools::Facts;
+using uvol_tools::Options;
 using uvol_tools::toNumbers;
 
 struct Arguments {
@@ -204,21 +205,23 @@ addPositions(const std::string& path,
 }
 
 Facts
-describeCloud(const Arguments& arguments, unsigned threads, Report& report)
+describeCloud(const Options& options, const Arguments& arguments, Report& report)
 {
+  const unsigned threads = options.threads();
   pcl_uvol::LoadOptions load;
   load.xyz_columns = uvol_tools::parseColumns(arguments.xyz);
   load.needs_coordinates = false;
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
   report.warnings = dataset.notes;
   if (!arguments.where.empty())
-    report.count("removed_by_where", pcl_uvol::selectRows(dataset, arguments.where));
+    report.count("removed_by_where",
+                 pcl_uvol::selectRows(dataset, arguments.where, {threads, ""}));
   auto fields = dataset.cloud.fields;
   if (!dataset.has_coordinates) // x, y and z stand in front of those of the file
     fields.erase(fields.begin(), fields.begin() + 3);
   Facts facts{{"file", arguments.input}, {"fields", listFields(fields)}};
   report.count("points", dataset.cloud.width);
-  const std::string chosen = chosenField(arguments, dataset);
+  std::string chosen = chosenField(arguments, dataset);
   if (dataset.cloud.width == 0) {
     report.warnings.push_back(arguments.input + " has no points.");
     return facts;
@@ -229,6 +232,7 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
   addRanges(dataset, facts);
+  uvol_tools::addField(dataset, chosen, options, report);
   if (!chosen.empty()) {
     const auto statistics = pcl_uvol::describeValues(pcl_uvol::readFieldValues(
         dataset, pcl_uvol::ScalarField(dataset.cloud.fields, chosen)));
@@ -243,13 +247,17 @@ int
 run(int argc, char** argv)
 {
   Arguments arguments;
-  uvol_tools::Options options("uvol_info",
-                              "in.pcd [options]",
-                              "Tells what a file of samples (pcd ply csv txt vtk vtp "
-                              "vtu vts) or a volume (nrrd "
-                              "nhdr vti mha mhd) holds.");
+  Options options("uvol_info",
+                  "in.pcd [options]",
+                  "Tells what a file of samples (pcd ply csv txt vtk vtp "
+                  "vtu vts) or a volume (nrrd "
+                  "nhdr vti mha mhd) holds.");
   options.file("in", arguments.input);
-  options.text("field", "name", arguments.field, "scalar field to draw a histogram of");
+  options.text(
+      "field",
+      "name",
+      arguments.field,
+      "scalar field to draw a histogram of, or an expression: log10(rho), Q(vel)");
   options.text(
       "where", "expr", arguments.where, "look only at the points it holds for");
   uvol_tools::declareColumns(options, arguments.xyz);
@@ -258,7 +266,7 @@ run(int argc, char** argv)
   Report report;
   const Facts facts = pcl_uvol::isVolumeFile(arguments.input)
                           ? describeVolume(arguments.input, report)
-                          : describeCloud(arguments, options.threads(), report);
+                          : describeCloud(options, arguments, report);
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -2,6 +2,8 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
 #include "common/number_range.h"
+#include "expressions/derived_source.h"
+#include "expressions/memory_need.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
 #include "pipeline/memory_need.h"
@@ -59,26 +61,61 @@ describeBound(const Options& options, const Arguments& arguments)
           Fact::Members{{"bound", {bound}}, {"peak", {peak}}}};
 }
 
-IsosurfaceResult
-runInMemory(const Options& options,
-            const Arguments& arguments,
+/** The memory of fields that are computed first.
+ * \param step of a point; becomes that with the fields */
+void
+addFieldsNeed(const Arguments& arguments,
+              double points,
+              double& step,
+              pcl_uvol::MemoryForecast& forecast)
+{
+  forecast.run(
+      pcl_uvol::derivedFieldNeed(arguments.parameters.isosurface.field, points, step));
+  arguments.picture.addColorNeed(points, step, forecast);
+}
+
+/** The samples with all fields that are asked for. */
+std::shared_ptr<pcl_uvol::Dataset>
+loadSamples(const Options& options,
+            Arguments& arguments,
             uvol_tools::MemoryGuard& memory,
             Report& report)
 {
-  const IsosurfacePipelineParameters& parameters = arguments.parameters;
+  auto samples = std::make_shared<pcl_uvol::Dataset>(
+      uvol_tools::loadPoints(arguments.input,
+                             report,
+                             arguments.makeLoadOptions(),
+                             arguments.where,
+                             options.threads()));
+  report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
+  memory.checkCloud(
+      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        addFieldsNeed(arguments, points, step, forecast);
+      });
+  uvol_tools::addField(
+      *samples, arguments.parameters.isosurface.field, options, report);
+  arguments.picture.addColorOfSamples(options, *samples, report);
+  pcl_uvol::checkSavePath(arguments.output, samples->cloud.fields);
+  return samples;
+}
+
+IsosurfaceResult
+runInMemory(const Options& options,
+            Arguments& arguments,
+            uvol_tools::MemoryGuard& memory,
+            Report& report)
+{
   const auto work =
       [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
-        pcl_uvol::addMemoryNeed(parameters, points, step, {}, forecast);
+        addFieldsNeed(arguments, points, step, forecast);
+        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
       };
   if (arguments.where.empty())
     memory.checkFile(arguments.input, work);
   else
     memory.checkFile(arguments.input, nullptr);
-  const auto samples = std::make_shared<pcl_uvol::Dataset>(uvol_tools::loadPoints(
-      arguments.input, report, arguments.makeLoadOptions(), arguments.where));
-  report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
-  pcl_uvol::checkSavePath(arguments.output, samples->cloud.fields);
-
+  const auto samples = loadSamples(options, arguments, memory, report);
+  const IsosurfacePipelineParameters& parameters = arguments.parameters;
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(parameters);
@@ -107,14 +144,17 @@ runInMemory(const Options& options,
 IsosurfaceResult
 runFromDisk(const Options& options, const Arguments& arguments, Report& report)
 {
-  pcl_uvol::PointStream points(arguments.input, arguments.makeLoadOptions());
+  pcl_uvol::PointStream file(arguments.input, arguments.makeLoadOptions());
+  pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
+  pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
+  parameters.isosurface.field = points.getField();
   pcl_uvol::checkSavePath(arguments.output, points.getHeader().cloud.fields);
   report.warnings = points.getHeader().notes;
   report.count("points", points.size());
-  return pcl_uvol::runPipelineOutOfCore(points,
-                                        arguments.parameters,
-                                        arguments.makeOutOfCoreSettings(options),
-                                        report.progress);
+  auto result = pcl_uvol::runPipelineOutOfCore(
+      points, parameters, arguments.makeOutOfCoreSettings(options), report.progress);
+  points.tell(report);
+  return result;
 }
 
 int
@@ -139,10 +179,11 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  const IsosurfaceResult result = is_bounded
-                                      ? runFromDisk(options, arguments, report)
-                                      : runInMemory(options, arguments, memory, report);
+  IsosurfaceResult result = is_bounded
+                                ? runFromDisk(options, arguments, report)
+                                : runInMemory(options, arguments, memory, report);
   report.merge(result.report);
+  arguments.picture.addColor(options, result.surface, report);
 
   const auto& isovalues = arguments.parameters.isosurface.isovalues;
   pcl_uvol::SaveOptions save;

@@ -80,8 +80,14 @@ finishParameters(Arguments& arguments)
 }
 
 pcl_uvol::Dataset
-load(const Arguments& arguments, pcl_uvol::Communicator& communicator, Report& report)
+load(Arguments& arguments,
+     unsigned threads,
+     pcl_uvol::Communicator& communicator,
+     Report& report)
 {
+  const pcl_uvol::DerivedFieldOptions options{
+      threads,
+      "from the part of the samples that a process holds: use uvol_isosurface"};
   const StepTimer timer(report, "read");
   pcl_uvol::Dataset part = pcl_uvol::loadPart(pcl_uvol::findPieces(arguments.inputs),
                                               arguments.makeLoadOptions(),
@@ -89,12 +95,16 @@ load(const Arguments& arguments, pcl_uvol::Communicator& communicator, Report& r
   report.warnings = part.notes;
   report.count("points", part.cloud.width);
   if (!arguments.where.empty())
-    report.count("removed_by_where", pcl_uvol::selectRows(part, arguments.where));
+    report.count("removed_by_where",
+                 pcl_uvol::selectRows(part, arguments.where, options));
   std::vector<std::uint64_t> left{part.cloud.width};
   communicator.allReduce(left);
   if (left[0] == 0)
     throw pcl_uvol::InvalidArgument(
         joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
+  std::string& field = arguments.parameters.isosurface.field;
+  if (!field.empty())
+    field = pcl_uvol::addDerivedField(part, field, options, report);
   return part;
 }
 
@@ -120,14 +130,14 @@ save(const Arguments& arguments,
 
 /** \return the field that was taken */
 std::string
-extract(const Arguments& arguments,
+extract(Arguments& arguments,
         unsigned threads,
         pcl_uvol::Communicator& communicator,
         Report& report)
 {
   const StepTimer timer(report, "total");
-  const auto part =
-      std::make_shared<pcl_uvol::Dataset>(load(arguments, communicator, report));
+  const auto part = std::make_shared<pcl_uvol::Dataset>(
+      load(arguments, threads, communicator, report));
   if (!arguments.inPieces())
     pcl_uvol::checkSavePath(arguments.output, part->cloud.fields);
   pcl_uvol::DistributedIsosurfacePipeline pipeline(communicator);
@@ -210,7 +220,7 @@ main(int argc, char** argv)
     std::cout.rdbuf(out);
     const std::size_t failed = communicator.agree(outcome.exit_code != 0);
     if (failed == communicator.rank())
-      std::cerr << tool << ": " << outcome.sentence << '\n';
+      uvol_tools::printError(tool, outcome);
     exit_code = failed == communicator.size() ? 0 : std::max(outcome.exit_code, 1);
   }
   controller->Finalize();

@@ -58,8 +58,9 @@ declare(Options& options, Arguments& arguments)
   options.text("field",
                "name",
                arguments.parameters.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
+               "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
+               "only candidate)");
   options.text(
       "mu",
       "m|auto",
@@ -294,7 +295,9 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  uvol_tools::addField(dataset, parameters.field, options, report);
+  uvol_tools::addField(dataset, parameters.initial.field_name, options, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.scale = scale.resolveScale(view);

@@ -109,8 +109,9 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  const pcl_uvol::Dataset dataset =
+  pcl_uvol::Dataset dataset =
       uvol_tools::loadPoints(arguments.input, report, uvol_tools::withoutPositions());
+  arguments.attributes.addFields(options, dataset, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::ProjectedPoints found = arguments.attributes.project(
       options, dataset, arguments.label, arguments.method, report);

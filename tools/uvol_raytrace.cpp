@@ -99,9 +99,10 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
 }
 
 void
-traceCloud(const Options& options, const Arguments& arguments, Report& report)
+traceCloud(const Options& options, Arguments& arguments, Report& report)
 {
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  arguments.view.addColor(options, dataset, report);
   arguments.rays.traceCloud(options,
                             arguments.view,
                             pcl_uvol::viewOf(dataset.cloud),

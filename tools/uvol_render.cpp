@@ -29,7 +29,8 @@ run(int argc, char** argv)
   pcl_uvol::checkPngPath(output);
 
   Report report;
-  const pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
+  look.addColor(options, dataset, report);
   const std::string backend = look.drawCloud(options, dataset, output, report);
   uvol_tools::printReport(
       options, report, {{"input", input}, {"output", output}, {"backend", backend}});

@@ -57,9 +57,18 @@ checkCombinations(const uvol_tools::Options& options,
 }
 
 uvol_tools::ShownSurface
-load(const uvol_tools::Options& options, const Arguments& arguments, Report& report)
+load(const uvol_tools::Options& options,
+     Arguments& arguments,
+     uvol_tools::RenderOptions& look,
+     Report& report)
 {
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  if (arguments.field.empty())
+    look.addColor(options, dataset, report);
+  else {
+    uvol_tools::addField(dataset, arguments.field, options, report);
+    look.addColorOfSamples(options, dataset, report);
+  }
   return {std::move(dataset), arguments.field, options.threads()};
 }
 
@@ -84,7 +93,7 @@ run(int argc, char** argv)
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR); // PCL and X cause warnings
 
   Report report;
-  uvol_tools::ShownSurface surface = load(options, arguments, report);
+  uvol_tools::ShownSurface surface = load(options, arguments, look, report);
   if (!arguments.field.empty()) {
     const auto& range = surface.getRange();
     surface.setIsoValue(options.given("iso") ? arguments.isovalue

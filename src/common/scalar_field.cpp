@@ -87,19 +87,28 @@ throwUnknown(const Fields& fields, const std::string& name)
                         describeFields(fields) + ".");
 }
 
-/** Components called name, or name_0, name_1, ... as files without vectors call them.
- */
+/** The components of fields called name and one of the endings, as far as there are any
+ * of them. */
+template <typename EndingOf>
+std::vector<FieldComponent>
+collectComponents(const Fields& fields,
+                  const std::string& name,
+                  std::size_t least,
+                  const EndingOf& ending_of)
+{
+  std::vector<FieldComponent> components;
+  while (const auto* const part =
+             findField(fields, name + ending_of(components.size())))
+    components.push_back(componentOf(*part, 0));
+  if (components.size() < least)
+    components.clear();
+  return components;
+}
+
 std::vector<FieldComponent>
 allComponents(const Fields& fields, const std::string& name)
 {
-  std::vector<FieldComponent> components;
-  if (const auto* const field = findField(fields, name))
-    for (std::size_t i = 0; i < componentCount(*field); ++i)
-      components.push_back(componentOf(*field, i));
-  else
-    while (const auto* const part =
-               findField(fields, name + '_' + std::to_string(components.size())))
-      components.push_back(componentOf(*part, 0));
+  auto components = findComponents(fields, name);
   if (components.empty())
     throwUnknown(fields, name);
   return components;
@@ -278,6 +287,31 @@ findField(const Fields& fields, const std::string& name)
     return field.name == name;
   });
   return found == fields.end() ? nullptr : &*found;
+}
+
+std::vector<FieldComponent>
+findComponents(const Fields& fields, const std::string& name)
+{
+  std::vector<FieldComponent> components;
+  if (const auto* const field = findField(fields, name)) {
+    for (std::size_t i = 0; i < componentCount(*field); ++i)
+      components.push_back(componentOf(*field, i));
+    return components;
+  }
+  for (const char* const separator : {"_", ":"}) {
+    components = collectComponents(
+        fields, name, 1, [&](std::size_t i) { return separator + std::to_string(i); });
+    if (!components.empty())
+      return components;
+  }
+  for (const char* const separator : {"_", ""}) {
+    components = collectComponents(fields, name, 2, [&](std::size_t i) {
+      return i < 3 ? separator + std::string(1, "xyz"[i]) : "";
+    });
+    if (!components.empty())
+      return components;
+  }
+  return components;
 }
 
 std::size_t

@@ -30,7 +30,7 @@ public:
   /** \brief Resolve a name against the fields of a cloud.
    * \param expression `density`, `vel[1]` (component, from 0), `|vel|` (length of all
    * its components) or `|vx,vy,vz|` (length of several scalars). `vel[1]` and `|vel|`
-   * also find fields called vel_0, vel_1, ... as PLY files name them.
+   * also find the fields of findComponents().
    * \throws InvalidArgument that lists the fields there are */
   ScalarField(const std::vector<pcl::PCLPointField>& fields,
               const std::string& expression);
@@ -81,6 +81,12 @@ describeFields(const std::vector<pcl::PCLPointField>& fields);
 /** \brief Field of that name, or null. */
 PCL_UVOL_EXPORTS const pcl::PCLPointField*
 findField(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
+
+/** \brief The components of the field of that name, else those of fields that are
+ * called name_0, name_1, ... as PLY files name them, name:0, name:1, ..., name_x,
+ * name_y, ... or namex, namey, ...; none where there is no such field. */
+PCL_UVOL_EXPORTS std::vector<FieldComponent>
+findComponents(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
 
 /** \brief Size in bytes of one number of a pcl::PCLPointField datatype. */
 PCL_UVOL_EXPORTS std::size_t

@@ -21,10 +21,19 @@ constexpr std::size_t most_neighbors = BucketFitter::fitted_samples + 2;
  * them are neighbours: none should lose its weight. */
 constexpr double radius_of_few = 1.5;
 
+/** Of a cubic that is no larger than 1 in a ball of radius 1: first and second
+ * derivatives at the centre (Bernstein's inequality), and room for samples that lie on
+ * one side or do not show its largest value. */
+constexpr double steepest = 2.0 * 3.0, most_curved = 4.0 * 9.0;
+
+/** Of the largest pivot: residuals are amplified by the reciprocal of a smaller one. */
+constexpr double clear_pivot = 0.02;
+
 } // namespace
 
-BucketFitter::BucketFitter(const SampledFields& sampled)
+BucketFitter::BucketFitter(const SampledFields& sampled, bool is_calm)
     : sampled_(sampled)
+    , is_calm_(is_calm)
     , finder_(*sampled.samples, fitted_samples + 1)
     , kernel_(kernels.get())
     , samples_(most_neighbors)
@@ -72,9 +81,10 @@ BucketFitter::fitLanes(std::uint32_t begin,
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::size_t place = first + lane;
     const std::uint32_t sample = begin + static_cast<std::uint32_t>(place);
-    if (results_.front().degree[lane] == 0) {
+    const bool is_determined = results_.front().degree[lane] > 0;
+    if (!is_determined || (is_calm_ && hasRunAway(lane))) {
       fits.is_reduced[place] = true;
-      fitReduced(sample, lane, place, fits);
+      fitReduced(sample, lane, place, is_determined, fits);
       continue;
     }
     for (std::size_t f = 0; f < fields; ++f) {
@@ -158,10 +168,28 @@ BucketFitter::isInner(std::size_t lane, std::size_t neighbors)
   return !cone_.isEmpty(directions_[0], directions_[1], directions_[2], count);
 }
 
+bool
+BucketFitter::hasRunAway(std::size_t lane) const
+{
+  for (std::size_t f = 0; f < sampled_.fields; ++f) {
+    double spread = 0.0, first = 0.0, second = 0.0;
+    for (std::size_t j = 0; j < most_neighbors; ++j)
+      spread = std::max(spread, std::abs(values_[f * most_neighbors + j].value[lane]));
+    for (std::size_t i = 1; i <= 3; ++i)
+      first = std::max(first, std::abs(results_[f].coefficient[i][lane]));
+    for (std::size_t i = 4; i <= 9; ++i)
+      second = std::max(second, std::abs(results_[f].coefficient[i][lane]));
+    if (first > steepest * spread || second > most_curved * spread)
+      return true;
+  }
+  return false;
+}
+
 void
 BucketFitter::fitReduced(std::uint32_t sample,
                          std::size_t lane,
                          std::size_t place,
+                         bool is_calm,
                          BucketFits& fits) const
 {
   constexpr auto most = static_cast<Eigen::Index>(most_neighbors);
@@ -182,7 +210,7 @@ BucketFitter::fitReduced(std::uint32_t sample,
   }
   offsets.conservativeResize(count, 3);
   values.conservativeResize(count, fields);
-  const ReducedFit fit(offsets);
+  const ReducedFit fit(offsets, is_calm ? clear_pivot : ReducedFit::rounding, is_calm);
   for (Eigen::Index f = 0; f < fields; ++f) {
     const std::size_t target = place * sampled_.fields + static_cast<std::size_t>(f);
     fits.errors[target] =

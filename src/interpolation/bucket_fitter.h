@@ -26,7 +26,11 @@ public:
    */
   static constexpr std::size_t blended_samples = 14;
 
-  explicit BucketFitter(const SampledFields& sampled);
+  /** \param is_calm fit anew where polynomials run away: steep along a direction in
+   * which samples lie on too few layers for their degree. Of the degrees whose terms
+   * the samples determine well the best is taken, a linear function at least. Values
+   * hardly depend on it, derivatives do. */
+  explicit BucketFitter(const SampledFields& sampled, bool is_calm = false);
 
   BucketFits
   fit(std::uint32_t begin, std::uint32_t count);
@@ -45,7 +49,11 @@ private:
   fitReduced(std::uint32_t sample,
              std::size_t lane,
              std::size_t place,
+             bool is_calm,
              BucketFits& fits) const;
+
+  bool
+  hasRunAway(std::size_t lane) const;
 
   bool
   isInner(std::size_t lane, std::size_t neighbors);
@@ -56,6 +64,7 @@ private:
 
   alignas(64) float directions_[3][64];
   const SampledFields& sampled_;
+  bool is_calm_;
   NearestFinder finder_;
   EmptyCone cone_;
   PolynomialKernel kernel_;

@@ -11,9 +11,6 @@ namespace {
 /** Residuals of fewer degrees of freedom say nothing about the error. */
 constexpr double least_freedom = 5.0;
 
-/** Of the largest pivot: a smaller one is rounding of coordinates in float. */
-constexpr double smallest_pivot = 1e-6;
-
 constexpr Eigen::Index terms_of_degree[4] = {1, 4, 10, 20};
 
 /** The terms of a cubic: by degree, then falling powers of x and y. */
@@ -30,7 +27,9 @@ termsAt(const Eigen::RowVector3d& u)
 
 } // namespace
 
-ReducedFit::ReducedFit(const Eigen::MatrixX3d& offsets)
+ReducedFit::ReducedFit(const Eigen::MatrixX3d& offsets,
+                       double smallest_pivot,
+                       bool all_terms)
 {
   const Eigen::Index count = offsets.rows();
   root_weights_ = (1.0 - offsets.rowwise().squaredNorm().array()).matrix();
@@ -44,6 +43,8 @@ ReducedFit::ReducedFit(const Eigen::MatrixX3d& offsets)
     decomposition.compute(terms);
     const double freedom = static_cast<double>(count - decomposition.rank());
     if (degree > 1 && freedom < least_freedom)
+      break;
+    if (degree > 1 && all_terms && decomposition.rank() < terms.cols())
       break;
     Eigen::MatrixXd inverse = decomposition.pseudoInverse();
     const double leverage = inverse.row(0).squaredNorm();

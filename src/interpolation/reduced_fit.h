@@ -15,8 +15,16 @@ namespace pcl_uvol::detail {
  * plane or a line of samples are 0. */
 class ReducedFit {
 public:
-  /** \param offsets of the samples, shorter than 1; one of them zero */
-  explicit ReducedFit(const Eigen::MatrixX3d& offsets);
+  /** \brief A smaller pivot is rounding of coordinates in float. */
+  static constexpr double rounding = 1e-6;
+
+  /** \param offsets of the samples, shorter than 1; one of them zero
+   * \param smallest_pivot of the largest one: what is smaller does not determine a term
+   * \param all_terms leave degrees above the first out of which samples do not
+   * determine all terms */
+  explicit ReducedFit(const Eigen::MatrixX3d& offsets,
+                      double smallest_pivot = rounding,
+                      bool all_terms = false);
 
   /** \brief The polynomial of the degree up to 3 with the smallest standard error of
    * the value at the origin, a linear one where no degree leaves five degrees of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CSV and its relatives, selection of rows, and the real data sets.
+// CSV and its relatives, and the real data sets.
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -33,18 +33,6 @@ errorOf(const std::string& text, const LoadOptions& options = {})
 }
 
 const std::string xyz = "x (float32), y (float32), z (float32)";
-
-std::size_t
-kept(const std::string& where)
-{
-  Dataset dataset = load(
-      "x,y,z,n,T\n5000000.125,0,0,1,4.1\n5000001.125,0,3,2,\n5000002.125,4,3,2,5\n");
-  const std::size_t removed = selectRows(dataset, where);
-  EXPECT_EQ(dataset.cloud.width + removed, 3u);
-  EXPECT_EQ(dataset.cloud.data.size(),
-            std::size_t(dataset.cloud.width) * dataset.cloud.point_step);
-  return dataset.cloud.width;
-}
 
 } // namespace
 
@@ -181,45 +169,6 @@ TEST(TextTables, Errors)
   EXPECT_NE(errorOf("# only\n\n"), "");
   EXPECT_NE(errorOf(std::string("x,y,z\n1,\0,3\n", 12)).find("no text"),
             std::string::npos);
-}
-
-TEST(SelectRows, Relations)
-{
-  for (const auto& [where, count] :
-       std::vector<std::pair<std::string, std::size_t>>{{"n=2", 2},
-                                                        {"n == 1", 1},
-                                                        {"n!=1", 2},
-                                                        {"T=4.1", 1},
-                                                        {"T>=4.1", 2},
-                                                        {"T>4.1", 1},
-                                                        {"T!=4.1", 2},
-                                                        {"T<100", 2},
-                                                        {" n = 2 && T > 0 ", 1},
-                                                        {"n<=1&&n>=2", 0},
-                                                        {"x=5000001.125", 1},
-                                                        {"x<5000001.5", 2},
-                                                        {"|y,z|=5", 1},
-                                                        {"|x,z|>5000000", 3},
-                                                        {"z>-1e0", 3}})
-    EXPECT_EQ(kept(where), count) << where;
-}
-
-TEST(SelectRows, MalformedExpressions)
-{
-  for (const char* const where : {"",
-                                  "n",
-                                  "n=",
-                                  "=2",
-                                  "n=two",
-                                  "n=2&&",
-                                  "&&",
-                                  "n=nan",
-                                  "n=2&n=3",
-                                  "q=1",
-                                  "n=!2",
-                                  "n<<2",
-                                  "n!2"})
-    EXPECT_THROW(kept(where), InvalidArgument) << where;
 }
 
 TEST(RealData, EveryFileLoads)

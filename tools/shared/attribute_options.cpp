@@ -2,6 +2,8 @@
 #include "shared/attribute_options.h"
 
 #include "common/scalar_field.h"
+#include "expressions/memory_need.h"
+#include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 
@@ -16,13 +18,42 @@
 
 namespace uvol_tools {
 
+namespace {
+
+/** Names between commas that part neither components, as in |vx,vy,vz|, nor arguments,
+ * as in atan2(vy,vx), nor a quoted name. */
+std::vector<std::string>
+splitNames(const std::string& text)
+{
+  if (text.empty())
+    return {};
+  std::vector<std::string> names(1);
+  bool is_in_bars = false, is_quoted = false;
+  int depth = 0;
+  for (const char c : text) {
+    is_quoted ^= c == '"';
+    is_in_bars ^= c == '|' && !is_quoted;
+    if (!is_quoted)
+      depth += (c == '(') - (c == ')');
+    if (c == ',' && !is_in_bars && !is_quoted && depth <= 0)
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError("-attributes has an empty name in " + text + ".");
+  return names;
+}
+
+} // namespace
+
 void
 AttributeOptions::declare(Options& options)
 {
   options.text("attributes",
                "a,b,...",
                text_,
-               "fields that span the space: rho, vel[1], |vel|, |vx,vy,vz|");
+               "fields that span the space: rho, vel[1], |vel|, |vx,vy,vz|, log10(u)");
   options.flag("position", has_position_, "x, y and z are attributes as well");
   options.flag("raw",
                is_standardized_,
@@ -33,20 +64,7 @@ AttributeOptions::declare(Options& options)
 std::vector<std::string>
 AttributeOptions::required() const
 {
-  // The commas of |vx,vy,vz| part components.
-  std::vector<std::string> names(1);
-  bool is_in_bars = false;
-  for (const char c : text_) {
-    is_in_bars ^= c == '|';
-    if (c == ',' && !is_in_bars)
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  if (text_.empty())
-    names.clear();
-  if (std::find(names.begin(), names.end(), "") != names.end())
-    throw UsageError("-attributes has an empty name in " + text_ + ".");
+  std::vector<std::string> names = names_.empty() ? splitNames(text_) : names_;
   if (has_position_)
     for (const char* const axis : {"x", "y", "z"})
       if (std::find(names.begin(), names.end(), axis) == names.end())
@@ -55,6 +73,25 @@ AttributeOptions::required() const
     throw UsageError("-attributes is missing: name the fields to look at, as in "
                      "-attributes rho,u.");
   return names;
+}
+
+void
+AttributeOptions::addFields(const Options& options,
+                            pcl_uvol::Dataset& dataset,
+                            pcl_uvol::Report& report)
+{
+  names_ = splitNames(text_);
+  for (std::string& name : names_)
+    addField(dataset, name, options, report);
+}
+
+void
+AttributeOptions::addFieldsNeed(double points,
+                                double& point_step,
+                                pcl_uvol::MemoryForecast& forecast) const
+{
+  for (const std::string& name : splitNames(text_))
+    forecast.run(pcl_uvol::derivedFieldNeed(name, points, point_step));
 }
 
 pcl_uvol::Clustering

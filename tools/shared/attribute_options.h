@@ -2,6 +2,7 @@
 // Attributes and labels on the command line: what uvol_cluster and uvol_project share.
 #pragma once
 
+#include "common/memory.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
@@ -33,6 +34,19 @@ public:
   std::vector<std::string>
   required() const;
 
+  /** \brief Compute those that are expressions, see addDerivedField. */
+  void
+  addFields(const Options& options,
+            pcl_uvol::Dataset& dataset,
+            pcl_uvol::Report& report);
+
+  /** \brief Add the memory of addFields to a forecast.
+   * \param point_step becomes that with the fields */
+  void
+  addFieldsNeed(double points,
+                double& point_step,
+                pcl_uvol::MemoryForecast& forecast) const;
+
   /** \brief Clusters of these attributes, per point.
    * \throws as DensityClustering, and InvalidArgument for the position of data that
    * have none */
@@ -57,6 +71,7 @@ private:
   checkPosition(const pcl_uvol::Dataset& dataset) const;
 
   std::string text_;
+  std::vector<std::string> names_; ///< that text_ lists, as stages call them
   bool has_position_ = false, is_standardized_ = true;
 };
 

@@ -19,8 +19,9 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
   options.text("field",
                "name",
                parameters.isosurface.field,
-               "scalar field: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
+               "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
+               "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
+               "only candidate)");
   options.text("where",
                "expr",
                where,

@@ -2,6 +2,8 @@
 // Parsing of one-dash options against a tool's table, and -h.
 #include "shared/options.h"
 
+#include "common/similar_words.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -57,25 +59,6 @@ shortest(double value)
   std::ostringstream text;
   text << value;
   return text.str();
-}
-
-/** Number of single-character edits from one word to another (Levenshtein). */
-std::size_t
-editDistance(const std::string& a, const std::string& b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j)
-    row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
-      diagonal = row[j];
-      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 std::uint64_t
@@ -283,13 +266,12 @@ Options::find(const std::string& argument)
       });
   if (found != options_.end())
     return *found;
-  const auto nearest = std::min_element(
-      options_.begin(), options_.end(), [&](const Option& a, const Option& b) {
-        return editDistance(a.name, name) < editDistance(b.name, name);
-      });
-  const bool similar = editDistance(nearest->name, name) <= 1 + name.size() / 4;
+  std::vector<std::string> names;
+  for (const Option& option : options_)
+    names.push_back(option.name);
+  const std::string nearest = pcl_uvol::findSimilar(names, name);
   throw UsageError("There is no option " + argument +
-                   (similar ? "; did you mean -" + nearest->name + "?" : "."));
+                   (nearest.empty() ? "." : "; did you mean -" + nearest + "?"));
 }
 
 bool

@@ -209,7 +209,8 @@ namedFile();
 /** \brief How a tool's body ended. */
 struct Outcome {
   int exit_code = 0;
-  std::string sentence; ///< why it failed
+  std::string sentence;          ///< why it failed
+  std::string marked_lines = {}; ///< of an expression that is wrong: it, and where
 };
 
 /** \brief Run a tool's body: its exit code, or 1 for a failure, or 2 for a UsageError.
@@ -221,6 +222,10 @@ catchErrors(const char* tool, const std::function<int()>& body);
  * for a UsageError. */
 int
 runTool(const char* tool, const std::function<int()>& body);
+
+/** \brief What runTool writes to stderr. */
+void
+printError(const char* tool, const Outcome& outcome);
 
 /** \brief A number of bytes: digits, and K, M, G or T for powers of 1000.
  * \throws UsageError that names the option */

@@ -42,18 +42,41 @@ pcl_uvol::Dataset
 loadPoints(const std::string& path,
            pcl_uvol::Report& report,
            const pcl_uvol::LoadOptions& options,
-           const std::string& where)
+           const std::string& where,
+           unsigned threads)
 {
   const pcl_uvol::StepTimer timer(report, "read");
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(path, options);
   report.warnings.insert(
       report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
   if (!where.empty())
-    report.count("removed_by_where", pcl_uvol::selectRows(dataset, where));
+    report.count("removed_by_where",
+                 pcl_uvol::selectRows(dataset, where, {threads, ""}));
   if (dataset.cloud.width == 0)
     throw pcl_uvol::InvalidArgument(
         path + " has no points" + (where.empty() ? "." : " for which " + where + "."));
   return dataset;
+}
+
+void
+addField(pcl_uvol::Dataset& samples,
+         std::string& name,
+         const Options& options,
+         pcl_uvol::Report& report)
+{
+  addField(samples, name, "", options, report);
+}
+
+void
+addField(pcl_uvol::Dataset& points,
+         std::string& name,
+         const std::string& because,
+         const Options& options,
+         pcl_uvol::Report& report)
+{
+  if (!name.empty())
+    name =
+        pcl_uvol::addDerivedField(points, name, {options.threads(), because}, report);
 }
 
 void

@@ -4,6 +4,7 @@
 
 #include "shared/options.h"
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <array>
@@ -22,12 +23,32 @@ parseColumns(const std::string& columns);
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all
+ * \param threads for that; 0: all cores
  * \throws IOError, and InvalidArgument for a file without points */
 pcl_uvol::Dataset
 loadPoints(const std::string& path,
            pcl_uvol::Report& report,
            const pcl_uvol::LoadOptions& options = {},
-           const std::string& where = "");
+           const std::string& where = "",
+           unsigned threads = 0);
+
+/** \brief Make sure that samples have the field that an option names, see
+ * addDerivedField.
+ * \param name becomes what stages call it; "" stays "" */
+void
+addField(pcl_uvol::Dataset& samples,
+         std::string& name,
+         const Options& options,
+         pcl_uvol::Report& report);
+
+/** \brief The same for points that have no derivatives.
+ * \param because see DerivedFieldOptions::no_derivatives */
+void
+addField(pcl_uvol::Dataset& points,
+         std::string& name,
+         const std::string& because,
+         const Options& options,
+         pcl_uvol::Report& report);
 
 /** \brief Write a file, as a step of the report.
  * \throws IOError */

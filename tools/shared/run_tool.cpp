@@ -3,6 +3,7 @@
 #include "common/printable.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <csignal>
@@ -57,6 +58,9 @@ catchErrors(const char* tool, const std::function<int()>& body)
   catch (const pcl_uvol::IOError& error) { // which names its file
     return {1, error.message()};
   }
+  catch (const pcl_uvol::ExpressionError& error) {
+    return {1, withFile(error.getSentence()), error.getMarkedLines()};
+  }
   catch (const pcl_uvol::Exception& error) {
     return {1, withFile(error.message())};
   }
@@ -79,8 +83,16 @@ runTool(const char* tool, const std::function<int()>& body)
 {
   const Outcome outcome = catchErrors(tool, body);
   if (!outcome.sentence.empty())
-    std::cerr << tool << ": " << pcl_uvol::printable(outcome.sentence) << '\n';
+    printError(tool, outcome);
   return outcome.exit_code;
+}
+
+void
+printError(const char* tool, const Outcome& outcome)
+{
+  std::cerr << tool << ": " << pcl_uvol::printable(outcome.sentence) << '\n';
+  if (!outcome.marked_lines.empty())
+    std::cerr << outcome.marked_lines << '\n';
 }
 
 } // namespace uvol_tools

@@ -38,6 +38,33 @@ SurfacePicture::check(const Options& options)
     pcl_uvol::checkPngPath(path_);
 }
 
+void
+SurfacePicture::addColorOfSamples(const Options& options,
+                                  pcl_uvol::Dataset& samples,
+                                  pcl_uvol::Report& report)
+{
+  if (isAskedFor())
+    look_.addColorOfSamples(options, samples, report);
+}
+
+void
+SurfacePicture::addColor(const Options& options,
+                         pcl_uvol::Dataset& surface,
+                         pcl_uvol::Report& report)
+{
+  if (isAskedFor() && surface.cloud.width > 0)
+    look_.addColor(options, surface, report);
+}
+
+void
+SurfacePicture::addColorNeed(double points,
+                             double& point_step,
+                             pcl_uvol::MemoryForecast& forecast) const
+{
+  if (isAskedFor())
+    look_.addColorNeed(points, point_step, forecast);
+}
+
 std::string
 SurfacePicture::draw(const Options& options,
                      const pcl_uvol::Dataset& surface,

@@ -27,6 +27,22 @@ public:
     return !path_.empty();
   }
 
+  /** \brief The field of -color, where it is an expression: of samples, before a
+   * surface is made, if it has derivatives, and of the surface if it has none. @{ */
+  void
+  addColorOfSamples(const Options& options,
+                    pcl_uvol::Dataset& samples,
+                    pcl_uvol::Report& report);
+  void
+  addColor(const Options& options,
+           pcl_uvol::Dataset& surface,
+           pcl_uvol::Report& report);
+  void
+  addColorNeed(double points,
+               double& point_step,
+               pcl_uvol::MemoryForecast& forecast) const;
+  /** @} */
+
   /** \brief Draw it; a surface without points leaves no picture, with a warning.
    * \param report gets the times, named picture_...
    * \return what it was drawn on; "" for none */

@@ -2,8 +2,11 @@
 #include "shared/view_options.h"
 
 #include "charts/color_bar.h"
+#include "expressions/formula.h"
+#include "expressions/memory_need.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
+#include "shared/point_files.h"
 
 #include <algorithm>
 #include <charconv>
@@ -38,6 +41,13 @@ parseSize(const std::string& text, int& width, int& height)
   return second.ec == std::errc() && second.ptr == end;
 }
 
+/** True for what -color means by itself. */
+bool
+isColorName(const std::string& color)
+{
+  return color == "auto" || color == "none" || color == "rgb" || color == "rgba";
+}
+
 } // namespace
 
 pcl_uvol::Color
@@ -65,10 +75,12 @@ ViewOptions::declareScene(Options& options)
                background_text_,
                "white, black, gradient, transparent, or a colour from 0 to 1 (default "
                "white)");
-  options.text("color",
-               "field",
-               color_,
-               "colour by a scalar field, by rgb or by none (default: rgb if there)");
+  options.text(
+      "color",
+      "field",
+      color_,
+      "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
+      "rgb or by none (default: rgb if there)");
   options.choice(
       "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
@@ -161,6 +173,38 @@ ViewOptions::check(const Options& options)
     material_.color = toColor("surface-color", surface_color_);
   parseBackground();
   parseLights();
+}
+
+void
+ViewOptions::addColor(const Options& options,
+                      pcl_uvol::Dataset& points,
+                      pcl_uvol::Report& report)
+{
+  if (!isColorName(color_))
+    addField(points,
+             color_,
+             "from points on a surface, but from samples: uvol_isosurface -color "
+             "computes them there",
+             options,
+             report);
+}
+
+void
+ViewOptions::addColorOfSamples(const Options& options,
+                               pcl_uvol::Dataset& samples,
+                               pcl_uvol::Report& report)
+{
+  if (!isColorName(color_) && pcl_uvol::mayHaveDerivative(color_))
+    addField(samples, color_, options, report);
+}
+
+void
+ViewOptions::addColorNeed(double points,
+                          double& point_step,
+                          pcl_uvol::MemoryForecast& forecast) const
+{
+  if (pcl_uvol::mayHaveDerivative(color_))
+    forecast.run(pcl_uvol::derivedFieldNeed(color_, points, point_step));
 }
 
 std::string

@@ -3,8 +3,10 @@
 // size, background, colours and lights.
 #pragma once
 
+#include "common/memory.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
@@ -68,6 +70,25 @@ public:
   decorate(const pcl_uvol::CloudView& cloud,
            const std::array<double, 2>& range,
            pcl_uvol::Image& image) const;
+
+  /** \brief Compute the field of -color at the points of a surface where it is an
+   * expression, see addDerivedField; derivatives are refused. */
+  void
+  addColor(const Options& options, pcl_uvol::Dataset& points, pcl_uvol::Report& report);
+
+  /** \brief The same from samples, for what a surface of them cannot give: derivatives.
+   * The surface gets the field with all others. */
+  void
+  addColorOfSamples(const Options& options,
+                    pcl_uvol::Dataset& samples,
+                    pcl_uvol::Report& report);
+
+  /** \brief Add the memory of addColorOfSamples to a forecast.
+   * \param point_step becomes that with the field */
+  void
+  addColorNeed(double points,
+               double& point_step,
+               pcl_uvol::MemoryForecast& forecast) const;
 
   /** \brief The field that colours the cloud; "" for one colour. */
   std::string

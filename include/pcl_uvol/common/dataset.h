@@ -61,13 +61,4 @@ setField(Dataset& dataset,
          const std::vector<std::int32_t>& values);
 /** @} */
 
-/** \brief Keep the points for which a comparison list holds, e.g. "experiment=1 &&
- * T>=4". Left of =, !=, <, <=, >, >= stands a field expression (see ScalarField), right
- * a number; NaN satisfies nothing but !=. Coordinates compare with the origin added,
- * float32 fields with the float nearest to the number.
- * \return the number of points removed
- * \throws InvalidArgument for a malformed expression or an unknown field */
-PCL_UVOL_EXPORTS std::size_t
-selectRows(Dataset& dataset, const std::string& where);
-
 } // namespace pcl_uvol

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields that are computed from those of a data set: expressions such as `log10(rho)`
+// and derivatives such as `Q(vel)`.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+
+#include <cstddef>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief An expression that cannot be understood, and the place where. message() and
+ * what() end with two more lines: the expression, and a caret under the place. */
+class PCL_UVOL_EXPORTS ExpressionError : public InvalidArgument {
+public:
+  /** \param place byte of the expression, at most its length */
+  ExpressionError(const std::string& sentence,
+                  const std::string& expression,
+                  std::size_t place);
+
+  const std::string&
+  getSentence() const
+  {
+    return sentence_;
+  }
+
+  /** \brief The expression, as much of it as fits on a line, and under it the caret. */
+  const std::string&
+  getMarkedLines() const
+  {
+    return marked_;
+  }
+
+private:
+  std::string sentence_, marked_;
+};
+
+/** \brief How derived fields are computed. */
+struct PCL_UVOL_EXPORTS DerivedFieldOptions {
+  unsigned threads = 0; ///< 0: all cores
+  /** Why points have no derivatives, as a subordinate clause without its end:
+   * "because these points are a surface"; empty (default): they have. */
+  std::string no_derivatives;
+};
+
+/** \brief Make sure that a data set has a field.
+ *
+ * A name that ScalarField knows stays what it is. Any other is an expression of
+ * muParser (numbers, + - * / ^, comparisons, && || !, ?:, functions such as log10, ln,
+ * exp, sqrt, abs, sin, atan2, min, max, sum), in which fields stand under their names
+ * or between double quotes, `vel[1]` is a component, `|vel|` and `|a,b,c|` are lengths,
+ * `x`, `y`, `z` coordinates with the origin added, `pi` and `inf` constants, and f
+ * below stands for an expression, v for a field of three components, the three
+ * components themselves (`Q(vx,vy,vz)`), or grad and curl: grad(f); curl(v); div(v);
+ * laplacian(f); curvature(f), the mean curvature of the level sets of f, half the
+ * divergence of the normalised gradient (thesis 3.6); Q(v), minus half the trace of the
+ * squared gradient (Hunt et al. 1988); lambda2(v), the middle eigenvalue of S^2 + W^2
+ * of the symmetric and the antisymmetric part of the gradient (Jeong and Hussain 1995).
+ * Derivatives are per unit of length, of the fits of detail::computeDerivatives.
+ *
+ * What an expression gives is added as a float64 field of the expression's own text,
+ * without blanks around it. It is NaN where a field that it needs is missing, and where
+ * the result is no finite number.
+ * \return the name of the field
+ * \param report gets the time "derived_fields", and warnings that say where an
+ * expression has no value
+ * \throws ExpressionError, and InvalidArgument where there are fewer than four samples
+ * for derivatives, or none are to be had */
+PCL_UVOL_EXPORTS std::string
+addDerivedField(Dataset& dataset,
+                const std::string& expression,
+                const DerivedFieldOptions& options,
+                Report& report);
+
+/** \brief Keep the points for which an expression holds, e.g. "experiment=1 && T>=4",
+ * see addDerivedField; = and == mean the same. NaN satisfies nothing but !=. A field
+ * that is compared with a number is compared with the float nearest to it where the
+ * field is float32.
+ * \return the number of points removed
+ * \throws as addDerivedField, and for an expression without a comparison */
+PCL_UVOL_EXPORTS std::size_t
+selectRows(Dataset& dataset,
+           const std::string& where,
+           const DerivedFieldOptions& options = {});
+
+} // namespace pcl_uvol

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/records.h"
+#include "expressions/derived_source.h"
+#include "expressions/evaluation.h"
+#include "expressions/operand_names.h"
+#include <pcl_uvol/expressions/derived_fields.h>
+
+#include <cstring>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** True if stages know that name without help. */
+bool
+isScalarField(const Fields& fields, const std::string& name)
+{
+  try {
+    const ScalarField field(fields, name);
+    return true;
+  }
+  catch (const InvalidArgument&) {
+    return false;
+  }
+}
+
+void
+checkDerivatives(const Formula& formula, const DerivedFieldOptions& options)
+{
+  if (!options.no_derivatives.empty() && formula.hasDerivative())
+    throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
+                          " are not to be had " + options.no_derivatives + ".");
+}
+
+std::vector<double>
+computeColumn(const Dataset& dataset,
+              const Formula& formula,
+              const DerivedFieldOptions& options,
+              std::uint64_t& undefined,
+              Report& report)
+{
+  checkDerivatives(formula, options);
+  if (formula.hasDerivative() && !dataset.has_coordinates)
+    throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
+                          " need coordinates, and the points have none.");
+  return evaluateFormula(
+             formula, viewOf(dataset.cloud), options.threads, undefined, report)
+      .front();
+}
+
+/** Remove the points whose number is 0 or none. */
+std::size_t
+keepRows(pcl::PCLPointCloud2& cloud, const std::vector<double>& holds)
+{
+  const std::size_t step = cloud.point_step;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < holds.size(); ++i) {
+    if (!(holds[i] != 0.0 && holds[i] == holds[i]))
+      continue;
+    if (kept != i)
+      std::memcpy(&cloud.data[kept * step], &cloud.data[i * step], step);
+    ++kept;
+  }
+  cloud.data.resize(kept * step);
+  cloud.height = 1;
+  cloud.width = static_cast<pcl::uindex_t>(kept);
+  cloud.row_step = static_cast<pcl::uindex_t>(kept * step);
+  return holds.size() - kept;
+}
+
+} // namespace
+
+std::optional<Formula>
+findFormula(const Dataset& header,
+            const std::string& expression,
+            const DerivedFieldOptions& options)
+{
+  const Fields& fields = header.cloud.fields;
+  if (expression.empty() || isScalarField(fields, expression))
+    return std::nullopt;
+  const std::string text(trimmed(expression));
+  const bool is_name = !text.empty() && endOfName(text, 0) == text.size();
+  if (is_name && findComponents(fields, text).empty())
+    throw InvalidArgument(describeUnknown(fields, text));
+  Formula formula = parseFormula(fields, header.origin, text);
+  if (const std::size_t width = formula.width(); width > 1)
+    throw ExpressionError(describeComponents(formula.operands.front()) + ".", text, 0);
+  checkDerivatives(formula, options);
+  return formula;
+}
+
+std::string
+describeUndefined(const std::string& expression,
+                  std::uint64_t undefined,
+                  std::uint64_t points)
+{
+  return "The field " + quoteText(expression) + " is undefined at " +
+         std::to_string(undefined) + " of " + std::to_string(points) +
+         " points, as by a division by zero or the logarithm of a negative number: "
+         "they have no value.";
+}
+
+std::string
+addDerivedField(Dataset& dataset,
+                const std::string& expression,
+                const DerivedFieldOptions& options,
+                Report& report)
+{
+  const auto formula = findFormula(dataset, expression, options);
+  if (!formula)
+    return expression;
+  const StepTimer timer(report, "derived_fields");
+  std::uint64_t undefined = 0;
+  setField(dataset,
+           formula->text,
+           computeColumn(dataset, *formula, options, undefined, report));
+  if (undefined > 0)
+    report.warnings.push_back(
+        describeUndefined(formula->text, undefined, dataset.cloud.width));
+  return formula->text;
+}
+
+std::size_t
+selectRows(Dataset& dataset,
+           const std::string& where,
+           const DerivedFieldOptions& options)
+{
+  const std::string text(trimmed(where));
+  const Formula formula = parseFormula(dataset.cloud.fields, dataset.origin, text);
+  if (!formula.compares)
+    throw InvalidArgument(quoteText(text) +
+                          " is no comparison: write one of =, !=, <, <=, >, >= between "
+                          "two fields or numbers, as in T>=4.");
+  std::uint64_t undefined = 0;
+  Report report;
+  return keepRows(dataset.cloud,
+                  computeColumn(dataset, formula, options, undefined, report));
+}
+
+} // namespace pcl_uvol

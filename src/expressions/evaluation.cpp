@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "expressions/evaluation.h"
+
+#include "common/parallel.h"
+#include "expressions/derivative_columns.h"
+#include "expressions/program.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Points that a program, which has to be parsed again by every thread, is made for. */
+constexpr std::size_t block_points = 1u << 12;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/** Derivatives first, which see all points, then everything else block by block. */
+class Evaluation {
+public:
+  Evaluation(const CloudView& cloud, unsigned threads, Report& report)
+      : cloud_(cloud)
+      , threads_(threads)
+      , report_(report)
+  {
+  }
+
+  Columns
+  compute(const Formula& formula)
+  {
+    for (const Operand& operand : formula.operands)
+      prepare(operand);
+    Columns columns(formula.width(), std::vector<double>(cloud_.count));
+    std::atomic<std::uint64_t> undefined{0};
+    parallelBlocks(cloud_.count, block_points, threads_, [&](auto begin, auto end) {
+      std::vector<double*> targets;
+      for (auto& column : columns)
+        targets.push_back(&column[begin]);
+      undefined += fill(formula, begin, end - begin, targets);
+    });
+    undefined_ += undefined;
+    return columns;
+  }
+
+  std::uint64_t
+  countUndefined() const
+  {
+    return undefined_;
+  }
+
+private:
+  void
+  prepare(const Operand& operand)
+  {
+    if (operand.kind == Operand::Kind::Field)
+      return;
+    if (operand.kind == Operand::Kind::Norm) {
+      for (const Formula& argument : operand.arguments)
+        for (const Operand& inner : argument.operands)
+          prepare(inner);
+      return;
+    }
+    Columns fields;
+    for (const Formula& argument : operand.arguments)
+      for (auto& column : compute(argument))
+        fields.push_back(std::move(column));
+    derived_[&operand] = deriveColumns(
+        operand.derivative, fields, cloud_, threads_, undefined_, report_);
+  }
+
+  /** The components of a formula at consecutive points.
+   * \return how many numbers are undefined */
+  std::uint64_t
+  fill(const Formula& formula,
+       std::size_t begin,
+       std::size_t count,
+       const std::vector<double*>& targets) const
+  {
+    if (formula.program.empty())
+      return fill(formula.operands.front(), begin, count, targets);
+    std::uint64_t undefined = 0;
+    Columns operands;
+    for (const Operand& operand : formula.operands) {
+      operands.emplace_back(count);
+      undefined += fill(operand, begin, count, {operands.back().data()});
+    }
+    Program program(formula.program, operands.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      bool are_finite = true;
+      for (std::size_t j = 0; j < operands.size(); ++j) {
+        program.variables()[j] = operands[j][i];
+        are_finite = are_finite && std::isfinite(operands[j][i]);
+      }
+      const double value = program.compute();
+      targets[0][i] = std::isfinite(value) ? value : none;
+      undefined += are_finite && !std::isfinite(value);
+    }
+    return undefined;
+  }
+
+  std::uint64_t
+  fill(const Operand& operand,
+       std::size_t begin,
+       std::size_t count,
+       const std::vector<double*>& targets) const
+  {
+    if (operand.kind == Operand::Kind::Norm)
+      return fillNorm(operand, begin, count, targets[0]);
+    const std::size_t first = operand.component.value_or(0);
+    for (std::size_t c = 0; c < targets.size(); ++c)
+      if (operand.kind == Operand::Kind::Derivative) {
+        const auto& column = derived_.at(&operand)[first + c];
+        std::copy_n(&column[begin], count, targets[c]);
+      }
+      else
+        for (std::size_t i = 0; i < count; ++i)
+          targets[c][i] = operand.components[first + c].read(cloud_.point(begin + i)) +
+                          operand.addends[first + c];
+    return 0;
+  }
+
+  std::uint64_t
+  fillNorm(const Operand& norm,
+           std::size_t begin,
+           std::size_t count,
+           double* target) const
+  {
+    std::uint64_t undefined = 0;
+    std::fill_n(target, count, 0.0);
+    for (const Formula& argument : norm.arguments) {
+      Columns columns(argument.width(), std::vector<double>(count));
+      std::vector<double*> targets;
+      for (auto& column : columns)
+        targets.push_back(column.data());
+      undefined += fill(argument, begin, count, targets);
+      for (const auto& column : columns)
+        for (std::size_t i = 0; i < count; ++i)
+          target[i] += column[i] * column[i];
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      target[i] = std::sqrt(target[i]);
+    return undefined;
+  }
+
+  const CloudView& cloud_;
+  unsigned threads_;
+  Report& report_;
+  std::uint64_t undefined_ = 0;
+  std::map<const Operand*, Columns> derived_;
+};
+
+} // namespace
+
+Columns
+evaluateFormula(const Formula& formula,
+                const CloudView& cloud,
+                unsigned threads,
+                std::uint64_t& undefined,
+                Report& report)
+{
+  Evaluation evaluation(cloud, threads, report);
+  Columns columns = evaluation.compute(formula);
+  undefined += evaluation.countUndefined();
+  return columns;
+}
+
+} // namespace pcl_uvol

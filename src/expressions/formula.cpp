@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "expressions/formula.h"
+
+#include "common/printable.h"
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+std::size_t
+Operand::fullWidth() const
+{
+  switch (kind) {
+  case Kind::Field:
+    return components.size();
+  case Kind::Norm:
+    return 1;
+  default:
+    return derivative == Derivative::Gradient || derivative == Derivative::Curl ? 3 : 1;
+  }
+}
+
+std::string
+describeComponents(const Operand& operand)
+{
+  const std::size_t width = operand.width();
+  return quoteText(operand.text) + " has " + std::to_string(width) +
+         " components: write |" + operand.text + "| for their length, or " +
+         operand.text + "[0] to " + operand.text + "[" + std::to_string(width - 1) +
+         "] for one of them";
+}
+
+bool
+Formula::hasDerivative() const
+{
+  return std::any_of(operands.begin(), operands.end(), [](const Operand& operand) {
+    return operand.kind == Operand::Kind::Derivative ||
+           std::any_of(
+               operand.arguments.begin(),
+               operand.arguments.end(),
+               [](const Formula& argument) { return argument.hasDerivative(); });
+  });
+}
+
+bool
+Formula::hasField() const
+{
+  return std::any_of(operands.begin(), operands.end(), [](const Operand& operand) {
+    return operand.kind == Operand::Kind::Field ||
+           std::any_of(operand.arguments.begin(),
+                       operand.arguments.end(),
+                       [](const Formula& argument) { return argument.hasField(); });
+  });
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,572 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the operands of an expression and hands what is left to muParser, which knows
+// the order of operations. Its own errors would name places of a text that the user has
+// not written, so that it gets only what it understands.
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/records.h"
+#include "expressions/formula.h"
+#include "expressions/operand_names.h"
+#include "expressions/program.h"
+#include <pcl_uvol/expressions/derived_fields.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Norms and derivatives in one another: beyond it the stack would overflow. */
+constexpr std::size_t most_depth = 32;
+
+/** muParser takes 20,000 characters, names of variables among them. */
+constexpr std::size_t most_characters = 4000;
+
+/** A part of an expression, in the order of the text. */
+struct Token {
+  enum class Kind { Operand, Number, Sign, Relation, Joint, Open, Close, Other };
+
+  Kind kind;
+  std::size_t place;   ///< in the expression
+  std::string program; ///< muParser's text
+  std::size_t operand = 0;
+  double number = 0.0;
+};
+
+using Kind = Token::Kind;
+
+std::string
+writeNumber(double number)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", number);
+  return text;
+}
+
+/** Parentheses, commas and the like: comparisons on both sides are not one. */
+bool
+isBoundary(const std::vector<Token>& tokens, std::size_t i)
+{
+  return i >= tokens.size() || tokens[i].kind == Kind::Joint ||
+         tokens[i].kind == Kind::Open || tokens[i].kind == Kind::Close;
+}
+
+class FormulaParser {
+public:
+  FormulaParser(const Fields& fields,
+                const std::array<double, 3>& origin,
+                const std::string& text)
+      : fields_(fields)
+      , origin_(origin)
+      , text_(text)
+  {
+  }
+
+  Formula
+  parseAll()
+  {
+    if (text_.size() > most_characters)
+      throw ExpressionError("The expression has " + std::to_string(text_.size()) +
+                                " characters: at most " +
+                                std::to_string(most_characters) + " are computed.",
+                            text_,
+                            most_characters);
+    Formula formula = parse('\0', 0);
+    if (!formula.hasField())
+      fail("The expression names no field", 0);
+    return formula;
+  }
+
+private:
+  struct Opened {
+    std::size_t place;
+    bool is_function;
+  };
+
+  /** What is known of the formula that is being read. */
+  struct Draft {
+    std::vector<Token> tokens;
+    std::vector<Opened> opened; ///< parentheses
+    std::vector<Operand> operands;
+    std::vector<std::size_t> places; ///< of operands
+  };
+
+  [[noreturn]] void
+  fail(const std::string& sentence, std::size_t place) const
+  {
+    throw ExpressionError(sentence + (sentence.back() == '.' || sentence.back() == '?'
+                                          ? ""
+                                          : " in " + quoteText(text_) + "."),
+                          text_,
+                          place);
+  }
+
+  char
+  peek(std::size_t ahead = 0) const
+  {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+
+  void
+  skipBlanks()
+  {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t'))
+      ++at_;
+  }
+
+  /** The formula up to the end, or to a comma or that closing character.
+   * \param opening place of what is closed */
+  Formula
+  parse(char closing, std::size_t opening)
+  {
+    if (++depth_ > most_depth)
+      fail("More than " + std::to_string(most_depth) +
+               " functions and lengths stand in one another",
+           at_);
+    Draft draft;
+    skipBlanks();
+    const std::size_t begin = at_;
+    bool needs_operand = true;
+    for (;; skipBlanks()) {
+      if (needs_operand)
+        needs_operand = !readOperand(draft);
+      else if (isAtEnd(draft, closing, opening))
+        break;
+      else
+        needs_operand = readOperator(draft, closing);
+    }
+    --depth_;
+    return finish(
+        std::move(draft),
+        std::string(trimmed(std::string_view(text_).substr(begin, at_ - begin))));
+  }
+
+  bool
+  isAtEnd(const Draft& draft, char closing, std::size_t opening) const
+  {
+    if (at_ == text_.size()) {
+      if (!draft.opened.empty())
+        fail("A parenthesis is not closed", draft.opened.back().place);
+      if (closing != '\0')
+        fail(closing == '|' ? "A bar is not closed" : "A parenthesis is not closed",
+             opening);
+      return true;
+    }
+    return closing != '\0' && draft.opened.empty() &&
+           (peek() == closing || peek() == ',');
+  }
+
+  void
+  add(Draft& draft, Kind kind, std::size_t characters, const std::string& program)
+  {
+    draft.tokens.push_back({kind, at_, program});
+    at_ += characters;
+  }
+
+  /** \return false where another one must follow: after a sign, say */
+  bool
+  readOperand(Draft& draft)
+  {
+    const char c = peek();
+    if (c == '(') {
+      draft.opened.push_back({at_,
+                              !draft.tokens.empty() &&
+                                  draft.tokens.back().kind == Kind::Other &&
+                                  endOfName(draft.tokens.back().program, 0) > 0});
+      add(draft, Kind::Open, 1, "(");
+      return false;
+    }
+    if (c == '+' || c == '-' || c == '!') {
+      add(draft, Kind::Sign, 1, std::string(1, c));
+      return false;
+    }
+    if (c == '|') {
+      readNorm(draft);
+      return true;
+    }
+    if (c == '"') {
+      readQuotedName(draft);
+      return true;
+    }
+    if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
+      const std::size_t end = endOfName(text_, at_);
+      if (!(end - at_ >= size && isCallAt(end))) {
+        addField(draft, text_.substr(at_, size), size);
+        return true;
+      }
+    }
+    if (const std::size_t end = endOfNumber(text_, at_); end > at_) {
+      readNumber(draft, end);
+      return true;
+    }
+    return readName(draft);
+  }
+
+  bool
+  isCallAt(std::size_t end) const
+  {
+    while (end < text_.size() && text_[end] == ' ')
+      ++end;
+    return end < text_.size() && text_[end] == '(';
+  }
+
+  void
+  readNumber(Draft& draft, std::size_t end)
+  {
+    const std::string digits = text_.substr(at_, end - at_);
+    double number = 0.0;
+    if (!parseNumber(digits, number))
+      fail("The number is too large", at_);
+    add(draft, Kind::Number, digits.size(), digits);
+    draft.tokens.back().number = number;
+  }
+
+  bool
+  readName(Draft& draft)
+  {
+    const std::size_t end = endOfName(text_, at_);
+    if (end == at_)
+      fail(at_ == text_.size() ? "A field or a number is missing at the end"
+                               : "A field or a number is missing",
+           at_);
+    const std::string name = text_.substr(at_, end - at_);
+    if (isCallAt(end))
+      return readCall(draft, name);
+    if (name == "pi" || name == "inf")
+      add(draft, Kind::Other, name.size(), name);
+    else
+      addField(draft, name, name.size());
+    return true;
+  }
+
+  /** \return true for a derivative, which is an operand; the arguments of other
+   * functions follow */
+  bool
+  readCall(Draft& draft, const std::string& name)
+  {
+    const auto derivative = findDerivative(name);
+    if (!derivative) {
+      const auto& functions = listFunctions();
+      if (std::find(functions.begin(), functions.end(), name) == functions.end())
+        fail(describeUnknownFunction(name), at_);
+      add(draft, Kind::Other, name.size(), name);
+      return false;
+    }
+    const std::size_t begin = at_;
+    at_ = text_.find('(', at_);
+    Operand operand;
+    operand.kind = Operand::Kind::Derivative;
+    operand.derivative = *derivative;
+    operand.arguments = readArguments(')');
+    checkArguments(operand, name, begin);
+    addOperand(draft, std::move(operand), begin);
+    return true;
+  }
+
+  /** From the opening character to behind the closing one. */
+  std::vector<Formula>
+  readArguments(char closing)
+  {
+    const std::size_t opening = at_++;
+    std::vector<Formula> arguments;
+    for (;; ++at_) {
+      arguments.push_back(parse(closing, opening));
+      if (peek() == closing)
+        break;
+    }
+    ++at_;
+    return arguments;
+  }
+
+  void
+  checkArguments(const Operand& operand,
+                 const std::string& name,
+                 std::size_t place) const
+  {
+    const auto& arguments = operand.arguments;
+    if (std::none_of(arguments.begin(), arguments.end(), [](const Formula& argument) {
+          return argument.hasField();
+        }))
+      fail("No field is derived", place);
+    if (operand.derivative == Derivative::Gradient ||
+        operand.derivative == Derivative::Laplacian ||
+        operand.derivative == Derivative::Curvature) {
+      if (arguments.size() != 1 || arguments[0].width() != 1)
+        fail(name + " takes one number per point, as in " + name + "(rho)", place);
+      return;
+    }
+    const bool is_vector = arguments.size() == 1 && arguments[0].width() == 3;
+    const bool are_components =
+        arguments.size() == 3 &&
+        std::all_of(arguments.begin(), arguments.end(), [](const Formula& argument) {
+          return argument.width() == 1;
+        });
+    if (!is_vector && !are_components)
+      fail(name + " takes a field of three components or three fields, as in " + name +
+               "(vel) or " + name + "(vx,vy,vz)",
+           place);
+  }
+
+  void
+  readNorm(Draft& draft)
+  {
+    const std::size_t begin = at_;
+    Operand operand;
+    operand.kind = Operand::Kind::Norm;
+    operand.arguments = readArguments('|');
+    addOperand(draft, std::move(operand), begin);
+  }
+
+  void
+  readQuotedName(Draft& draft)
+  {
+    const std::size_t end = text_.find('"', at_ + 1);
+    if (end == std::string::npos)
+      fail("A quotation mark is not closed", at_);
+    addField(draft, text_.substr(at_ + 1, end - at_ - 1), end + 1 - at_);
+  }
+
+  void
+  addField(Draft& draft, const std::string& name, std::size_t characters)
+  {
+    Operand operand = makeFieldOperand(fields_, origin_, name);
+    if (operand.components.empty())
+      fail(describeUnknown(fields_, name), at_);
+    const std::size_t begin = at_;
+    at_ += characters;
+    addOperand(draft, std::move(operand), begin);
+  }
+
+  /** With the component that is chosen behind it. */
+  void
+  addOperand(Draft& draft, Operand&& operand, std::size_t begin)
+  {
+    const std::size_t end = at_;
+    skipBlanks();
+    if (peek() == '[')
+      readComponent(operand);
+    else
+      at_ = end;
+    operand.text = text_.substr(begin, at_ - begin);
+    const auto known =
+        std::find_if(draft.operands.begin(),
+                     draft.operands.end(),
+                     [&](const Operand& other) { return other.text == operand.text; });
+    const auto index = static_cast<std::size_t>(known - draft.operands.begin());
+    draft.tokens.push_back({Kind::Operand, begin, "v" + std::to_string(index), index});
+    if (known == draft.operands.end())
+      draft.operands.push_back(std::move(operand));
+  }
+
+  void
+  readComponent(Operand& operand)
+  {
+    const std::size_t opening = at_++;
+    std::size_t component = 0;
+    const auto parsed =
+        std::from_chars(&text_[at_], text_.data() + text_.size(), component);
+    const auto end = static_cast<std::size_t>(parsed.ptr - text_.data());
+    if (parsed.ec != std::errc() || end == text_.size() || text_[end] != ']')
+      fail("A component is a number from 0 between brackets, as in vel[1],", opening);
+    if (component >= operand.fullWidth())
+      fail("The component is too large: it may be 0 to " +
+               std::to_string(operand.fullWidth() - 1),
+           at_);
+    operand.component = component;
+    at_ = end + 1;
+  }
+
+  /** \return whether an operand must follow */
+  bool
+  readOperator(Draft& draft, char closing)
+  {
+    const char c = peek(), next = peek(1);
+    switch (c) {
+    case ')':
+      if (draft.opened.empty())
+        fail("No parenthesis is open", at_);
+      draft.opened.pop_back();
+      add(draft, Kind::Close, 1, ")");
+      return false;
+    case ',':
+      if (draft.opened.empty() || !draft.opened.back().is_function)
+        fail("A comma stands where no function has arguments", at_);
+      add(draft, Kind::Joint, 1, ",");
+      return true;
+    case '+':
+    case '-':
+    case '*':
+    case '/':
+    case '^':
+      add(draft, Kind::Other, 1, std::string(1, c));
+      return true;
+    case '?':
+    case ':':
+      add(draft, Kind::Joint, 1, std::string(1, c));
+      return true;
+    case '<':
+    case '>':
+    case '!':
+    case '=':
+      if (next == '=')
+        add(draft, Kind::Relation, 2, std::string{c, '='});
+      else if (c == '!')
+        break;
+      else
+        add(draft, Kind::Relation, 1, c == '=' ? "==" : std::string(1, c));
+      return true;
+    default:
+      if ((c == '&' || (c == '|' && (closing != '|' || !draft.opened.empty()))) &&
+          next == c) {
+        add(draft, Kind::Joint, 2, std::string(2, c));
+        return true;
+      }
+    }
+    fail(c == '&' ? "Conditions are joined by &&" : "An operator is missing", at_);
+  }
+
+  Formula
+  finish(Draft&& draft, std::string&& text) const
+  {
+    Formula formula;
+    formula.text = std::move(text);
+    formula.operands = std::move(draft.operands);
+    if (draft.tokens.size() == 1 && draft.tokens[0].kind == Kind::Operand)
+      return formula;
+    for (const Token& token : draft.tokens) {
+      if (token.kind == Kind::Operand)
+        checkScalar(formula.operands[token.operand], token.place);
+      formula.compares |= token.kind == Kind::Relation;
+    }
+    checkRelations(draft.tokens);
+    roundNumbers(formula.operands, draft.tokens);
+    std::vector<std::size_t> ends; // of the tokens in the program
+    for (const Token& token : draft.tokens) {
+      formula.program += token.program;
+      ends.push_back(formula.program.size());
+    }
+    try {
+      const Program compiled(formula.program, formula.operands.size());
+    }
+    catch (const ProgramError& error) {
+      const auto token = std::upper_bound(ends.begin(), ends.end() - 1, error.place);
+      std::string reason = error.reason;
+      reason[0] = static_cast<char>(std::toupper(reason[0]));
+      fail(reason, draft.tokens[static_cast<std::size_t>(token - ends.begin())].place);
+    }
+    return formula;
+  }
+
+  void
+  checkScalar(const Operand& operand, std::size_t place) const
+  {
+    if (operand.width() > 1)
+      fail(describeComponents(operand) + ",", place);
+  }
+
+  /** 1 < T < 2 would compare a truth with 2. */
+  void
+  checkRelations(const std::vector<Token>& tokens) const
+  {
+    std::vector<std::size_t> relations(1);
+    for (const Token& token : tokens)
+      switch (token.kind) {
+      case Kind::Open:
+        relations.push_back(0);
+        break;
+      case Kind::Close:
+        relations.pop_back();
+        break;
+      case Kind::Joint:
+        relations.back() = 0;
+        break;
+      case Kind::Relation:
+        if (++relations.back() > 1)
+          fail("Comparisons are joined by &&, as in 1<T && T<2; there are two at once",
+               token.place);
+        break;
+      default:
+        break;
+      }
+  }
+
+  /** A number that a float32 field alone is compared with becomes the float nearest to
+   * it, relative to the origin: else T=4.1 would never hold. */
+  static void
+  roundNumbers(const std::vector<Operand>& operands, std::vector<Token>& tokens)
+  {
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+      if (tokens[i].kind != Kind::Relation || i == 0)
+        continue;
+      // T > 4, T > -4
+      const bool is_signed = i + 1 < tokens.size() && tokens[i + 1].kind == Kind::Sign;
+      if (const std::size_t number = i + 1 + is_signed;
+          isBoundary(tokens, i - 2) && isBoundary(tokens, number + 1))
+        roundNumber(operands, tokens[i - 1], tokens, number, is_signed);
+      // 4 < T, -4 < T
+      const bool has_sign = i >= 2 && tokens[i - 2].kind == Kind::Sign;
+      if (i + 1 < tokens.size() && isBoundary(tokens, i - 2 - has_sign) &&
+          isBoundary(tokens, i + 2))
+        roundNumber(operands, tokens[i + 1], tokens, i - 1, has_sign);
+    }
+  }
+
+  static void
+  roundNumber(const std::vector<Operand>& operands,
+              const Token& field,
+              std::vector<Token>& tokens,
+              std::size_t number,
+              bool is_signed)
+  {
+    if (field.kind != Kind::Operand || number >= tokens.size() ||
+        tokens[number].kind != Kind::Number)
+      return;
+    const Operand& operand = operands[field.operand];
+    if (operand.kind != Operand::Kind::Field)
+      return;
+    const std::size_t component = operand.component.value_or(0);
+    if (operand.components[component].datatype != pcl::PCLPointField::FLOAT32)
+      return;
+    const bool is_negative = is_signed && tokens[number - 1].program == "-";
+    const double sign = is_negative ? -1.0 : 1.0, addend = operand.addends[component];
+    const double rounded =
+        static_cast<double>(static_cast<float>(sign * tokens[number].number - addend)) +
+        addend;
+    if (std::isfinite(rounded))
+      tokens[number].program = "(" + writeNumber(sign * rounded) + ")";
+  }
+
+  const Fields& fields_;
+  const std::array<double, 3>& origin_;
+  const std::string& text_;
+  std::size_t at_ = 0, depth_ = 0;
+};
+
+} // namespace
+
+Formula
+parseFormula(const Fields& fields,
+             const std::array<double, 3>& origin,
+             const std::string& expression)
+{
+  return FormulaParser(fields, origin, expression).parseAll();
+}
+
+bool
+mayHaveDerivative(const std::string& expression)
+{
+  for (std::size_t i = 0; i < expression.size(); ++i)
+    if (const std::size_t end = endOfName(expression, i); end > i) {
+      const std::size_t next = expression.find_first_not_of(' ', end);
+      if (next != std::string::npos && expression[next] == '(' &&
+          findDerivative(expression.substr(i, end - i)))
+        return true;
+      i = end - 1;
+    }
+  return false;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "expressions/operand_names.h"
+
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/records.h"
+#include "common/similar_words.h"
+#include "expressions/program.h"
+
+#include <algorithm>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::pair<const char*, Derivative> derivatives[] = {
+    {"grad", Derivative::Gradient},
+    {"laplacian", Derivative::Laplacian},
+    {"curvature", Derivative::Curvature},
+    {"div", Derivative::Divergence},
+    {"curl", Derivative::Curl},
+    {"Q", Derivative::Q},
+    {"lambda2", Derivative::Lambda2}};
+
+bool
+isDigit(char c)
+{
+  return c >= '0' && c <= '9';
+}
+
+bool
+beginsName(char c)
+{
+  return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+bool
+isOneOf(char c, std::string_view characters)
+{
+  return characters.find(c) != std::string_view::npos;
+}
+
+std::size_t
+endOfDigits(std::string_view text, std::size_t begin)
+{
+  while (begin < text.size() && isDigit(text[begin]))
+    ++begin;
+  return begin;
+}
+
+/** Nothing that belongs to the same operand stands beside it. */
+bool
+standsAlone(std::string_view text, std::size_t begin, std::size_t size)
+{
+  const std::string_view before = trimmed(text.substr(0, begin));
+  const std::string_view after = trimmed(text.substr(begin + size));
+  return (before.empty() || isOneOf(before.back(), "(,<>=&|!")) &&
+         (after.empty() || isOneOf(after.front(), "),<>=&|!"));
+}
+
+bool
+isThere(const std::string& name, std::string_view text, std::size_t begin)
+{
+  if (name.empty() || text.compare(begin, name.size(), name) != 0)
+    return false;
+  double number = 0.0;
+  if (parseNumber(name, number))
+    return false;
+  const std::size_t end = begin + name.size();
+  if (name.find_first_of("+-*/^<>=!&|?,()[]\"") != std::string::npos)
+    return standsAlone(text, begin, name.size());
+  return end == text.size() || !continuesName(text[end]);
+}
+
+} // namespace
+
+bool
+continuesName(char c)
+{
+  return beginsName(c) || isDigit(c) || c == '.';
+}
+
+std::size_t
+endOfName(std::string_view text, std::size_t begin)
+{
+  if (begin == text.size() || !beginsName(text[begin]))
+    return begin;
+  while (begin < text.size() && continuesName(text[begin]))
+    ++begin;
+  return begin;
+}
+
+std::size_t
+endOfNumber(std::string_view text, std::size_t begin)
+{
+  std::size_t end = endOfDigits(text, begin);
+  std::size_t digits = end - begin;
+  if (end < text.size() && text[end] == '.') {
+    const std::size_t fraction = endOfDigits(text, end + 1);
+    digits += fraction - end - 1;
+    end = fraction;
+  }
+  if (digits == 0)
+    return begin;
+  if (end < text.size() && isOneOf(text[end], "eE")) {
+    std::size_t exponent = end + 1;
+    if (exponent < text.size() && isOneOf(text[exponent], "+-"))
+      ++exponent;
+    if (const std::size_t last = endOfDigits(text, exponent); last > exponent)
+      end = last;
+  }
+  return end;
+}
+
+std::size_t
+findFieldName(const Fields& fields, std::string_view text, std::size_t begin)
+{
+  std::size_t longest = 0;
+  for (const auto& field : fields)
+    if (field.name.size() > longest && !isPadding(field) &&
+        isThere(field.name, text, begin))
+      longest = field.name.size();
+  return longest;
+}
+
+Operand
+makeFieldOperand(const Fields& fields,
+                 const std::array<double, 3>& origin,
+                 const std::string& name)
+{
+  Operand operand;
+  operand.components = findComponents(fields, name);
+  operand.addends.resize(operand.components.size());
+  if (const int axis = axisOf(name); axis >= 0 && operand.components.size() == 1)
+    operand.addends[0] = origin[static_cast<std::size_t>(axis)];
+  return operand;
+}
+
+std::optional<Derivative>
+findDerivative(const std::string& name)
+{
+  for (const auto& [word, derivative] : derivatives)
+    if (name == word)
+      return derivative;
+  return std::nullopt;
+}
+
+std::string
+describeUnknown(const Fields& fields, const std::string& name)
+{
+  std::vector<std::string> names;
+  for (const auto& field : fields)
+    if (!isPadding(field))
+      names.push_back(field.name);
+  const std::string similar = findSimilar(names, name);
+  return "There is no field " + quoteText(name) +
+         (similar.empty() ? "" : " (did you mean " + quoteText(similar) + "?)") +
+         "; the fields are " + describeFields(fields) + ".";
+}
+
+std::string
+describeUnknownFunction(const std::string& name)
+{
+  std::vector<std::string> names = listFunctions();
+  for (const auto& derivative : derivatives)
+    names.emplace_back(derivative.first);
+  const std::string similar = findSimilar(names, name);
+  if (!similar.empty())
+    return "There is no function " + quoteText(name) + "; did you mean " + similar +
+           "?";
+  std::string list;
+  for (const std::string& known : names)
+    list += (list.empty() ? "" : ", ") + known;
+  return "There is no function " + quoteText(name) + "; there are " + list + ".";
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/sample_derivatives.h"
+
+#include "common/parallel.h"
+#include "common/value_frame.h"
+#include "interpolation/bucket_fitter.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+using Columns = std::vector<std::vector<double>>;
+
+/** Samples that are fitted together: near one another, and a multiple of the lanes. */
+constexpr std::size_t block_samples = 32;
+
+/** A linear function in space has so many coefficients. */
+constexpr std::size_t least_samples = 4;
+
+std::vector<std::uint32_t>
+pointsWithValues(const Columns& columns, std::size_t points)
+{
+  std::vector<std::uint32_t> use;
+  for (std::size_t i = 0; i < points; ++i)
+    if (std::all_of(columns.begin(), columns.end(), [&](const auto& column) {
+          return std::isfinite(column[i]);
+        }))
+      use.push_back(static_cast<std::uint32_t>(i));
+  return use;
+}
+
+std::vector<ValueFrame>
+findFrames(const Columns& columns)
+{
+  std::vector<ValueFrame> frames;
+  for (const auto& column : columns) {
+    ValueRange range;
+    for (const double value : column)
+      range.add(value);
+    frames.push_back(range.findFrame());
+  }
+  return frames;
+}
+
+/** Values of all fields in leaf order and their frames. */
+SampledFields
+gatherFields(SampleSet::ConstPtr samples,
+             const Columns& columns,
+             const std::vector<ValueFrame>& frames,
+             Report& report)
+{
+  SampledFields sampled;
+  sampled.samples = std::move(samples);
+  sampled.fields = columns.size();
+  sampled.values.resize(sampled.samples->size() * columns.size());
+  const auto put = [&](std::size_t sample, std::size_t field, std::size_t point) {
+    // Adding zero turns -0 into 0, so that medians do not depend on its sign.
+    sampled.values[sample * columns.size() + field] =
+        frames[field].apply(columns[field][point]) + 0.0;
+  };
+  for (std::size_t i = 0; i < sampled.samples->size(); ++i)
+    for (std::size_t f = 0; f < columns.size(); ++f)
+      put(i, f, sampled.samples->getInputIndex(i));
+  std::uint64_t conflicting = 0;
+  for (const SampleSet::Merged& merged : sampled.samples->getMerged())
+    for (std::size_t f = 0; f < columns.size(); ++f) {
+      std::vector<std::uint32_t> members(merged.members.begin(), merged.members.end());
+      put(merged.sample,
+          f,
+          chooseRepresentative(
+              members, [&](auto member) { return columns[f][member]; }, conflicting));
+    }
+  report.count("conflicting_duplicates", conflicting);
+  return sampled;
+}
+
+/** Derivatives of a polynomial at its centre, see ReducedFit for the order of terms.
+ * \param per_length its unit by that of the cloud */
+PointDerivatives
+derive(const double* c, double per_length, double factor)
+{
+  PointDerivatives derivatives;
+  derivatives.gradient = Eigen::Vector3d(c[1], c[2], c[3]) * per_length / factor;
+  derivatives.hessian << 2.0 * c[4], c[5], c[6], //
+      c[5], 2.0 * c[7], c[8],                    //
+      c[6], c[8], 2.0 * c[9];
+  derivatives.hessian *= per_length * per_length / factor;
+  return derivatives;
+}
+
+/** The points that a sample stands for. */
+template <typename Visit>
+void
+forPointsOf(const SampleSet& samples, std::size_t sample, const Visit& visit)
+{
+  const auto& merged = samples.getMerged();
+  const auto found = std::lower_bound(
+      merged.begin(), merged.end(), sample, [](const auto& one, std::size_t other) {
+        return one.sample < other;
+      });
+  if (found == merged.end() || found->sample != sample)
+    visit(samples.getInputIndex(sample));
+  else
+    for (const std::uint32_t member : found->members)
+      visit(member);
+}
+
+} // namespace
+
+void
+computeDerivatives(const CloudView& cloud,
+                   const Columns& columns,
+                   unsigned threads,
+                   const TakeDerivatives& take,
+                   Report& report)
+{
+  const auto use = pointsWithValues(columns, cloud.count);
+  if (use.size() < least_samples)
+    throw InvalidArgument("Derivatives need at least four samples with values, and "
+                          "there are " +
+                          std::to_string(use.size()) + ".");
+  const auto frames = findFrames(columns);
+  const SampledFields sampled =
+      gatherFields(SampleSet::build(cloud.xyz(0),
+                                    cloud.stride(),
+                                    use,
+                                    Position{{1.0f, 1.0f, 1.0f}},
+                                    threads,
+                                    report),
+                   columns,
+                   frames,
+                   report);
+  const SampleSet& samples = *sampled.samples;
+  if (samples.size() < least_samples)
+    throw InvalidArgument("Derivatives need samples at four places or more, and there "
+                          "are " +
+                          std::to_string(samples.size()) + ".");
+  std::atomic<std::uint64_t> reduced{0};
+  StepTimer step(report, "derivatives", samples.size());
+  parallelBlocks(samples.size(), block_samples, threads, [&](auto begin, auto end) {
+    const BucketFits fits = BucketFitter(sampled, true)
+                                .fit(static_cast<std::uint32_t>(begin),
+                                     static_cast<std::uint32_t>(end - begin));
+    reduced += static_cast<std::uint64_t>(
+        std::count(fits.is_reduced.begin(), fits.is_reduced.end(), true));
+    std::vector<PointDerivatives> derivatives(sampled.fields);
+    for (std::size_t i = 0; i < end - begin; ++i) {
+      const double per_length =
+          static_cast<double>(samples.getUnit().factor) / fits.radius[i];
+      for (std::size_t f = 0; f < sampled.fields; ++f)
+        derivatives[f] =
+            derive(&fits.coefficients[(i * sampled.fields + f) * polynomial_terms],
+                   per_length,
+                   frames[f].factor);
+      forPointsOf(samples, begin + i, [&](std::uint32_t point) {
+        take(point, derivatives.data());
+      });
+    }
+    step.advance(end - begin);
+  });
+  report.count("reduced_fits", reduced);
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Derivatives of scattered fields at their own samples: those of the polynomials that
+// FieldInterpolation blends.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief Derivatives of a field at a point, per unit of length of the cloud. */
+struct PointDerivatives {
+  Eigen::Vector3d gradient;
+  Eigen::Matrix3d hessian;
+};
+
+/** \brief Takes the derivatives of all fields at a point. */
+using TakeDerivatives =
+    std::function<void(std::size_t point, const PointDerivatives* fields)>;
+
+/** \brief Derive fields given at the points of a cloud.
+ *
+ * Per sample a least-squares cubic or quadratic through its 40 nearest samples, see
+ * BucketFitter: gradients are exact for cubics, of third order otherwise, and second
+ * derivatives of second order. Where samples lie on few planes or lines, derivatives
+ * across them are 0. Points at one place count as one sample, with the lower median of
+ * their values, and get the same derivatives.
+ * \param columns [field][point] values, none of which a point takes part in that has no
+ * finite value of one of them
+ * \param take called once, from any thread, for every point that takes part
+ * \param report gets the counts "non_finite", "duplicates", "conflicting_duplicates"
+ * and "reduced_fits", of samples that do not determine a polynomial
+ * \throws InvalidArgument for fewer than four distinct samples with values
+ *
+ * Memory: about 50 bytes per sample, and 8 per sample and field. */
+PCL_UVOL_EXPORTS void
+computeDerivatives(const CloudView& cloud,
+                   const std::vector<std::vector<double>>& columns,
+                   unsigned threads,
+                   const TakeDerivatives& take,
+                   Report& report);
+
+} // namespace pcl_uvol::detail
