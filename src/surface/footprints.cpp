@@ -36,6 +36,27 @@ constexpr float room = 1.05f;
 /** Farther corners, in spacings, are holes in the surface, not in its sampling. */
 constexpr float most_spacings = 4.0f;
 
+/** Edges, and parts of all edges that are shorter, that bound the disc of an isopoint:
+ * on a surface that goes on all around, where isopoints may lie at the ends of edges
+ * and edges across a thin layer of samples are short; and where it does not, as on
+ * specks of noise. @{ */
+constexpr float measured_edges = 2.0f, unmeasured_edges = 1.0f;
+constexpr std::size_t measured_percentile = 90, unmeasured_percentile = 50;
+/** @} */
+
+/** Cosine of the angle of normals, and tangent of the angle to the tangent plane, of
+ * points that lie on one smooth surface. @{ */
+constexpr float least_agreement = 0.5f, steepest = 0.7f;
+/** @} */
+
+/** Neighbours that a disc has to meet: it closes no surface else. */
+constexpr std::size_t least_company = 3;
+
+/** In parts of what half of the nearest points have: a point whose 16th neighbour is
+ * farther away is lonely. Isopoints of graded samples grow apart by less, and clumps of
+ * them are in the other half. */
+constexpr float lonely_distance = 6.0f;
+
 /** Cosine of the angle to the mean direction: a point beyond it lies on the other side.
  */
 constexpr float opposite = -0.2f;
@@ -107,6 +128,16 @@ public:
     }
   }
 
+  /** True if a condition holds for all neighbours that cut it. */
+  template <typename Condition>
+  bool
+  allNeighbors(const Condition& condition) const
+  {
+    return std::all_of(corners_.begin(), corners_.end(), [&](const Corner& corner) {
+      return condition(corner.edge);
+    });
+  }
+
   bool
   isBounded() const
   {
@@ -133,6 +164,8 @@ public:
   explicit FootprintFinder(const OrientedPoints& points)
       : samples_(*points.samples)
       , normals_(points.normals)
+      , edge_lengths_(points.edge_lengths)
+      , surfaces_(points.surfaces)
       , two_sided_(points.two_sided)
       , few_(samples_, std::tuple_size_v<NearestPoints> + 1)
       , many_(samples_, many_neighbors + 1)
@@ -146,10 +179,12 @@ public:
     few_.expect(&samples_.getPositions()[first], count);
   }
 
-  /** Distances of a point's corners: of all, and of those it is the first for. */
+  /** Distances of a point's corners: of all, and of those it is the first for; and of
+   * its 16th neighbour, or the last one. */
   struct Reach {
     float all = 0.0f, first = 0.0f;
     bool on_rim = true;
+    float around = 0.0f;
   };
 
   /** \param nearest set to the indices of the nearest other points */
@@ -162,22 +197,81 @@ public:
     for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
       nearest[i] = neighbors_[i].second;
     neighbors_.resize(std::min(neighbors_.size(), few_neighbors));
-    const Reach reach = reachAmong(point);
-    if (!reach.on_rim || neighbors_.empty())
-      return reach;
-    gather(many_.find(position, typical_distance), point);
-    return reachAmong(point);
+    if (neighbors_.empty())
+      return {};
+    const float around = std::sqrt(neighbors_.back().first);
+    const std::size_t company = std::min(least_company, neighbors_.size());
+    const float to_company = std::sqrt(neighbors_[company - 1].first);
+    sortEdges(point);
+    Reach reach = reachAmong(point);
+    if (reach.on_rim) {
+      gather(many_.find(position, typical_distance), point);
+      reach = reachAmong(point);
+    }
+    reach.around = around;
+    const float edges = edgesAbout(!reach.on_rim && isMeasured());
+    const float most = std::min(around, edges);
+    const bool is_alone = to_company > 2.0f * most;
+    reach.on_rim |= is_alone || reach.all > edges;
+    reach.all = is_alone ? 0.0f : std::min(reach.all, most);
+    reach.first = std::min(reach.first, reach.all);
+    return reach;
   }
 
 private:
+  /** The lengths of the edges of a point and of those that gather() found. */
+  void
+  sortEdges(std::uint32_t point)
+  {
+    if (edge_lengths_.empty())
+      return;
+    lengths_ = {edge_lengths_[point]};
+    for (const auto& neighbor : neighbors_)
+      lengths_.push_back(edge_lengths_[neighbor.second]);
+    std::sort(lengths_.begin(), lengths_.end());
+  }
+
+  /** What edges tell of a point's surroundings: single ones are much shorter than the
+   * samples lie apart, or cross a gap. */
+  float
+  edgesAbout(bool is_measured) const
+  {
+    if (lengths_.empty())
+      return std::numeric_limits<float>::infinity();
+    const std::size_t percentile =
+        is_measured ? measured_percentile : unmeasured_percentile;
+    return (is_measured ? measured_edges : unmeasured_edges) *
+           lengths_[lengths_.size() * percentile / 100];
+  }
+
+  /** Whether the points around the cell that reachAmong() cut lie on one surface with
+   * its point. */
+  bool
+  isMeasured() const
+  {
+    return cell_.allNeighbors([&](std::uint32_t neighbor) {
+      const Eigen::Vector3f offset = positionOf(neighbor) - here_;
+      const float height = std::abs(offset.dot(normal_));
+      const float agreement = normal_.dot(normalOf(neighbor));
+      return (two_sided_ ? std::abs(agreement) : agreement) >= least_agreement &&
+             height * height <= steepest * steepest * offset.squaredNorm();
+    });
+  }
+
   void
   gather(const NearestFinder::Row& row, std::uint32_t point)
   {
     neighbors_.clear();
     for (std::size_t i = 0; i < row.size; ++i)
-      if (row.samples[i] != point)
+      if (row.samples[i] != point && isOfSameSurface(row.samples[i], point))
         neighbors_.emplace_back(row.sq_dists[i], row.samples[i]);
     std::sort(neighbors_.begin(), neighbors_.end());
+  }
+
+  bool
+  isOfSameSurface(std::uint32_t a, std::uint32_t b) const
+  {
+    return surfaces_.empty() || surfaces_[a] == surfaces_[b];
   }
 
   /** Spacing s of points with 1 / s^2 points per area, k of them in a circle of radius
@@ -240,7 +334,7 @@ private:
       if (is_first)
         sq_first = std::max(sq_first, sq_dist);
     });
-    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim};
+    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim, 0.0f};
   }
 
   /** Bring the next neighbour into the plane; false for one on another side. */
@@ -275,9 +369,13 @@ private:
 
   const SampleSet& samples_;
   const std::vector<PackedNormal>& normals_;
+  const std::vector<float>& edge_lengths_;
+  const std::vector<std::uint8_t>& surfaces_;
   bool two_sided_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_; ///< nearest first
+
+  std::vector<float> lengths_; ///< of edges, the shortest first
 
   // The point that is looked at.
   Eigen::Vector3f here_, normal_, axes_[2];
@@ -285,6 +383,20 @@ private:
   std::vector<Eigen::Vector2f> in_plane_; ///< of them, those on the same side
   Cell cell_;
 };
+
+/** Median of the distances of the 16th neighbours of points. */
+float
+usualDistance(const NearestPoints& points,
+              const std::vector<FootprintFinder::Reach>& reach)
+{
+  std::array<float, std::tuple_size_v<NearestPoints>> distances;
+  std::transform(points.begin(), points.end(), distances.begin(), [&](auto point) {
+    return reach[point].around;
+  });
+  const auto middle = distances.begin() + distances.size() / 2;
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
 
 } // namespace
 
@@ -320,12 +432,17 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
+    const NearestPoints& nearest = footprints.nearest[i];
     float most = 0.0f;
     for (std::size_t k = 0; k < compared_neighbors; ++k)
-      most = std::max(most, largest_growth * reach[footprints.nearest[i][k]].all);
+      most = std::max(most, largest_growth * reach[nearest[k]].all);
+    const bool is_lonely =
+        reach[i].around > lonely_distance * usualDistance(nearest, reach);
+    if (is_lonely)
+      most = 0.0f;
     footprints.radii[i] = room * std::min(reach[i].all, most);
     footprints.fillers[i] = room * std::min(reach[i].first, most);
-    footprints.on_rim[i] = reach[i].on_rim ? 1 : 0;
+    footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
   }
   return footprints;
 }

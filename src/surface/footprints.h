@@ -19,7 +19,8 @@ using NearestPoints = std::array<std::uint32_t, 32>;
 /** \brief Radii of the discs of every point, in leaf order. */
 struct Footprints {
   /** Distance to the farthest corner of the point's Voronoi cell among its neighbours
-   * in its tangent plane: discs of that size, and no smaller ones, cover a plane. */
+   * in its tangent plane: discs of that size, and no smaller ones, cover a plane. 0 for
+   * lonely points. */
   std::vector<float> radii;
   /** The same for those corners only for which the point is the first of the three
    * points around: each hole has one such disc, which leaves a part of it open. */
@@ -32,7 +33,12 @@ struct Footprints {
 /** \brief Corners at infinity or beyond the rim of a surface do not count, and outliers
  * get at most three times what their nearest neighbour has. Of a surface with two sides
  * (normals with a meaningful sign) points that look to the other side are no
- * neighbours.
+ * neighbours, nor are points of another isovalue.
+ *
+ * No point knows more of the surface than the samples about it do: radii are at most
+ * about the length that edges of isopoints have there, or twice that on a surface that
+ * goes on all around, and the distance of the 16th neighbour on whatever side. Points that have far fewer points about them than those
+ * have, and points whose disc would meet hardly another one, are lonely.
  */
 PCL_UVOL_EXPORTS Footprints
 computeFootprints(const OrientedPoints& points, unsigned threads, Report& report);

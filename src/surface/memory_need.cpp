@@ -173,7 +173,7 @@ splatsNeed(double points, double splats, bool has_normals)
   // Radii, fillers, rims and nearest points; what they are made of.
   constexpr double footprint_bytes =
       2.0 * float_bytes + sizeof(std::uint8_t) + sizeof(NearestPoints);
-  constexpr double reach_bytes = 3.0 * float_bytes;
+  constexpr double reach_bytes = 4.0 * float_bytes;
   forecast.hold(footprint_bytes * points);
   forecast.run({reach_bytes * points, 0.0});
   // The order, who is passed over, and the splats as they are grown.

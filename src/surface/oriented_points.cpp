@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
 
 namespace pcl_uvol {
 
@@ -93,6 +95,55 @@ estimateNormals(const CloudView& cloud,
   return normals;
 }
 
+/** Lengths of edges; a field of that name with other contents does no harm but to
+ * footprints that are larger. */
+std::vector<float>
+readEdgeLengths(const CloudView& cloud, const SampleSet& samples, unsigned threads)
+{
+  std::vector<float> lengths;
+  if (findField(cloud.fields, "edge_length") == nullptr)
+    return lengths;
+  const ScalarField field(cloud.fields, "edge_length");
+  lengths.resize(samples.size());
+  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto length = static_cast<float>(
+          field.read(cloud.point(samples.getInputIndex(i))) * samples.getUnit().factor);
+      lengths[i] = length > 0.0f ? length : std::numeric_limits<float>::infinity();
+    }
+  });
+  return lengths;
+}
+
+/** Numbers of the isovalues; empty for one isovalue or none. A field with as many
+ * values as this is no isovalue. */
+std::vector<std::uint8_t>
+numberSurfaces(const CloudView& cloud, const SampleSet& samples)
+{
+  constexpr std::size_t most_isovalues = 4096;
+  if (findField(cloud.fields, "isovalue") == nullptr)
+    return {};
+  const ScalarField field(cloud.fields, "isovalue");
+  std::set<double> isovalues;
+  std::vector<double> values(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    values[i] = field.read(cloud.point(samples.getInputIndex(i)));
+    if (i > 0 && values[i] == values[i - 1])
+      continue;
+    if (!std::isfinite(values[i]) || isovalues.size() > most_isovalues)
+      return {};
+    isovalues.insert(values[i]);
+  }
+  if (isovalues.size() < 2)
+    return {};
+  const std::vector<double> sorted(isovalues.begin(), isovalues.end());
+  std::vector<std::uint8_t> numbers(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    numbers[i] = static_cast<std::uint8_t>(
+        std::lower_bound(sorted.begin(), sorted.end(), values[i]) - sorted.begin());
+  return numbers;
+}
+
 bool
 isFinite(const float* xyz)
 {
@@ -138,6 +189,8 @@ orientPoints(const CloudView& cloud,
   points.normals.resize(points.samples->size());
   for (std::size_t i = 0; i < points.normals.size(); ++i)
     points.normals[i] = normals.packed[points.samples->getInputIndex(i)];
+  points.edge_lengths = readEdgeLengths(cloud, *points.samples, threads);
+  points.surfaces = numberSurfaces(cloud, *points.samples);
   return points;
 }
 

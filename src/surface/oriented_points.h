@@ -19,12 +19,19 @@ struct OrientedPoints {
   std::vector<PackedNormal> normals; ///< per sample
   /** Normals have no meaningful sign: back faces are as good as front faces. */
   bool two_sided = false;
+  /** Per sample, in its unit: the length of the edge that an isopoint lies on, infinite
+   * where it is not known. Empty for points that are no isopoints. */
+  std::vector<float> edge_lengths;
+  /** Per sample: the number of its isovalue, in ascending order, which starts again at
+   * 0 after 255. Empty for points of one surface. */
+  std::vector<std::uint8_t> surfaces;
 };
 
 /** \brief Take points and normals from a cloud. Points with a non-finite coordinate or
  * without a usable normal are left out and counted as "non_finite" and
  * "without_normal", exact duplicates merged. A cloud that has no normals at all gets
- * estimated ones, which have no meaningful sign, with a warning.
+ * estimated ones, which have no meaningful sign, with a warning. The fields edge_length
+ * and isovalue of a PointIso are read where the cloud has them.
  * \param use indices of the points to take
  * \throws InvalidArgument if no point is left */
 PCL_UVOL_EXPORTS OrientedPoints

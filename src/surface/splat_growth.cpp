@@ -62,29 +62,28 @@ SplatGrower::expect(const std::vector<std::uint32_t>& samples)
 void
 SplatGrower::findNeighbors(std::uint32_t sample)
 {
-  const std::vector<Position>& positions = ground_.points.samples->getPositions();
+  const SampleSet& samples = *ground_.points.samples;
   neighbors_.clear();
   if (level_ == 0) {
     for (const std::uint32_t neighbor : ground_.nearest[sample])
       if (neighbor != sample)
         neighbors_.emplace_back(
-            (Eigen::Map<const Eigen::Vector3f>(positions[neighbor].x) - here_)
+            (Eigen::Map<const Eigen::Vector3f>(samples.getPositions()[neighbor].x) -
+             here_)
                 .squaredNorm(),
             neighbor);
+    has_all_neighbors_ = neighbors_.size() + 1 >= samples.size();
     return;
   }
   const float length =
       std::max(ground_.least_radii[sample], std::numeric_limits<float>::min());
-  const auto row = finder().find(positions[sample], length);
+  const auto row = finder().find(samples.getPositions()[sample], length);
+  const std::vector<std::uint8_t>& surfaces = ground_.points.surfaces;
   for (std::size_t i = 0; i < row.size; ++i)
-    if (row.samples[i] != sample)
+    if (row.samples[i] != sample &&
+        (surfaces.empty() || surfaces[row.samples[i]] == surfaces[sample]))
       neighbors_.emplace_back(row.sq_dists[i], row.samples[i]);
-}
-
-bool
-SplatGrower::hasAllNeighbors() const
-{
-  return neighbors_.size() + 1 >= ground_.points.samples->size();
+  has_all_neighbors_ = row.size >= samples.size();
 }
 
 bool
@@ -188,14 +187,15 @@ SplatGrower::growAcross(std::uint32_t sample)
   low_ = high_ = 0.0f;
   if (ground_.on_rim[sample])
     return true;
-  return !coverNearest(0, neighbors_.size()) || hasAllNeighbors();
+  return !coverNearest(0, neighbors_.size()) || has_all_neighbors_;
 }
 
 void
 SplatGrower::coverWithin(std::uint32_t sample, float radius)
 {
   std::sort(neighbors_.begin(), neighbors_.end());
-  while (!hasAllNeighbors() && neighbors_.back().first <= radius * radius) {
+  while (!has_all_neighbors_ &&
+         (neighbors_.empty() || neighbors_.back().first <= radius * radius)) {
     ++level_;
     findNeighbors(sample);
     std::sort(neighbors_.begin(), neighbors_.end());

@@ -65,10 +65,6 @@ private:
   void
   findNeighbors(std::uint32_t sample);
 
-  /** True if no others are left to be found. */
-  bool
-  hasAllNeighbors() const;
-
   /** Cover neighbours, nearest first, until one lies too far off, or on a rim. False if
    * there may be more of them than were found. */
   bool
@@ -110,6 +106,7 @@ private:
   std::vector<Position> expected_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_;
   std::vector<Covered> covered_;
+  bool has_all_neighbors_ = false; ///< no others are left to be found
   float low_ = 0.0f, high_ = 0.0f; ///< of the covered points along the normal
 };
 

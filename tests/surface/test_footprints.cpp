@@ -2,6 +2,7 @@
 // Discs that leave no hole, rims, and the nearest points.
 #include "support/surfaces.h"
 #include "surface/footprints.h"
+#include <pcl_uvol/common/point_types.h>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
@@ -21,7 +22,8 @@ struct Surface {
   pcl_uvol::OrientedPoints points;
   Footprints footprints;
 
-  explicit Surface(const pcl::PointCloud<pcl::PointNormal>& cloud, unsigned threads = 0)
+  template <typename PointT>
+  explicit Surface(const pcl::PointCloud<PointT>& cloud, unsigned threads = 0)
   {
     std::vector<std::uint32_t> all(cloud.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -176,6 +178,87 @@ TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
   EXPECT_GT(largest, 0.5f);
   EXPECT_NEAR(3.0 * largest, radii[outlier], 1e-5 * largest);
   EXPECT_LE(fillers[outlier], radii[outlier]);
+}
+
+/** Isopoints on a sphere about a place. */
+void
+addIsopoints(const Eigen::Vector3f& center,
+             float radius,
+             std::size_t n,
+             float isovalue,
+             float edge_length,
+             pcl::PointCloud<pcl_uvol::PointIso>& cloud)
+{
+  const auto seed = static_cast<unsigned>(cloud.size());
+  for (const pcl::PointNormal& on_sphere : *uvol_test::makeSphere(n, seed)) {
+    pcl_uvol::PointIso point;
+    point.getVector3fMap() = center + radius * on_sphere.getVector3fMap();
+    point.getNormalVector3fMap() = on_sphere.getNormalVector3fMap();
+    point.isovalue = isovalue;
+    point.edge_length = edge_length;
+    cloud.push_back(point);
+  }
+}
+
+TEST(Footprints, OfSpecksOfNoiseAreNoLargerThanTheSpecks)
+{
+  constexpr float edge = 0.06f;
+  constexpr std::size_t of_surface = 4000, specks = 60, of_speck = 14;
+  pcl::PointCloud<pcl_uvol::PointIso> cloud;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, of_surface, 1.0f, edge, cloud);
+  const float usual = static_cast<float>(Surface(cloud).medianRadius());
+  std::mt19937_64 engine(11);
+  std::uniform_real_distribution<float> place(-3.0f, 3.0f);
+  for (std::size_t speck = 0; speck < specks; ++speck)
+    addIsopoints({place(engine), place(engine), 4.0f + place(engine)},
+                 0.4f * edge,
+                 of_speck,
+                 1.0f,
+                 edge,
+                 cloud);
+  // Far from everything, at the ends of bridges.
+  for (const float x : {20.0f, -25.0f})
+    addIsopoints({x, 0.0f, 0.0f}, 0.01f, 1, 1.0f, std::abs(x), cloud);
+  const Surface surface(cloud);
+  std::vector<float> of_specks;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const std::uint32_t input = surface.points.samples->getInputIndex(i);
+    const float radius = surface.footprints.radii[i];
+    if (input >= cloud.size() - 2)
+      EXPECT_EQ(0.0f, radius);
+    else if (input >= of_surface)
+      of_specks.push_back(radius);
+    else
+      EXPECT_LT(radius, 4.0f * usual);
+  }
+  std::sort(of_specks.begin(), of_specks.end());
+  EXPECT_LE(of_specks.back(), 2.2f * edge);
+  EXPECT_LE(of_specks[of_specks.size() * 9 / 10], 1.1f * edge);
+}
+
+TEST(Footprints, OfAnIsovalueDoNotSeeAnother)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> alone, nested;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, 4000, 10.0f, 0.06f, alone);
+  nested = alone;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 0.99f, 8000, 60.0f, 0.06f, nested);
+  const Surface one(alone), both(nested);
+  EXPECT_TRUE(one.points.surfaces.empty());
+  std::vector<float> radii(nested.size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const std::uint32_t input = both.points.samples->getInputIndex(i);
+    EXPECT_EQ(input < alone.size() ? 0 : 1, both.points.surfaces[i]);
+    for (const std::uint32_t neighbor : both.footprints.nearest[i])
+      EXPECT_EQ(both.points.surfaces[i], both.points.surfaces[neighbor]);
+    radii[input] = both.footprints.radii[i];
+  }
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const float alone_radius = one.footprints.radii[i];
+    const float radius = radii[one.points.samples->getInputIndex(i)];
+    alike += std::abs(radius - alone_radius) < 1e-4f * alone_radius ? 1 : 0;
+  }
+  EXPECT_GT(alike, one.size() * 9 / 10);
 }
 
 TEST(Footprints, TellTheRimFromTheMiddle)
