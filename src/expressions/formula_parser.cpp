@@ -183,6 +183,13 @@ private:
       add(draft, Kind::Sign, 1, std::string(1, c));
       return false;
     }
+    if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
+      const std::size_t end = endOfName(text_, at_);
+      if (!(end - at_ >= size && isCallAt(end))) {
+        addField(draft, text_.substr(at_, size), size);
+        return true;
+      }
+    }
     if (c == '|') {
       readNorm(draft);
       return true;
@@ -190,13 +197,6 @@ private:
     if (c == '"') {
       readQuotedName(draft);
       return true;
-    }
-    if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
-      const std::size_t end = endOfName(text_, at_);
-      if (!(end - at_ >= size && isCallAt(end))) {
-        addField(draft, text_.substr(at_, size), size);
-        return true;
-      }
     }
     if (const std::size_t end = endOfNumber(text_, at_); end > at_) {
       readNumber(draft, end);
