@@ -3,6 +3,7 @@
 #include "charts/line_plot.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
+#include "expressions/memory_need.h"
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
 #include "shared/level_set.h"
@@ -289,7 +290,14 @@ run(int argc, char** argv)
     pcl_uvol::checkPngPath(arguments.plot);
   const bool has_snapshots = arguments.snapshots > 0;
   uvol_tools::MemoryGuard memory("A level set");
-  memory.checkFile(arguments.input, forecastMemory(parameters, has_snapshots, {}));
+  memory.checkFile(arguments.input,
+                   [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+                     for (const std::string* field :
+                          {&parameters.field, &parameters.initial.field_name})
+                       forecast.run(pcl_uvol::derivedFieldNeed(*field, points, step));
+                     forecastMemory(parameters, has_snapshots, {})(
+                         points, step, forecast);
+                   });
 
   Report report;
   uvol_tools::ProgressBar bar;

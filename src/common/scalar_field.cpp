@@ -298,6 +298,8 @@ findComponents(const Fields& fields, const std::string& name)
       components.push_back(componentOf(*field, i));
     return components;
   }
+  if (name.empty()) // which endings alone would complete
+    return components;
   for (const char* const separator : {"_", ":"}) {
     components = collectComponents(
         fields, name, 1, [&](std::size_t i) { return separator + std::to_string(i); });

@@ -37,6 +37,7 @@ checkDerivatives(const Formula& formula, const DerivedFieldOptions& options)
 std::vector<double>
 computeColumn(const Dataset& dataset,
               const Formula& formula,
+              Missing missing,
               const DerivedFieldOptions& options,
               std::uint64_t& undefined,
               Report& report)
@@ -45,8 +46,12 @@ computeColumn(const Dataset& dataset,
   if (formula.hasDerivative() && !dataset.has_coordinates)
     throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
                           " need coordinates, and the points have none.");
-  return evaluateFormula(
-             formula, viewOf(dataset.cloud), options.threads, undefined, report)
+  return evaluateFormula(formula,
+                         viewOf(dataset.cloud),
+                         missing,
+                         options.threads,
+                         undefined,
+                         report)
       .front();
 }
 
@@ -115,7 +120,8 @@ addDerivedField(Dataset& dataset,
   std::uint64_t undefined = 0;
   setField(dataset,
            formula->text,
-           computeColumn(dataset, *formula, options, undefined, report));
+           computeColumn(
+               dataset, *formula, Missing::Everything, options, undefined, report));
   if (undefined > 0)
     report.warnings.push_back(
         describeUndefined(formula->text, undefined, dataset.cloud.width));
@@ -135,8 +141,10 @@ selectRows(Dataset& dataset,
                           "two fields or numbers, as in T>=4.");
   std::uint64_t undefined = 0;
   Report report;
-  return keepRows(dataset.cloud,
-                  computeColumn(dataset, formula, options, undefined, report));
+  return keepRows(
+      dataset.cloud,
+      computeColumn(
+          dataset, formula, Missing::Comparisons, options, undefined, report));
 }
 
 } // namespace pcl_uvol

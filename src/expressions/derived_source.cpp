@@ -32,11 +32,15 @@ DerivedSource::addField(pcl::PCLPointCloud2& block) const
   dataset.cloud = std::move(block);
   std::uint64_t undefined = 0;
   Report report;
-  setField(
-      dataset,
-      field_,
-      evaluateFormula(*formula_, viewOf(dataset.cloud), threads_, undefined, report)
-          .front());
+  setField(dataset,
+           field_,
+           evaluateFormula(*formula_,
+                           viewOf(dataset.cloud),
+                           Missing::Everything,
+                           threads_,
+                           undefined,
+                           report)
+               .front());
   block = std::move(dataset.cloud);
   return undefined;
 }

@@ -31,7 +31,7 @@ public:
   }
 
   Columns
-  compute(const Formula& formula)
+  compute(const Formula& formula, Missing missing)
   {
     for (const Operand& operand : formula.operands)
       prepare(operand);
@@ -41,7 +41,7 @@ public:
       std::vector<double*> targets;
       for (auto& column : columns)
         targets.push_back(&column[begin]);
-      undefined += fill(formula, begin, end - begin, targets);
+      undefined += fill(formula, missing, begin, end - begin, targets);
     });
     undefined_ += undefined;
     return columns;
@@ -67,7 +67,7 @@ private:
     }
     Columns fields;
     for (const Formula& argument : operand.arguments)
-      for (auto& column : compute(argument))
+      for (auto& column : compute(argument, Missing::Everything))
         fields.push_back(std::move(column));
     derived_[&operand] = deriveColumns(
         operand.derivative, fields, cloud_, threads_, undefined_, report_);
@@ -77,6 +77,7 @@ private:
    * \return how many numbers are undefined */
   std::uint64_t
   fill(const Formula& formula,
+       Missing missing,
        std::size_t begin,
        std::size_t count,
        const std::vector<double*>& targets) const
@@ -91,13 +92,16 @@ private:
     }
     Program program(formula.program, operands.size());
     for (std::size_t i = 0; i < count; ++i) {
-      bool are_finite = true;
+      bool are_finite = true, are_there = true;
       for (std::size_t j = 0; j < operands.size(); ++j) {
         program.variables()[j] = operands[j][i];
         are_finite = are_finite && std::isfinite(operands[j][i]);
+        are_there = are_there && !std::isnan(operands[j][i]);
       }
       const double value = program.compute();
-      targets[0][i] = std::isfinite(value) ? value : none;
+      const bool has_value =
+          std::isfinite(value) && (are_there || missing == Missing::Comparisons);
+      targets[0][i] = has_value ? value : none;
       undefined += are_finite && !std::isfinite(value);
     }
     return undefined;
@@ -137,7 +141,7 @@ private:
       std::vector<double*> targets;
       for (auto& column : columns)
         targets.push_back(column.data());
-      undefined += fill(argument, begin, count, targets);
+      undefined += fill(argument, Missing::Everything, begin, count, targets);
       for (const auto& column : columns)
         for (std::size_t i = 0; i < count; ++i)
           target[i] += column[i] * column[i];
@@ -159,12 +163,13 @@ private:
 Columns
 evaluateFormula(const Formula& formula,
                 const CloudView& cloud,
+                Missing missing,
                 unsigned threads,
                 std::uint64_t& undefined,
                 Report& report)
 {
   Evaluation evaluation(cloud, threads, report);
-  Columns columns = evaluation.compute(formula);
+  Columns columns = evaluation.compute(formula, missing);
   undefined += evaluation.countUndefined();
   return columns;
 }

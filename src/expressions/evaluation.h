@@ -14,13 +14,21 @@ namespace pcl_uvol {
 /** [component][point]; NaN where there is no finite number. */
 using Columns = std::vector<std::vector<double>>;
 
+/** What an operand without a value makes of a program that it is in. */
+enum class Missing {
+  Everything, ///< its result is missing as well
+  Comparisons ///< comparisons with it fail but for !=
+};
+
 /** Compute a formula at all points.
+ * \param missing for the formula itself, not for those in it
  * \param undefined gets one more for every number that is not finite although all that
  * it is made of are
  * \param report gets warnings of derivatives */
 Columns
 evaluateFormula(const Formula& formula,
                 const CloudView& cloud,
+                Missing missing,
                 unsigned threads,
                 std::uint64_t& undefined,
                 Report& report);

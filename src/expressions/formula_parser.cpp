@@ -8,12 +8,12 @@
 #include "expressions/formula.h"
 #include "expressions/operand_names.h"
 #include "expressions/program.h"
+#include "expressions/tokens.h"
 #include <pcl_uvol/expressions/derived_fields.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <cstdio>
 
 namespace pcl_uvol {
 
@@ -25,34 +25,7 @@ constexpr std::size_t most_depth = 32;
 /** muParser takes 20,000 characters, names of variables among them. */
 constexpr std::size_t most_characters = 4000;
 
-/** A part of an expression, in the order of the text. */
-struct Token {
-  enum class Kind { Operand, Number, Sign, Relation, Joint, Open, Close, Other };
-
-  Kind kind;
-  std::size_t place;   ///< in the expression
-  std::string program; ///< muParser's text
-  std::size_t operand = 0;
-  double number = 0.0;
-};
-
 using Kind = Token::Kind;
-
-std::string
-writeNumber(double number)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", number);
-  return text;
-}
-
-/** Parentheses, commas and the like: comparisons on both sides are not one. */
-bool
-isBoundary(const std::vector<Token>& tokens, std::size_t i)
-{
-  return i >= tokens.size() || tokens[i].kind == Kind::Joint ||
-         tokens[i].kind == Kind::Open || tokens[i].kind == Kind::Close;
-}
 
 class FormulaParser {
 public:
@@ -91,17 +64,13 @@ private:
     std::vector<Token> tokens;
     std::vector<Opened> opened; ///< parentheses
     std::vector<Operand> operands;
-    std::vector<std::size_t> places; ///< of operands
   };
 
   [[noreturn]] void
   fail(const std::string& sentence, std::size_t place) const
   {
-    throw ExpressionError(sentence + (sentence.back() == '.' || sentence.back() == '?'
-                                          ? ""
-                                          : " in " + quoteText(text_) + "."),
-                          text_,
-                          place);
+    const bool is_whole = sentence.back() == '.' || sentence.back() == '?';
+    throw ExpressionError(sentence + (is_whole ? "" : "."), text_, place);
   }
 
   char
@@ -183,6 +152,13 @@ private:
       add(draft, Kind::Sign, 1, std::string(1, c));
       return false;
     }
+    if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
+      const std::size_t end = endOfName(text_, at_);
+      if (!(end - at_ >= size && isCallAt(end))) {
+        addField(draft, text_.substr(at_, size), size);
+        return true;
+      }
+    }
     if (c == '|') {
       readNorm(draft);
       return true;
@@ -190,13 +166,6 @@ private:
     if (c == '"') {
       readQuotedName(draft);
       return true;
-    }
-    if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
-      const std::size_t end = endOfName(text_, at_);
-      if (!(end - at_ >= size && isCallAt(end))) {
-        addField(draft, text_.substr(at_, size), size);
-        return true;
-      }
     }
     if (const std::size_t end = endOfNumber(text_, at_); end > at_) {
       readNumber(draft, end);
@@ -370,7 +339,7 @@ private:
         std::from_chars(&text_[at_], text_.data() + text_.size(), component);
     const auto end = static_cast<std::size_t>(parsed.ptr - text_.data());
     if (parsed.ec != std::errc() || end == text_.size() || text_[end] != ']')
-      fail("A component is a number from 0 between brackets, as in vel[1],", opening);
+      fail("A component is a number from 0 between brackets, as in vel[1]", opening);
     if (component >= operand.fullWidth())
       fail("The component is too large: it may be 0 to " +
                std::to_string(operand.fullWidth() - 1),
@@ -441,7 +410,9 @@ private:
         checkScalar(formula.operands[token.operand], token.place);
       formula.compares |= token.kind == Kind::Relation;
     }
-    checkRelations(draft.tokens);
+    if (const Token* const second = findSecondRelation(draft.tokens))
+      fail("Comparisons are joined by &&, as in 1<T && T<2; there are two at once",
+           second->place);
     roundNumbers(formula.operands, draft.tokens);
     std::vector<std::size_t> ends; // of the tokens in the program
     for (const Token& token : draft.tokens) {
@@ -464,79 +435,7 @@ private:
   checkScalar(const Operand& operand, std::size_t place) const
   {
     if (operand.width() > 1)
-      fail(describeComponents(operand) + ",", place);
-  }
-
-  /** 1 < T < 2 would compare a truth with 2. */
-  void
-  checkRelations(const std::vector<Token>& tokens) const
-  {
-    std::vector<std::size_t> relations(1);
-    for (const Token& token : tokens)
-      switch (token.kind) {
-      case Kind::Open:
-        relations.push_back(0);
-        break;
-      case Kind::Close:
-        relations.pop_back();
-        break;
-      case Kind::Joint:
-        relations.back() = 0;
-        break;
-      case Kind::Relation:
-        if (++relations.back() > 1)
-          fail("Comparisons are joined by &&, as in 1<T && T<2; there are two at once",
-               token.place);
-        break;
-      default:
-        break;
-      }
-  }
-
-  /** A number that a float32 field alone is compared with becomes the float nearest to
-   * it, relative to the origin: else T=4.1 would never hold. */
-  static void
-  roundNumbers(const std::vector<Operand>& operands, std::vector<Token>& tokens)
-  {
-    for (std::size_t i = 0; i < tokens.size(); ++i) {
-      if (tokens[i].kind != Kind::Relation || i == 0)
-        continue;
-      // T > 4, T > -4
-      const bool is_signed = i + 1 < tokens.size() && tokens[i + 1].kind == Kind::Sign;
-      if (const std::size_t number = i + 1 + is_signed;
-          isBoundary(tokens, i - 2) && isBoundary(tokens, number + 1))
-        roundNumber(operands, tokens[i - 1], tokens, number, is_signed);
-      // 4 < T, -4 < T
-      const bool has_sign = i >= 2 && tokens[i - 2].kind == Kind::Sign;
-      if (i + 1 < tokens.size() && isBoundary(tokens, i - 2 - has_sign) &&
-          isBoundary(tokens, i + 2))
-        roundNumber(operands, tokens[i + 1], tokens, i - 1, has_sign);
-    }
-  }
-
-  static void
-  roundNumber(const std::vector<Operand>& operands,
-              const Token& field,
-              std::vector<Token>& tokens,
-              std::size_t number,
-              bool is_signed)
-  {
-    if (field.kind != Kind::Operand || number >= tokens.size() ||
-        tokens[number].kind != Kind::Number)
-      return;
-    const Operand& operand = operands[field.operand];
-    if (operand.kind != Operand::Kind::Field)
-      return;
-    const std::size_t component = operand.component.value_or(0);
-    if (operand.components[component].datatype != pcl::PCLPointField::FLOAT32)
-      return;
-    const bool is_negative = is_signed && tokens[number - 1].program == "-";
-    const double sign = is_negative ? -1.0 : 1.0, addend = operand.addends[component];
-    const double rounded =
-        static_cast<double>(static_cast<float>(sign * tokens[number].number - addend)) +
-        addend;
-    if (std::isfinite(rounded))
-      tokens[number].program = "(" + writeNumber(sign * rounded) + ")";
+      fail(describeComponents(operand), place);
   }
 
   const Fields& fields_;

@@ -18,7 +18,7 @@ namespace {
 using Columns = std::vector<std::vector<double>>;
 
 /** Samples that are fitted together: near one another, and a multiple of the lanes. */
-constexpr std::size_t block_samples = 32;
+constexpr std::size_t block_samples = 256;
 
 /** A linear function in space has so many coefficients. */
 constexpr std::size_t least_samples = 4;

@@ -148,10 +148,12 @@ TEST(DerivativesOfFields, VortexCriteriaOfARotation)
 
 TEST(DerivativesOfFields, CurvatureOfSpheresAndSaddles)
 {
-  const Dataset dataset = makeDataset(
-      places,
-      {[](const Vector3d& x) { return x.squaredNorm(); },
-       [](const Vector3d& x) { return x[0] * x[0] + 4.0 * x[0] - x[1] * x[2]; }});
+  const Dataset dataset =
+      makeDataset(places,
+                  {[](const Vector3d& x) { return x.squaredNorm(); },
+                   [](const Vector3d& x) {
+                     return x[0] * x[0] + 4.0 * x[0] + 0.5 * x[0] * x[1] - x[1] * x[2];
+                   }});
   const auto curvatures = derive(dataset, "curvature(f0)");
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double radius = vectorOf(places[i]).norm();
@@ -161,9 +163,11 @@ TEST(DerivativesOfFields, CurvatureOfSpheresAndSaddles)
                       places,
                       "curvature(f1)",
                       [](const Vector3d& x) {
-                        const Vector3d g(2.0 * x[0] + 4.0, -x[2], -x[1]);
+                        const Vector3d g(
+                            2.0 * x[0] + 4.0 + 0.5 * x[1], 0.5 * x[0] - x[2], -x[1]);
                         const double along =
-                            (2.0 * g[0] * g[0] - 2.0 * g[1] * g[2]) / g.squaredNorm();
+                            (2.0 * g[0] * g[0] + g[0] * g[1] - 2.0 * g[1] * g[2]) /
+                            g.squaredNorm();
                         return (2.0 - along) / (2.0 * g.norm());
                       }),
             1e-6);
@@ -176,10 +180,10 @@ TEST(DerivativesOfFields, ConvergeOnFlows)
     const FlowErrors coarse = measureDerivatives(flow, 5000, 1, distance);
     const FlowErrors fine = measureDerivatives(flow, 40000, 2, distance);
     const auto order = [](double a, double b) { return std::log2(a / b); };
-    EXPECT_GE(order(coarse.gradient, fine.gradient), 2.0) << flow.name;
-    EXPECT_GE(order(coarse.curl, fine.curl), 2.0) << flow.name;
-    EXPECT_GE(order(coarse.q, fine.q), 2.0) << flow.name;
-    EXPECT_GE(order(coarse.lambda2, fine.lambda2), 2.0) << flow.name;
+    EXPECT_GE(order(coarse.gradient, fine.gradient), 2.5) << flow.name;
+    EXPECT_GE(order(coarse.curl, fine.curl), 2.5) << flow.name;
+    EXPECT_GE(order(coarse.q, fine.q), 2.5) << flow.name;
+    EXPECT_GE(order(coarse.lambda2, fine.lambda2), 2.5) << flow.name;
     EXPECT_LT(fine.gradient, 0.02) << flow.name;
   }
 }
@@ -226,12 +230,13 @@ TEST(DerivativesOfFields, FollowTheUnits)
 
 TEST(DerivativesOfFields, PlanesAndLayers)
 {
-  // On a plane nothing is known across it; two layers tell a slope and no more.
+  // On a plane nothing is known across it. Two uneven layers hardly tell a cubic, whose
+  // slope would be beyond 150: it is held within what the values can be.
   Places flat = places, layers = places;
   for (auto& place : flat)
     place[2] = 0.25;
   for (std::size_t i = 0; i < layers.size(); ++i)
-    layers[i][2] = 0.1 * static_cast<double>(i % 2) + 1e-7 * static_cast<double>(i % 5);
+    layers[i][2] = 0.1 * static_cast<double>(i % 2) + 1e-4 * static_cast<double>(i % 5);
   const Function f = [](const Vector3d& x) {
     return x[0] * x[0] + x[1] + 3.0 * x[2] + 0.05 * std::sin(20.0 * x[0]);
   };
@@ -243,7 +248,7 @@ TEST(DerivativesOfFields, PlanesAndLayers)
                       layers,
                       "grad(f0)[2]",
                       [](const Vector3d&) { return 3.0; }),
-            3.0);
+            30.0);
   Report report;
   Dataset warned = on_plane;
   addDerivedField(warned, "|grad(f0)|", {}, report);

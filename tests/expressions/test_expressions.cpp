@@ -164,6 +164,9 @@ TEST(Expressions, UndefinedNumbersAreCounted)
   EXPECT_TRUE(std::isnan(values[0]) && std::isnan(values[2]));
   EXPECT_EQ(values[1], 1.0);
   EXPECT_TRUE(std::isnan(compute("sqrt(a)", dataset)[3]));
+  // What is not known is neither greater nor not greater.
+  EXPECT_TRUE(std::isnan(compute("a>0", dataset)[2]));
+  EXPECT_TRUE(std::isnan(compute("max(a,b)", dataset)[2]));
   EXPECT_TRUE(std::isnan(compute("ln(b)", dataset)[0]));
 }
 

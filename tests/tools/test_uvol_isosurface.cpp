@@ -96,7 +96,10 @@ expectFailure(const CommandResult& result,
 {
   EXPECT_EQ(exit_code, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-  EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+  // Of an expression it is shown what is wrong.
+  const bool is_marked = result.err.find("\n  ") != std::string::npos;
+  EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), is_marked ? 3 : 2)
+      << result.err;
   EXPECT_EQ(files, folder.list().size());
 }
 

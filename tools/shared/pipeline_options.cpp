@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/pipeline_options.h"
 
+#include "expressions/formula.h"
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
 #include <pcl_uvol/io/dataset.h>
@@ -70,7 +71,9 @@ bool
 PipelineOptions::needsAllSamples() const
 {
   return parameters.smooth || parameters.automatic_scale || !where.empty() ||
-         parameters.isosurface.neighbors == NeighborSource::Voronoi;
+         parameters.isosurface.neighbors == NeighborSource::Voronoi ||
+         pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
+         picture.hasColorOfSamples();
 }
 
 void
@@ -91,8 +94,10 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
-    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
-                     "-neighbors voronoi, which need all samples in memory.");
+    throw UsageError(
+        "-max-memory goes without -smooth, -where, -scale auto, -neighbors "
+        "voronoi and derivatives as fields, which need all samples in "
+        "memory.");
   if ((options.given("max-error") || parameters.drop_bridged) && !fits)
     throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
 }

@@ -56,6 +56,12 @@ SurfacePicture::addColor(const Options& options,
     look_.addColor(options, surface, report);
 }
 
+bool
+SurfacePicture::hasColorOfSamples() const
+{
+  return isAskedFor() && look_.hasColorOfSamples();
+}
+
 void
 SurfacePicture::addColorNeed(double points,
                              double& point_step,

@@ -37,6 +37,8 @@ public:
   addColor(const Options& options,
            pcl_uvol::Dataset& surface,
            pcl_uvol::Report& report);
+  bool
+  hasColorOfSamples() const;
   void
   addColorNeed(double points,
                double& point_step,

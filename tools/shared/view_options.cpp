@@ -194,8 +194,14 @@ ViewOptions::addColorOfSamples(const Options& options,
                                pcl_uvol::Dataset& samples,
                                pcl_uvol::Report& report)
 {
-  if (!isColorName(color_) && pcl_uvol::mayHaveDerivative(color_))
+  if (hasColorOfSamples())
     addField(samples, color_, options, report);
+}
+
+bool
+ViewOptions::hasColorOfSamples() const
+{
+  return pcl_uvol::mayHaveDerivative(color_);
 }
 
 void
@@ -203,7 +209,7 @@ ViewOptions::addColorNeed(double points,
                           double& point_step,
                           pcl_uvol::MemoryForecast& forecast) const
 {
-  if (pcl_uvol::mayHaveDerivative(color_))
+  if (hasColorOfSamples())
     forecast.run(pcl_uvol::derivedFieldNeed(color_, points, point_step));
 }
 

@@ -83,6 +83,10 @@ public:
                     pcl_uvol::Dataset& samples,
                     pcl_uvol::Report& report);
 
+  /** \brief True if -color can be computed from samples only. */
+  bool
+  hasColorOfSamples() const;
+
   /** \brief Add the memory of addColorOfSamples to a forecast.
    * \param point_step becomes that with the field */
   void
