@@ -79,7 +79,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
   tracer.settings() = file.settings;
   arguments.rays.apply(options, tracer.settings());
   tracer.setSupersampling(options.given("supersample")
-                              ? arguments.view.getSupersampling()
+                              ? arguments.view.getRaySupersampling()
                               : file.supersampling);
   if (file.size && !options.given("size"))
     tracer.setSize((*file.size)[0], (*file.size)[1]);

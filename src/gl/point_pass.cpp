@@ -143,8 +143,9 @@ PointPass::use(const shaders::Pass& pass,
   program.set("extent",
               static_cast<float>(viewport_.width()),
               static_cast<float>(viewport_.height()));
-  program.set("is_two_sided", frame.cloud.isTwoSided());
-  program.set("culls", frame.settings.cull_back_faces && !frame.cloud.isTwoSided());
+  program.set("is_two_sided", !frame.culls());
+  program.set("has_sides", frame.hasSides());
+  program.set("culls", frame.culls());
   program.set("smallest_footprint", smallest_footprint);
   program.set("largest_filler", largest_filler);
   program.set("largest_reach", largest_reach_);
@@ -182,10 +183,14 @@ PointPass::drawLargeDiscs(const Program& program,
 void
 PointPass::drawDiscs(const Frame& frame, const VisibleRanges& ranges, double back) const
 {
-  use(shaders::small_discs, "#define WITH_PIXELS\n", frame).set("back", back);
+  const float away = frame.hasSides() ? away_depth : 0.0f;
+  const Program& small = use(shaders::small_discs, "#define WITH_PIXELS\n", frame);
+  small.set("back", back);
+  small.set("away_depth", away);
   drawPoints(ranges.points);
   const Program& large = use(shaders::large_discs, "", frame);
   large.set("back", back);
+  large.set("away_depth", away);
   drawLargeDiscs(large, ranges.large_discs);
 }
 
@@ -223,10 +228,12 @@ PointPass::blend(const Frame& frame,
   gl_.BlendFunc(GL_ONE, GL_ONE);
   const Program& small = use(shaders::blend_small, define, frame);
   small.setTexture("states", 0, states);
+  small.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   small.set("stretch", blend_reach);
   drawPoints(visible.sparse.points);
   const Program& large = use(shaders::blend_large, define, frame);
   large.setTexture("states", 0, states);
+  large.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   large.set("stretch", blend_reach);
   drawLargeDiscs(large, visible.sparse.large_discs);
   gl_.Disable(GL_BLEND);

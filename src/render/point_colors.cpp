@@ -62,6 +62,19 @@ hasColors(const CloudView& cloud)
   return findColors(cloud).has_value();
 }
 
+bool
+hasIsovalues(const CloudView& cloud)
+{
+  if (cloud.count == 0 || findField(cloud.fields, "isovalue") == nullptr)
+    return false;
+  const ScalarField field(cloud.fields, "isovalue");
+  const double first = field.read(cloud.point(0));
+  for (std::size_t i = 1; i < cloud.count; ++i)
+    if (field.read(cloud.point(i)) != first)
+      return true;
+  return false;
+}
+
 PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,

@@ -148,7 +148,7 @@ RayOptions::traceCloud(const Options& options,
   pcl_uvol::RayTracer tracer;
   tracer.setScene(makeScene(options, view, cloud, range, report));
   apply(options, tracer.settings());
-  tracer.setSupersampling(view.getSupersampling());
+  tracer.setSupersampling(view.getRaySupersampling());
   tracer.setSize(view.getWidth(), view.getHeight());
   traceFrames(
       options,

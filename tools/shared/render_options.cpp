@@ -46,7 +46,9 @@ RenderOptions::declarePasses(Options& options)
   using pcl_uvol::ImageSpaceSettings;
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
-  options.flag("no-culling", s.cull_back_faces, "draw back faces as well", false);
+  options.flag("culling",
+               s.cull_back_faces,
+               "leave out what looks away from the eye: faster, for closed surfaces");
   options.flag(
       "no-footprints", s.footprints, "every point is one pixel, however near", false);
   options.integer("fill", s.background_fill, 0, most, "background fills at most");
@@ -66,8 +68,11 @@ RenderOptions::declarePasses(Options& options)
                  1e-9,
                  largest,
                  "least step in depth");
-  options.integer(
-      "thickness", s.silhouette_thickness, 1, 7, "of silhouettes, in pixels");
+  options.integer("thickness",
+                  s.silhouette_thickness,
+                  1,
+                  7,
+                  "of silhouettes: t for 2 t - 1 pixels");
   options.flag("features", s.feature_lines, "draw feature lines");
   options.number("feature-threshold",
                  s.feature_threshold,

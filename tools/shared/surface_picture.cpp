@@ -73,7 +73,8 @@ SurfacePicture::addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast)
 {
   if (path_.empty())
     return;
-  const double scale = look_.getSupersampling();
+  const double scale =
+      is_ray_traced_ ? look_.getRaySupersampling() : look_.getSupersampling();
   const double pixels = scale * look_.getWidth() * scale * look_.getHeight();
   // At worst a splat per point, or footprints and pixels.
   if (is_ray_traced_)

@@ -65,10 +65,12 @@ ViewOptions::declareScene(Options& options)
                background_text_,
                "white, black, gradient, transparent, or a colour from 0 to 1 (default "
                "white)");
-  options.text("color",
-               "field",
-               color_,
-               "colour by a scalar field, by rgb or by none (default: rgb if there)");
+  options.text(
+      "color",
+      "field",
+      color_,
+      "colour by a scalar field, by rgb or by none (default: rgb if there, else "
+      "isovalue if there are several)");
   options.choice(
       "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
@@ -80,8 +82,11 @@ ViewOptions::declareScene(Options& options)
 void
 ViewOptions::declareSupersampling(Options& options)
 {
-  options.integer(
-      "supersample", supersampling_, 1, 8, "rays per pixel in each direction");
+  options.integer("supersample",
+                  supersampling_,
+                  1,
+                  8,
+                  "samples per pixel in each direction (default 2, with rays 1)");
 }
 
 void
@@ -147,7 +152,7 @@ ViewOptions::check(const Options& options)
     throw UsageError("-size is WxH in pixels, as in 1024x768, not '" + size_text_ +
                      "'.");
   for (const int size : {width_, height_})
-    if (size < 1 || size * supersampling_ > most)
+    if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
                        std::to_string(most) + " pixels before averaging, not " +
                        size_text_ + ".");
@@ -163,11 +168,23 @@ ViewOptions::check(const Options& options)
   parseLights();
 }
 
+int
+ViewOptions::getSupersampling() const
+{
+  constexpr int usual = 2;
+  if (supersampling_ > 0)
+    return supersampling_;
+  return usual * std::max(width_, height_) <= pcl_uvol::View::largest_size ? usual : 1;
+}
+
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  if (color_ == "auto")
-    return pcl_uvol::hasColors(cloud) ? "rgb" : "";
+  if (color_ == "auto") {
+    if (pcl_uvol::hasColors(cloud))
+      return "rgb";
+    return pcl_uvol::hasIsovalues(cloud) ? "isovalue" : "";
+  }
   return color_ == "none" ? "" : color_;
 }
 

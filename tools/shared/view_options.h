@@ -10,6 +10,7 @@
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/lighting.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -116,11 +117,16 @@ public:
   }
   /** @} */
 
+  /** \brief In each direction, after check(): in image space, and by ray tracing. @{ */
   int
-  getSupersampling() const
+  getSupersampling() const;
+
+  int
+  getRaySupersampling() const
   {
-    return supersampling_;
+    return std::max(supersampling_, 1);
   }
+  /** @} */
 
   /** \brief After check(). @{ */
   const pcl_uvol::Background&
@@ -153,7 +159,7 @@ private:
   std::string color_ = "auto", color_map_ = "viridis", lights_text_;
   std::vector<double> eye_, at_, up_, range_, surface_color_;
   double fov_ = 30.0;
-  int width_ = 0, height_ = 0, supersampling_ = 1;
+  int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;
   bool has_bar_ = true;
   pcl_uvol::Background background_;

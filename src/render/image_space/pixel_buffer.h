@@ -24,6 +24,7 @@ struct PixelBuffer {
   std::vector<float> blended;
   std::vector<std::uint8_t> blend_marks;
   /** @} */
+  std::vector<std::uint8_t> sides; ///< as sideOf() gives; empty if all are one
 
   /** \brief Make room for a view; rows are not cleared. */
   void
@@ -34,9 +35,17 @@ struct PixelBuffer {
   blendSums()
   {
     const std::ptrdiff_t first = row(0) - keys.data();
-    return blended.empty() ? BlendSums{nullptr, nullptr}
+    return blended.empty() ? BlendSums{}
                            : BlendSums{blended.data() + blended_values * first,
-                                       blend_marks.data() + first / blend_segment};
+                                       blend_marks.data() + first / blend_segment,
+                                       firstSide()};
+  }
+
+  /** \brief That of the first pixel; null if all are one. */
+  std::uint8_t*
+  firstSide()
+  {
+    return sides.empty() ? nullptr : sides.data() + (row(0) - keys.data());
   }
 
   PixelKey*
