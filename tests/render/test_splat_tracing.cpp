@@ -313,6 +313,43 @@ TEST(SplatTracing, ASphereDoesNotShadeItself)
   EXPECT_EQ(0, different);
 }
 
+/** A light near the horizon, and splats as large as the surface is bent. */
+TEST(SplatTracing, ACoarselyCoveredSurfaceShadesItselfNowhereInTheLight)
+{
+  Scene scene;
+  scene.background.color = {0.0f, 0.0f, 0.0f};
+  scene.splats.push_back(sphereOfSplats(3000, 3e-3, 0.2));
+  scene.lights = {lightFrom({1.0, -0.2, 0.3}, pcl_uvol::Light::Kind::Directional)};
+  const Camera camera = looking({0.0, -6.0, 0.0}, Vector::Zero(), 18.0);
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setCamera(camera);
+  tracer.setSize(300, 300);
+  Image with, without;
+  tracer.render(with);
+  EXPECT_GT(tracer.getReport().getCount("shadow_rays"), 10000u);
+  tracer.settings().shadows = false;
+  tracer.render(without);
+  EXPECT_EQ(without.color, with.color);
+}
+
+TEST(SplatTracing, AWallShadesTheFloorBesideIt)
+{
+  // One object: what is near and on the same surface is left out, walls are not.
+  Scene scene = sceneOf(
+      {discAt({0, 0, 0}, {0, 0, 1}, 1.0), discAt({0.6, 0.0, 0.5}, {-1, 0, 0}, 0.5)},
+      {red, green});
+  scene.splats[0].material.ambient = 0.0;
+  scene.splats[0].material.diffuse = 1.0;
+  const Camera camera = looking({0.3, 0.0, 10.0}, {0.3, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const auto brightness = [&](const Vector& towards) {
+    scene.lights = {lightFrom(towards, pcl_uvol::Light::Kind::Directional)};
+    return channelAt(trace(scene, camera, 1), 0, 0);
+  };
+  EXPECT_NEAR(0.0, brightness({1.0, 0.0, 1.0}), step);
+  EXPECT_NEAR(std::sqrt(0.5), brightness({-1.0, 0.0, 1.0}), step);
+}
+
 TEST(SplatTracing, CamerasFarAwaySeeAsSharp)
 {
   Scene scene;
