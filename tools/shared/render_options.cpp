@@ -125,7 +125,7 @@ RenderOptions::configure(const Options& options,
 {
   applyLook(options, cloud, renderer);
   renderer.setBackend(makeBackend(backend_));
-  renderer.setSize(getWidth(), getHeight());
+  renderer.setSize(pictureWidth(cloud), getHeight());
   renderer.setSupersampling(getSupersampling());
 }
 
@@ -140,7 +140,8 @@ RenderOptions::drawCloud(const Options& options,
   renderer.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
   configure(options, cloud, renderer);
-  const pcl_uvol::Camera camera = makeCamera(renderer.getBounds(), surface.origin);
+  const pcl_uvol::Camera camera =
+      makeCamera(renderer.getBounds(), surface.origin, pictureWidth(cloud), &cloud);
   pcl_uvol::Image image;
   pcl_uvol::Report drawing;
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
