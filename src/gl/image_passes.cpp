@@ -170,6 +170,7 @@ VisiblePoints
 ImagePasses::project(const Frame& frame, Report& report)
 {
   const PassTimer timer(gl_, report, "project");
+  points_.fitTo(*canvas_);
   VisiblePoints visible = points_.findVisible(frame);
   canvas_->clear();
   points_.draw(frame, visible, *canvas_);

@@ -60,7 +60,18 @@ PointPass::PointPass(const GlFunctions& gl, Programs& programs)
 {
   GLfloat sizes[2] = {1.0f, 1.0f};
   gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes);
-  largest_reach_ = std::min(most_reach, 0.5f * sizes[1] - 1.0f);
+  usual_reach_ = std::min(most_reach, 0.5f * sizes[1] - 1.0f);
+  GLint viewport[2] = {0, 0};
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  largest_viewport_ = std::min(viewport[0], viewport[1]);
+}
+
+void
+PointPass::fitTo(const Canvas& canvas)
+{
+  const int room =
+      (largest_viewport_ - std::max(canvas.getWidth(), canvas.getHeight())) / 2;
+  largest_reach_ = std::clamp(static_cast<float>(room - 1), 0.0f, usual_reach_);
 }
 
 void
@@ -126,7 +137,7 @@ PointPass::bind(const Canvas& canvas, const GlName& framebuffer, int targets)
   canvas.bind(framebuffer, targets);
   // Points are clipped by their middle.
   viewport_ = PixelBox{0, 0, canvas.getWidth(), canvas.getHeight()}.grownBy(
-      static_cast<int>(largest_reach_) + 1);
+      largest_reach_ > 0.0f ? static_cast<int>(largest_reach_) + 1 : 0);
   gl_.Viewport(viewport_.left, viewport_.top, viewport_.width(), viewport_.height());
 }
 

@@ -6,6 +6,7 @@
 #include "render/image_space/frame.h"
 #include "render/image_space/pixel_box.h"
 
+#include <memory>
 #include <vector>
 
 namespace pcl_uvol {
@@ -20,8 +21,11 @@ struct PixelBuffer {
   std::ptrdiff_t stride = 0;
   std::vector<PixelKey> keys;
   PixelBox bounds{0, 0, 0, 0}; ///< outside of it is background
-  /** Sums and marks of BlendSums for all keys; empty without discs. @{ */
-  std::vector<float> blended;
+  /** Sums and marks of BlendSums for all keys; none without discs. Sums are not
+   * cleared: the system gives them memory where discs are blended, and nowhere else. @{
+   */
+  std::unique_ptr<float[]> blended;
+  std::size_t blended_keys = 0;
   std::vector<std::uint8_t> blend_marks;
   /** @} */
   std::vector<std::uint8_t> sides; ///< as sideOf() gives; empty if all are one
@@ -35,10 +39,10 @@ struct PixelBuffer {
   blendSums()
   {
     const std::ptrdiff_t first = row(0) - keys.data();
-    return blended.empty() ? BlendSums{}
-                           : BlendSums{blended.data() + blended_values * first,
-                                       blend_marks.data() + first / blend_segment,
-                                       firstSide()};
+    return blended_keys == 0 ? BlendSums{}
+                             : BlendSums{blended.get() + blended_values * first,
+                                         blend_marks.data() + first / blend_segment,
+                                         firstSide()};
   }
 
   /** \brief That of the first pixel; null if all are one. */

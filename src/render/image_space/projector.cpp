@@ -169,7 +169,10 @@ Projector::blend()
   const bool has_discs = std::any_of(
       discs_.begin(), discs_.end(), [](const auto& discs) { return !discs.empty(); });
   const std::size_t keys = has_discs ? buffer_.keys.size() : 0;
-  buffer_.blended.resize(blended_values * keys);
+  if (keys != buffer_.blended_keys) {
+    buffer_.blended.reset(keys > 0 ? new float[blended_values * keys] : nullptr);
+    buffer_.blended_keys = keys;
+  }
   buffer_.blend_marks.assign(keys / blend_segment, 0);
   const bool has_sides = frame_.hasSides() || frame_.cloud.hasSurfaces();
   buffer_.sides.resize(has_sides ? keys : 0);
