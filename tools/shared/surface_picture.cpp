@@ -23,6 +23,7 @@ SurfacePicture::declare(Options& options)
                  "draw the isosurface as well; the options below are for the picture");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
+  look_.declarePasses(options);
   rays_.declareRays(options);
   rays_.declareSurface(options);
 }
