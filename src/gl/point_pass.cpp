@@ -157,7 +157,7 @@ PointPass::use(const shaders::Pass& pass,
   program.set("is_two_sided", !frame.culls());
   program.set("has_sides", frame.hasSides());
   program.set("culls", frame.culls());
-  program.set("smallest_footprint", smallest_footprint);
+  program.set("smallest_footprint", frame.smallestDisc());
   program.set("largest_filler", largest_filler);
   program.set("largest_reach", largest_reach_);
   return program;

@@ -76,6 +76,16 @@ struct PCL_UVOL_EXPORTS Frame {
     return settings.cull_back_faces && !cloud.isTwoSided();
   }
 
+  /** \brief Points with a disc of a smaller radius, in pixels, are single pixels;
+   * blocks of a larger mean radius are sparse: their discs are blended into each other.
+   * In the other blocks discs only fill holes: they have the radius of fillers, and lie
+   * deeper than their points, so that these stay sharp. */
+  float
+  smallestDisc() const
+  {
+    return static_cast<float>(settings.smallest_disc);
+  }
+
   /** \brief True if points of two sides may be drawn side by side. */
   bool
   hasSides() const
@@ -95,19 +105,10 @@ struct PCL_UVOL_EXPORTS Frame {
   lightVector(const Light& light) const;
 };
 
-/** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
- * disc reaches no other one. */
-constexpr float smallest_footprint = 0.7f;
-
 /** \brief Points with a larger footprint, in pixels, have all of it where others are
  * fillers: the hole beside them is too large for one disc in its rim, which leaves it
  * half as wide, and the masks close no more than sqrt(2) around its middle. */
 constexpr float largest_filler = 2.8f;
-
-/** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
- * blended into each other. In the other blocks discs only fill holes: they have the
- * radius of fillers, and lie deeper than their points, so that these stay sharp. */
-constexpr float sparse_footprint = 0.7f;
 
 /** \brief Discs are blended over so many of their radii: normals and colours then
  * change smoothly from point to point, while the discs themselves stay as large as they

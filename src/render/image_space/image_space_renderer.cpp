@@ -37,6 +37,7 @@ checkParameters(const ImageSpaceSettings& settings)
   checkRange("number of smoothings", settings.smoothing_iterations, 0, 6);
   checkRange(
       "thickness of silhouettes", settings.silhouette_thickness, 1, largest_thickness);
+  checkThreshold("radius of the smallest disc", settings.smallest_disc);
   checkThreshold("distance of layers", settings.layer_distance);
   checkThreshold("threshold of silhouettes", settings.silhouette_threshold);
   checkThreshold("threshold of feature lines", settings.feature_threshold);
@@ -47,8 +48,9 @@ checkParameters(const ImageSpaceSettings& settings)
   checkLights(settings.lights);
 }
 
-/** Lines as wide in the picture as without supersampling, and at most as wide as they
- * can be. */
+/** Lengths in pixels of the picture in finer ones; lines at most as wide as they can
+ * be.
+ */
 ImageSpaceSettings
 scaledSettings(ImageSpaceSettings settings, int supersampling)
 {
@@ -56,6 +58,7 @@ scaledSettings(ImageSpaceSettings settings, int supersampling)
   const int thickness =
       (supersampling * (2 * settings.silhouette_thickness - 1) + 2) / 2;
   settings.silhouette_thickness = std::min(thickness, largest_thickness);
+  settings.smallest_disc *= supersampling;
   return settings;
 }
 

@@ -44,7 +44,7 @@ projectionOf(const Frame& frame)
   projection.two_sided = !frame.culls();
   projection.has_sides = frame.hasSides();
   projection.away_depth = frame.hasSides() ? away_depth : 0.0f;
-  projection.smallest_footprint = smallest_footprint;
+  projection.smallest_footprint = frame.smallestDisc();
   projection.largest_filler = largest_filler;
   return projection;
 }
@@ -61,7 +61,7 @@ planBlock(const SurfaceBlock& block, const Frame& frame)
   const BlockView seen(frame, block);
   if (seen.isBehindEye() || (frame.culls() && seen.looksAway()))
     return {{0, 0, 0, 0}, false, false};
-  return {seen.box(), seen.mayHoldDiscs(smallest_footprint), seen.isSparse()};
+  return {seen.box(), seen.mayHoldDiscs(frame.smallestDisc()), seen.isSparse()};
 }
 
 } // namespace

@@ -26,6 +26,10 @@ struct ImageSpaceSettings {
   bool cull_back_faces = false;
   /** Oriented discs where points lie farther apart than pixels; beyond the thesis. */
   bool footprints = true;
+  /** Pixels, above 0: points whose disc has a smaller radius are single pixels, and
+   * larger discs are blended into each other. Smaller numbers are smoother, larger ones
+   * faster. With supersampling it counts pixels of the picture. */
+  double smallest_disc = 0.7;
 
   // Pixel filling (4.3.2): most iterations; fewer if nothing changes, 0 leaves it out
   int background_fill = 64;
