@@ -79,13 +79,13 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
   tracer.settings() = file.settings;
   arguments.rays.apply(options, tracer.settings());
   tracer.setSupersampling(options.given("supersample")
-                              ? arguments.view.getSupersampling()
+                              ? arguments.view.getRaySupersampling()
                               : file.supersampling);
   if (file.size && !options.given("size"))
     tracer.setSize((*file.size)[0], (*file.size)[1]);
   else
     tracer.setSize(arguments.view.getWidth(), arguments.view.getHeight());
-  if (givesAny(options, {"view", "eye", "at", "up", "fov"}))
+  if (givesAny(options, {"view", "eye"}))
     file.camera.reset();
   uvol_tools::traceFrames(
       options,
@@ -93,6 +93,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
       tracer,
       file.camera,
       file.origin,
+      nullptr,
       [](pcl_uvol::Image&) {},
       arguments.output,
       report);

@@ -4,6 +4,7 @@
 #include "gl/shaders.h"
 #include "gl/tile_set.h"
 
+#include <algorithm>
 #include <string>
 
 namespace pcl_uvol {
@@ -23,6 +24,9 @@ checkSize(const GlFunctions& gl, const View& view)
 {
   GLint largest = 0;
   gl.GetIntegerv(GL_MAX_RECTANGLE_TEXTURE_SIZE, &largest);
+  GLint viewport[2] = {0, 0};
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  largest = std::min({largest, viewport[0], viewport[1]});
   const int border = 2 * (View::guard + shaders::margin);
   if (canvasSize(std::max(view.bufferWidth(), view.bufferHeight())) > largest)
     throw GlError("An image of " + std::to_string(view.width) + " x " +

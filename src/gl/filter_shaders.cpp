@@ -109,16 +109,19 @@ float silhouette(vec2 texel)
   return strongest;
 }
 
-// Largest turn of the normal to a neighbour on the same layer of surface.
+// Second largest turn of the normal to a neighbour on the same layer of surface: one
+// that differs alone is a stray.
 float feature(vec2 texel)
 {
   vec4 here = texture(normals, texel);
-  float turn = 0.0;
+  float largest = 0.0, turn = 0.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) {
       vec4 there = texture(normals, texel + vec2(x, y));
-      bool is_same = there.w < 1.0 && abs(there.w - here.w) <= silhouette_threshold;
-      turn = max(turn, is_same ? 1.0 - dot(here.xyz, there.xyz) : 0.0);
+      bool is_same = (x != 0 || y != 0) && there.w < 1.0 && abs(there.w - here.w) <= silhouette_threshold;
+      float turn_there = is_same ? 1.0 - dot(here.xyz, there.xyz) : 0.0;
+      turn = max(turn, min(largest, turn_there));
+      largest = max(largest, turn_there);
     }
   return here.w < 1.0 ? smoothStep(turn, feature_threshold) : 0.0;
 }

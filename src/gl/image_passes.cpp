@@ -170,6 +170,7 @@ VisiblePoints
 ImagePasses::project(const Frame& frame, Report& report)
 {
   const PassTimer timer(gl_, report, "project");
+  points_.fitTo(*canvas_);
   VisiblePoints visible = points_.findVisible(frame);
   canvas_->clear();
   points_.draw(frame, visible, *canvas_);
@@ -249,7 +250,7 @@ ImagePasses::shade(const Frame& frame)
     program.setTexture("blended_colors", 4, canvas_->blended_colors);
   }
   program.set("light_count", static_cast<int>(settings.lights.size()));
-  program.set("is_two_sided", frame.cloud.isTwoSided());
+  program.set("is_two_sided", !frame.culls());
   program.set("ambient", settings.material.ambient);
   program.set("diffuse", settings.material.diffuse);
   program.set("specular", settings.material.specular);

@@ -60,7 +60,18 @@ PointPass::PointPass(const GlFunctions& gl, Programs& programs)
 {
   GLfloat sizes[2] = {1.0f, 1.0f};
   gl.GetFloatv(GL_POINT_SIZE_RANGE, sizes);
-  largest_reach_ = std::min(most_reach, 0.5f * sizes[1] - 1.0f);
+  usual_reach_ = std::min(most_reach, 0.5f * sizes[1] - 1.0f);
+  GLint viewport[2] = {0, 0};
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  largest_viewport_ = std::min(viewport[0], viewport[1]);
+}
+
+void
+PointPass::fitTo(const Canvas& canvas)
+{
+  const int room =
+      (largest_viewport_ - std::max(canvas.getWidth(), canvas.getHeight())) / 2;
+  largest_reach_ = std::clamp(static_cast<float>(room - 1), 0.0f, usual_reach_);
 }
 
 void
@@ -126,7 +137,7 @@ PointPass::bind(const Canvas& canvas, const GlName& framebuffer, int targets)
   canvas.bind(framebuffer, targets);
   // Points are clipped by their middle.
   viewport_ = PixelBox{0, 0, canvas.getWidth(), canvas.getHeight()}.grownBy(
-      static_cast<int>(largest_reach_) + 1);
+      largest_reach_ > 0.0f ? static_cast<int>(largest_reach_) + 1 : 0);
   gl_.Viewport(viewport_.left, viewport_.top, viewport_.width(), viewport_.height());
 }
 
@@ -143,9 +154,10 @@ PointPass::use(const shaders::Pass& pass,
   program.set("extent",
               static_cast<float>(viewport_.width()),
               static_cast<float>(viewport_.height()));
-  program.set("is_two_sided", frame.cloud.isTwoSided());
-  program.set("culls", frame.settings.cull_back_faces && !frame.cloud.isTwoSided());
-  program.set("smallest_footprint", smallest_footprint);
+  program.set("is_two_sided", !frame.culls());
+  program.set("has_sides", frame.hasSides());
+  program.set("culls", frame.culls());
+  program.set("smallest_footprint", frame.smallestDisc());
   program.set("largest_filler", largest_filler);
   program.set("largest_reach", largest_reach_);
   return program;
@@ -182,10 +194,14 @@ PointPass::drawLargeDiscs(const Program& program,
 void
 PointPass::drawDiscs(const Frame& frame, const VisibleRanges& ranges, double back) const
 {
-  use(shaders::small_discs, "#define WITH_PIXELS\n", frame).set("back", back);
+  const float away = frame.hasSides() ? away_depth : 0.0f;
+  const Program& small = use(shaders::small_discs, "#define WITH_PIXELS\n", frame);
+  small.set("back", back);
+  small.set("away_depth", away);
   drawPoints(ranges.points);
   const Program& large = use(shaders::large_discs, "", frame);
   large.set("back", back);
+  large.set("away_depth", away);
   drawLargeDiscs(large, ranges.large_discs);
 }
 
@@ -223,10 +239,12 @@ PointPass::blend(const Frame& frame,
   gl_.BlendFunc(GL_ONE, GL_ONE);
   const Program& small = use(shaders::blend_small, define, frame);
   small.setTexture("states", 0, states);
+  small.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   small.set("stretch", blend_reach);
   drawPoints(visible.sparse.points);
   const Program& large = use(shaders::blend_large, define, frame);
   large.setTexture("states", 0, states);
+  large.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   large.set("stretch", blend_reach);
   drawLargeDiscs(large, visible.sparse.large_discs);
   gl_.Disable(GL_BLEND);

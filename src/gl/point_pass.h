@@ -25,6 +25,12 @@ public:
   void
   upload(const SurfaceCloud& cloud);
 
+  /** \brief Choose which discs are drawn as one point: those whose middle may lie
+   * beside the canvas and still in the largest viewport there is. To be called before
+   * the others, whenever the canvas has changed. */
+  void
+  fitTo(const Canvas& canvas);
+
   VisiblePoints
   findVisible(const Frame& frame) const
   {
@@ -79,7 +85,9 @@ private:
 
   const GlFunctions& gl_;
   Programs& programs_;
-  float largest_reach_; // of a disc that is drawn as one point, pixels
+  float usual_reach_;          // of discs that may be drawn as one point, pixels
+  float largest_reach_ = 0.0f; // of those that are, on this canvas
+  int largest_viewport_;
   PixelBox viewport_{0, 0, 0, 0};
   GlName coordinates_[3], footprints_, fillers_, looks_; // buffers
   const GlName* radii_ = &footprints_;                   // of the discs drawn next

@@ -19,6 +19,12 @@ vec2 placeOf(vec3 c)
   return place;
 }
 
+// Side and surface, as the plain C++ backend numbers them.
+uint sideOf(uint color, bool looks_away)
+{
+  return (color >> 24 & 127u) << 1 | uint(looks_away);
+}
+
 float depthOf(vec3 c)
 {
   EXACT float depth = sqrt(c.x * c.x + c.y * c.y + c.z * c.z) * per_far;
@@ -101,10 +107,15 @@ flat out vec4 disc_center; // and radius, 0 for a mere pixel
 flat out uvec3 disc_tilt;  // change of 1 / z per pixel, as bits; index
 #ifdef BLENDED
 uniform float stretch; // discs reach so many of their radii
+uniform bool has_sides;
 flat out vec3 disc_normal; // in the cloud's axes
 flat out vec3 disc_color;
+flat out uint disc_side;
 #else
 const float stretch = 1.0;
+uniform float back;       // how much deeper than they are discs lie, in radii
+uniform float away_depth; // and how much more, if they look away
+flat out float disc_back; // of this disc
 #endif
 
 void setDisc(uint index, vec3 c, float radius, vec3 direction)
@@ -119,6 +130,9 @@ void setDisc(uint index, vec3 c, float radius, vec3 direction)
   vec3 normal = normalize(direction);
   disc_normal = is_two_sided && facing > 0.0 ? -normal : normal;
   disc_color = unpackColor(look.y);
+  disc_side = sideOf(look.y, has_sides && facing > 0.0);
+#else
+  disc_back = facing > 0.0 ? back + away_depth : back;
 #endif
 }
 
@@ -232,8 +246,7 @@ bool isCovered(out float depth, out float part)
 
 // The pixel of the point itself is the nearer one of point and disc.
 const char* const discs_fragment = R"(
-uniform float back; // how much deeper than they are discs lie, in radii
-
+flat in float disc_back;
 layout(location = 0) out uvec2 state;
 
 bool isOwnPixel()
@@ -246,7 +259,7 @@ void main()
 {
   float depth, part;
   bool is_covered = isCovered(depth, part);
-  EXACT float disc_depth = depth + disc_center.w * (back * per_far);
+  EXACT float disc_depth = depth + disc_center.w * (disc_back * per_far);
   depth = is_covered ? disc_depth : 1.0;
 #ifdef WITH_PIXELS
   depth = isOwnPixel() ? min(depth, depthOf(disc_center.xyz)) : depth;
@@ -261,9 +274,13 @@ void main()
 // The weight of a disc falls smoothly to zero at its rim.
 const char* const blend_fragment = R"(
 uniform usampler2DRect states;
+uniform usamplerBuffer looks; // packed normal, colour
+uniform mat3 rotation;
+uniform bool has_sides;
 
 flat in vec3 disc_normal;
 flat in vec3 disc_color;
+flat in uint disc_side;
 layout(location = 0) out vec4 normal_weight;
 layout(location = 1) out vec4 color;
 
@@ -271,8 +288,13 @@ void main()
 {
   float depth, part;
   bool is_covered = isCovered(depth, part);
-  float seen = uintBitsToFloat(texture(states, gl_FragCoord.xy).x);
-  if (!is_covered || abs(depth - seen) > disc_center.w * per_far)
+  uvec2 state = texture(states, gl_FragCoord.xy).xy;
+  float seen = uintBitsToFloat(state.x);
+  uvec2 look = texelFetch(looks, state.x != background_bits ? int(state.y) : 0).xy;
+  vec3 ray = vec3((gl_FragCoord.xy - margin - center) * per_focal, 1.0);
+  bool looks_away = has_sides && dot(unpackDirection(look.x), ray * rotation) > 0.0;
+  if (!is_covered || abs(depth - seen) > disc_center.w * per_far ||
+      sideOf(look.y, looks_away) != disc_side)
     discard;
   float weight = (1.0 - part) * (1.0 - part);
   normal_weight = weight * vec4(disc_normal, 1.0);

@@ -21,11 +21,10 @@ append(std::vector<PointRange>& ranges, const SurfaceBlock& block)
 VisiblePoints
 findVisiblePoints(const Frame& frame, float largest_reach)
 {
-  const bool culls = frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
   VisiblePoints visible;
   for (const SurfaceBlock& block : frame.cloud.getBlocks()) {
     const BlockView seen(frame, block);
-    if (seen.isBehindEye() || (culls && seen.looksAway()))
+    if (seen.isBehindEye() || (frame.culls() && seen.looksAway()))
       continue;
     const PixelBox box = seen.box();
     if (box.isEmpty())

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace pcl_uvol {
 
@@ -62,6 +63,19 @@ hasColors(const CloudView& cloud)
   return findColors(cloud).has_value();
 }
 
+bool
+hasIsovalues(const CloudView& cloud)
+{
+  if (cloud.count == 0 || findField(cloud.fields, "isovalue") == nullptr)
+    return false;
+  const ScalarField field(cloud.fields, "isovalue");
+  const double first = field.read(cloud.point(0));
+  for (std::size_t i = 1; i < cloud.count; ++i)
+    if (field.read(cloud.point(i)) != first)
+      return true;
+  return false;
+}
+
 PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,
@@ -71,20 +85,27 @@ colorPoints(const CloudView& cloud,
   if (field == "rgb" || field == "rgba")
     return {readColors(cloud)};
   const ScalarField scalar(cloud.fields, field);
-  std::vector<float> values(cloud.count);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < cloud.count; ++i) {
-    values[i] = static_cast<float>(scalar.read(cloud.point(i)));
-    if (std::isfinite(values[i])) {
-      low = std::min<double>(low, values[i]);
-      high = std::max<double>(high, values[i]);
+    const double value = scalar.read(cloud.point(i));
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
     }
   }
   if (low > high)
     throw InvalidArgument("All values of " + field + " are without a number.");
   PointColors colored;
   colored.range = range.value_or(std::array<double, 2>{low, high});
-  colored.colors = map.apply(values, colored.range[0], colored.range[1]);
+  std::tie(low, high) = std::tie(colored.range[0], colored.range[1]);
+  // In parts of the range: floats do not hold the digits of time stamps.
+  const double reference = std::isfinite(low) ? low : 0.0;
+  const double extent = high > low && std::isfinite(high - low) ? high - low : 1.0;
+  std::vector<float> parts(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    parts[i] = static_cast<float>((scalar.read(cloud.point(i)) - reference) / extent);
+  const auto part = [&](double value) { return (value - reference) / extent; };
+  colored.colors = map.apply(parts, part(low), part(high));
   return colored;
 }
 

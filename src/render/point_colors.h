@@ -24,6 +24,10 @@ struct PointColors {
 PCL_UVOL_EXPORTS bool
 hasColors(const CloudView& cloud);
 
+/** \brief True if the points are those of several isovalues. */
+PCL_UVOL_EXPORTS bool
+hasIsovalues(const CloudView& cloud);
+
 /** \brief Colour a cloud.
  * \param field a scalar field, as in ScalarField, or "rgb" for the cloud's own colours
  * \param range values at the ends of the colours; none: those of the field

@@ -37,7 +37,8 @@ SurfaceCloud::SurfaceCloud(const CloudView& cloud,
 {
   place(threads);
   for (std::size_t i = 0; i < size(); ++i) {
-    looks_[i] = {points_.normals[i], 0xffffffff};
+    looks_[i].normal = points_.normals[i];
+    setColorOf(i, 0xffffffff);
   }
   addBlocks(points_.samples->getTree().getRoot());
 }
@@ -142,18 +143,26 @@ SurfaceCloud::makeBlock(std::uint32_t begin, std::uint32_t end) const
 }
 
 void
+SurfaceCloud::setColorOf(std::size_t point, Rgba color)
+{
+  constexpr Rgba rgb = 0xffffff;
+  const Rgba surface = hasSurfaces() ? points_.surfaces[point] : 0;
+  looks_[point].color = (color & rgb) | surface << 24;
+}
+
+void
 SurfaceCloud::setColors(const std::vector<Rgba>& colors)
 {
   for (std::size_t i = 0; i < size(); ++i)
-    looks_[i].color = colors[input_indices_[i]];
+    setColorOf(i, colors[input_indices_[i]]);
   revision_ = nextRevision();
 }
 
 void
 SurfaceCloud::setColor(Rgba color)
 {
-  for (Look& look : looks_)
-    look.color = color;
+  for (std::size_t i = 0; i < size(); ++i)
+    setColorOf(i, color);
   revision_ = nextRevision();
 }
 

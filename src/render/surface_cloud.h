@@ -35,7 +35,8 @@ struct SurfaceBlock {
  * point. */
 class PCL_UVOL_EXPORTS SurfaceCloud {
 public:
-  /** \brief What is drawn for a pixel, fetched at once. */
+  /** \brief What is drawn for a pixel, fetched at once. The colour has the number of
+   * the point's isovalue in the place of its opacity. */
   struct Look {
     PackedNormal normal;
     Rgba color;
@@ -104,6 +105,13 @@ public:
     return points_.two_sided;
   }
 
+  /** \brief There are points of several isovalues. */
+  bool
+  hasSurfaces() const
+  {
+    return !points_.surfaces.empty();
+  }
+
   /** \brief Give every point a colour.
    * \param colors by input index */
   void
@@ -151,6 +159,10 @@ public:
   }
 
 private:
+  /** Its colour, and the number of its surface. */
+  void
+  setColorOf(std::size_t point, Rgba color);
+
   /** Coordinates and what else is as long. */
   void
   place(unsigned threads);

@@ -44,7 +44,7 @@ constexpr float measured_edges = 2.0f, unmeasured_edges = 1.0f;
 constexpr std::size_t measured_percentile = 90, unmeasured_percentile = 50;
 /** @} */
 
-/** Cosine of the angle of normals, and tangent of the angle to the tangent plane, of
+/** Cosine of the angle of normals, and sine of the angle to the tangent plane, of
  * points that lie on one smooth surface. @{ */
 constexpr float least_agreement = 0.5f, steepest = 0.7f;
 /** @} */

@@ -37,8 +37,9 @@ struct Footprints {
  *
  * No point knows more of the surface than the samples about it do: radii are at most
  * about the length that edges of isopoints have there, or twice that on a surface that
- * goes on all around, and the distance of the 16th neighbour on whatever side. Points that have far fewer points about them than those
- * have, and points whose disc would meet hardly another one, are lonely.
+ * goes on all around, and the distance of the 16th neighbour on whatever side. Points
+ * that have far fewer points about them than those have, and points whose disc would
+ * meet hardly another one, are lonely.
  */
 PCL_UVOL_EXPORTS Footprints
 computeFootprints(const OrientedPoints& points, unsigned threads, Report& report);

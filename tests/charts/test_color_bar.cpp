@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bar of colours that is drawn into pictures.
 #include "charts/color_bar.h"
+#include "charts/drawing.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -68,6 +72,38 @@ TEST(ColorBar, WritesReadableLettersOnAnyGround)
         ink += std::abs(pixelAt(image, column, row)[0] - gray) > 100 ? 1 : 0;
     EXPECT_GT(ink, 50u) << int(gray);
   }
+}
+
+TEST(ColorBar, HasRoomBesideThePicture)
+{
+  for (const auto& [width, height] : {std::pair(1024, 768), std::pair(200, 900)}) {
+    const int bar = uvol_tools::colorBarWidth(width, height);
+    EXPECT_GT(bar, 20);
+    EXPECT_LE(bar, width / 3);
+    const Image before = makePlain(
+        static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 255);
+    Image image = before;
+    uvol_tools::drawColorBar(image, ColorMap(), -123.4, 56.7, "T");
+    for (std::uint32_t row = 0; width > 500 && row < image.height; ++row)
+      for (std::uint32_t column = 0; column < image.width - static_cast<unsigned>(bar);
+           ++column)
+        ASSERT_EQ(255, pixelAt(image, column, row)[0]);
+  }
+  EXPECT_EQ(0, uvol_tools::colorBarWidth(100, 2000));
+}
+
+TEST(AxisLabels, TellValuesApart)
+{
+  using uvol_tools::labelValues;
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ((Texts{"0", "0.5", "1"}), labelValues({0.0, 0.5, 1.0}).texts);
+  EXPECT_EQ((Texts{"-1", "0", "1"}), labelValues({-1.0, 1e-17, 1.0}).texts);
+  EXPECT_EQ((Texts{"1", "1.0001", "1.0002"}), labelValues({1.0, 1.0001, 1.0002}).texts);
+  const auto stamps = labelValues({1.6e9, 1.6e9 + 30.0, 1.6e9 + 60.0});
+  EXPECT_EQ((Texts{"0", "30", "60"}), stamps.texts);
+  EXPECT_EQ("+ 1600000000", stamps.offset);
+  EXPECT_EQ("", labelValues({60.0, 180.0}).offset);
+  EXPECT_EQ((Texts{"7"}), labelValues({7.0}).texts);
 }
 
 TEST(ColorBar, TakesAnyRangeAndLeavesSmallImagesAlone)

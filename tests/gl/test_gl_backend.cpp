@@ -402,6 +402,28 @@ TEST_P(GlBackendOn, SizesMayChange)
   }
 }
 
+/** What points in the middle of discs need beside the image may not be there. */
+TEST_P(GlBackendOn, SidesAsLongAsTexturesMayBe)
+{
+  CpuBackend cpu;
+  for (const char* name : {"sphere", "near"})
+    for (const int side : {16340, View::largest_size}) {
+      const Scene& scene = sharedScene(name);
+      Report report;
+      const auto settings = settingsOf("raw");
+      const Image expected = draw(cpu, scene, settings, report, 40, side);
+      const Image image =
+          draw(sharedBackend(GetParam()), scene, settings, report, 40, side);
+      std::size_t covered = 0, agreeing = 0;
+      for (std::size_t i = 0; i < expected.pixels(); ++i) {
+        covered += isCovered(expected, i) ? 1 : 0;
+        agreeing += isCovered(expected, i) && expected.id[i] == image.id[i] ? 1 : 0;
+      }
+      EXPECT_GT(covered, 100u);
+      EXPECT_GE(double(agreeing), 0.99 * double(covered)) << name << ' ' << side;
+    }
+}
+
 TEST_P(GlBackendOn, NothingInView)
 {
   Scene scene = sharedScene("sphere");

@@ -44,6 +44,7 @@ prepare(Renderer& renderer, const SurfaceCloudPtr& cloud, int width, int height)
 inline void
 onlyProject(pcl_uvol::ImageSpaceSettings& settings)
 {
+  settings.cull_back_faces = true;
   settings.footprints = false;
   settings.background_fill = settings.occluded_fill = 0;
   settings.smoothing = pcl_uvol::SmoothingFilter::None;

@@ -3,6 +3,7 @@
 #include "io/random_dataset.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
@@ -62,6 +63,30 @@ makeScalar(const std::vector<float>& values)
   for (std::size_t i = 0; i < values.size(); ++i)
     put(&dataset.cloud.data[i * dataset.cloud.point_step + 12], values[i]);
   return dataset;
+}
+
+TEST(PointColors, TellTimeStampsApart)
+{
+  // A float holds seven digits.
+  auto dataset = makeDataset({{"t", Type::FLOAT64}}, 5, 1);
+  for (std::size_t i = 0; i < 5; ++i)
+    put(&dataset.cloud.data[i * dataset.cloud.point_step + 12],
+        1.6e9 + 0.25 * static_cast<double>(i));
+  const PointColors colored =
+      colorPoints(pcl_uvol::viewOf(dataset.cloud), "t", ColorMap(), std::nullopt);
+  EXPECT_EQ((std::array<double, 2>{1.6e9, 1.6e9 + 1.0}), colored.range);
+  EXPECT_EQ(ColorMap().apply({0.0f, 0.25f, 0.5f, 0.75f, 1.0f}, 0.0, 1.0),
+            colored.colors);
+}
+
+TEST(PointColors, SeveralIsovaluesAreSeveral)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> cloud(3, 1);
+  EXPECT_FALSE(pcl_uvol::hasIsovalues(pcl_uvol::viewOf(cloud)));
+  cloud[2].isovalue = 5.0f;
+  EXPECT_TRUE(pcl_uvol::hasIsovalues(pcl_uvol::viewOf(cloud)));
+  EXPECT_FALSE(
+      pcl_uvol::hasIsovalues(pcl_uvol::viewOf(makePacked<pcl::PointXYZRGB>())));
 }
 
 PointColors

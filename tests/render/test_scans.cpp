@@ -175,7 +175,7 @@ TEST_P(ScanPicture, HasNoHoles)
   EXPECT_GT(inside, static_cast<std::size_t>(size * size / 20));
   EXPECT_LE(open, scan.open);
   EXPECT_LE(shining, inside / 1000);
-  EXPECT_LE(swollen, inside / 100);
+  EXPECT_LE(swollen, inside / 70);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scans, ScanPicture, testing::ValuesIn(scans));

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <random>
 
 namespace {
 
@@ -311,6 +312,67 @@ TEST(SplatTracing, ASphereDoesNotShadeItself)
   for (std::size_t i = 0; i < with.color.size(); ++i)
     different += std::abs(int{with.color[i]} - int{without.color[i]}) > 6 ? 1 : 0;
   EXPECT_EQ(0, different);
+}
+
+/** Discs of some thousand points that lie off a ball by parts of their distance, as
+ * isopoints do. */
+pcl_uvol::SplatObject
+roughBall()
+{
+  std::vector<pcl_uvol::PointSplat> splats;
+  std::mt19937_64 engine(4);
+  std::normal_distribution<double> off(0.0, 0.004);
+  for (const pcl::PointNormal& point : *makeSphere(6000, 1)) {
+    const Vector normal = point.getNormalVector3fMap().cast<double>();
+    const Vector tilted = normal + 10.0 * Vector(off(engine), off(engine), off(engine));
+    splats.push_back(discAt((1.0 + off(engine)) * normal, tilted, 0.06));
+  }
+  pcl_uvol::SplatObject object = objectOf(splats);
+  object.material = {};
+  return object;
+}
+
+TEST(SplatTracing, ARoughSurfaceShadesItselfNowhereInTheLight)
+{
+  Scene scene;
+  scene.background.color = {0.0f, 0.0f, 0.0f};
+  scene.splats.push_back(roughBall());
+  scene.lights = {lightFrom({1.0, -0.7, 0.3}, pcl_uvol::Light::Kind::Directional)};
+  const Camera camera = looking({0.0, -6.0, 0.0}, Vector::Zero(), 18.0);
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setCamera(camera);
+  tracer.setSize(300, 300);
+  Image with, without;
+  tracer.render(with);
+  tracer.settings().shadows = false;
+  tracer.render(without);
+  std::size_t lit = 0, different = 0;
+  for (std::size_t i = 0; i < with.pixels(); ++i) {
+    // Well above the horizon.
+    lit += without.color[4 * i] > 100 ? 1 : 0;
+    different +=
+        without.color[4 * i] > 100 && with.color[4 * i] != without.color[4 * i] ? 1 : 0;
+  }
+  EXPECT_GT(lit, 20000u);
+  EXPECT_LE(different, lit / 50);
+}
+
+TEST(SplatTracing, AWallShadesTheFloorBesideIt)
+{
+  // One object: what is near and on the same surface is left out, walls are not.
+  Scene scene = sceneOf(
+      {discAt({0, 0, 0}, {0, 0, 1}, 1.0), discAt({0.6, 0.0, 0.5}, {-1, 0, 0}, 0.5)},
+      {red, green});
+  scene.splats[0].material.ambient = 0.0;
+  scene.splats[0].material.diffuse = 1.0;
+  const Camera camera = looking({0.3, 0.0, 10.0}, {0.3, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const auto brightness = [&](const Vector& towards) {
+    scene.lights = {lightFrom(towards, pcl_uvol::Light::Kind::Directional)};
+    return channelAt(trace(scene, camera, 1), 0, 0);
+  };
+  EXPECT_NEAR(0.0, brightness({1.0, 0.0, 1.0}), step);
+  EXPECT_NEAR(std::sqrt(0.5), brightness({-1.0, 0.0, 1.0}), step);
 }
 
 TEST(SplatTracing, CamerasFarAwaySeeAsSharp)

@@ -97,7 +97,7 @@ TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
                               "-color normal_z -colormap inferno",
                               "-color normal_z -range -2,2",
                               "-surface-color 1,0,0",
-                              "-supersample 2",
+                              "-supersample 1",
                               "-lights -1,0,0",
                               "-ambient 0.5",
                               "-diffuse 0.1",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -14,6 +15,31 @@ using pcl_uvol::Image;
 namespace {
 
 constexpr std::uint32_t smallest_image = 128;
+
+/** Least distance of values along the bar, in letters' sizes. */
+constexpr double label_distance = 1.3;
+
+/** Side of letters, and width of the bar. */
+int
+letterSize(int height)
+{
+  return std::clamp(height / 40, 11, 48);
+}
+
+/** Ends, and round values that do not come too near to them.
+ * \param nearest in parts of the range */
+std::vector<double>
+barValues(double low, double high, double nearest)
+{
+  if (!(high > low))
+    return {low};
+  std::vector<double> values = {low};
+  for (const double value : roundValues(low, high))
+    if (value - low > nearest * (high - low) && high - value > nearest * (high - low))
+      values.push_back(value);
+  values.push_back(high);
+  return values;
+}
 
 /** Letters are dark on light ground and light on dark ground. */
 constexpr int middle_gray = 128;
@@ -30,6 +56,15 @@ inkOn(const Image& image)
 
 } // namespace
 
+int
+colorBarWidth(int image_width, int image_height)
+{
+  constexpr int letters = 8; // of the bar, its margin and the values
+  if (std::min(image_width, image_height) < static_cast<int>(smallest_image))
+    return 0;
+  return std::min(letters * letterSize(image_height), image_width / 3);
+}
+
 void
 drawColorBar(Image& image,
              const ColorMap& map,
@@ -41,7 +76,7 @@ drawColorBar(Image& image,
     return;
   const int height = static_cast<int>(image.height);
   const int length = height * 6 / 10, top = (height - length) / 2;
-  const int size = std::clamp(height / 40, 11, 48);
+  const int size = letterSize(height);
   const int right = static_cast<int>(image.width) - size, left = right - size;
   const Ink ink = inkOn(image);
   for (int row = 0; row < length; ++row) {
@@ -52,10 +87,13 @@ drawColorBar(Image& image,
     for (int column = left; column < right; ++column)
       blend(image, column, top + row, color, 1.0);
   }
-  for (const double value : roundValues(low, high)) {
-    const double place = high > low ? (value - low) / (high - low) : 0.5;
+  const std::vector<double> values =
+      barValues(low, high, label_distance * size / length);
+  const AxisLabels labels = labelValues(values);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double place = high > low ? (values[i] - low) / (high - low) : 0.5;
     writeText(image,
-              shortNumber(value),
+              labels.texts[i],
               size,
               left - size / 2,
               top + static_cast<int>(std::lround((1.0 - place) * length)),
@@ -63,6 +101,13 @@ drawColorBar(Image& image,
               ink);
   }
   writeText(image, title, size, right, top - size * 3 / 2, TextAnchor::Right, ink);
+  writeText(image,
+            labels.offset,
+            size,
+            right,
+            top + length + size * 3 / 2,
+            TextAnchor::Right,
+            ink);
 }
 
 } // namespace uvol_tools

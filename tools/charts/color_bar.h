@@ -9,8 +9,14 @@
 
 namespace uvol_tools {
 
+/** \brief Columns at the right border of an image of that size that hold a bar and its
+ * values; 0 for images too small for it (below 128 pixels). */
+int
+colorBarWidth(int image_width, int image_height);
+
 /** \brief Draw a bar of colours with its values and a title at the right border of an
- * image; nothing in images too small for it (below 128 pixels). */
+ * image; nothing in images too small for it. Both ends have their values; of values
+ * that only their last digits tell apart the common part is written below the bar. */
 void
 drawColorBar(pcl_uvol::Image& image,
              const pcl_uvol::ColorMap& map,

@@ -102,6 +102,54 @@ shortNumber(double value)
   return text;
 }
 
+namespace {
+
+std::string
+formatNumber(double value, int digits)
+{
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/** Digits with which neighbours differ, and the ends are shown to a hundredth of the
+ * range. */
+int
+countDigits(const std::vector<double>& values)
+{
+  const double range = values.back() - values.front();
+  const double largest = std::max(std::abs(values.front()), std::abs(values.back()));
+  if (!(range > 0.0) || !std::isfinite(largest / range))
+    return 4;
+  return 3 + static_cast<int>(std::floor(std::log10(largest / range) + 1e-9));
+}
+
+} // namespace
+
+AxisLabels
+labelValues(const std::vector<double>& values)
+{
+  constexpr int most_digits = 6, offset_digits = 15;
+  AxisLabels labels;
+  const int digits = countDigits(values);
+  double offset = 0.0;
+  if (digits > most_digits) {
+    const double range = values.back() - values.front();
+    const double round = std::pow(10.0, std::ceil(std::log10(range)));
+    offset = std::floor(values.front() / round) * round;
+    labels.offset =
+        (offset < 0.0 ? "- " : "+ ") + formatNumber(std::abs(offset), offset_digits);
+  }
+  const double tiny = 1e-9 * (values.back() - values.front());
+  for (double value : values) {
+    if (std::abs(value) <= tiny)
+      value = 0.0; // and not "-0" by rounding
+    labels.texts.push_back(
+        formatNumber(value - offset, digits > most_digits ? 4 : std::max(digits, 3)));
+  }
+  return labels;
+}
+
 std::vector<double>
 roundValues(double low, double high)
 {

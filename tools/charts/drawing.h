@@ -45,6 +45,19 @@ drawLine(pcl_uvol::Image& image,
 std::string
 shortNumber(double value);
 
+/** \brief Texts of the values along an axis. */
+struct AxisLabels {
+  std::vector<std::string> texts;
+  /** What is to be added to all of them, as "+ 1.6e9"; empty for nothing. */
+  std::string offset;
+};
+
+/** \brief As many digits as tell the values apart; where these are too many, those of
+ * the differences to a round value.
+ * \param values ascending */
+AxisLabels
+labelValues(const std::vector<double>& values);
+
 /** \brief Round values within a range, some five of them. */
 std::vector<double>
 roundValues(double low, double high);

@@ -115,6 +115,7 @@ traceFrames(const Options& options,
             pcl_uvol::RayTracer& tracer,
             const std::optional<pcl_uvol::Camera>& camera,
             const std::array<double, 3>& origin,
+            const pcl_uvol::CloudView* cloud,
             const std::function<void(pcl_uvol::Image&)>& decorate,
             const std::string& output,
             pcl_uvol::Report& report)
@@ -122,7 +123,8 @@ traceFrames(const Options& options,
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);
   const pcl_uvol::Camera first =
-      camera ? *camera : view.makeCamera(tracer.getBounds(), origin);
+      camera ? view.adjusted(options, *camera)
+             : view.makeCamera(tracer.getBounds(), origin, tracer.getWidth(), cloud);
   pcl_uvol::Report tracing;
   for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
     tracer.setCamera(view.turned(first, frame));
@@ -148,14 +150,15 @@ RayOptions::traceCloud(const Options& options,
   pcl_uvol::RayTracer tracer;
   tracer.setScene(makeScene(options, view, cloud, range, report));
   apply(options, tracer.settings());
-  tracer.setSupersampling(view.getSupersampling());
-  tracer.setSize(view.getWidth(), view.getHeight());
+  tracer.setSupersampling(view.getRaySupersampling());
+  tracer.setSize(view.pictureWidth(cloud), view.getHeight());
   traceFrames(
       options,
       view,
       tracer,
       std::nullopt,
       origin,
+      &cloud,
       [&](pcl_uvol::Image& image) { view.decorate(cloud, range, image); },
       output,
       report);

@@ -68,13 +68,15 @@ private:
 
 /** \brief Draw all frames of a scene.
  * \param origin of its coordinates
- * \param camera that of the scene file, unless the command line has another one */
+ * \param camera that of the scene file, unless the command line has another one
+ * \param cloud that fills the image; null for a scene */
 void
 traceFrames(const Options& options,
             const ViewOptions& view,
             pcl_uvol::RayTracer& tracer,
             const std::optional<pcl_uvol::Camera>& camera,
             const std::array<double, 3>& origin,
+            const pcl_uvol::CloudView* cloud,
             const std::function<void(pcl_uvol::Image&)>& decorate,
             const std::string& output,
             pcl_uvol::Report& report);

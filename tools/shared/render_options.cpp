@@ -46,7 +46,9 @@ RenderOptions::declarePasses(Options& options)
   using pcl_uvol::ImageSpaceSettings;
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
-  options.flag("no-culling", s.cull_back_faces, "draw back faces as well", false);
+  options.flag("culling",
+               s.cull_back_faces,
+               "leave out what looks away from the eye: faster, for closed surfaces");
   options.flag(
       "no-footprints", s.footprints, "every point is one pixel, however near", false);
   options.integer("fill", s.background_fill, 0, most, "background fills at most");
@@ -66,8 +68,11 @@ RenderOptions::declarePasses(Options& options)
                  1e-9,
                  largest,
                  "least step in depth");
-  options.integer(
-      "thickness", s.silhouette_thickness, 1, 7, "of silhouettes, in pixels");
+  options.integer("thickness",
+                  s.silhouette_thickness,
+                  1,
+                  7,
+                  "of silhouettes: t for 2 t - 1 pixels");
   options.flag("features", s.feature_lines, "draw feature lines");
   options.number("feature-threshold",
                  s.feature_threshold,
@@ -120,7 +125,7 @@ RenderOptions::configure(const Options& options,
 {
   applyLook(options, cloud, renderer);
   renderer.setBackend(makeBackend(backend_));
-  renderer.setSize(getWidth(), getHeight());
+  renderer.setSize(pictureWidth(cloud), getHeight());
   renderer.setSupersampling(getSupersampling());
 }
 
@@ -135,7 +140,8 @@ RenderOptions::drawCloud(const Options& options,
   renderer.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
   configure(options, cloud, renderer);
-  const pcl_uvol::Camera camera = makeCamera(renderer.getBounds(), surface.origin);
+  const pcl_uvol::Camera camera =
+      makeCamera(renderer.getBounds(), surface.origin, pictureWidth(cloud), &cloud);
   pcl_uvol::Image image;
   pcl_uvol::Report drawing;
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {

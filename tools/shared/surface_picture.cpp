@@ -23,6 +23,7 @@ SurfacePicture::declare(Options& options)
                  "draw the isosurface as well; the options below are for the picture");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
+  look_.declarePasses(options);
   rays_.declareRays(options);
   rays_.declareSurface(options);
 }
@@ -106,7 +107,8 @@ SurfacePicture::addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast)
 {
   if (path_.empty())
     return;
-  const double scale = look_.getSupersampling();
+  const double scale =
+      is_ray_traced_ ? look_.getRaySupersampling() : look_.getSupersampling();
   const double pixels = scale * look_.getWidth() * scale * look_.getHeight();
   // At worst a splat per point, or footprints and pixels.
   if (is_ray_traced_)

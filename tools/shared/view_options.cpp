@@ -4,12 +4,16 @@
 #include "charts/color_bar.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
+#include "render/camera_fit.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
 #include "shared/point_files.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -48,6 +52,70 @@ isColorName(const std::string& color)
   return color == "auto" || color == "none" || color == "rgb" || color == "rgba";
 }
 
+/** z, or y for a camera that looks along z. */
+Eigen::Vector3d
+upwardsOf(const pcl_uvol::Camera& camera)
+{
+  constexpr double least_sine = 1e-3;
+  const Eigen::Vector3d sight = (camera.at - camera.eye).normalized();
+  return sight.head<2>().norm() > least_sine ? Eigen::Vector3d::UnitZ()
+                                             : Eigen::Vector3d::UnitY();
+}
+
+/** A named view of the world turned so that what was z is another direction. */
+pcl_uvol::Camera
+turnedUpwards(pcl_uvol::Camera camera, const Eigen::Vector3d& up)
+{
+  if (!(up.norm() > 0.0))
+    throw UsageError("-up takes a direction, and 0,0,0 is none.");
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
+  camera.eye = camera.at + turn * (camera.eye - camera.at);
+  camera.up = turn * camera.up;
+  return camera;
+}
+
+pcl_uvol::Camera
+zoomed(pcl_uvol::Camera camera, double zoom)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  if (zoom != 1.0)
+    camera.vertical_fov =
+        2.0 * std::atan(std::tan(0.5 * degree * camera.vertical_fov) / zoom) / degree;
+  return camera;
+}
+
+/** A picture with columns of background on its right. */
+pcl_uvol::Image
+widened(const pcl_uvol::Image& image, const pcl_uvol::Background& background, int width)
+{
+  using Kind = pcl_uvol::Background::Kind;
+  pcl_uvol::Image wide;
+  wide.width = static_cast<std::uint32_t>(width);
+  wide.height = image.height;
+  wide.color.resize(4 * wide.pixels());
+  for (std::uint32_t row = 0; row < image.height; ++row) {
+    const float below =
+        background.kind == Kind::Gradient
+            ? (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height)
+            : 1.0f;
+    const auto mix = [&](float top, float bottom) {
+      return top * (1.0f - below) + bottom * below;
+    };
+    const pcl_uvol::Rgba color =
+        background.kind == Kind::Transparent
+            ? 0
+            : pcl_uvol::toRgba({mix(background.top.r, background.color.r),
+                                mix(background.top.g, background.color.g),
+                                mix(background.top.b, background.color.b)});
+    const auto from = image.color.begin() + std::ptrdiff_t{4} * row * image.width;
+    const auto to = wide.color.begin() + std::ptrdiff_t{4} * row * wide.width;
+    std::copy_n(from, 4 * image.width, to);
+    for (std::uint32_t k = 4 * image.width; k < 4 * wide.width; ++k)
+      to[k] = static_cast<std::uint8_t>(color >> (8 * (k % 4)));
+  }
+  return wide;
+}
+
 } // namespace
 
 pcl_uvol::Color
@@ -67,8 +135,13 @@ ViewOptions::declareScene(Options& options)
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
   options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
   options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
-  options.numbers("up", "x,y,z", 3, up_, "direction that is upwards (default 0,0,1)");
+  options.numbers("up",
+                  "x,y,z",
+                  3,
+                  up_,
+                  "direction that is upwards, to which -view turns (default 0,0,1)");
   options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees");
+  options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture");
   options.text("size", "WxH", size_text_, "pixels of the picture (default 1024x1024)");
   options.text("background",
                "r,g,b|name",
@@ -80,7 +153,7 @@ ViewOptions::declareScene(Options& options)
       "field",
       color_,
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
-      "rgb or by none (default: rgb if there)");
+      "rgb or by none (default: rgb if there, else isovalue if there are several)");
   options.choice(
       "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
@@ -92,8 +165,11 @@ ViewOptions::declareScene(Options& options)
 void
 ViewOptions::declareSupersampling(Options& options)
 {
-  options.integer(
-      "supersample", supersampling_, 1, 8, "rays per pixel in each direction");
+  options.integer("supersample",
+                  supersampling_,
+                  1,
+                  8,
+                  "samples per pixel in each direction (default 2, with rays 1)");
 }
 
 void
@@ -159,7 +235,7 @@ ViewOptions::check(const Options& options)
     throw UsageError("-size is WxH in pixels, as in 1024x768, not '" + size_text_ +
                      "'.");
   for (const int size : {width_, height_})
-    if (size < 1 || size * supersampling_ > most)
+    if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
                        std::to_string(most) + " pixels before averaging, not " +
                        size_text_ + ".");
@@ -213,30 +289,58 @@ ViewOptions::addColorNeed(double points,
     forecast.run(pcl_uvol::derivedFieldNeed(color_, points, point_step));
 }
 
+int
+ViewOptions::getSupersampling() const
+{
+  constexpr int usual = 2;
+  if (supersampling_ > 0)
+    return supersampling_;
+  return usual * std::max(width_, height_) <= pcl_uvol::View::largest_size ? usual : 1;
+}
+
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  if (color_ == "auto")
-    return pcl_uvol::hasColors(cloud) ? "rgb" : "";
+  if (color_ == "auto") {
+    if (pcl_uvol::hasColors(cloud))
+      return "rgb";
+    return pcl_uvol::hasIsovalues(cloud) ? "isovalue" : "";
+  }
   return color_ == "none" ? "" : color_;
 }
 
 pcl_uvol::Camera
 ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
-                        const std::array<double, 3>& origin) const
+                        const std::array<double, 3>& origin,
+                        int width,
+                        const pcl_uvol::CloudView* cloud) const
 {
   const Eigen::Vector3d shift(origin.data());
-  pcl_uvol::Camera camera =
-      pcl_uvol::Camera::fit(bounds, view_, fov_, static_cast<double>(width_) / height_);
+  const double aspect = static_cast<double>(width) / height_;
+  pcl_uvol::Camera camera = pcl_uvol::Camera::fit(bounds, view_, fov_, aspect);
   if (!eye_.empty()) {
     camera.eye = toVector(eye_) - shift;
-    camera.up = {0.0, 0.0, 1.0};
     if (!at_.empty())
       camera.at = toVector(at_) - shift;
+    camera.up = up_.empty() ? upwardsOf(camera) : toVector(up_);
   }
+  else {
+    if (!up_.empty())
+      camera = turnedUpwards(camera, toVector(up_));
+    if (cloud != nullptr && frames_ == 1)
+      camera = pcl_uvol::fitToPoints(camera, *cloud, aspect);
+  }
+  return zoomed(camera, zoom_);
+}
+
+pcl_uvol::Camera
+ViewOptions::adjusted(const Options& options, pcl_uvol::Camera camera) const
+{
   if (!up_.empty())
     camera.up = toVector(up_);
-  return camera;
+  if (options.given("fov"))
+    camera.vertical_fov = fov_;
+  return zoomed(camera, zoom_);
 }
 
 pcl_uvol::Camera
@@ -259,14 +363,28 @@ ViewOptions::frameName(const std::string& output, std::uint64_t frame) const
   return (path.parent_path() / name.str()).string();
 }
 
+bool
+ViewOptions::drawsBar(const pcl_uvol::CloudView& cloud) const
+{
+  const std::string field = colorField(cloud);
+  return has_bar_ && !field.empty() && field != "rgb" && field != "rgba";
+}
+
+int
+ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
+{
+  return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
+}
+
 void
 ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
                       const std::array<double, 2>& range,
                       pcl_uvol::Image& image) const
 {
-  const std::string field = colorField(cloud);
-  if (has_bar_ && !field.empty() && field != "rgb" && field != "rgba")
-    uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], field);
+  if (!drawsBar(cloud))
+    return;
+  image = widened(image, background_, width_);
+  uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], colorField(cloud));
 }
 
 } // namespace uvol_tools

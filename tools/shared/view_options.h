@@ -12,6 +12,7 @@
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/lighting.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -44,10 +45,20 @@ public:
 
   /** \brief
    * \param origin what was subtracted from the coordinates of the cloud: places on the
-   * command line are meant before that */
+   * command line are meant before that
+   * \param width of what the camera sees, pixels
+   * \param cloud that fills the image, unless the camera has its place or turns around;
+   * null: the bounds do */
   pcl_uvol::Camera
   makeCamera(const pcl_uvol::BoundingSphere& bounds,
-             const std::array<double, 3>& origin) const;
+             const std::array<double, 3>& origin,
+             int width,
+             const pcl_uvol::CloudView* cloud) const;
+
+  /** \brief A camera with what options say in the place of what it says. Not for -view
+   * and -eye. */
+  pcl_uvol::Camera
+  adjusted(const Options& options, pcl_uvol::Camera camera) const;
 
   /** \brief Frames of a full turn; 1 without -orbit. */
   std::uint64_t
@@ -64,8 +75,15 @@ public:
   std::string
   frameName(const std::string& output, std::uint64_t frame) const;
 
-  /** \brief Draw the colour bar of a picture that is coloured by a scalar field.
-   * \param range values at the ends of the colours */
+  /** \brief Columns of a picture of this cloud that are left to the surface: its colour
+   * bar stands beside it. */
+  int
+  pictureWidth(const pcl_uvol::CloudView& cloud) const;
+
+  /** \brief Put the colour bar of a picture that is coloured by a scalar field beside
+   * it.
+   * \param range values at the ends of the colours
+   * \param image of pictureWidth(); has the full width afterwards */
   void
   decorate(const pcl_uvol::CloudView& cloud,
            const std::array<double, 2>& range,
@@ -141,11 +159,16 @@ public:
   }
   /** @} */
 
+  /** \brief In each direction, after check(): in image space, and by ray tracing. @{ */
   int
-  getSupersampling() const
+  getSupersampling() const;
+
+  int
+  getRaySupersampling() const
   {
-    return supersampling_;
+    return std::max(supersampling_, 1);
   }
+  /** @} */
 
   /** \brief After check(). @{ */
   const pcl_uvol::Background&
@@ -168,6 +191,9 @@ public:
   /** @} */
 
 private:
+  bool
+  drawsBar(const pcl_uvol::CloudView& cloud) const;
+
   void
   parseBackground();
 
@@ -177,8 +203,8 @@ private:
   std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
   std::string color_ = "auto", color_map_ = "viridis", lights_text_;
   std::vector<double> eye_, at_, up_, range_, surface_color_;
-  double fov_ = 30.0;
-  int width_ = 0, height_ = 0, supersampling_ = 1;
+  double fov_ = 30.0, zoom_ = 1.0;
+  int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;
   bool has_bar_ = true;
   pcl_uvol::Background background_;

@@ -125,8 +125,8 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
 
-  const pcl_uvol::Camera camera =
-      look_.makeCamera(surface_.getBounds(), surface_.getOrigin());
+  const pcl_uvol::Camera camera = look_.makeCamera(
+      surface_.getBounds(), surface_.getOrigin(), look_.getWidth(), nullptr);
   vtkCamera& view = *renderer_->GetActiveCamera();
   view.SetPosition(camera.eye.data());
   view.SetFocalPoint(camera.at.data());

@@ -33,6 +33,7 @@ clamp(float pixel, int most)
 
 BlockView::BlockView(const Frame& frame, const SurfaceBlock& block)
     : view_(frame.view)
+    , smallest_disc_(frame.smallestDisc())
     , block_(block)
 {
   const float* const r = view_.rotation;
@@ -84,7 +85,7 @@ bool
 BlockView::isSparse() const
 {
   return disc_radius_ > 0.0f && block_.mean_footprint * view_.focal >
-                                    sparse_footprint * std::max(center_[2], view_.near);
+                                    smallest_disc_ * std::max(center_[2], view_.near);
 }
 
 bool

@@ -23,7 +23,7 @@ public:
   bool
   looksAway() const;
 
-  /** \brief The discs of the block are blended: see sparse_footprint. */
+  /** \brief The discs of the block are blended: see Frame::smallestDisc(). */
   bool
   isSparse() const;
 
@@ -41,6 +41,7 @@ private:
   nearest() const;
 
   const View& view_;
+  float smallest_disc_;
   const SurfaceBlock& block_;
   float center_[3], distance_, disc_radius_;
 };

@@ -10,7 +10,8 @@
 namespace pcl_uvol {
 
 /** \brief Points are projected band by band of the image, each band by one thread into
- * its own rows; so do all later passes. Memory: 8 bytes per pixel, besides the image.
+ * its own rows; so do all later passes. Memory: 10 bytes per pixel besides the image,
+ * and 32 more where discs are blended.
  */
 class PCL_UVOL_EXPORTS CpuBackend : public ImageSpaceBackend {
 public:

@@ -2,6 +2,7 @@
 #include "render/image_space/disc_kernel.h"
 
 #include "render/image_space/camera_lanes.h"
+#include "render/image_space/side_kernel.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -288,7 +289,9 @@ public:
     if (laneBits(small_) == 0)
       return;
     const DiscPolynomials p(projection_, disc_);
-    const Floats behind = disc_.radius * (back * projection_.per_far);
+    const Floats depth_in_radii =
+        disc_.facing > 0.0f ? fill(back + projection_.away_depth) : fill(back);
+    const Floats behind = disc_.radius * (depth_in_radii * projection_.per_far);
     const Ints places =
         (row_ - band.first_row) * static_cast<int>(band.stride) + column_;
     const Floats x = toFloats(column_) + 0.5f - disc_.px,
@@ -400,7 +403,9 @@ draw(const Projection& projection,
       const std::uint32_t point =
           discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
       const LargeDisc disc(projection, points, point, 1.0f, band);
-      const float room = disc.radius() * (back * projection.per_far);
+      const float depth_in_radii =
+          disc.looksAway() ? back + projection.away_depth : back;
+      const float room = disc.radius() * (depth_in_radii * projection.per_far);
       disc.forCovered([&](int row, int column, float depth, float) {
         if (depth + room < 1.0f)
           keepFront(band.keys[row * band.stride + column], depth + room, point);
@@ -452,8 +457,12 @@ blend(const Projection& projection,
     }
     values[6] = 1.0f;
     const float room = disc.radius() * projection.per_far;
+    const std::uint8_t disc_side =
+        sideOf(color, projection.has_sides && disc.looksAway());
     disc.forCovered([&](int row, int column, float depth, float part) {
       const std::ptrdiff_t pixel = row * band.stride + column;
+      if (blended.sides != nullptr && blended.sides[pixel] != disc_side)
+        return;
       const float behind = depth - depthOf(band.keys[pixel]);
       if (!(behind <= room && behind >= -room))
         return;

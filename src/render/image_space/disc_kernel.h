@@ -19,8 +19,10 @@ constexpr int blend_segment = 16;
 /** What discs are blended into, from the first key of the buffers on, in their stride.
  */
 struct BlendSums {
-  float* values;       ///< blended_values per pixel; of marked segments only
-  std::uint8_t* marks; ///< per segment: not 0 if a disc reached it
+  float* values = nullptr;       ///< blended_values per pixel; of marked segments only
+  std::uint8_t* marks = nullptr; ///< per segment: not 0 if a disc reached it
+  /** Per pixel: discs of other sides are not added; null: there are none. */
+  const std::uint8_t* sides = nullptr;
 
   /** \brief Segment of the pixel of a key. Half a segment off the first column, as the
    * tiles of an image are. */

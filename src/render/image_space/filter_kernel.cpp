@@ -101,7 +101,8 @@ features(const ShadedRow& row,
   for (int i = 0; i < count; i += lanes) {
     const Ints is_surface = load<Floats>(row.opacity + i) > 0.0f;
     const Floats depth = load<Floats>(row.depth + i);
-    Floats curvature{};
+    // A neighbour that differs alone is a stray.
+    Floats largest{}, curvature{};
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         if (dx == 0 && dy == 0)
@@ -114,7 +115,9 @@ features(const ShadedRow& row,
         const Ints is_same =
             (load<Floats>(row.opacity + there) > 0.0f) &
             (absolute(load<Floats>(row.depth + there) - depth) <= layer_distance);
-        curvature = maximum(curvature, is_same ? 1.0f - cosine : Floats{});
+        const Floats turn = is_same ? 1.0f - cosine : Floats{};
+        curvature = maximum(curvature, minimum(largest, turn));
+        largest = maximum(largest, turn);
       }
     const Floats line = is_surface ? smoothStep(curvature, threshold) : Floats{};
     store(lines + i, maximum(load<Floats>(lines + i), line));

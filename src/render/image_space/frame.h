@@ -68,6 +68,31 @@ struct PCL_UVOL_EXPORTS Frame {
     return settings.footprints && !cloud.getFootprints().empty();
   }
 
+  /** \brief True if points that look away are left out; else they are lit as those
+   * that face the eye. */
+  bool
+  culls() const
+  {
+    return settings.cull_back_faces && !cloud.isTwoSided();
+  }
+
+  /** \brief Points with a disc of a smaller radius, in pixels, are single pixels;
+   * blocks of a larger mean radius are sparse: their discs are blended into each other.
+   * In the other blocks discs only fill holes: they have the radius of fillers, and lie
+   * deeper than their points, so that these stay sharp. */
+  float
+  smallestDisc() const
+  {
+    return static_cast<float>(settings.smallest_disc);
+  }
+
+  /** \brief True if points of two sides may be drawn side by side. */
+  bool
+  hasSides() const
+  {
+    return !culls() && !cloud.isTwoSided();
+  }
+
   /** \brief Least distance of two layers as a depth: that of the settings, and with
    * footprints not less than two discs, as these stand out from each other: a disc must
    * not hide behind its own surface, or the layer in front of it grows over it. */
@@ -80,24 +105,20 @@ struct PCL_UVOL_EXPORTS Frame {
   lightVector(const Light& light) const;
 };
 
-/** \brief Points with a disc of a smaller radius, in pixels, are single pixels: the
- * masks close what is left open, holes of radius sqrt(2) at most. */
-constexpr float smallest_footprint = 1.4f;
-
 /** \brief Points with a larger footprint, in pixels, have all of it where others are
  * fillers: the hole beside them is too large for one disc in its rim, which leaves it
  * half as wide, and the masks close no more than sqrt(2) around its middle. */
 constexpr float largest_filler = 2.8f;
 
-/** \brief Blocks of a larger mean radius, in pixels, are sparse: their discs are
- * blended into each other. In the other blocks discs only fill holes: they have the
- * radius of fillers, and lie deeper than their points, so that these stay sharp. */
-constexpr float sparse_footprint = 2.5f;
-
 /** \brief Discs are blended over so many of their radii: normals and colours then
  * change smoothly from point to point, while the discs themselves stay as large as they
  * are. */
 constexpr float blend_reach = 1.5f;
+
+/** \brief How much deeper than it is a disc that looks away lies, in its radii: at
+ * outlines, where discs of both sides stand out, the side that faces the eye is seen.
+ */
+constexpr float away_depth = 1.0f;
 
 /** \brief How much deeper than its point a filler lies, in radii of its own. */
 constexpr float filler_depth = 0.5f;

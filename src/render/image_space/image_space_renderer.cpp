@@ -15,8 +15,10 @@ namespace pcl_uvol {
 namespace {
 
 /** Blocks whose points lie closer, in pixels, need no footprints: the masks close what
- * is left open. Random points then have 1.6 in a pixel. */
-constexpr float dense_spacing = 0.8f;
+ * is left open. Random points then have 4 in a pixel. */
+constexpr float dense_spacing = 0.5f;
+
+constexpr int largest_thickness = 7;
 
 void
 checkThreshold(const char* name, double value)
@@ -33,7 +35,9 @@ checkParameters(const ImageSpaceSettings& settings)
   checkRange("number of background fills", settings.background_fill, 0, unlimited);
   checkRange("number of occluded fills", settings.occluded_fill, 0, unlimited);
   checkRange("number of smoothings", settings.smoothing_iterations, 0, 6);
-  checkRange("thickness of silhouettes", settings.silhouette_thickness, 1, 7);
+  checkRange(
+      "thickness of silhouettes", settings.silhouette_thickness, 1, largest_thickness);
+  checkThreshold("radius of the smallest disc", settings.smallest_disc);
   checkThreshold("distance of layers", settings.layer_distance);
   checkThreshold("threshold of silhouettes", settings.silhouette_threshold);
   checkThreshold("threshold of feature lines", settings.feature_threshold);
@@ -42,6 +46,20 @@ checkParameters(const ImageSpaceSettings& settings)
   checkColor("lines", settings.line_color);
   checkBackground(settings.background);
   checkLights(settings.lights);
+}
+
+/** Lengths in pixels of the picture in finer ones; lines at most as wide as they can
+ * be.
+ */
+ImageSpaceSettings
+scaledSettings(ImageSpaceSettings settings, int supersampling)
+{
+  // A line of thickness t is 2 t - 1 pixels wide.
+  const int thickness =
+      (supersampling * (2 * settings.silhouette_thickness - 1) + 2) / 2;
+  settings.silhouette_thickness = std::min(thickness, largest_thickness);
+  settings.smallest_disc *= supersampling;
+  return settings;
 }
 
 /** True if points of some block in front of the eye lie too far apart on the screen. */
@@ -153,7 +171,10 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
       backend_->render(frame, image, report);
       return;
     }
-    backend_->render(frame, fine_, report);
+    const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
+    backend_->render({frame.cloud, frame.view, settings, frame.planes, frame.threads},
+                     fine_,
+                     report);
     average(fine_, supersampling_, image);
     image.depth.clear();
     image.normal.clear();

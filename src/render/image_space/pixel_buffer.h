@@ -6,6 +6,7 @@
 #include "render/image_space/frame.h"
 #include "render/image_space/pixel_box.h"
 
+#include <memory>
 #include <vector>
 
 namespace pcl_uvol {
@@ -20,10 +21,14 @@ struct PixelBuffer {
   std::ptrdiff_t stride = 0;
   std::vector<PixelKey> keys;
   PixelBox bounds{0, 0, 0, 0}; ///< outside of it is background
-  /** Sums and marks of BlendSums for all keys; empty without discs. @{ */
-  std::vector<float> blended;
+  /** Sums and marks of BlendSums for all keys; none without discs. Sums are not
+   * cleared: the system gives them memory where discs are blended, and nowhere else. @{
+   */
+  std::unique_ptr<float[]> blended;
+  std::size_t blended_keys = 0;
   std::vector<std::uint8_t> blend_marks;
   /** @} */
+  std::vector<std::uint8_t> sides; ///< as sideOf() gives; empty if all are one
 
   /** \brief Make room for a view; rows are not cleared. */
   void
@@ -34,9 +39,17 @@ struct PixelBuffer {
   blendSums()
   {
     const std::ptrdiff_t first = row(0) - keys.data();
-    return blended.empty() ? BlendSums{nullptr, nullptr}
-                           : BlendSums{blended.data() + blended_values * first,
-                                       blend_marks.data() + first / blend_segment};
+    return blended_keys == 0 ? BlendSums{}
+                             : BlendSums{blended.get() + blended_values * first,
+                                         blend_marks.data() + first / blend_segment,
+                                         firstSide()};
+  }
+
+  /** \brief That of the first pixel; null if all are one. */
+  std::uint8_t*
+  firstSide()
+  {
+    return sides.empty() ? nullptr : sides.data() + (row(0) - keys.data());
   }
 
   PixelKey*

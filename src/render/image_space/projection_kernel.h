@@ -38,7 +38,9 @@ struct Projection {
   float eye[3]; ///< in the coordinates of the points
   float focal, center_x, center_y, near, per_far;
   bool cull_back_faces;
-  bool two_sided;                           ///< normals are turned to the eye
+  bool two_sided;   ///< normals are turned to the eye
+  bool has_sides;   ///< discs that look away are others
+  float away_depth; ///< how much deeper these are drawn, in radii
   float smallest_footprint, largest_filler; ///< in pixels: see backend.h
 };
 

@@ -4,6 +4,7 @@
 #include "common/dispatch.h"
 #include "common/parallel.h"
 #include "render/image_space/block_view.h"
+#include "render/image_space/side_kernel.h"
 
 #include <algorithm>
 
@@ -18,6 +19,8 @@ constexpr std::size_t blocks_per_task = 256;
 
 const KernelTable<ProjectionKernel> projection_table{
     baseline::projectPoints, avx2::projectPoints, avx512::projectPoints};
+const KernelTable<SideKernel> side_table{
+    baseline::findSides, avx2::findSides, avx512::findSides};
 const KernelTable<const DiscKernels*> disc_table{
     &baseline::disc_kernels, &avx2::disc_kernels, &avx512::disc_kernels};
 
@@ -37,10 +40,11 @@ projectionOf(const Frame& frame)
   projection.center_y = view.center_y;
   projection.near = view.near;
   projection.per_far = 1.0f / view.far;
-  projection.cull_back_faces =
-      frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
-  projection.two_sided = frame.cloud.isTwoSided();
-  projection.smallest_footprint = smallest_footprint;
+  projection.cull_back_faces = frame.culls();
+  projection.two_sided = !frame.culls();
+  projection.has_sides = frame.hasSides();
+  projection.away_depth = frame.hasSides() ? away_depth : 0.0f;
+  projection.smallest_footprint = frame.smallestDisc();
   projection.largest_filler = largest_filler;
   return projection;
 }
@@ -55,10 +59,9 @@ BlockPlan
 planBlock(const SurfaceBlock& block, const Frame& frame)
 {
   const BlockView seen(frame, block);
-  const bool culls = frame.settings.cull_back_faces && !frame.cloud.isTwoSided();
-  if (seen.isBehindEye() || (culls && seen.looksAway()))
+  if (seen.isBehindEye() || (frame.culls() && seen.looksAway()))
     return {{0, 0, 0, 0}, false, false};
-  return {seen.box(), seen.mayHoldDiscs(smallest_footprint), seen.isSparse()};
+  return {seen.box(), seen.mayHoldDiscs(frame.smallestDisc()), seen.isSparse()};
 }
 
 } // namespace
@@ -166,21 +169,30 @@ Projector::blend()
   const bool has_discs = std::any_of(
       discs_.begin(), discs_.end(), [](const auto& discs) { return !discs.empty(); });
   const std::size_t keys = has_discs ? buffer_.keys.size() : 0;
-  buffer_.blended.resize(blended_values * keys);
+  if (keys != buffer_.blended_keys) {
+    buffer_.blended.reset(keys > 0 ? new float[blended_values * keys] : nullptr);
+    buffer_.blended_keys = keys;
+  }
   buffer_.blend_marks.assign(keys / blend_segment, 0);
+  const bool has_sides = frame_.hasSides() || frame_.cloud.hasSurfaces();
+  buffer_.sides.resize(has_sides ? keys : 0);
   if (!has_discs)
     return;
   const auto rows = static_cast<std::size_t>(buffer_.height);
   parallelBlocks(rows, band_rows, frame_.threads, [&](auto begin, auto end) {
     const std::vector<std::uint32_t>& discs = discs_[begin / band_rows];
-    disc_kernels_.blend(
-        projection_,
-        points_,
-        reinterpret_cast<const std::uint32_t*>(frame_.cloud.getLooks().data()),
-        discs.data(),
-        discs.size(),
-        bandOf(begin, end),
-        buffer_.blendSums());
+    const auto* const looks =
+        reinterpret_cast<const std::uint32_t*>(frame_.cloud.getLooks().data());
+    const PixelBand band = bandOf(begin, end);
+    if (has_sides && !discs.empty())
+      side_table.get()(projection_, looks, band, buffer_.firstSide());
+    disc_kernels_.blend(projection_,
+                        points_,
+                        looks,
+                        discs.data(),
+                        discs.size(),
+                        band,
+                        buffer_.blendSums());
   });
 }
 

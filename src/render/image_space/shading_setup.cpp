@@ -51,7 +51,7 @@ ShadingSetup::ShadingSetup(const Frame& frame)
   shading_.lights = lights_.data();
   shading_.light_count = static_cast<int>(lights_.size());
   shading_.is_lit = frame.settings.shading;
-  shading_.two_sided = frame.cloud.isTwoSided();
+  shading_.two_sided = !frame.culls();
 }
 
 } // namespace pcl_uvol

@@ -214,7 +214,7 @@ private:
              first_column_ + View::guard - side,
              first_row_ + View::guard + row,
              count_,
-             isInBuffer(row) ? blendedAt(seen) : BlendSums{nullptr, nullptr},
+             isInBuffer(row) ? blendedAt(seen) : BlendSums{},
              rowOf(stage_, row));
     }
   }
@@ -231,7 +231,8 @@ private:
       return all;
     const std::ptrdiff_t place = key - buffer_.row(0);
     return {all.values + blended_values * place,
-            all.marks + BlendSums::segmentOf(place)};
+            all.marks + BlendSums::segmentOf(place),
+            nullptr};
   }
 
   void

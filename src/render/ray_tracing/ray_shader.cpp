@@ -127,7 +127,8 @@ RayShader::visibility(const Light& light,
     ++counts_.shadow;
     return world_.transmission({start, to_source / distance},
                                is_point ? distance
-                                        : std::numeric_limits<double>::infinity());
+                                        : std::numeric_limits<double>::infinity(),
+                               {seen.hit.splat_object, seen.plane_normal});
   };
   if (light.radius == 0.0)
     return transmission(to_center);
@@ -161,7 +162,9 @@ RayShader::openness(const Seen& seen)
                                       std::sqrt(1.0 - sq_r) * seen.normal;
     ++counts_.shadow;
     open += direction.dot(seen.plane_normal) > 0.0 &&
-                    !world_.isBlocked({start, direction}, occlusion_distance_)
+                    !world_.isBlocked({start, direction},
+                                      occlusion_distance_,
+                                      {seen.hit.splat_object, seen.plane_normal})
                 ? 1
                 : 0;
   }

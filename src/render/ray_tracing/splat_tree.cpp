@@ -181,10 +181,20 @@ SplatTree::localRay(const Ray& ray, double entry, double near, double far) const
 }
 
 bool
-SplatTree::isBlocked(const Ray& ray, double near, double far) const
+SplatTree::isBlocked(const Ray& ray,
+                     double near,
+                     double far,
+                     const Eigen::Vector3d* own_normal) const
 {
   const auto entry = findEntry(ray, near, far);
-  return entry && kernels_->isBlocked(arrays(), localRay(ray, *entry, near, far));
+  if (!entry)
+    return false;
+  TreeRay local = localRay(ray, *entry, near, far);
+  if (own_normal != nullptr)
+    for (int axis = 0; axis < 3; ++axis)
+      local.own_normal[axis] = static_cast<float>((*own_normal)[axis]);
+  local.from_start = static_cast<float>(*entry);
+  return kernels_->isBlocked(arrays(), local);
 }
 
 bool

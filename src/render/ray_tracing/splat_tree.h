@@ -66,9 +66,15 @@ public:
             std::vector<SplatHit>& hits,
             SplatSurfaceHit& hit) const;
 
-  /** \brief True if something lies between two distances on a ray. */
+  /** \brief True if something lies between two distances on a ray.
+   * \param own_normal of the surface of this tree that the ray starts on, on the side
+   * of the ray: splats of this surface near the start count for nothing; null: it
+   * starts elsewhere */
   bool
-  isBlocked(const Ray& ray, double near, double far) const;
+  isBlocked(const Ray& ray,
+            double near,
+            double far,
+            const Eigen::Vector3d* own_normal) const;
 
   /** \brief A ball around all splats. */
   BoundingSphere

@@ -169,6 +169,34 @@ collect(const TreeArrays& tree,
   return count;
 }
 
+/** In radii of a splat: nearer to it a ray that comes out of the surface it starts on,
+ * or that goes into it, has not left this surface yet. Splats are tangent planes: where
+ * the surface is convex they stand out from it, over the places beside them. @{ */
+constexpr float reach_outwards = 3.0f, reach_inwards = 1.0f;
+/** @} */
+
+/** Least cosine of the normals of two splats of one surface, for a ray that comes out
+ * or goes in. @{ */
+constexpr float aligned_outwards = 0.25f, aligned_inwards = 0.7f;
+/** @} */
+
+/** True for a splat of the surface that the ray starts on, near its start. */
+bool
+isOwn(const TreeRay& ray, const TreeLeaf& leaf, int splat, float distance)
+{
+  float alignment = 0.0f, rise = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    alignment += leaf.normal[axis][splat] * ray.own_normal[axis];
+    rise += leaf.normal[axis][splat] * ray.direction[axis];
+  }
+  const bool comes_out = alignment * rise > 0.0f;
+  const float least = comes_out ? aligned_outwards : aligned_inwards;
+  const float reach = comes_out ? reach_outwards : reach_inwards;
+  const float way = distance + ray.from_start;
+  return alignment * alignment > least * least &&
+         way * way < reach * reach * leaf.sq_radius[splat];
+}
+
 bool
 isBlocked(const TreeArrays& tree, const TreeRay& ray)
 {
@@ -176,7 +204,12 @@ isBlocked(const TreeArrays& tree, const TreeRay& ray)
   bool is_blocked = false;
   alignas(64) float distance[tree_width], sq_offset[tree_width];
   traversal.run([&](std::uint32_t number) {
-    is_blocked = traversal.meet(tree.leaves[number], distance, sq_offset) != 0;
+    const TreeLeaf& leaf = tree.leaves[number];
+    std::uint32_t met = traversal.meet(leaf, distance, sq_offset);
+    for (; met != 0 && !is_blocked; met &= met - 1) {
+      const int i = __builtin_ctz(met);
+      is_blocked = !isOwn(ray, leaf, i, distance[i]);
+    }
     return !is_blocked;
   });
   return is_blocked;

@@ -40,6 +40,10 @@ struct TreeArrays {
 struct TreeRay {
   float origin[3], direction[3]; ///< of length 1
   float near, far;               ///< distances between which it is looked at
+  /** Normal, on the side of the ray, of the surface of splats that it starts on, and
+   * the distance from there to the origin; 0: it starts elsewhere. @{ */
+  float own_normal[3], from_start;
+  /** @} */
 };
 
 /** \brief A place where a ray meets a splat. */
@@ -62,7 +66,8 @@ struct SplatTreeKernels {
                          SplatHit* hits,
                          std::size_t room);
 
-  /** \brief True if the ray meets any splat. */
+  /** \brief True if the ray meets any splat but those that lie over one another in the
+   * surface it starts on. */
   bool (*isBlocked)(const TreeArrays& tree, const TreeRay& ray);
 };
 

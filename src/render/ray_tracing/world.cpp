@@ -112,6 +112,7 @@ World::intersect(const Ray& ray, std::vector<SplatHit>& hits, SurfaceHit& hit) c
   hit.material = nullptr;
   hit.lift = rounding_;
   hit.grazing = 0.0;
+  hit.splat_object = -1;
   for (const SphereObject& sphere : scene_.spheres)
     if (const auto distance = meetSphere(sphere, ray))
       if (*distance < hit.distance) {
@@ -139,14 +140,26 @@ World::intersect(const Ray& ray, std::vector<SplatHit>& hits, SurfaceHit& hit) c
       hit.color = splats.color;
       hit.material = &scene_.splats[i].material;
       hit.grazing = splats.bend;
+      hit.splat_object = static_cast<int>(i);
       hit.lift = rounding_ + lift_in_thicknesses * splats.thickness;
     }
   hit.position = ray.origin + hit.distance * ray.direction;
   return hit.material != nullptr;
 }
 
+bool
+World::isBlockedBy(std::size_t splat_object,
+                   const Ray& ray,
+                   double distance,
+                   const RayStart& start) const
+{
+  const bool is_own = start.splat_object == static_cast<int>(splat_object);
+  return trees_[splat_object].isBlocked(
+      ray, near(), distance, is_own ? &start.normal : nullptr);
+}
+
 double
-World::transmission(const Ray& ray, double distance) const
+World::transmission(const Ray& ray, double distance, const RayStart& start) const
 {
   double part = 1.0;
   for (const SphereObject& sphere : scene_.spheres)
@@ -156,14 +169,17 @@ World::transmission(const Ray& ray, double distance) const
     if (meetPlane(plane, ray).value_or(distance) < distance)
       part *= plane.material.transparency;
   for (std::size_t i = 0; i < trees_.size() && part > 0.0; ++i)
-    if (trees_[i].isBlocked(ray, near(), distance))
+    if (isBlockedBy(i, ray, distance, start))
       part *= scene_.splats[i].material.transparency;
   return part;
 }
 
 bool
-World::isBlocked(const Ray& ray, double distance) const
+World::isBlocked(const Ray& ray, double distance, const RayStart& start) const
 {
+  for (std::size_t i = 0; i < trees_.size(); ++i)
+    if (isBlockedBy(i, ray, distance, start))
+      return true;
   const auto meets = [&](const std::optional<double>& met) {
     return met.value_or(distance) < distance;
   };
@@ -173,10 +189,7 @@ World::isBlocked(const Ray& ray, double distance) const
              [&](const auto& sphere) { return meets(meetSphere(sphere, ray)); }) ||
          std::any_of(scene_.planes.begin(),
                      scene_.planes.end(),
-                     [&](const auto& plane) { return meets(meetPlane(plane, ray)); }) ||
-         std::any_of(trees_.begin(), trees_.end(), [&](const SplatTree& tree) {
-           return tree.isBlocked(ray, near(), distance);
-         });
+                     [&](const auto& plane) { return meets(meetPlane(plane, ray)); });
 }
 
 } // namespace pcl_uvol

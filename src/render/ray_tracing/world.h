@@ -26,6 +26,15 @@ struct SurfaceHit {
   /** Cosine up to which a ray that comes from behind is one that grazes the outside: on
    * an outline splats stand out from their surface. */
   double grazing;
+  /** The object of splats that it belongs to; -1 for another one. */
+  int splat_object;
+};
+
+/** \brief The surface that a shadow ray starts on, and its normal on the side of the
+ * ray. */
+struct RayStart {
+  int splat_object; ///< as in SurfaceHit
+  Eigen::Vector3d normal;
 };
 
 /** \brief The objects of a scene. */
@@ -53,13 +62,20 @@ public:
   /** \brief Part of the light that comes along a ray from that distance: every object
    * in between lets its transparency through. */
   double
-  transmission(const Ray& ray, double distance) const;
+  transmission(const Ray& ray, double distance, const RayStart& start) const;
 
   /** \brief True if anything lies on a ray up to that distance. */
   bool
-  isBlocked(const Ray& ray, double distance) const;
+  isBlocked(const Ray& ray, double distance, const RayStart& start) const;
 
 private:
+  /** As SplatTree::isBlocked. */
+  bool
+  isBlockedBy(std::size_t splat_object,
+              const Ray& ray,
+              double distance,
+              const RayStart& start) const;
+
   /** A splat that a ray starts on, to rounding, is not met. */
   double
   near() const

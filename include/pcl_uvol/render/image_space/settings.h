@@ -20,9 +20,16 @@ enum class SmoothingFilter {
  * distance to the eye over that of the farthest place of the cloud, background 1. */
 struct ImageSpaceSettings {
   // Projection (4.3.1)
-  bool cull_back_faces = true;
+  /** Leave out points that look away from the eye, which closed surfaces whose normals
+   * point outwards hide: faster. Else both sides are lit, and discs of one do not blend
+   * into the other. */
+  bool cull_back_faces = false;
   /** Oriented discs where points lie farther apart than pixels; beyond the thesis. */
   bool footprints = true;
+  /** Pixels, above 0: points whose disc has a smaller radius are single pixels, and
+   * larger discs are blended into each other. Smaller numbers are smoother, larger ones
+   * faster. With supersampling it counts pixels of the picture. */
+  double smallest_disc = 0.7;
 
   // Pixel filling (4.3.2): most iterations; fewer if nothing changes, 0 leaves it out
   int background_fill = 64;
@@ -43,10 +50,12 @@ struct ImageSpaceSettings {
   bool silhouettes = false;
   /** Least value of the Laplace filter on depth (Table 4.2). */
   double silhouette_threshold = 0.02;
-  /** Pixels, in [1, 7]. */
-  int silhouette_thickness = 1;
+  /** Lines are 2 t - 1 pixels wide for the thickness t in [1, 7]; with supersampling
+   * wide lines come out narrower. */
+  int silhouette_thickness = 2;
   bool feature_lines = false;
-  /** Least 1 - cos of the angle between the normals of a pixel and its neighbours. */
+  /** Least 1 - cos of the angle between the normals of a pixel and two of its
+   * neighbours. */
   double feature_threshold = 0.06;
   Color line_color{0.0f, 0.0f, 0.0f};
 

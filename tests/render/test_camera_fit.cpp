@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cameras that see all points, as large as may be.
+#include "render/camera_fit.h"
+
+#include <gtest/gtest.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace {
+
+using pcl_uvol::Camera;
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+
+/** Random points of a box. */
+Cloud
+makeBox(const Eigen::Vector3f& center, const Eigen::Vector3f& half)
+{
+  Cloud cloud;
+  std::mt19937_64 engine(1);
+  std::uniform_real_distribution<float> place(-1.0f, 1.0f);
+  for (int i = 0; i < 3000; ++i) {
+    pcl::PointXYZ point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = center[axis] + half[axis] * place(engine);
+    cloud.push_back(point);
+  }
+  return cloud;
+}
+
+/** The ends of points in the image, in parts of half its height. */
+struct Ends {
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
+
+  Ends(const Camera& camera, const Cloud& cloud)
+  {
+    const double half = std::tan(camera.vertical_fov * M_PI / 360.0);
+    for (const auto& point : cloud) {
+      if (!std::isfinite(point.x))
+        continue;
+      const Eigen::Vector3d c =
+          camera.rotation() * (point.getVector3fMap().cast<double>() - camera.eye);
+      EXPECT_GT(c.z(), 0.0);
+      left = std::min(left, c.x() / c.z() / half);
+      right = std::max(right, c.x() / c.z() / half);
+      top = std::min(top, c.y() / c.z() / half);
+      bottom = std::max(bottom, c.y() / c.z() / half);
+    }
+  }
+};
+
+TEST(CameraFit, PointsFillTheImageAndLieInItsMiddle)
+{
+  for (const Eigen::Vector3f& half : {Eigen::Vector3f(1.0f, 0.1f, 0.05f),
+                                      Eigen::Vector3f(0.1f, 0.2f, 3.0f),
+                                      Eigen::Vector3f(5e3f, 4e3f, 0.0f)})
+    for (const std::string& view : Camera::viewNames())
+      for (const double aspect : {0.5, 1.0, 2.0}) {
+        Cloud cloud = makeBox({100.0f, -20.0f, 7.0f}, half);
+        cloud[5].x = std::numeric_limits<float>::quiet_NaN();
+        const Camera ball =
+            Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
+        const Camera camera =
+            pcl_uvol::fitToPoints(ball, pcl_uvol::viewOf(cloud), aspect, 0.8);
+        EXPECT_LT((camera.rotation() - ball.rotation()).norm(), 1e-9);
+        const Ends ends(camera, cloud);
+        const double width = std::max(ends.right, -ends.left) / aspect,
+                     height = std::max(ends.bottom, -ends.top);
+        EXPECT_NEAR(0.8, std::max(width, height), 1e-3) << view << ' ' << aspect;
+        // Where there is room to spare, perspective shifts them a bit.
+        EXPECT_NEAR(ends.right, -ends.left, width > height ? 1e-3 : 0.3 * aspect);
+        EXPECT_NEAR(ends.bottom, -ends.top, height > width ? 1e-3 : 0.3);
+      }
+}
+
+TEST(CameraFit, LeavesTheCameraOfASinglePlaceAlone)
+{
+  const Camera camera = Camera::fit({{1.0, 2.0, 3.0}, 1.0}, "iso", 30.0, 1.0);
+  Cloud cloud;
+  EXPECT_EQ(camera.eye,
+            pcl_uvol::fitToPoints(camera, pcl_uvol::viewOf(cloud), 1.0).eye);
+  cloud.push_back({1.0f, 2.0f, 3.0f});
+  EXPECT_EQ(camera.eye,
+            pcl_uvol::fitToPoints(camera, pcl_uvol::viewOf(cloud), 1.0).eye);
+}
+
+} // namespace
