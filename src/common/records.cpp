@@ -2,6 +2,7 @@
 // From records as they lie in files to datasets.
 #include "common/records.h"
 
+#include "common/merged_positions.h"
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -219,6 +220,18 @@ RecordLayout::convert(const std::uint8_t* records,
   }
 }
 
+std::string
+RecordLayout::describeMerging(const std::uint8_t* records, std::size_t count) const
+{
+  if (floats_)
+    return "";
+  const auto position_at = [&](std::size_t i) -> std::array<double, 3> {
+    const std::uint8_t* const record = records + i * record_step_;
+    return {axes_[0].read(record), axes_[1].read(record), axes_[2].read(record)};
+  };
+  return describe(findMergedPositions(count, position_at, header_.origin));
+}
+
 std::array<double, 3>
 findOrigin(const CoordinateRange& range, std::vector<std::string>& notes)
 {
@@ -256,6 +269,9 @@ makeDataset(pcl::PCLPointCloud2&& records, RecordInfo info)
     resizePoints(dataset.cloud, count);
     return dataset;
   }
+  const std::string merging = layout.describeMerging(records.data.data(), count);
+  if (!merging.empty())
+    dataset.notes.push_back(merging);
   resizePoints(dataset.cloud, count);
   layout.convert(records.data.data(), count, dataset.cloud.data.data());
   return dataset;

@@ -124,6 +124,11 @@ public:
   void
   addTo(CoordinateRange& range, const std::uint8_t* records, std::size_t count) const;
 
+  /** \brief A sentence about positions that rounding to float makes equal, see
+   * MergedPositions; else empty. */
+  std::string
+  describeMerging(const std::uint8_t* records, std::size_t count) const;
+
   /** \param[out] points gets as many points, of the header's point_step */
   void
   convert(const std::uint8_t* records, std::size_t count, std::uint8_t* points) const;

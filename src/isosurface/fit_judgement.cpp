@@ -143,6 +143,24 @@ leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result)
   result.error[lane] *= slope / gradient.norm();
 }
 
+namespace {
+
+/** The surface crosses the edge somewhere. */
+float
+errorOnEdge(const IsoEdge& edge, const PointIso& point)
+{
+  return std::max(edge.t, 1.0f - edge.t) * point.edge_length;
+}
+
+} // namespace
+
+void
+keepInGap(const IsoEdge& edge, PointIso& point)
+{
+  point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
+  point.error = errorOnEdge(edge, point);
+}
+
 void
 setIsopoint(const IsopointInput& input,
             const FitResult& result,
@@ -154,8 +172,7 @@ setIsopoint(const IsopointInput& input,
 {
   point.support = static_cast<std::uint8_t>(surroundings.support);
   if (!is_smooth) {
-    // The surface crosses the edge somewhere.
-    point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
+    point.error = errorOnEdge(edge, point);
     return;
   }
   // Derivatives by original coordinates: the fit was made in the stretched space.

@@ -24,7 +24,8 @@ struct Surroundings {
   double edge_span;   ///< part of the range between the values at the ends of the edge
   Position center;    ///< the linear root
   IsoSupport support;
-  bool has_steps; ///< the values are labels
+  bool has_steps;           ///< the values are labels
+  bool is_wide_gap = false; ///< see wide_gap
 };
 
 /** \brief Directions from an isopoint to samples, which the call makes unit vectors. */
@@ -32,6 +33,10 @@ struct NeighborDirections {
   float *x, *y, *z;
   std::size_t count; ///< a multiple of cone_lanes
 };
+
+/** \brief Of the radius of the support: where no sample is nearer, no fit can tell what
+ * the values are in the middle, since it has nothing there. */
+constexpr float wide_gap = 0.8f;
 
 /** \brief Whether samples have two values only, or few that are whole numbers.
  * \param values of all samples */
@@ -63,6 +68,10 @@ isFarFromJump(const FitResult& result,
 /** \brief Turn the result of a lane back from a metric, to the space it was made in. */
 void
 leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result);
+
+/** \brief Leave an isopoint on its edge across a wide gap. */
+void
+keepInGap(const IsoEdge& edge, PointIso& point);
 
 /** \brief Make an isopoint what its fit says; one that the fit does not serve stays
  * where it is. \param is_smooth whether it serves */

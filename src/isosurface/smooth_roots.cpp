@@ -49,6 +49,7 @@ struct DoubtfulFit {
   std::size_t point;
   Position center; ///< the linear root, in the stretched space
   double pivot;
+  bool is_in_gap; ///< a wide one, where there was no fit
 };
 
 /** Fits of consecutive isopoints; one object per thread. */
@@ -57,8 +58,9 @@ public:
   RootSmoother(const IsopointInput& input, float isovalue)
       : input_(input)
       , finder_(input.samples, fitted_samples + 1)
-      , nearest_(input.samples, fitted_samples + 1)
+      , nearest_(input.samples, fitted_samples + 1, true)
       , metrics_(input.samples)
+      , group_metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , isovalue_(isovalue)
@@ -96,28 +98,44 @@ private:
                PointIso* points,
                RootFit* fits)
   {
-    Position centers[fit_lanes];
-    for (std::size_t lane = 0; lane < count; ++lane)
+    Position centers[fit_lanes], searched[fit_lanes];
+    float gaps[fit_lanes] = {};
+    std::size_t searches = 0;
+    for (std::size_t lane = 0; lane < count; ++lane) {
       centers[lane] = centerOf(points[first + lane]);
-    finder_.expect(centers, count);
+      gaps[lane] = findGap(centers[lane], edges[first + lane]);
+      if (gaps[lane] == 0.0f)
+        searched[searches++] = centers[lane];
+    }
+    finder_.expect(searched, searches);
     Surroundings surroundings[fit_lanes];
     int weighted[fit_lanes] = {};
     for (std::size_t lane = 0; lane < fit_lanes; ++lane)
       weighted[lane] =
-          lane < count
+          lane < count && gaps[lane] == 0.0f
               ? gather(centers[lane], edges[first + lane], lane, surroundings[lane])
               : clear(lane, 0);
     FitResult result;
-    fit_(samples_.data(), samples_.size(), weighted, result);
+    if (searches > 0)
+      fit_(samples_.data(), samples_.size(), weighted, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const std::size_t i = first + lane;
+      if (gaps[lane] > 0.0f || surroundings[lane].is_wide_gap) {
+        const float radius = gaps[lane] > 0.0f
+                                 ? gaps[lane]
+                                 : static_cast<float>(surroundings[lane].radius);
+        fits[i] = {RootOutcome::Far, radius, radius};
+        keepInGap(edges[i], points[i]);
+        doubtful_.push_back({i, centers[lane], 0.0, true});
+        continue;
+      }
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
       const float radius = has_all ? std::numeric_limits<float>::infinity()
                                    : static_cast<float>(surroundings[lane].radius);
       fits[i] = {judge(result, lane, surroundings[lane]), radius, radius};
       if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
                        surroundings[lane].support != IsoSupport::Measured))
-        doubtful_.push_back({i, centers[lane], result.pivot[lane]});
+        doubtful_.push_back({i, centers[lane], result.pivot[lane], false});
       setIsopoint(input_,
                   result,
                   lane,
@@ -126,6 +144,70 @@ private:
                   edges[i],
                   points[i]);
     }
+  }
+
+  /** See NearestFinder::findGap: of points between ends that are not much farther apart
+   * than neighbours nearby it is not asked. */
+  float
+  findGap(const Position& center, const IsoEdge& edge)
+  {
+    const std::vector<Position>& positions = input_.samples.getPositions();
+    const double to_first = distance(positions[edge.first], center);
+    const double to_second = distance(positions[edge.second], center);
+    return 2.0 * std::min(to_first, to_second) > last_radius_
+               ? finder_.findGap(center, edge.first, edge.second, wide_gap)
+               : 0.0f;
+  }
+
+  /** How far samples that stretch one metric let a fit in it be trusted. */
+  static double
+  leastRatio(const DoubtfulFit& doubtful)
+  {
+    if (doubtful.is_in_gap)
+      return sure_stretching;
+    return doubtful.pivot < worthless_pivot ? little_stretching
+           : doubtful.pivot < good_pivot    ? LocalMetricFinder::even_ratio
+                                            : sure_stretching;
+  }
+
+  /** Find the metric around an edge.
+   * \param point has the support Bridged afterwards if it lies in a gap in the metric
+   * \param reach is set to the distance of what decides
+   * \return false if there is none, or no use in it */
+  bool
+  findMetric(const DoubtfulFit& doubtful,
+             const IsoEdge& edge,
+             PointIso& point,
+             double& reach)
+  {
+    const std::vector<Position>& positions = input_.samples.getPositions();
+    const double least_ratio = leastRatio(doubtful);
+    const std::uint32_t anchor = group_metrics_.findAnchor(edge.first);
+    const bool has_group = group_metrics_.find(anchor, least_ratio);
+    reach = group_metrics_.getReach() + distance(positions[anchor], doubtful.center);
+    if (group_metrics_.hasFailed() || (doubtful.is_in_gap && !has_group))
+      return false;
+    if (has_group && liesInGap(group_metrics_, doubtful.center)) {
+      reach = std::max(reach, nearest_.getReach());
+      if (group_metrics_.getRatio() >= sure_stretching)
+        point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
+      return false;
+    }
+    const bool is_found = has_group
+                              ? metrics_.refine(edge.first, group_metrics_, least_ratio)
+                              : metrics_.find(edge.first, least_ratio);
+    reach = std::max(
+        reach, metrics_.getReach() + distance(positions[edge.first], doubtful.center));
+    return is_found && metrics_.reaches(doubtful.center);
+  }
+
+  /** Whether a point certainly lies in a wide gap, as distances are in a metric. */
+  bool
+  liesInGap(const LocalMetricFinder& metrics, const Position& center)
+  {
+    return metrics.getPoolSize() > fitted_samples &&
+           nearest_.isEmpty(
+               center, metrics.getMetric(), wide_gap * metrics.findCrowd(center));
   }
 
   /** Fit again in the metrics of the samples around, where these are stretched. */
@@ -140,34 +222,32 @@ private:
     Eigen::Matrix3d metrics[fit_lanes];
     double ratios[fit_lanes];
     int weighted[fit_lanes] = {};
+    bool has_any = false;
     for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
       clear(lane, 0);
       if (lane >= count)
         continue;
-      const auto& [i, center, pivot] = doubtful[lane];
-      const Position& end = input_.samples.getPositions()[edges[i].first];
-      const bool is_stretched =
-          metrics_.find(edges[i].first,
-                        pivot < worthless_pivot ? little_stretching
-                        : pivot < good_pivot    ? LocalMetricFinder::even_ratio
-                                                : sure_stretching) &&
-          metrics_.reaches(center);
-      double reach = metrics_.getReach() + distance(end, center);
-      if (is_stretched) {
+      const std::size_t i = doubtful[lane].point;
+      const Position& center = doubtful[lane].center;
+      double reach = 0.0;
+      if (findMetric(doubtful[lane], edges[i], points[i], reach)) {
         metrics[lane] = metrics_.getMetric();
         ratios[lane] = metrics_.getRatio();
         weighted[lane] =
-            gatherStretched(metrics[lane], center, edges[i], lane, surroundings[lane]);
+            gatherStretched(metrics_, center, edges[i], lane, surroundings[lane]);
         reach = std::max(reach, nearest_.getReach());
+        has_any = true;
       }
       fits[i].radius = std::max(fits[i].radius, static_cast<float>(reach));
     }
     FitResult result;
-    fit_(samples_.data(), samples_.size(), weighted, result);
+    if (has_any)
+      fit_(samples_.data(), samples_.size(), weighted, result);
     for (std::size_t lane = 0; lane < count; ++lane) {
       if (weighted[lane] == 0)
         continue;
-      const auto& [i, center, pivot] = doubtful[lane];
+      const std::size_t i = doubtful[lane].point;
+      const double pivot = doubtful[lane].pivot;
       if (ratios[lane] < sure_stretching)
         surroundings[lane].support = static_cast<IsoSupport>(points[i].support);
       points[i].support = static_cast<std::uint8_t>(surroundings[lane].support);
@@ -221,6 +301,9 @@ private:
       for (int axis = 0; axis < 3; ++axis)
         direction_[axis][j] = x[axis] - center[axis];
     }
+    surroundings.is_wide_gap = neighbors.size > fitted_samples &&
+                               sq_nearest > wide_gap * wide_gap * sq_farthest;
+    last_radius_ = std::sqrt(sq_farthest);
     return fill(neighbors.samples,
                 neighbors.size,
                 sq_nearest,
@@ -232,12 +315,16 @@ private:
 
   /** The same in another metric. */
   int
-  gatherStretched(const Eigen::Matrix3d& metric,
+  gatherStretched(const LocalMetricFinder& metrics,
                   const Position& center,
                   const IsoEdge& edge,
                   std::size_t lane,
                   Surroundings& surroundings)
   {
+    const Eigen::Matrix3d& metric = metrics.getMetric();
+    const double crowd = metrics.getPoolSize() > fitted_samples
+                             ? metrics.findCrowd(center)
+                             : std::numeric_limits<double>::infinity();
     const auto image = [&](std::uint32_t sample, const Position& origin) {
       const Position& x = input_.samples.getPositions()[sample];
       Eigen::Vector3d offset;
@@ -248,7 +335,8 @@ private:
     surroundings.center = center;
     surroundings.edge_length =
         image(edge.second, input_.samples.getPositions()[edge.first]).norm();
-    const std::vector<std::uint32_t>& neighbors = nearest_.find(center, metric);
+    const std::vector<std::uint32_t>& neighbors =
+        nearest_.find(center, metric, crowd * crowd);
     double sq_nearest = std::numeric_limits<double>::infinity(), sq_farthest = 0.0;
     for (std::size_t j = 0; j < neighbors.size(); ++j) {
       const Eigen::Vector3d u = image(neighbors[j], center);
@@ -314,11 +402,12 @@ private:
   const IsopointInput& input_;
   NearestFinder finder_;
   MetricFinder nearest_;
-  LocalMetricFinder metrics_;
+  LocalMetricFinder metrics_, group_metrics_;
   std::vector<DoubtfulFit> doubtful_;
   std::vector<FitSample> samples_;
   FitKernel fit_;
   float isovalue_;
+  double last_radius_ = 0.0; ///< of a support found before
 };
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/local_metric.h"
 
+#include "common/dispatch.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -28,6 +30,13 @@ constexpr double least_lines = 0.3;
 constexpr double stretching = 5.0;
 constexpr int most_rounds = 6;
 
+/** Of the variances of nearest samples across a layer and along it: with less, none of
+ * the lines between them lead across. */
+constexpr double sq_layer = 0.0025;
+
+/** In spacings across layers: what is nearer belongs to the same layer. */
+constexpr double half_layer = 0.5;
+
 /** In radii of the samples that a metric is made from: edges of rotated lattices end
  * farther out than those, edges across gaps that nothing can be said of far beyond. */
 constexpr double gap = 16.0;
@@ -43,20 +52,26 @@ computeRatio(const Eigen::Vector3d& squares)
   return std::sqrt(squares.maxCoeff() / squares.minCoeff());
 }
 
-/** Numbers that comparisons of several at once take. */
-constexpr std::size_t line_lanes = 8;
-
-/** The index of the first of the smallest values. \param count a multiple of lanes */
-std::size_t
-findSmallest(const float* values, std::size_t count)
+Eigen::Vector3d
+between(const Position& from, const Position& to)
 {
-  float least[line_lanes];
-  std::copy(values, values + line_lanes, least);
-  for (std::size_t j = line_lanes; j < count; j += line_lanes)
-    for (std::size_t lane = 0; lane < line_lanes; ++lane)
-      least[lane] = values[j + lane] < least[lane] ? values[j + lane] : least[lane];
-  const float smallest = *std::min_element(least, least + line_lanes);
-  return static_cast<std::size_t>(std::find(values, values + count, smallest) - values);
+  Eigen::Vector3d offset;
+  for (int axis = 0; axis < 3; ++axis)
+    offset[axis] = static_cast<double>(to[axis]) - from[axis];
+  return offset;
+}
+
+const KernelTable<const MetricKernels*> kernel_table{
+    &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
+
+Eigen::Matrix3d
+toMatrix(const double (&moments)[6])
+{
+  Eigen::Matrix3d matrix;
+  matrix << moments[0], moments[1], moments[2], //
+      moments[1], moments[3], moments[4],       //
+      moments[2], moments[4], moments[5];
+  return matrix;
 }
 
 /** Whether samples differ along all axes. */
@@ -77,36 +92,23 @@ LineMoments::LineMoments(const std::vector<float> (&offsets)[3], std::size_t cen
   std::vector<float> lines[3], sq_lengths(count);
   for (auto& coordinate : lines)
     coordinate.resize(count);
-  float* const x = lines[0].data();
-  float* const y = lines[1].data();
-  float* const z = lines[2].data();
-  float* const sq = sq_lengths.data();
+  const MetricKernels& kernels = *kernel_table.get();
+  Moments moments{};
   for (std::size_t i = 0; i < central; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t j = 0; j < samples; ++j)
         lines[axis][j] = offsets[axis][j] - offsets[axis][i];
+    const float *x = lines[0].data(), *y = lines[1].data(), *z = lines[2].data();
     for (std::size_t j = 0; j < samples; ++j)
-      sq[j] = x[j] * x[j] + y[j] * y[j] + z[j] * z[j];
-    std::fill(sq + samples, sq + count, gone);
-    sq[i] = gone;
-    for (;;) {
-      const std::size_t nearest = findSmallest(sq, count);
-      const float sq_length = sq[nearest];
-      if (sq_length == gone)
-        break;
-      const float a = x[nearest], b = y[nearest], c = z[nearest];
-      const Eigen::Vector3d line(a, b, c);
-      const Eigen::Matrix3d square = line * line.transpose();
-      lengths += square;
-      directions += square / static_cast<double>(sq_length);
-      const float bound = sq_cosine * sq_length;
-      for (std::size_t j = 0; j < count; ++j) {
-        const float product = a * x[j] + b * y[j] + c * z[j];
-        sq[j] = product * product > bound * sq[j] ? gone : sq[j];
-      }
-      sq[nearest] = gone;
-    }
+      sq_lengths[j] = x[j] * x[j] + y[j] * y[j] + z[j] * z[j];
+    std::fill(sq_lengths.begin() + static_cast<std::ptrdiff_t>(samples),
+              sq_lengths.end(),
+              gone);
+    sq_lengths[i] = gone;
+    kernels.addLines(x, y, z, sq_lengths.data(), count, sq_cosine, moments);
   }
+  lengths = toMatrix(moments.lengths);
+  directions = toMatrix(moments.directions);
 }
 
 LocalMetricFinder::LocalMetricFinder(const SampleSet& samples)
@@ -120,14 +122,38 @@ LocalMetricFinder::LocalMetricFinder(const SampleSet& samples)
 bool
 LocalMetricFinder::reaches(const Position& point) const
 {
-  const Position& place = samples_.getPositions()[last_];
-  Eigen::Vector3d offset;
-  for (int axis = 0; axis < 3; ++axis)
-    offset[axis] = static_cast<double>(point[axis]) - place[axis];
+  const Eigen::Vector3d offset = between(samples_.getPositions()[last_], point);
   const double sq_distance = (metric_ * offset).squaredNorm() / (gap * gap);
   return std::any_of(nearest_.begin(), nearest_.end(), [&](const auto& neighbor) {
     return (metric_ * neighbor.second).squaredNorm() >= sq_distance;
   });
+}
+
+double
+LocalMetricFinder::findCrowd(const Position& point) const
+{
+  const Eigen::Vector3d offset = between(samples_.getPositions()[last_], point);
+  double sq_farthest = 0.0;
+  for (const auto& neighbor : nearest_)
+    sq_farthest =
+        std::max(sq_farthest, (metric_ * (neighbor.second - offset)).squaredNorm());
+  return std::sqrt(sq_farthest);
+}
+
+std::uint32_t
+LocalMetricFinder::findAnchor(std::uint32_t sample) const
+{
+  const auto& trees = samples_.getTrees();
+  const auto next = std::upper_bound(
+      trees.begin(), trees.end(), sample, [](std::uint32_t i, const KdTree& tree) {
+        return i < tree.getRoot().begin;
+      });
+  KdNode node = std::prev(next)->getRoot();
+  while (node.count > group_samples) {
+    const KdNode right = node.right();
+    node = sample < right.begin ? node.left() : right;
+  }
+  return node.begin + node.count / 2;
 }
 
 void
@@ -136,24 +162,42 @@ LocalMetricFinder::gather(std::uint32_t sample,
                           std::size_t count)
 {
   const std::vector<Position>& positions = samples_.getPositions();
-  nearest_.clear();
+  const Position& place = positions[sample];
+  order_.clear();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t neighbor = neighbors[i];
-    Eigen::Vector3d offset;
+    const Eigen::Vector3d image = metric_ * between(place, positions[neighbors[i]]);
+    order_.emplace_back(image.squaredNorm(), neighbors[i]);
+  }
+  std::sort(order_.begin(), order_.end());
+  nearest_.clear();
+  for (auto& coordinate : offsets_)
+    coordinate.clear();
+  for (const auto& [sq_dist, neighbor] : order_) {
+    const Eigen::Vector3d offset = between(place, positions[neighbor]);
+    nearest_.emplace_back(sq_dist, offset);
     for (int axis = 0; axis < 3; ++axis)
-      offset[axis] =
-          static_cast<double>(positions[neighbor][axis]) - positions[sample][axis];
-    nearest_.emplace_back((metric_ * offset).squaredNorm(), offset);
+      offsets_[axis].push_back(static_cast<float>(offset[axis]));
   }
-  std::stable_sort(nearest_.begin(), nearest_.end(), [](const auto& a, const auto& b) {
-    return a.first < b.first;
-  });
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    offsets_[axis].clear();
-    for (const auto& neighbor : nearest_)
-      offsets_[axis].push_back(
-          static_cast<float>(neighbor.second[static_cast<Eigen::Index>(axis)]));
+}
+
+bool
+LocalMetricFinder::stretchAcrossLayer()
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const auto& neighbor : nearest_) {
+    const Eigen::Vector3d image = metric_ * neighbor.second;
+    mean += image;
+    squares += image * image.transpose();
   }
+  squares -= mean * mean.transpose() / static_cast<double>(nearest_.size());
+  const Solver eigen(squares);
+  if (!(eigen.eigenvalues()[0] < sq_layer * eigen.eigenvalues()[1]))
+    return false;
+  const Eigen::Vector3d normal =
+      (metric_.transpose() * eigen.eigenvectors().col(0)).normalized();
+  metric_ -= (1.0 - 1.0 / stretching) * (metric_ * normal) * normal.transpose();
+  return true;
 }
 
 bool
@@ -171,67 +215,143 @@ LocalMetricFinder::stretchAcross(const LineMoments& lines)
   return unseen > 0;
 }
 
-bool
-LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
+double
+LocalMetricFinder::setMetric(const LineMoments& lines)
 {
-  if (!has_last_ || sample != last_ || least_ratio != last_ratio_) {
-    last_found_ = search(sample, least_ratio);
-    last_ = sample;
-    last_ratio_ = least_ratio;
-    has_last_ = true;
-  }
-  return last_found_;
+  const Solver eigen(lines.lengths);
+  const Eigen::Matrix3d& axes = eigen.eigenvectors();
+  Eigen::Vector3d squares;
+  for (int i = 0; i < 3; ++i)
+    squares[i] =
+        eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
+  spacings_ = axes * squares.asDiagonal() * axes.transpose();
+  ratio_ = computeRatio(squares);
+  const Solver seen(metric_ * spacings_ * metric_.transpose());
+  const Eigen::Vector3d factors =
+      (squares.minCoeff() * squares.cwiseInverse()).cwiseSqrt();
+  metric_ = axes * factors.asDiagonal() * axes.transpose();
+  return computeRatio(seen.eigenvalues());
 }
 
 bool
-LocalMetricFinder::search(std::uint32_t sample, double least_ratio)
+LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
 {
-  const Position& place = samples_.getPositions()[sample];
+  if (known_ == Known::Nothing || sample != last_) {
+    last_ = sample;
+    is_seen_ = lookAround(sample);
+    first_ratio_ = ratio_;
+    known_ = Known::FirstLook;
+  }
+  if (is_flat_ || (is_seen_ && first_ratio_ < least_ratio))
+    return false;
+  if (known_ == Known::FirstLook) {
+    has_metric_ = search(sample);
+    known_ = Known::All;
+  }
+  return has_metric_;
+}
+
+bool
+LocalMetricFinder::lookAround(std::uint32_t sample)
+{
   metric_.setIdentity();
   spacings_.setIdentity();
-  if (is_flat_) {
-    reach_ = 0.0;
-    ratio_ = std::numeric_limits<double>::infinity();
+  ratio_ = std::numeric_limits<double>::infinity();
+  reach_ = 0.0;
+  if (is_flat_)
     return false;
+  const auto row = first_finder_.find(samples_.getPositions()[sample],
+                                      static_cast<float>(typical_reach_));
+  gather(sample, row.samples, row.size);
+  reach_ = typical_reach_ = std::sqrt(nearest_.back().first);
+  if (stretchAcrossLayer())
+    return false;
+  const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
+  if (stretchAcross(lines))
+    return false;
+  setMetric(lines);
+  return true;
+}
+
+bool
+LocalMetricFinder::hasLayers() const
+{
+  const Solver eigen(spacings_);
+  const Eigen::Vector3d across =
+      eigen.eigenvectors().col(2) / std::sqrt(eigen.eigenvalues()[2]);
+  double first = std::numeric_limits<double>::infinity(), lowest = 0.0, highest = 0.0;
+  for (const auto& neighbor : nearest_) {
+    const double height = across.dot(neighbor.second);
+    if (std::abs(height) > half_layer)
+      first = std::min(first, std::abs(height));
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
   }
-  bool was_seen = false;
-  for (int round = 0; round < most_rounds; ++round) {
-    if (round == 0) {
-      const auto row = first_finder_.find(place, static_cast<float>(typical_reach_));
-      gather(sample, row.samples, row.size);
-      reach_ = typical_reach_ = std::sqrt(nearest_.back().first);
-    }
-    else {
-      const auto& row = finder_.find(place, metric_);
-      gather(sample, row.data(), row.size());
-      reach_ = std::max(reach_, finder_.getReach());
-    }
-    const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-    if (stretchAcross(lines)) {
-      if (was_seen) // what is seen from here is not what is there
-        break;
-      continue;
-    }
-    was_seen = true;
-    const Solver eigen(lines.lengths);
-    const Eigen::Matrix3d& axes = eigen.eigenvectors();
-    Eigen::Vector3d squares;
-    for (int i = 0; i < 3; ++i)
-      squares[i] =
-          eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
-    spacings_ = axes * squares.asDiagonal() * axes.transpose();
-    ratio_ = computeRatio(squares);
-    const Solver seen(metric_ * spacings_ * metric_.transpose());
-    if (round == 0 && ratio_ < least_ratio)
-      return false;
-    const Eigen::Vector3d factors =
-        (squares.minCoeff() * squares.cwiseInverse()).cwiseSqrt();
-    metric_ = axes * factors.asDiagonal() * axes.transpose();
-    if (round > 0 && computeRatio(seen.eigenvalues()) < even_ratio)
-      return true;
+  const double second = first + half_layer;
+  return (lowest < -half_layer && highest > half_layer) ||
+         std::max(-lowest, highest) > second;
+}
+
+double
+LocalMetricFinder::sqFarthest() const
+{
+  double sq_farthest = 0.0;
+  for (const auto& neighbor : nearest_)
+    sq_farthest = std::max(sq_farthest, (metric_ * neighbor.second).squaredNorm());
+  return sq_farthest;
+}
+
+double
+LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_stretch)
+{
+  const auto& row = finder_.find(samples_.getPositions()[sample], metric_, sq_limit);
+  gather(sample, row.data(), row.size());
+  reach_ = std::max(reach_, finder_.getReach());
+  if (may_stretch && stretchAcrossLayer())
+    return std::numeric_limits<double>::infinity();
+  const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
+  return stretchAcross(lines) ? std::numeric_limits<double>::infinity()
+                              : setMetric(lines);
+}
+
+bool
+LocalMetricFinder::search(std::uint32_t sample)
+{
+  bool was_seen = is_seen_;
+  for (int round = 1; round < most_rounds; ++round) {
+    const double ratio = lookInMetric(sample, sqFarthest(), !was_seen);
+    if (was_seen &&
+        !std::isfinite(ratio)) // what is seen from here is not what is there
+      break;
+    was_seen = std::isfinite(ratio);
+    if (ratio < even_ratio)
+      return is_seen_ || hasLayers();
   }
   ratio_ = std::numeric_limits<double>::infinity();
   return false;
+}
+
+bool
+LocalMetricFinder::refine(std::uint32_t sample,
+                          const LocalMetricFinder& nearby,
+                          double least_ratio)
+{
+  if (known_ == Known::Nothing || sample != last_) {
+    last_ = sample;
+    metric_ = nearby.metric_;
+    reach_ = nearby.reach_;
+    const double crowd = nearby.findCrowd(samples_.getPositions()[sample]);
+    double ratio = lookInMetric(sample, crowd * crowd, false);
+    for (int round = 2;
+         round < most_rounds && ratio >= even_ratio && std::isfinite(ratio);
+         ++round)
+      ratio = lookInMetric(sample, sqFarthest(), false);
+    has_metric_ = ratio < even_ratio;
+    is_seen_ = has_metric_;
+    first_ratio_ = ratio_;
+    known_ = Known::All;
+  }
+  return has_metric_ && ratio_ >= least_ratio;
 }
 
 } // namespace pcl_uvol

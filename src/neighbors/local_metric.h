@@ -22,8 +22,7 @@ namespace pcl_uvol {
  * head: an axis counts by the nearer of its two sides, so that neither the border of a
  * gap nor that of the cloud looks like a stretched sampling. */
 struct LineMoments {
-  Eigen::Matrix3d lengths = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d directions = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d lengths, directions;
 
   /** \param offsets of samples, from anywhere: all x, all y, all z
    * \param central how many of the first ones lines start from; the others are there to
@@ -42,11 +41,34 @@ public:
   /** \param samples must outlive the finder */
   explicit LocalMetricFinder(const SampleSet& samples);
 
+  /** \brief Samples of a small node of the tree, at most: they have metrics that differ
+   * little, or none. A piece of a larger set has the nodes of the whole if it has more
+   * samples. */
+  static constexpr std::uint32_t group_samples = 16;
+
+  /** \brief The sample that stands for all of its node. */
+  std::uint32_t
+  findAnchor(std::uint32_t sample) const;
+
   /** \brief Find the metric around a sample.
    * \return false, and no metric, if spacings differ by less than a ratio, or if no
    * metric shows samples on all sides, as on a plane or a line */
   bool
   find(std::uint32_t sample, double least_ratio = even_ratio);
+
+  /** \brief Find the metric around a sample from one that is nearly right.
+   * \param nearby what was found around another sample nearby
+   * \return false if there is none, or if spacings differ by less than the ratio */
+  bool
+  refine(std::uint32_t sample, const LocalMetricFinder& nearby, double least_ratio);
+
+  /** \brief Whether a search around the last sample has found no metric, however much
+   * spacings differ. */
+  bool
+  hasFailed() const
+  {
+    return known_ == Known::All && !has_metric_;
+  }
 
   /** \brief Of the last sample: x -> metric * x makes spacings equal. 1 where samples
    * lie densest. */
@@ -61,6 +83,17 @@ public:
    */
   bool
   reaches(const Position& point) const;
+
+  /** \brief A distance in the metric from a point within which at least
+   * getPoolSize() samples lie. */
+  double
+  findCrowd(const Position& point) const;
+
+  std::size_t
+  getPoolSize() const
+  {
+    return nearest_.size();
+  }
 
   /** \brief Its eigenvectors are the directions, its eigenvalues the squared spacings
    * along them. Undefined where the ratio is infinite. */
@@ -90,8 +123,42 @@ private:
    * among them. */
   static constexpr std::size_t pool = 41;
 
+  /** Look at the nearest samples of one, which makes a first guess.
+   * \return whether there are samples on all sides of it */
   bool
-  search(std::uint32_t sample, double least_ratio);
+  lookAround(std::uint32_t sample);
+
+  /** Find the metric from there on.
+   * \return false if there is none */
+  bool
+  search(std::uint32_t sample);
+
+  /** Squared distance in the metric to the farthest of the samples looked at last: as
+   * many are within it. */
+  double
+  sqFarthest() const;
+
+  /** One look in the metric, at samples within a squared distance in it, which corrects
+   * it.
+   * \return the ratio of the longest to the shortest spacing in the metric before;
+   * infinite where samples are not on all sides */
+  double
+  lookInMetric(std::uint32_t sample, double sq_limit, bool may_stretch);
+
+  /** Let the metric look farther across a single layer.
+   * \return false if the samples looked at are more than that */
+  bool
+  stretchAcrossLayer();
+
+  /** Whether samples lie in three layers at least along the axis of the longest
+   * spacing: what is beyond a single gap are no layers. */
+  bool
+  hasLayers() const;
+
+  /** From the lines between samples, the spacings and the metric that evens them out.
+   * \return the ratio of the longest to the shortest spacing in the metric before */
+  double
+  setMetric(const LineMoments& lines);
 
   /** Look at some samples, by distance in the metric, from one of them. */
   void
@@ -109,13 +176,16 @@ private:
   Eigen::Matrix3d metric_, spacings_;
   std::vector<std::pair<double, Eigen::Vector3d>> nearest_;
   std::vector<float> offsets_[3];
-  double reach_ = 0.0, ratio_ = 1.0;
+  std::vector<std::pair<double, std::uint32_t>> order_;
+  double reach_ = 0.0, ratio_ = 1.0, first_ratio_ = 1.0;
   double typical_reach_ = 1.0; ///< of the sample before: where a search starts
 
-  // Edges of a sample follow one another.
-  bool has_last_ = false, last_found_ = false;
+  /** What is known of the last sample: edges of a group follow one another. */
+  enum class Known { Nothing, FirstLook, All };
+  Known known_ = Known::Nothing;
   std::uint32_t last_ = 0;
-  double last_ratio_ = 0.0;
+  bool is_seen_ = false; ///< samples on all sides at the first look
+  bool has_metric_ = false;
 };
 
 } // namespace pcl_uvol

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/metric_finder.h"
 
+#include "common/dispatch.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -13,36 +15,73 @@ namespace pcl_uvol {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const KernelTable<const MetricKernels*> kernel_table{
+    &baseline::metric_kernels, &avx2::metric_kernels, &avx512::metric_kernels};
+
+MetricRows
+toRows(const Eigen::Matrix3d& matrix)
+{
+  MetricRows rows;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      rows.row[i][j] = matrix(i, j);
+  return rows;
+}
+
 /** Room for rounding: a box must not seem farther than a sample in it. The squares of
  * the metric are known to 1e-16 of the largest of them. */
 constexpr double slack = 1.0 + 1e-6;
 
+/** Samples per neighbour that are kept for the points to come; where there are more,
+ * each point is searched for on its own. */
+constexpr std::size_t most_copied = 6;
+
 } // namespace
 
-double
-MetricFinder::sqBound(const KdBox& box) const
+MetricFinder::MetricFinder(const SampleSet& samples, std::size_t k, bool shares)
+    : samples_(samples)
+    , k_(k)
+    , shares_(shares)
+    , kernels_(kernel_table.get())
 {
-  double middle[3], half[3], sq_beside = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = static_cast<double>(box.low[axis]) - point_[axis];
-    const double high = static_cast<double>(box.high[axis]) - point_[axis];
-    middle[axis] = 0.5 * (low + high);
-    half[axis] = 0.5 * (high - low);
-    // Across the faces of the box along an axis.
-    const double gap = std::max(0.0, std::abs(middle[axis]) - half[axis]);
-    sq_beside = std::max(sq_beside, gap * gap / sq_extent_[axis]);
-  }
-  // Across the axes of the metric: the image of the box lies between two planes.
-  double sq_between = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double a = bounds_(i, 0), b = bounds_(i, 1), c = bounds_(i, 2);
-    const double place = std::abs(a * middle[0] + b * middle[1] + c * middle[2]);
-    const double room =
-        std::abs(a) * half[0] + std::abs(b) * half[1] + std::abs(c) * half[2];
-    const double gap = std::max(0.0, place - room);
-    sq_between += gap * gap;
-  }
-  return std::max(sq_beside, sq_between);
+}
+
+void
+MetricFinder::setMetric(const Eigen::Matrix3d& metric)
+{
+  if (has_metric_ && metric == metric_)
+    return;
+  metric_ = metric;
+  const Eigen::Matrix3d inverse = metric.inverse();
+  const Eigen::Vector3d sq_extent = inverse.rowwise().squaredNorm();
+  for (int axis = 0; axis < 3; ++axis)
+    bounds_.per_sq_extent[axis] = 1.0 / sq_extent[axis];
+  // No direction is longer in the metric by more than this norm of its inverse.
+  most_stretched_ = inverse.norm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(metric.transpose() *
+                                                               metric);
+  bounds_.rows = toRows(squares.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+                        squares.eigenvectors().transpose());
+  rows_ = toRows(metric);
+  has_metric_ = true;
+  has_copy_ = false;
+}
+
+void
+MetricFinder::findBounds(const KdBox& left,
+                         const KdBox& right,
+                         double (&sq_bounds)[2]) const
+{
+  const KdBox* const both[2] = {&left, &right};
+  BoxPair boxes;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 2; ++i) {
+      boxes.low[axis][i] = static_cast<double>(both[i]->low[axis]) - point_[axis];
+      boxes.high[axis][i] = static_cast<double>(both[i]->high[axis]) - point_[axis];
+    }
+  kernels_->findBounds(boxes, bounds_, sq_bounds);
 }
 
 bool
@@ -51,30 +90,18 @@ MetricFinder::mayHold(double sq_bound) const
   return sq_bound <= slack * sq_farthest_;
 }
 
-void
-MetricFinder::measureBucket(const KdNode& bucket)
+double
+MetricFinder::measure(const Position* positions,
+                      std::size_t count,
+                      double* sq_dists) const
 {
-  const Position* const positions = &samples_.getPositions()[bucket.begin];
-  std::array<double, KdTree::bucket_samples> x[3], sq_dists;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double place = point_[axis];
-    for (std::size_t i = 0; i < bucket.count; ++i)
-      x[axis][i] = positions[i].x[axis] - place;
-  }
-  for (std::size_t i = 0; i < bucket.count; ++i)
-    sq_dists[i] = 0.0;
-  for (int row = 0; row < 3; ++row) {
-    const double a = metric_(row, 0), b = metric_(row, 1), c = metric_(row, 2);
-    for (std::size_t i = 0; i < bucket.count; ++i) {
-      const double image = a * x[0][i] + b * x[1][i] + c * x[2][i];
-      sq_dists[i] += image * image;
-    }
-  }
-  const std::size_t before = nearest_.size();
-  for (std::uint32_t i = 0; i < bucket.count; ++i)
-    if (sq_dists[i] <= sq_farthest_)
-      nearest_.emplace_back(sq_dists[i], bucket.begin + i);
-  if (nearest_.size() == before || nearest_.size() < k_)
+  return kernels_->measure(positions->x, count, point_.x, rows_, sq_dists);
+}
+
+void
+MetricFinder::keepNearest()
+{
+  if (nearest_.size() < k_)
     return;
   const auto last = nearest_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
   std::nth_element(nearest_.begin(), last, nearest_.end());
@@ -83,50 +110,136 @@ MetricFinder::measureBucket(const KdNode& bucket)
 }
 
 void
-MetricFinder::descend(const KdTree& tree, const KdNode& node)
+MetricFinder::measureBucket(const KdNode& bucket)
 {
-  if (KdTree::isBucket(node)) {
-    measureBucket(node);
+  std::array<double, KdTree::bucket_samples> sq_dists;
+  const double least =
+      measure(&samples_.getPositions()[bucket.begin], bucket.count, sq_dists.data());
+  if (least > sq_farthest_)
     return;
-  }
-  std::pair<double, KdNode> halves[] = {
-      {sqBound(tree.getBox(node.left())), node.left()},
-      {sqBound(tree.getBox(node.right())), node.right()}};
-  if (halves[1].first < halves[0].first)
+  for (std::uint32_t i = 0; i < bucket.count; ++i)
+    if (sq_dists[i] <= sq_farthest_)
+      nearest_.emplace_back(sq_dists[i], bucket.begin + i);
+  has_copy_ = has_copy_ && nearest_.size() <= most_copied * k_;
+  // Sorting out costs more than looking at some samples too many.
+  if (!has_copy_ && nearest_.size() >= k_ + (sq_farthest_ == infinity ? 0 : k_ / 4))
+    keepNearest();
+}
+
+template <typename Visit>
+bool
+MetricFinder::descend(const KdTree& tree, const KdNode& node, const Visit& visit)
+{
+  if (KdTree::isBucket(node))
+    return visit(node);
+  KdNode halves[2] = {node.left(), node.right()};
+  double sq_bounds[2];
+  findBounds(tree.getBox(halves[0]), tree.getBox(halves[1]), sq_bounds);
+  if (sq_bounds[1] < sq_bounds[0]) {
     std::swap(halves[0], halves[1]);
-  for (const auto& [sq_bound, half] : halves)
-    if (mayHold(sq_bound))
-      descend(tree, half);
+    std::swap(sq_bounds[0], sq_bounds[1]);
+  }
+  for (int i = 0; i < 2; ++i)
+    if (mayHold(sq_bounds[i]) && !descend(tree, halves[i], visit))
+      return false;
+  return true;
+}
+
+template <typename Visit>
+bool
+MetricFinder::visitTrees(const Visit& visit)
+{
+  const KdTree& own = samples_.getTree();
+  const auto search = [&](const KdTree& tree) {
+    const KdBox& box = tree.getBox(tree.getRoot());
+    double sq_bounds[2];
+    findBounds(box, box, sq_bounds);
+    return !mayHold(sq_bounds[0]) || descend(tree, tree.getRoot(), visit);
+  };
+  const auto& trees = samples_.getTrees();
+  return search(own) &&
+         std::all_of(trees.begin(), trees.end(), [&](const KdTree& tree) {
+           return &tree == &own || search(tree);
+         });
+}
+
+bool
+MetricFinder::isEmpty(const Position& point,
+                      const Eigen::Matrix3d& metric,
+                      double distance)
+{
+  setMetric(metric);
+  point_ = point;
+  sq_farthest_ = distance * distance;
+  reach_ = distance * most_stretched_;
+  return visitTrees([&](const KdNode& bucket) {
+    std::array<double, KdTree::bucket_samples> sq_dists;
+    return measure(&samples_.getPositions()[bucket.begin],
+                   bucket.count,
+                   sq_dists.data()) > slack * sq_farthest_;
+  });
+}
+
+double
+MetricFinder::distanceInMetric(const Position& a, const Position& b) const
+{
+  Eigen::Vector3d offset;
+  for (int axis = 0; axis < 3; ++axis)
+    offset[axis] = static_cast<double>(a[axis]) - b[axis];
+  return (metric_ * offset).norm();
+}
+
+bool
+MetricFinder::selectFromCopy()
+{
+  if (copied_.size() < k_)
+    return false;
+  sq_dists_.resize(copied_.size());
+  measure(copied_places_.data(), copied_.size(), sq_dists_.data());
+  nearest_.clear();
+  for (std::size_t i = 0; i < copied_.size(); ++i)
+    nearest_.emplace_back(sq_dists_[i], copied_[i]);
+  keepNearest();
+  return slack * (std::sqrt(sq_farthest_) + distanceInMetric(point_, copy_center_)) <=
+         copy_radius_;
+}
+
+void
+MetricFinder::search(double sq_limit)
+{
+  sq_farthest_ = slack * sq_limit;
+  has_copy_ = shares_ && sq_limit < infinity;
+  copy_center_ = point_;
+  copy_radius_ = std::sqrt(sq_limit);
+  nearest_.clear();
+  visitTrees([&](const KdNode& bucket) {
+    measureBucket(bucket);
+    return true;
+  });
+  copied_.clear();
+  copied_places_.clear();
+  if (has_copy_)
+    for (const Candidate& candidate : nearest_) {
+      copied_.push_back(candidate.second);
+      copied_places_.push_back(samples_.getPositions()[candidate.second]);
+    }
+  keepNearest();
 }
 
 const std::vector<std::uint32_t>&
-MetricFinder::find(const Position& point, const Eigen::Matrix3d& metric)
+MetricFinder::find(const Position& point,
+                   const Eigen::Matrix3d& metric,
+                   double sq_limit)
 {
+  setMetric(metric);
   point_ = point;
-  metric_ = metric;
-  const Eigen::Matrix3d inverse = metric.inverse();
-  sq_extent_ = inverse.rowwise().squaredNorm();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(metric.transpose() *
-                                                               metric);
-  bounds_ = squares.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-            squares.eigenvectors().transpose();
-  nearest_.clear();
-  sq_farthest_ = std::numeric_limits<double>::infinity();
-  const KdTree& own = samples_.getTree();
-  const auto search = [&](const KdTree& tree) {
-    if (mayHold(sqBound(tree.getBox(tree.getRoot()))))
-      descend(tree, tree.getRoot());
-  };
-  search(own);
-  for (const KdTree& tree : samples_.getTrees())
-    if (&tree != &own)
-      search(tree);
-  // No direction is longer in the metric by more than this norm of its inverse.
+  if (!has_copy_ || !selectFromCopy())
+    search(sq_limit);
   reach_ = std::sqrt(std::max_element(nearest_.begin(), nearest_.end())->first) *
-           inverse.norm();
+           most_stretched_;
   found_.clear();
-  for (const auto& neighbor : nearest_)
-    found_.push_back(neighbor.second);
+  for (const Candidate& candidate : nearest_)
+    found_.push_back(candidate.second);
   std::sort(found_.begin(), found_.end());
   return found_;
 }

@@ -311,6 +311,58 @@ NearestFinder::measureBucket(const Position& point, const KdNode& bucket)
   }
 }
 
+bool
+NearestFinder::isEmpty(const KdBox& point,
+                       const KdTree& tree,
+                       const KdNode& node,
+                       float sq_limit)
+{
+  if (sqGap(point, tree.getBox(node)) > sq_limit)
+    return true;
+  if (!KdTree::isBucket(node))
+    return isEmpty(point, tree, node.left(), sq_limit) &&
+           isEmpty(point, tree, node.right(), sq_limit);
+  kernels_->measureRun(samples_.getPositions().front().x,
+                       node.begin,
+                       node.begin + node.count,
+                       point.low.x,
+                       sq_dist_.data());
+  return kernels_->countWithin(sq_dist_.data(), node.count, sq_limit) == 0;
+}
+
+float
+NearestFinder::sqCrowd(const Position& point, std::uint32_t sample)
+{
+  // Samples that follow one another in the tree lie close together.
+  const std::size_t middle = sample - std::min<std::size_t>(sample, k_ / 2);
+  const auto begin = static_cast<std::uint32_t>(std::min(middle, samples_.size() - k_));
+  if (sq_dist_.size() < k_ + kernel_room)
+    sq_dist_.resize(k_ + kernel_room);
+  kernels_->measureRun(samples_.getPositions().front().x,
+                       begin,
+                       begin + static_cast<std::uint32_t>(k_),
+                       point.x,
+                       sq_dist_.data());
+  return *std::max_element(sq_dist_.data(), sq_dist_.data() + k_);
+}
+
+float
+NearestFinder::findGap(const Position& point,
+                       std::uint32_t first,
+                       std::uint32_t second,
+                       float part)
+{
+  if (samples_.size() < k_)
+    return 0.0f;
+  const float sq_farthest = std::min(sqCrowd(point, first), sqCrowd(point, second));
+  const auto& trees = samples_.getTrees();
+  const bool is_empty =
+      std::all_of(trees.begin(), trees.end(), [&](const KdTree& tree) {
+        return isEmpty({point, point}, tree, tree.getRoot(), part * part * sq_farthest);
+      });
+  return is_empty ? std::sqrt(sq_farthest) : 0.0f;
+}
+
 void
 NearestFinder::prepare(const Position& point, float distance)
 {

@@ -50,6 +50,14 @@ public:
   Row
   findWithin(const Position& point, float radius);
 
+  /** \brief Tell cheaply that a point lies in a gap: that none of its k nearest is
+   * nearer than a part of the distance of the farthest of them.
+   * \param first, second samples on both sides of it, the nearer the better
+   * \return a distance that k samples do not exceed, while none is nearer than the part
+   * of it; 0 if this cannot be told, or if there are fewer than k */
+  float
+  findGap(const Position& point, std::uint32_t first, std::uint32_t second, float part);
+
   /** \brief Prepare for points that are looked up next: close ones then share one copy.
    */
   void
@@ -115,6 +123,14 @@ private:
 
   void
   measureBucket(const Position& point, const KdNode& bucket);
+
+  /** Squared distance that k samples do not exceed: those around one in the tree. */
+  float
+  sqCrowd(const Position& point, std::uint32_t sample);
+
+  /** Whether no sample below a node lies within a squared distance of a point. */
+  bool
+  isEmpty(const KdBox& point, const KdTree& tree, const KdNode& node, float sq_limit);
 
   /** Whether a sample may come before the last of the k. */
   bool

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What awkward data cost beside even ones, as ratios of one run: layouts with gaps,
 // duplicates, two threads where one would do.
-// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads] [PART OF A LAYOUT'S
-// NAME]
+// usage: bench_robustness [SAMPLES] [layouts|duplicates|threads|names|once] [PART OF A
+// LAYOUT'S NAME]; once extracts one layout a single time, for layouts.sh
+#include "neighbors/sample_set.h"
 #include "support/environment.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
@@ -360,6 +361,16 @@ compareLayouts(std::size_t n, const std::string& wanted)
   }
 }
 
+/** Extract the isosurface of one layout, as often as a profiler needs: once. */
+void
+extractOnce(std::size_t n, const std::string& name)
+{
+  for (const NamedLayout& layout : layouts())
+    if (layout.name == name)
+      std::printf("%zu isopoints\n",
+                  Extraction(makeCloud(layout.sample, n)).isopoints());
+}
+
 double
 buildMilliseconds(const Cloud& cloud)
 {
@@ -458,6 +469,11 @@ main(int argc, char** argv)
   const std::string part = argc > 2 ? argv[2] : "";
   if (part.empty() || part == "layouts")
     compareLayouts(n, argc > 3 ? argv[3] : "");
+  if (part == "once")
+    extractOnce(n, argc > 3 ? argv[3] : "uniform");
+  if (part == "names")
+    for (const NamedLayout& layout : layouts())
+      std::puts(layout.name);
   if (part.empty() || part == "duplicates")
     compareDuplicates(n);
   if (part.empty() || part == "threads")

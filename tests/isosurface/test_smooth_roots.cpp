@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -234,6 +235,68 @@ TEST(SmoothRoots, TellWhatTheyStandOn)
   EXPECT_GE(measured, middle * 98 / 100);
   EXPECT_GT(rim, 10u);
   EXPECT_GE(open, rim * 9 / 10);
+}
+
+/** What an isopoint becomes depends on no other one, whichever searches it shares. */
+TEST(SmoothRoots, AreTheSameAloneAndAmongOthers)
+{
+  const auto random = randomPlaces(3000, Vector3d::Constant(-1.5), 1.0 / 1024, 3073);
+  const auto changed = [&](const std::function<void(Position&, std::size_t)>& change) {
+    auto places = random;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      change(places[i], i);
+    return places;
+  };
+  const auto sheets = changed([](Position& x, std::size_t i) {
+    x[2] = static_cast<float>(i % 6) * 0.5f - 1.25f;
+  });
+  const auto halves =
+      changed([](Position& x, std::size_t) { x[0] += x[0] > 0.0f ? 5.0f : -5.0f; });
+  const auto shells = changed([](Position& x, std::size_t i) {
+    const float length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    for (int axis = 0; axis < 3; ++axis)
+      x[axis] *= (i % 2 == 0 ? 1.0f : 0.5f) / std::max(length, 0.01f);
+  });
+  const auto slabs = changed([](Position& x, std::size_t) { x[2] *= 12.0f; });
+  for (const auto& places : {random, sheets, halves, shells, slabs}) {
+    const FieldSamples field(places, [](const Vector3d& x) {
+      return x.norm() + 0.05 * x[0] - (std::abs(x[0]) > 2.0 ? 5.0 : 0.75);
+    });
+    const Roots together(field, 0.01f);
+    ASSERT_GT(together.points.size(), 20u);
+    const IsopointInput input = field.input(Outside::Lower, Interpolation::Fit);
+    Report report;
+    StepTimer step(report, "roots");
+    for (std::size_t i = 0; i < together.points.size(); i += 3) {
+      std::vector<PointIso> alone{together.linear[i]};
+      const auto fits = fitRoots(input, 0.01f, {together.edges[i]}, alone, step);
+      EXPECT_EQ(together.fits[i].outcome, fits[0].outcome);
+      EXPECT_EQ(positionOf(together.points[i]), positionOf(alone[0]));
+      EXPECT_EQ(normalOf(together.points[i]), normalOf(alone[0]));
+      EXPECT_EQ(together.points[i].error, alone[0].error);
+      EXPECT_EQ(together.points[i].support, alone[0].support);
+    }
+  }
+}
+
+/** Where the nearest samples lie in a thin shell about it, an isopoint stays on its
+ * edge.
+ */
+TEST(SmoothRoots, StayOnEdgesAcrossWideGaps)
+{
+  auto places = randomPlaces(3000, Vector3d::Constant(-1.5), 1.0 / 1024, 3073);
+  for (Position& place : places)
+    place[0] += place[0] > 0.0f ? 20.0f : -20.0f;
+  const Roots roots(FieldSamples(places, [](const Vector3d& x) { return x[0]; }), 0.0f);
+  ASSERT_GT(roots.points.size(), 50u);
+  for (std::size_t i = 0; i < roots.points.size(); ++i) {
+    EXPECT_EQ(RootOutcome::Far, roots.fits[i].outcome);
+    EXPECT_EQ(positionOf(roots.linear[i]), positionOf(roots.points[i]));
+    EXPECT_EQ(IsoSupport::Bridged, static_cast<IsoSupport>(roots.points[i].support));
+    const float t = roots.edges[i].t;
+    EXPECT_EQ(std::max(t, 1.0f - t) * roots.points[i].edge_length,
+              roots.points[i].error);
+  }
 }
 
 } // namespace

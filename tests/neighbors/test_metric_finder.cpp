@@ -145,4 +145,51 @@ TEST(MetricFinder, TakesTheLowerIndicesOfEqualDistances)
   }
 }
 
+/** Points that share a metric share a copy of samples: they find what each of them
+ * finds alone. */
+TEST(MetricFinder, FindsTheSameWithACopyInCommon)
+{
+  for (const std::string layout : {"cube", "sheets", "clusters", "lattice"}) {
+    const auto samples = makeSamples(makePositions(layout, 3000));
+    MetricFinder shares(*samples, k, true), alone(*samples, k);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-0.05f, 0.05f);
+    for (std::size_t at = 0; at < samples->size(); at += 61) {
+      const Eigen::Matrix3d metric = makeMetric(at % 2 == 0 ? 5.0 : 30.0, 0.1 * at);
+      const Position& near = samples->getPositions()[at];
+      for (int i = 0; i < 8; ++i) {
+        const Position point{{near[0] + uniform(random),
+                              near[1] + uniform(random),
+                              near[2] + uniform(random)}};
+        const auto expected = alone.find(point, metric);
+        double sq_limit = 0.0;
+        for (const std::uint32_t j : expected)
+          sq_limit = std::max(
+              sq_limit,
+              (metric * offset(point, samples->getPositions()[j])).squaredNorm());
+        EXPECT_EQ(expected, shares.find(point, metric, 3.0 * sq_limit)) << layout;
+        EXPECT_EQ(alone.getReach(), shares.getReach());
+        EXPECT_EQ(expected, alone.find(point, metric, sq_limit));
+      }
+    }
+  }
+}
+
+TEST(MetricFinder, TellsWhetherABallIsEmpty)
+{
+  const auto samples = makeSamples(makePositions("clusters", 2000));
+  MetricFinder finder(*samples, k);
+  std::vector<std::uint32_t> all(samples->size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (const double ratio : {1.0, 30.0})
+    for (const float x : {-0.3f, 0.5f, 3.0f, 500.0f}) {
+      const Position point{{x, 0.4f, 0.6f}};
+      const Eigen::Matrix3d metric = makeMetric(ratio, 0.7);
+      const double nearest =
+          std::sqrt(sqDistances(*samples, point, metric, all).front());
+      EXPECT_TRUE(finder.isEmpty(point, metric, 0.999 * nearest));
+      EXPECT_FALSE(finder.isEmpty(point, metric, 1.001 * nearest));
+    }
+}
+
 } // namespace

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -210,6 +211,36 @@ TEST(NearestFinder, SquaresBeyondFloat)
       ASSERT_EQ(bruteForce(*samples, point, 20), indicesOf(finder.find(point, scale)));
     }
   }
+}
+
+/** A gap that is found is one, and a wide one between two crowds is found. */
+TEST_P(NearestFinderOnEveryShape, GapsThatAreFoundAreGaps)
+{
+  const auto samples = buildSamples(*uvol_test::makeCloud(GetParam(), 2000, 8));
+  const std::vector<Position>& positions = samples->getPositions();
+  const auto last = static_cast<std::uint32_t>(samples->size() - 1);
+  NearestFinder finder(*samples, 20);
+  uvol_test::Random random(4);
+  for (int i = 0; i < 60; ++i) {
+    Position point = positions[static_cast<std::size_t>(
+        random.uniform() * static_cast<double>(samples->size()))];
+    for (int axis = 0; axis < 3; ++axis)
+      point[axis] +=
+          (i % 2 == 0 ? 0.05f : 3.0f) * static_cast<float>(random.uniform() - 0.5);
+    const float reach = finder.findGap(point, 0, last, 0.7f);
+    const auto nearest = bruteForce(*samples, point, 20);
+    float sq_nearest = std::numeric_limits<float>::infinity(), sq_farthest = 0.0f;
+    for (const std::uint32_t j : nearest) {
+      sq_nearest = std::min(sq_nearest, sqDistance(positions[j], point));
+      sq_farthest = std::max(sq_farthest, sqDistance(positions[j], point));
+    }
+    if (reach == 0.0f)
+      continue;
+    EXPECT_GT(sq_nearest, 0.7f * 0.7f * sq_farthest);
+    EXPECT_GE(reach, std::sqrt(sq_farthest));
+  }
+  const Position far{{1000.0f, 1000.0f, 1000.0f}};
+  EXPECT_EQ(samples->size() >= 20, finder.findGap(far, 0, last, 0.7f) > 0.0f);
 }
 
 } // namespace

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the error of isopoints is one: how many deviations from the true surface lie
+// below it, and how much larger than them it is.
+#include "support/noisy_shapes.h"
+#include "support/stretched_samples.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointXYZI>;
+using Surface = pcl::PointCloud<pcl_uvol::PointIso>;
+
+/** One row for the isopoints of a kind. */
+void
+printRow(const std::string& name,
+         const Surface& surface,
+         const std::vector<double>& deviations,
+         const std::function<bool(const pcl_uvol::PointIso&)>& counts)
+{
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (counts(surface[i]))
+      ratios.push_back(surface[i].error / std::max(deviations[i], 1e-30));
+  if (ratios.empty()) {
+    std::printf("%-44s %7d\n", name.c_str(), 0);
+    return;
+  }
+  const auto covered =
+      std::count_if(ratios.begin(), ratios.end(), [](double r) { return r >= 1.0; });
+  std::printf("%-44s %7zu %9.1f %9.3g\n",
+              name.c_str(),
+              ratios.size(),
+              100.0 * static_cast<double>(covered) / static_cast<double>(ratios.size()),
+              uvol_test::quantile(ratios, 0.5));
+  std::fflush(stdout);
+}
+
+bool
+isAny(const pcl_uvol::PointIso&)
+{
+  return true;
+}
+
+bool
+isBridged(const pcl_uvol::PointIso& point)
+{
+  return point.support == static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
+}
+
+bool
+isRim(const pcl_uvol::PointIso& point)
+{
+  return point.support == static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Rim);
+}
+
+Surface
+extract(const Cloud::ConstPtr& cloud, double isovalue)
+{
+  pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
+  extraction.setInputCloud(cloud);
+  extraction.setIsoValue(isovalue);
+  Surface surface;
+  extraction.extract(surface);
+  return surface;
+}
+
+void
+printScattered(std::size_t n, std::uint64_t seed)
+{
+  for (const char* const name : {"radial", "waves", "gyroid"})
+    for (const bool clustered : {false, true}) {
+      const auto field = uvol_test::makeSmoothField(name, n);
+      const Surface surface =
+          extract(uvol_test::sampleSmoothField(field, n, seed, clustered), field.isovalue);
+      printRow(std::string(name) + (clustered ? ", clustered" : ", uniform"),
+               surface,
+               uvol_test::deviations(field, surface),
+               isAny);
+    }
+}
+
+void
+printStretched(const std::string& shape, double ratio, int side)
+{
+  const auto field = uvol_test::makeSmoothField(
+      "radial", static_cast<std::size_t>(side) * side * side);
+  const auto samples = uvol_test::makeStretchedSamples(shape, ratio, side);
+  const Surface surface = extract(samples.sample(field, side, 1), field.isovalue);
+  auto moved = field;
+  moved.value = [&](const Eigen::Vector3d& x) {
+    return field.value(samples.to_index(x));
+  };
+  char name[80];
+  std::snprintf(name, sizeof name, "%s, 1 : 1 : %g", shape.c_str(), ratio);
+  printRow(name, surface, uvol_test::deviations(moved, surface), isAny);
+}
+
+/** Samples with holes on the surface, as wide as some of the neighbourhoods. */
+void
+printHoles(std::size_t n, std::uint64_t seed)
+{
+  const auto field = uvol_test::makeSmoothField("radial", n);
+  for (const double radius : {2.0, 4.0}) {
+    Cloud::Ptr cloud(new Cloud);
+    for (const auto& point : *uvol_test::sampleSmoothField(field, n, seed, false)) {
+      const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
+      bool is_in_hole = false;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0})
+          is_in_hole = is_in_hole || (x - side * field.isovalue *
+                                              Eigen::Vector3d::Unit(axis))
+                                             .norm() < radius;
+      if (!is_in_hole)
+        cloud->push_back(point);
+    }
+    const Surface surface = extract(cloud, field.isovalue);
+    const auto deviations = uvol_test::deviations(field, surface);
+    char name[80];
+    std::snprintf(name, sizeof name, "holes of radius %g, ", radius);
+    printRow(std::string(name) + "bridged", surface, deviations, isBridged);
+    printRow(std::string(name) + "rim", surface, deviations, isRim);
+  }
+}
+
+void
+printNoise(double noise, std::uint64_t seed)
+{
+  const auto noisy = uvol_test::makeNoisyCloud(uvol_test::makeShape("sphere"), noise, seed);
+  const auto distances = [&](const Surface& surface) {
+    std::vector<double> found;
+    for (const auto& point : surface)
+      found.push_back(std::abs(
+          noisy.shape.distance(point.getVector3fMap().cast<double>())));
+    return found;
+  };
+  const auto isInside = [&](const pcl_uvol::PointIso& point) {
+    return point.getVector3fMap().cwiseAbs().maxCoeff() < noisy.shape.extent - 2.0;
+  };
+  char name[80];
+  std::snprintf(name, sizeof name, "noise of %g spacings, ", noise);
+  const Surface direct = extract(noisy.cloud, 0.0);
+  printRow(std::string(name) + "direct", direct, distances(direct), isInside);
+  pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
+  evolution.setInputCloud(noisy.cloud);
+  evolution.setIsoValue(0.0);
+  std::vector<float> phi;
+  evolution.evolve(phi);
+  const Cloud::Ptr level(new Cloud(*noisy.cloud));
+  for (std::size_t i = 0; i < phi.size(); ++i)
+    (*level)[i].intensity = phi[i];
+  const Surface smoothed = extract(level, 0.0);
+  printRow(std::string(name) + "smoothed", smoothed, distances(smoothed), isInside);
+}
+
+} // namespace
+
+/** calibration [SAMPLES [SEED]] */
+int
+main(int argc, char** argv)
+{
+  const auto n = static_cast<std::size_t>(argc > 1 ? std::atof(argv[1]) : 64000.0);
+  const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1);
+  std::printf("%-44s %7s %9s %9s\n", "samples", "points", "covered_%", "ratio");
+  printScattered(n, seed);
+  const int side = static_cast<int>(std::cbrt(static_cast<double>(n)) + 1e-9);
+  for (const char* const shape : {"lattice", "rotated", "wall", "jittered", "shaken"})
+    for (const double ratio : {1.0, 10.0, 100.0})
+      printStretched(shape, ratio, side);
+  printHoles(n, seed);
+  for (const double noise : {0.1, 0.3, 1.0})
+    printNoise(noise, seed);
+  return 0;
+}
