@@ -26,6 +26,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");
+  if (parameters.validation.folds > 0)
+    throw InvalidArgument(
+        "A hold-out test is not offered for samples of several processes.");
   if (parameters.normals != NormalMethod::Auto &&
       parameters.normals != NormalMethod::Edge)
     throw InvalidArgument("Isopoints of several processes have the normals of their "

@@ -114,9 +114,10 @@ runPipelineOutOfCore(PointSource& points,
 {
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale ||
+      parameters.validation.folds > 0 ||
       parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale and Voronoi grids need all "
-                          "samples in memory.");
+    throw InvalidArgument("Level sets, an automatic scale, hold-out tests and Voronoi "
+                          "grids need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
+#include "pipeline/hold_out.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/surface_normals.h>
@@ -125,6 +126,9 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw InvalidArgument("Normals by fits need interpolation by fits: linear "
                           "interpolation makes none.");
+  if (parameters.validation.folds == 1)
+    throw InvalidArgument("A hold-out test with 1 fold leaves no samples: give at "
+                          "least 2.");
   if (parameters.normal_neighbors < 2)
     throw InvalidArgument("Normals from " +
                           std::to_string(parameters.normal_neighbors) +
@@ -173,6 +177,8 @@ IsosurfacePipeline::run()
   parameters.isosurface = resolveParameters();
   startReport();
   std::vector<LevelSetSummary> level_sets;
+  if (parameters.validation.folds > 0) // a field that is none fails early
+    makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
   Isopoints found = parameters.smooth
                         ? extractLevelSets(parameters.isosurface, level_sets)
                         : extract(parameters.isosurface, report_);
@@ -183,6 +189,8 @@ IsosurfacePipeline::run()
                                              threads_,
                                              std::move(report_));
   result.level_sets = std::move(level_sets);
+  if (parameters.validation.folds > 0)
+    result.validation = validate(parameters, result.report);
   report_ = result.report;
   return result;
 }
@@ -280,6 +288,25 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
   }
   return all;
+}
+
+std::vector<ValidationScore>
+IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
+                             Report& report) const
+{
+  const CloudView cloud = viewOf(samples_->cloud);
+  pcl::Indices use;
+  if (indices_)
+    use = *indices_;
+  else
+    for (std::size_t i = 0; i < cloud.count; ++i)
+      use.push_back(static_cast<int>(i));
+  const Folds folds = makeFolds(cloud, parameters.validation, threads_);
+  std::vector<ValidationScore> scores;
+  for (const auto& of_isovalue :
+       holdOut(samples_, use, parameters, folds, threads_, report))
+    scores.push_back(scoreHeldOut(of_isovalue));
+  return scores;
 }
 
 void

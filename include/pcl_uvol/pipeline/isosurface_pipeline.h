@@ -27,6 +27,38 @@ struct ErrorSummary {
   float median, percentile_95, largest;
 };
 
+/** \brief Shares of samples whose class, at the isovalue or above it or below, is
+ * predicted rightly. NaN of no samples. */
+struct ClassShares {
+  double predicted; ///< by what is tested
+  double base;      ///< by always saying what is more frequent
+  double nearest;   ///< by the class of the nearest sample
+};
+
+/** \brief The hold-out test of one isovalue: samples are left out, fold by fold, the
+ * surface is extracted from the others, and asked for the class of those left out.
+ *
+ * Near the surface, no farther from it than 2 local spacings, the class is told by the
+ * side of the nearest isopoint's normal; a local spacing is the mean distance of the 6
+ * nearest samples that remained, in the stretched space. Everywhere it is told by the
+ * field between the samples, kriged from 16 samples of all octants, and where that has
+ * no value by the nearest sample. */
+struct ValidationScore {
+  std::size_t tested = 0;     ///< samples with a value and a place
+  std::size_t covered = 0;    ///< of these, those near the surface
+  ClassShares side{};         ///< of those: by the surface
+  double side_of_field = 0;   ///< of those: by the field
+  ClassShares field{};        ///< of all: by the field
+  double side_everywhere = 0; ///< of all: by the side of the nearest isopoint, however
+                              ///< far
+  /** Of those near the surface, those farther from the plane of the nearest isopoint
+   * than its `error`, and how many of these lie on the right side of it: most, where
+   * the estimate holds. @{ */
+  std::size_t beyond_error = 0;
+  double side_beyond_error = 0;
+  /** @} */
+};
+
 /** \brief What comes out. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
@@ -40,7 +72,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.
    */
   std::vector<LevelSetSummary> level_sets;
-  std::optional<ErrorSummary> errors; ///< none where no error is estimated
+  std::optional<ErrorSummary> errors;      ///< none where no error is estimated
+  std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
    * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
   Report report;
@@ -105,6 +138,9 @@ private:
   Isopoints
   extractLevelSets(const IsosurfaceParameters& parameters,
                    std::vector<LevelSetSummary>& summaries);
+
+  std::vector<ValidationScore>
+  validate(const IsosurfacePipelineParameters& parameters, Report& report) const;
 
   std::shared_ptr<const Dataset> samples_;
   pcl::IndicesPtr indices_;

@@ -33,6 +33,40 @@ listWords(NormalMethod)
            {NormalMethod::Edge, "edge"}}};
 }
 
+/** \brief How samples are divided for a hold-out test; see Folds. */
+enum class ValidateBy {
+  Random, ///< every sample at random (default)
+  Blocks, ///< compact blocks of space
+  Field   ///< samples of one value of a field stay together
+};
+
+constexpr std::array<EnumWord<ValidateBy>, 3>
+listWords(ValidateBy)
+{
+  return {{{ValidateBy::Random, "random"},
+           {ValidateBy::Blocks, "blocks"},
+           {ValidateBy::Field, "field"}}};
+}
+
+/** \brief A hold-out test of the surface, see ValidationScore. */
+struct PCL_UVOL_EXPORTS ValidationParameters {
+  /** Parts that are left out one after the other, at least 2; 0: no test. The
+   * extraction runs once more for each. */
+  std::size_t folds = 0;
+  ValidateBy by = ValidateBy::Random;
+  /** With ValidateBy::Field: a drill hole, a dive, a flight. */
+  std::string field;
+
+  static auto
+  listMembers()
+  {
+    using Own = ValidationParameters;
+    return std::make_tuple(Member{"folds", &Own::folds},
+                           Member{"by", &Own::by},
+                           Member{"field", &Own::field});
+  }
+};
+
 /** \brief Parameters of IsosurfacePipeline. */
 struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** An empty field stands for `intensity`, else the only candidate, see
@@ -53,6 +87,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   std::optional<double> max_error;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
+  ValidationParameters validation;
 
   static auto
   listMembers()
@@ -65,7 +100,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"normals", &Own::normals},
                            Member{"normal_neighbors", &Own::normal_neighbors},
                            Member{"max_error", &Own::max_error},
-                           Member{"drop_bridged", &Own::drop_bridged});
+                           Member{"drop_bridged", &Own::drop_bridged},
+                           Member{"validation", &Own::validation});
   }
 
   std::string
