@@ -4,6 +4,8 @@
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include "shared/sampling_fact.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
@@ -21,7 +23,7 @@ using uvol_tools::Facts;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where, xyz;
+  std::string input, field, where, xyz, scale;
 };
 
 template <typename Numbers>
@@ -174,11 +176,12 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
 void
 addPositions(const std::string& path,
              const pcl_uvol::Dataset& dataset,
+             const Eigen::Array3f& scale,
              unsigned threads,
              Facts& facts,
              Report& report)
 {
-  const auto positions = pcl_uvol::describePositions(dataset, threads);
+  const auto positions = pcl_uvol::describePositions(dataset, scale, threads);
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
@@ -198,6 +201,7 @@ addPositions(const std::string& path,
                        Fact::Members{{"min", {spacing[0]}},
                                      {"median", {spacing[1]}},
                                      {"max", {spacing[2]}}});
+    facts.push_back(uvol_tools::describeSampling(positions.sampling));
   }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
@@ -224,7 +228,13 @@ describeCloud(const Arguments& arguments, unsigned threads, Report& report)
     return facts;
   }
   if (dataset.has_coordinates)
-    addPositions(arguments.input, dataset, threads, facts, report);
+    addPositions(arguments.input,
+                 dataset,
+                 uvol_tools::ScaleOption(arguments.scale)
+                     .resolveScale(pcl_uvol::viewOf(dataset.cloud)),
+                 threads,
+                 facts,
+                 report);
   else
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
@@ -252,6 +262,10 @@ run(int argc, char** argv)
   options.text("field", "name", arguments.field, "scalar field to draw a histogram of");
   options.text(
       "where", "expr", arguments.where, "look only at the points it holds for");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               arguments.scale,
+               "measure spacings in a stretched space; auto: equal spread per axis");
   uvol_tools::declareColumns(options, arguments.xyz);
   if (!options.parse(argc, argv))
     return 0;

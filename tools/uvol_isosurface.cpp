@@ -11,6 +11,7 @@
 #include "shared/pipeline_options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/sampling_fact.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -208,6 +209,8 @@ run(int argc, char** argv)
       {"scale", uvol_tools::toNumbers(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
       describeErrors(result.errors)};
+  if (result.sampling)
+    facts.push_back(uvol_tools::describeSampling(*result.sampling));
   const auto of_isovalue = [&](std::size_t i) {
     return isovalues.size() > 1 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
                                 : "";

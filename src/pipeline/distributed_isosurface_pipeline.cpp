@@ -4,6 +4,7 @@
 #include "distributed/fetch_points.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
 
@@ -81,7 +82,7 @@ DistributedIsosurfacePipeline::run()
   const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
   Isopoints isopoints =
       extractFromRanks(readSamples(view, field, frame, first_index, threads_, report_),
-                       isosurface,
+                       withErrors(parameters),
                        frame,
                        communicator_,
                        threads_,

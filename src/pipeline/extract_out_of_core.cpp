@@ -3,6 +3,7 @@
 
 #include "common/scalar_field.h"
 #include "isosurface/edge_ends.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -124,7 +125,7 @@ runPipelineOutOfCore(PointSource& points,
     resolved.isosurface.field = ScalarField::defaultName(samples.cloud.fields);
   Report report;
   report.progress = progress;
-  auto surface = extractOutOfCore(points, resolved.isosurface, out_of_core, report);
+  auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
   samples.cloud = std::move(surface.samples);
   return finishIsosurface(samples,
                           std::move(surface.isopoints),

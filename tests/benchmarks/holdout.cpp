@@ -48,8 +48,8 @@ listCases()
   static const std::vector<Case> cases = {
       {"particles/starsmasher_giant.csv", "rho", 0.01},
       {"particles/starsmasher_giant.csv", "u", 0.3},
-      {"particles/planet_remnant.csv", "rho", 4.5},
-      {"particles/planet_remnant.csv", "rho", 8},
+      {"particles/planet_remnant.csv", "rho_g_cm3", 4.5},
+      {"particles/planet_remnant.csv", "rho_g_cm3", 8},
       {"particles/dam_break_frame_9.csv", "density", 900},
       {"particles/dam_break_frame_9.csv", "|vx,vy,vz|", 2},
       {"particles/double_dam_break_frame_26.vtk", "|velocity|", 2},
@@ -223,9 +223,7 @@ struct Method {
   NormalMethod normals;
 };
 
-const Method methods[] = {{"default",
-                           IsosurfacePipelineParameters().isosurface.interpolation,
-                           NormalMethod::Auto},
+const Method methods[] = {{"auto", Interpolation::Auto, NormalMethod::Auto},
                           {"fit", Interpolation::Fit, NormalMethod::Fit},
                           {"linear, edge", Interpolation::Linear, NormalMethod::Edge},
                           {"linear, pca", Interpolation::Linear, NormalMethod::Pca}};

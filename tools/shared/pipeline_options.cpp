@@ -42,7 +42,8 @@ PipelineOptions::declare(Options& options)
   options.choice("normals",
                  parameters.normals,
                  "of the fits, by principal components of the isopoints, or along the "
-                 "edges; auto: fit with fits, pca with linear interpolation");
+                 "edges where no fit serves; auto: by what the samples carry, pca with "
+                 "linear interpolation");
   options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to");
   options.number("max-error",
                  max_error_,
@@ -91,11 +92,10 @@ void
 PipelineOptions::checkCombinations(const Options& options) const
 {
   using pcl_uvol::NormalMethod;
-  const bool fits = parameters.isosurface.interpolation == pcl_uvol::Interpolation::Fit;
+  const bool fits =
+      parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear;
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw UsageError("-normals fit needs -interpolation fit.");
-  if (parameters.normals == NormalMethod::Edge && fits)
-    throw UsageError("-normals edge needs -interpolation linear.");
   if (options.given("grid") &&
       parameters.isosurface.neighbors != NeighborSource::Voronoi)
     throw UsageError("-grid needs -neighbors voronoi.");
@@ -109,8 +109,6 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError("-max-memory goes without -smooth, -where, -scale auto, -validate "
                      "and -neighbors voronoi, which need all samples in memory.");
-  if ((options.given("max-error") || parameters.drop_bridged) && !fits)
-    throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
 }
 
 void

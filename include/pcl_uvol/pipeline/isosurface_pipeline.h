@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/sampling_summary.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <Eigen/Core>
@@ -64,7 +65,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
    * isovalues as infinite or as zero. */
-  Dataset surface;
+  Dataset surface; ///< with Interpolation::Auto, unless `smooth` is set, also `method`
+                   ///< and `orientation`, numbers of IsoMethod and IsoOrientation
   IsoEdges edges;                     ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
@@ -72,7 +74,10 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.
    */
   std::vector<LevelSetSummary> level_sets;
-  std::optional<ErrorSummary> errors;      ///< none where no error is estimated
+  std::optional<ErrorSummary> errors; ///< none where no error is estimated
+  /** What the samples are like in the stretched space; none with `smooth`, and where
+   * they are not in memory all at once. */
+  std::optional<SamplingSummary> sampling;
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
    * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
