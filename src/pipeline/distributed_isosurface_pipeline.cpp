@@ -74,6 +74,9 @@ DistributedIsosurfacePipeline::run()
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
   IsosurfaceParameters& isosurface = parameters.isosurface;
+  // Isopoints around one may belong to other processes: none is put back to its edge.
+  if (isosurface.interpolation == Interpolation::Auto)
+    isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
     isosurface.field = ScalarField::defaultName(part_->cloud.fields);
   const CloudView view = viewOf(part_->cloud);
