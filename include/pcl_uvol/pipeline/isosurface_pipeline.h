@@ -67,7 +67,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    * isovalues as infinite or as zero. */
   Dataset surface; ///< with Interpolation::Auto, unless `smooth` is set, also `method`
                    ///< and `orientation`, numbers of IsoMethod and IsoOrientation
-  IsoEdges edges;                     ///< one per isopoint, indices into the samples
+  IsoEdges edges;  ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
