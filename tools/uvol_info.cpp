@@ -4,6 +4,8 @@
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include "shared/sampling_fact.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
@@ -22,7 +24,7 @@ using uvol_tools::Options;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where, xyz;
+  std::string input, field, where, xyz, scale;
 };
 
 template <typename Numbers>
@@ -175,11 +177,12 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
 void
 addPositions(const std::string& path,
              const pcl_uvol::Dataset& dataset,
+             const Eigen::Array3f& scale,
              unsigned threads,
              Facts& facts,
              Report& report)
 {
-  const auto positions = pcl_uvol::describePositions(dataset, threads);
+  const auto positions = pcl_uvol::describePositions(dataset, scale, threads);
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
@@ -199,6 +202,7 @@ addPositions(const std::string& path,
                        Fact::Members{{"min", {spacing[0]}},
                                      {"median", {spacing[1]}},
                                      {"max", {spacing[2]}}});
+    facts.push_back(uvol_tools::describeSampling(positions.sampling));
   }
   report.count("non_finite", positions.non_finite);
   report.count("duplicates", positions.duplicates);
@@ -227,7 +231,13 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     return facts;
   }
   if (dataset.has_coordinates)
-    addPositions(arguments.input, dataset, threads, facts, report);
+    addPositions(arguments.input,
+                 dataset,
+                 uvol_tools::ScaleOption(arguments.scale)
+                     .resolveScale(pcl_uvol::viewOf(dataset.cloud)),
+                 threads,
+                 facts,
+                 report);
   else
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
@@ -260,6 +270,10 @@ run(int argc, char** argv)
       "scalar field to draw a histogram of, or an expression: log10(rho), Q(vel)");
   options.text(
       "where", "expr", arguments.where, "look only at the points it holds for");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               arguments.scale,
+               "measure spacings in a stretched space; auto: equal spread per axis");
   uvol_tools::declareColumns(options, arguments.xyz);
   if (!options.parse(argc, argv))
     return 0;

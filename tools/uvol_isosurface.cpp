@@ -13,6 +13,7 @@
 #include "shared/pipeline_options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/sampling_fact.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -27,6 +28,7 @@ using pcl_uvol::IsosurfaceResult;
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
 using uvol_tools::Fact;
+using uvol_tools::Facts;
 using uvol_tools::joined;
 using uvol_tools::Options;
 using Arguments = uvol_tools::PipelineOptions;
@@ -46,6 +48,55 @@ describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
           Fact::Members{{"median", {errors->median}},
                         {"percentile_95", {errors->percentile_95}},
                         {"largest", {errors->largest}}}};
+}
+
+std::string
+describeShares(const char* what, const pcl_uvol::ClassShares& shares, std::size_t count)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << what << " right for " << 100.0 * shares.predicted << " % of " << count
+       << " (nearest sample " << 100.0 * shares.nearest << " %, always the same "
+       << 100.0 * shares.base << " %)";
+  return text.str();
+}
+
+/** The hold-out test of one isovalue. */
+Facts
+describeValidation(const pcl_uvol::ValidationScore& score,
+                   const std::string& of_isovalue)
+{
+  std::ostringstream beyond;
+  beyond.precision(3);
+  beyond << 100.0 * score.side_beyond_error << " % of " << score.beyond_error
+         << " on the right side";
+  const auto number = [](auto value) {
+    return Fact::Numbers{static_cast<double>(value)};
+  };
+  return {
+      Fact("left out near the surface" + of_isovalue,
+           score.covered == 0 ? std::string("none of ") + std::to_string(score.tested)
+                              : describeShares("side", score.side, score.covered))
+          .withoutJson(),
+      Fact("left out" + of_isovalue, describeShares("class", score.field, score.tested))
+          .withoutJson(),
+      Fact("left out beyond the error" + of_isovalue,
+           score.beyond_error == 0 ? std::string("none") : beyond.str())
+          .withoutJson(),
+      Fact("validation" + of_isovalue,
+           "",
+           Fact::Members{{"tested", number(score.tested)},
+                         {"near", number(score.covered)},
+                         {"side", number(score.side.predicted)},
+                         {"side_of_nearest", number(score.side.nearest)},
+                         {"side_base", number(score.side.base)},
+                         {"side_of_field", number(score.side_of_field)},
+                         {"side_everywhere", number(score.side_everywhere)},
+                         {"class", number(score.field.predicted)},
+                         {"class_of_nearest", number(score.field.nearest)},
+                         {"class_base", number(score.field.base)},
+                         {"beyond_error", number(score.beyond_error)},
+                         {"side_beyond_error", number(score.side_beyond_error)}})};
 }
 
 /** As MemoryGuard::describe() for a run within a bound. */
@@ -199,14 +250,20 @@ run(int argc, char** argv)
       {"scale", uvol_tools::toNumbers(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
       describeErrors(result.errors)};
+  if (result.sampling)
+    facts.push_back(uvol_tools::describeSampling(*result.sampling));
+  const auto of_isovalue = [&](std::size_t i) {
+    return isovalues.size() > 1 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
+                                : "";
+  };
+  const auto append = [&](const Facts& more) {
+    facts.insert(facts.end(), more.begin(), more.end());
+  };
   for (std::size_t i = 0; i < result.level_sets.size(); ++i)
-    for (const auto& fact : uvol_tools::describe(
-             result.level_sets[i],
-             !arguments.parameters.level_set.mu,
-             isovalues.size() > 1
-                 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
-                 : ""))
-      facts.push_back(fact);
+    append(uvol_tools::describe(
+        result.level_sets[i], !arguments.parameters.level_set.mu, of_isovalue(i)));
+  for (std::size_t i = 0; i < result.validation.size(); ++i)
+    append(describeValidation(result.validation[i], of_isovalue(i)));
   if (arguments.picture.isAskedFor())
     facts.emplace_back("backend",
                        arguments.picture.draw(options, result.surface, report));

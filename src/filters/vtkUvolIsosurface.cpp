@@ -88,7 +88,7 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
   isosurface.outside = this->Outside == OUTSIDE_LOWER ? pcl_uvol::Outside::Lower
                                                       : pcl_uvol::Outside::Higher;
   isosurface.interpolation =
-      fits ? pcl_uvol::Interpolation::Fit : pcl_uvol::Interpolation::Linear;
+      fits ? pcl_uvol::Interpolation::Auto : pcl_uvol::Interpolation::Linear;
   isosurface.criterion = this->AngleCriterion == CRITERION_KEPT
                              ? pcl_uvol::AngleCriterion::Kept
                              : pcl_uvol::AngleCriterion::All;

@@ -91,17 +91,21 @@ placeIsopoint(const IsopointInput& input,
 
   const Position &a = input.samples.getPositions()[x],
                  &b = input.samples.getPositions()[y];
-  double direction[3], sq_length = 0.0;
+  double sq_length = 0.0, covector[3], sq_covector = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double scale = input.samples.getScale()[axis];
-    direction[axis] = (static_cast<double>(b[axis]) - a[axis]) / scale;
-    sq_length += direction[axis] * direction[axis];
-    point.data[axis] = static_cast<float>(a[axis] / scale + t * direction[axis]);
+    const double stretched = static_cast<double>(b[axis]) - a[axis];
+    const double direction = stretched / scale;
+    sq_length += direction * direction;
+    point.data[axis] = static_cast<float>(a[axis] / scale + t * direction);
+    // A normal of the stretched space is a covector: it grows where positions shrink.
+    covector[axis] = stretched * scale;
+    sq_covector += covector[axis] * covector[axis];
   }
-  const double length = std::sqrt(sq_length);
+  const double length = std::sqrt(sq_length), norm = std::sqrt(sq_covector);
   for (int axis = 0; axis < 3; ++axis)
-    point.data_n[axis] = static_cast<float>(
-        (towards_second ? direction[axis] : -direction[axis]) / length);
+    point.data_n[axis] =
+        static_cast<float>((towards_second ? covector[axis] : -covector[axis]) / norm);
   point.isovalue = isovalue;
   point.edge_length = static_cast<float>(length);
 }
@@ -209,7 +213,7 @@ appendIsopoints(const IsopointInput& input,
     report.count("edges", keys.size());
     report.count("coincident", dropCoincident(points, point_edges, input.threads));
   }
-  if (input.interpolation == Interpolation::Fit)
+  if (input.interpolation != Interpolation::Linear)
     smoothIsopoints(input, isovalue, point_edges, points, report);
   for (IsoEdge& edge : point_edges) {
     edge.first = sources[edge.first];

@@ -122,7 +122,7 @@ PieceIsopoints::PieceIsopoints(const Piece& piece,
     find(input, i);
     std::vector<std::size_t> all(found_[i].size());
     std::iota(all.begin(), all.end(), std::size_t(0));
-    if (settings.interpolation == Interpolation::Fit)
+    if (settings.interpolation != Interpolation::Linear)
       fit(input, i, all, std::vector<float>(all.size(), 0.0f));
   }
 }
@@ -250,7 +250,7 @@ mergeIsopoints(std::vector<GlobalIsopoint>& isopoints,
     normals.push_back(isopoint.outside);
   }
   const auto stays = mergeCoincident(positions, normals, threads);
-  const bool smooth = interpolation == Interpolation::Fit;
+  const bool smooth = interpolation != Interpolation::Linear;
   std::vector<RootOutcome> outcomes;
   std::vector<std::uint8_t> supports;
   std::size_t kept = 0;

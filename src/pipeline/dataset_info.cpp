@@ -4,6 +4,7 @@
 
 #include "common/parallel.h"
 #include "neighbors/nearest_finder.h"
+#include "neighbors/sampling.h"
 #include <pcl_uvol/common/cloud_view.h>
 
 #include <algorithm>
@@ -76,7 +77,7 @@ readFieldValues(const Dataset& dataset, const ScalarField& field)
 }
 
 PositionStatistics
-describePositions(const Dataset& dataset, unsigned threads)
+describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned threads)
 {
   const CloudView cloud = viewOf(dataset.cloud);
   PositionStatistics statistics;
@@ -90,12 +91,8 @@ describePositions(const Dataset& dataset, unsigned threads)
   if (finite.empty())
     return statistics;
   Report report;
-  const auto samples = SampleSet::build(cloud.xyz(0),
-                                        cloud.stride(),
-                                        finite,
-                                        Position{{1.0f, 1.0f, 1.0f}},
-                                        threads,
-                                        report);
+  const auto samples = SampleSet::build(
+      cloud.xyz(0), cloud.stride(), finite, toPosition(scale), threads, report);
   statistics.duplicates = report.getCount("duplicates");
   statistics.warnings = report.warnings;
   const auto& positions = samples->getPositions();
@@ -106,8 +103,10 @@ describePositions(const Dataset& dataset, unsigned threads)
         positions.begin(), positions.end(), [&](const Position& p, const Position& q) {
           return p[a] < q[a];
         });
-    statistics.lower[axis] = dataset.origin[axis] + unit.toInput((*low)[a]);
-    statistics.upper[axis] = dataset.origin[axis] + unit.toInput((*high)[a]);
+    statistics.lower[axis] =
+        dataset.origin[axis] + static_cast<double>((*low)[a]) / unit.scale[a];
+    statistics.upper[axis] =
+        dataset.origin[axis] + static_cast<double>((*high)[a]) / unit.scale[a];
   }
   if (positions.size() < 2)
     return statistics;
@@ -132,6 +131,7 @@ describePositions(const Dataset& dataset, unsigned threads)
   statistics.spacing_min = unit.toInput(spacing.front());
   statistics.spacing_median = unit.toInput(spacing[spacing.size() / 2]);
   statistics.spacing_max = unit.toInput(spacing.back());
+  statistics.sampling = summarizeSampling(*samples, threads);
   return statistics;
 }
 

@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/sampling_summary.h>
 
 #include <array>
 #include <cstdint>
@@ -40,13 +41,17 @@ struct PositionStatistics {
   /** Distance to the nearest other position: smallest, median, largest; 0 for fewer
    * than two positions. */
   double spacing_min = 0.0, spacing_median = 0.0, spacing_max = 0.0;
+  SamplingSummary sampling; ///< of the stretched space; of 0 samples below two
   /** One sentence each: positions so far out that the others do not count them. */
   std::vector<std::string> warnings;
 };
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is
- * finite. */
+ * finite.
+ * \param scale factors per axis; spacings are those of the stretched space */
 PCL_UVOL_EXPORTS PositionStatistics
-describePositions(const Dataset& dataset, unsigned threads);
+describePositions(const Dataset& dataset,
+                  const Eigen::Array3f& scale,
+                  unsigned threads);
 
 } // namespace pcl_uvol

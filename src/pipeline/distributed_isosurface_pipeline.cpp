@@ -4,6 +4,7 @@
 #include "distributed/fetch_points.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
 
@@ -26,6 +27,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");
+  if (parameters.validation.folds > 0)
+    throw InvalidArgument(
+        "A hold-out test is not offered for samples of several processes.");
   if (parameters.normals != NormalMethod::Auto &&
       parameters.normals != NormalMethod::Edge)
     throw InvalidArgument("Isopoints of several processes have the normals of their "
@@ -70,6 +74,9 @@ DistributedIsosurfacePipeline::run()
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.normals = NormalMethod::Edge; // of isopoints that have none yet
   IsosurfaceParameters& isosurface = parameters.isosurface;
+  // Isopoints around one may belong to other processes: none is put back to its edge.
+  if (isosurface.interpolation == Interpolation::Auto)
+    isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
     isosurface.field = ScalarField::defaultName(part_->cloud.fields);
   const CloudView view = viewOf(part_->cloud);
@@ -78,7 +85,7 @@ DistributedIsosurfacePipeline::run()
   const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
   Isopoints isopoints =
       extractFromRanks(readSamples(view, field, frame, first_index, threads_, report_),
-                       isosurface,
+                       withErrors(parameters),
                        frame,
                        communicator_,
                        threads_,

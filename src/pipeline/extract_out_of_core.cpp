@@ -3,6 +3,7 @@
 
 #include "common/scalar_field.h"
 #include "isosurface/edge_ends.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -114,16 +115,17 @@ runPipelineOutOfCore(PointSource& points,
 {
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale ||
+      parameters.validation.folds > 0 ||
       parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale and Voronoi grids need all "
-                          "samples in memory.");
+    throw InvalidArgument("Level sets, an automatic scale, hold-out tests and Voronoi "
+                          "grids need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())
     resolved.isosurface.field = ScalarField::defaultName(samples.cloud.fields);
   Report report;
   report.progress = progress;
-  auto surface = extractOutOfCore(points, resolved.isosurface, out_of_core, report);
+  auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
   samples.cloud = std::move(surface.samples);
   return finishIsosurface(samples,
                           std::move(surface.isopoints),

@@ -2,9 +2,11 @@
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
+#include "neighbors/sampling.h"
+#include "pipeline/hold_out.h"
+#include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
-#include <pcl_uvol/surface/surface_normals.h>
 
 #include <pcl/conversions.h>
 
@@ -25,51 +27,48 @@ shareCloud(const std::shared_ptr<const Dataset>& samples)
   return {samples, &samples->cloud};
 }
 
-NormalMethod
-chooseNormals(const IsosurfacePipelineParameters& parameters)
-{
-  if (parameters.normals != NormalMethod::Auto)
-    return parameters.normals;
-  return parameters.isosurface.interpolation == Interpolation::Fit ? NormalMethod::Fit
-                                                                   : NormalMethod::Pca;
-}
-
-void
-orientIsopoints(pcl::PointCloud<PointIso>& isopoints,
-                const IsosurfacePipelineParameters& parameters,
-                unsigned threads,
-                Report& report)
-{
-  const NormalMethod method = chooseNormals(parameters);
-  if (method == NormalMethod::Edge || isopoints.empty())
-    return;
-  const StepTimer timer(report, "normals");
-  SurfaceNormalParameters normals;
-  normals.k = parameters.normal_neighbors;
-  normals.scale = parameters.isosurface.scale;
-  if (method == NormalMethod::Pca)
-    detail::replaceNormals(isopoints, normals, threads, report);
-  else
-    detail::replaceMissingNormals(isopoints, normals, threads, report);
-}
-
 /** Leaves out what max_error and drop_bridged do not want. */
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
+              IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
               Report& report)
 {
+  const auto drop = [&](const char* name, const auto& keep) {
+    choice.filter(isopoints, keep);
+    report.count(name, filterIsopoints(isopoints, edges, keep));
+  };
   if (parameters.max_error)
-    report.count("removed_by_error",
-                 filterIsopoints(isopoints, edges, [&](const PointIso& point) {
-                   return point.error <= *parameters.max_error;
-                 }));
+    drop("removed_by_error",
+         [&](const PointIso& point) { return point.error <= *parameters.max_error; });
   if (parameters.drop_bridged)
-    report.count(
-        "removed_bridged", filterIsopoints(isopoints, edges, [](const PointIso& point) {
-          return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
-        }));
+    drop("removed_bridged", [](const PointIso& point) {
+      return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
+    });
+}
+
+/** Says so where most isopoints do not rest on samples around them. */
+void
+warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
+              const IsopointChoice& choice,
+              Report& report)
+{
+  std::size_t guesses = 0, known = 0;
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    const auto support = static_cast<IsoSupport>(isopoints[i].support);
+    known += support != IsoSupport::Unknown;
+    guesses += support == IsoSupport::Bridged || support == IsoSupport::Rim ||
+               choice.orientation[i] == IsoOrientation::Bisector;
+  }
+  if (2 * guesses <= known || known == 0)
+    return;
+  report.warnings.push_back(
+      std::to_string(100 * guesses / known) +
+      " % of the isopoints lie between lines of samples or beside gaps: where the "
+      "surface crosses a line is known, how it runs from there is a guess. A hold-out "
+      "test tells how good it is, a scale that fits the samples may help, and bridged "
+      "isopoints can be left out (-validate, -scale, -drop-bridged).");
 }
 
 /** Isopoints follow one another by isovalue. */
@@ -121,10 +120,13 @@ void
 checkParameters(const IsosurfacePipelineParameters& parameters)
 {
   checkParameters(parameters.isosurface);
-  const bool fits = parameters.isosurface.interpolation == Interpolation::Fit;
+  const bool fits = parameters.isosurface.interpolation != Interpolation::Linear;
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw InvalidArgument("Normals by fits need interpolation by fits: linear "
                           "interpolation makes none.");
+  if (parameters.validation.folds == 1)
+    throw InvalidArgument("A hold-out test with 1 fold leaves no samples: give at "
+                          "least 2.");
   if (parameters.normal_neighbors < 2)
     throw InvalidArgument("Normals from " +
                           std::to_string(parameters.normal_neighbors) +
@@ -133,9 +135,6 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
-  if ((parameters.max_error || parameters.drop_bridged) && !fits)
-    throw InvalidArgument("Errors and bridged points are known with interpolation by "
-                          "fits only: linear interpolation estimates none.");
 }
 
 void
@@ -173,9 +172,14 @@ IsosurfacePipeline::run()
   parameters.isosurface = resolveParameters();
   startReport();
   std::vector<LevelSetSummary> level_sets;
+  if (parameters.validation.folds > 0) // a field that is none fails early
+    makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
   Isopoints found = parameters.smooth
                         ? extractLevelSets(parameters.isosurface, level_sets)
-                        : extract(parameters.isosurface, report_);
+                        : extract(withErrors(parameters), report_);
+  if (parameters.smooth && parameters.isosurface.interpolation == Interpolation::Auto)
+    parameters.isosurface.interpolation =
+        Interpolation::Fit; // the level set fills gaps
   IsosurfaceResult result = finishIsosurface(*samples_,
                                              std::move(found.points),
                                              std::move(found.edges),
@@ -183,6 +187,12 @@ IsosurfacePipeline::run()
                                              threads_,
                                              std::move(report_));
   result.level_sets = std::move(level_sets);
+  if (!parameters.smooth) {
+    const StepTimer timer(result.report, "sampling");
+    result.sampling = summarizeSampling(*extraction_.getSamples(), threads_);
+  }
+  if (parameters.validation.folds > 0)
+    result.validation = validate(parameters, result.report);
   report_ = result.report;
   return result;
 }
@@ -282,6 +292,32 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
   return all;
 }
 
+std::vector<ValidationScore>
+IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
+                             Report& report) const
+{
+  const CloudView cloud = viewOf(samples_->cloud);
+  pcl::Indices use;
+  if (indices_)
+    use = *indices_;
+  else
+    for (std::size_t i = 0; i < cloud.count; ++i)
+      use.push_back(static_cast<int>(i));
+  const Folds folds = makeFolds(cloud, parameters.validation, threads_);
+  std::vector<ValidationScore> scores;
+  for (const auto& of_isovalue :
+       holdOut(samples_, use, parameters, folds, threads_, report))
+    scores.push_back(scoreHeldOut(of_isovalue));
+  if (std::any_of(scores.begin(), scores.end(), [](const ValidationScore& score) {
+        return score.side.predicted < score.side.base;
+      }))
+    report.warnings.push_back(
+        "Near the surface, the class of samples that were left out is told no better "
+        "by "
+        "the surface than by always saying the same: it does not follow the field.");
+  return scores;
+}
+
 void
 extractZeroLevel(const CloudView& samples,
                  const std::vector<float>& phi,
@@ -344,8 +380,11 @@ finishIsosurface(const Dataset& samples,
                  unsigned threads,
                  Report&& report)
 {
-  orientIsopoints(isopoints, parameters, threads, report);
-  dropIsopoints(isopoints, edges, parameters, report);
+  const CloudView view = viewOf(samples.cloud);
+  IsopointChoice choice =
+      chooseIsopoints(view, edges, parameters, threads, isopoints, report);
+  warnOfGuesses(isopoints, choice, report);
+  dropIsopoints(isopoints, edges, choice, parameters, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
@@ -353,9 +392,10 @@ finishIsosurface(const Dataset& samples,
   result.surface.double_coordinates = samples.double_coordinates;
   {
     const StepTimer timer(report, "fields");
-    const CloudView view = viewOf(samples.cloud);
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
     keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
+    if (parameters.isosurface.interpolation == Interpolation::Auto)
+      choice.addFields(result.surface);
     warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
     interpolateFields(view, edges, result.surface.cloud, threads);
   }

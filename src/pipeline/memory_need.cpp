@@ -42,6 +42,8 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else
     forecast.run(isosurfaceNeed(points, surfaces));
+  if (parameters.validation.folds > 0) // beside what the whole surface keeps
+    forecast.run(isosurfaceNeed(points, surfaces));
   double isopoints = 0.0, largest = 0.0;
   for (const SurfaceSize& surface : surfaces) {
     isopoints += surface.isopoints;

@@ -38,6 +38,7 @@ makeParameters()
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.field = "intensity";
   parameters.isosurface.isovalues = {0.4, 0.5};
+  parameters.isosurface.interpolation = pcl_uvol::Interpolation::Fit; // that of ranks
   return parameters;
 }
 

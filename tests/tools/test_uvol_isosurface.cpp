@@ -193,10 +193,14 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
   EXPECT_EQ(count - bridged, pointsIn(out_));
   EXPECT_GT(bridged, 0u);
 
-  for (const char* wrong : {"-interpolation linear -max-error 1",
+  for (const char* right : {"-interpolation linear -max-error 1",
                             "-interpolation linear -drop-bridged",
-                            "-interpolation linear -normals fit",
                             "-normals edge",
+                            "-validate 3 -validate-by blocks"})
+    EXPECT_EQ(0, run(base + right).exit_code) << right;
+  for (const char* wrong : {"-interpolation linear -normals fit",
+                            "-validate 1",
+                            "-validate-by blocks",
                             "-interpolation cubic",
                             "-max-error -1"})
     EXPECT_EQ(2, run(base + wrong).exit_code) << wrong;

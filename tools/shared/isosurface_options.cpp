@@ -43,9 +43,11 @@ IsosurfaceOptions::declareMethod(Options& options)
   options.choice("criterion",
                  parameters.isosurface.criterion,
                  "angle criterion against kept or against all closer candidates");
-  options.choice("interpolation",
-                 parameters.isosurface.interpolation,
-                 "isopoints on local polynomial fits, or along the edges");
+  options.choice(
+      "interpolation",
+      parameters.isosurface.interpolation,
+      "isopoints on local polynomial fits, or along the edges; auto: along the "
+      "edges where samples lie on lines or leave gaps");
 }
 
 void

@@ -43,7 +43,8 @@ PipelineOptions::declare(Options& options)
   options.choice("normals",
                  parameters.normals,
                  "of the fits, by principal components of the isopoints, or along the "
-                 "edges; auto: fit with fits, pca with linear interpolation");
+                 "edges where no fit serves; auto: by what the samples carry, pca with "
+                 "linear interpolation");
   options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to");
   options.number("max-error",
                  max_error_,
@@ -53,6 +54,19 @@ PipelineOptions::declare(Options& options)
   options.flag("drop-bridged",
                parameters.drop_bridged,
                "leave out isopoints in gaps of the sampling");
+  options.integer(
+      "validate",
+      parameters.validation.folds,
+      2,
+      1000,
+      "hold-out test: leave out each of n parts of the samples, extract from "
+      "the others, and ask on which side those left out lie (n + 1 times "
+      "the work)");
+  options.text("validate-by",
+               "random|blocks|FIELD",
+               validate_by_,
+               "with -validate: samples in one part are random, lie in compact blocks, "
+               "or share a value of a field, as those of a dive do (default random)");
   options.text("max-memory",
                "bytes",
                max_memory_,
@@ -71,6 +85,7 @@ bool
 PipelineOptions::needsAllSamples() const
 {
   return parameters.smooth || parameters.automatic_scale || !where.empty() ||
+         parameters.validation.folds > 0 ||
          parameters.isosurface.neighbors == NeighborSource::Voronoi ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
@@ -80,26 +95,24 @@ void
 PipelineOptions::checkCombinations(const Options& options) const
 {
   using pcl_uvol::NormalMethod;
-  const bool fits = parameters.isosurface.interpolation == pcl_uvol::Interpolation::Fit;
+  const bool fits =
+      parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear;
   if (parameters.normals == NormalMethod::Fit && !fits)
     throw UsageError("-normals fit needs -interpolation fit.");
-  if (parameters.normals == NormalMethod::Edge && fits)
-    throw UsageError("-normals edge needs -interpolation linear.");
   if (options.given("grid") &&
       parameters.isosurface.neighbors != NeighborSource::Voronoi)
     throw UsageError("-grid needs -neighbors voronoi.");
   for (const char* const name : {"mu", "steps"})
     if (options.given(name) && !parameters.smooth)
       throw UsageError(std::string("-") + name + " needs -smooth.");
+  if (options.given("validate-by") && !options.given("validate"))
+    throw UsageError("-validate-by needs -validate.");
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -smooth, -where, -scale auto, -neighbors "
-        "voronoi and derivatives as fields, which need all samples in "
-        "memory.");
-  if ((options.given("max-error") || parameters.drop_bridged) && !fits)
-    throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
+        "-max-memory goes without -smooth, -where, -scale auto, -validate, -neighbors "
+        "voronoi and derivatives as fields, which need all samples in memory.");
 }
 
 void
@@ -112,6 +125,11 @@ PipelineOptions::finish(const Options& options)
   parameters.level_set.max_steps = steps_;
   if (options.given("max-error"))
     parameters.max_error = max_error_;
+  parameters.validation.by = validate_by_ == "random"   ? pcl_uvol::ValidateBy::Random
+                             : validate_by_ == "blocks" ? pcl_uvol::ValidateBy::Blocks
+                                                        : pcl_uvol::ValidateBy::Field;
+  if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
+    parameters.validation.field = validate_by_;
   checkCombinations(options);
   pcl_uvol::checkSavePath(output);
   picture.check(options);

@@ -39,7 +39,7 @@ private:
   void
   checkCombinations(const Options& options) const;
 
-  std::string mu_ = "auto", max_memory_, scratch_;
+  std::string mu_ = "auto", max_memory_, scratch_, validate_by_ = "random";
   std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors,
                 steps_ = parameters.level_set.max_steps;
   double max_error_ = std::numeric_limits<double>::infinity();

@@ -31,14 +31,16 @@ listWords(Outside)
 /** \brief How isopoints are found between two samples. */
 enum class Interpolation {
   Linear, ///< thesis 2.4: along the edge, normal along the edge
-  Fit     ///< the zero level of a local cubic or quadratic fit (default)
+  Fit,    ///< the zero level of a local cubic or quadratic fit (default)
+  Auto ///< IsosurfacePipeline decides for each isopoint, its default; as Fit elsewhere
 };
 
-constexpr std::array<EnumWord<Interpolation>, 3>
+constexpr std::array<EnumWord<Interpolation>, 4>
 listWords(Interpolation)
 {
   return {{{Interpolation::Fit, "fit"},
            {Interpolation::Linear, "linear"},
+           {Interpolation::Auto, "auto"},
            {Interpolation::Fit, "smooth"}}};
 }
 

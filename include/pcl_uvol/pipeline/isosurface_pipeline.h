@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/sampling_summary.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <Eigen/Core>
@@ -27,13 +28,46 @@ struct ErrorSummary {
   float median, percentile_95, largest;
 };
 
+/** \brief Shares of samples whose class, at the isovalue or above it or below, is
+ * predicted rightly. NaN of no samples. */
+struct ClassShares {
+  double predicted; ///< by what is tested
+  double base;      ///< by always saying what is more frequent
+  double nearest;   ///< by the class of the nearest sample
+};
+
+/** \brief The hold-out test of one isovalue: samples are left out, fold by fold, the
+ * surface is extracted from the others, and asked for the class of those left out.
+ *
+ * Near the surface, no farther from it than 2 local spacings, the class is told by the
+ * side of the nearest isopoint's normal; a local spacing is the mean distance of the 6
+ * nearest samples that remained, in the stretched space. Everywhere it is told by the
+ * field between the samples, kriged from 16 samples of all octants, and where that has
+ * no value by the nearest sample. */
+struct ValidationScore {
+  std::size_t tested = 0;     ///< samples with a value and a place
+  std::size_t covered = 0;    ///< of these, those near the surface
+  ClassShares side{};         ///< of those: by the surface
+  double side_of_field = 0;   ///< of those: by the field
+  ClassShares field{};        ///< of all: by the field
+  double side_everywhere = 0; ///< of all: by the side of the nearest isopoint, however
+                              ///< far
+  /** Of those near the surface, those farther from the plane of the nearest isopoint
+   * than its `error`, and how many of these lie on the right side of it: most, where
+   * the estimate holds. @{ */
+  std::size_t beyond_error = 0;
+  double side_beyond_error = 0;
+  /** @} */
+};
+
 /** \brief What comes out. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
    * isovalues as infinite or as zero. */
-  Dataset surface;
-  IsoEdges edges;                     ///< one per isopoint, indices into the samples
+  Dataset surface; ///< with Interpolation::Auto, unless `smooth` is set, also `method`
+                   ///< and `orientation`, numbers of IsoMethod and IsoOrientation
+  IsoEdges edges;  ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
@@ -41,6 +75,10 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
+  /** What the samples are like in the stretched space; none with `smooth`, and where
+   * they are not in memory all at once. */
+  std::optional<SamplingSummary> sampling;
+  std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
    * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
   Report report;
@@ -105,6 +143,9 @@ private:
   Isopoints
   extractLevelSets(const IsosurfaceParameters& parameters,
                    std::vector<LevelSetSummary>& summaries);
+
+  std::vector<ValidationScore>
+  validate(const IsosurfacePipelineParameters& parameters, Report& report) const;
 
   std::shared_ptr<const Dataset> samples_;
   pcl::IndicesPtr indices_;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -18,10 +19,25 @@ namespace pcl_uvol {
 
 /** \brief How isopoints are oriented. */
 enum class NormalMethod {
-  Auto, ///< Fit with Interpolation::Fit, Pca with Interpolation::Linear (default)
+  Auto, ///< Pca with Interpolation::Linear; with Auto as IsoOrientation says, by what
+        ///< the samples carry; else Fit (default)
   Fit,  ///< by the local fits, by principal components where none serves
   Pca,  ///< by principal components of the isopoints (thesis 4.1)
   Edge ///< as the extraction leaves them: by the fits, along the edge where none serves
+};
+
+/** \brief How an isopoint was placed: the field `method`. */
+enum class IsoMethod : std::uint8_t {
+  Linear = 1, ///< on its edge
+  Fit = 2     ///< on the zero level of a fit
+};
+
+/** \brief How an isopoint was oriented: the field `orientation`. */
+enum class IsoOrientation : std::uint8_t {
+  Edge = 1,    ///< along its edge
+  Fit = 2,     ///< by the gradient of its fit
+  Pca = 3,     ///< by principal components of the isopoints around
+  Bisector = 4 ///< between its edge and the mean of the edges of the isopoints around
 };
 
 constexpr std::array<EnumWord<NormalMethod>, 4>
@@ -33,10 +49,51 @@ listWords(NormalMethod)
            {NormalMethod::Edge, "edge"}}};
 }
 
+/** \brief How samples are divided for a hold-out test; see Folds. */
+enum class ValidateBy {
+  Random, ///< every sample at random (default)
+  Blocks, ///< compact blocks of space
+  Field   ///< samples of one value of a field stay together
+};
+
+constexpr std::array<EnumWord<ValidateBy>, 3>
+listWords(ValidateBy)
+{
+  return {{{ValidateBy::Random, "random"},
+           {ValidateBy::Blocks, "blocks"},
+           {ValidateBy::Field, "field"}}};
+}
+
+/** \brief A hold-out test of the surface, see ValidationScore. */
+struct PCL_UVOL_EXPORTS ValidationParameters {
+  /** Parts that are left out one after the other, at least 2; 0: no test. The
+   * extraction runs once more for each. */
+  std::size_t folds = 0;
+  ValidateBy by = ValidateBy::Random;
+  /** With ValidateBy::Field: a drill hole, a dive, a flight. */
+  std::string field;
+
+  static auto
+  listMembers()
+  {
+    using Own = ValidationParameters;
+    return std::make_tuple(Member{"folds", &Own::folds},
+                           Member{"by", &Own::by},
+                           Member{"field", &Own::field});
+  }
+};
+
 /** \brief Parameters of IsosurfacePipeline. */
 struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
+  IsosurfacePipelineParameters()
+  {
+    isosurface.interpolation = Interpolation::Auto;
+  }
+
   /** An empty field stands for `intensity`, else the only candidate, see
-   * ScalarField::defaultName. */
+   * ScalarField::defaultName. The interpolation is Auto unless it is set: an isopoint
+   * stays on its fit unless it reaches across a gap, or lies beside one and has no fit.
+   */
   IsosurfaceParameters isosurface;
   /** Take the scale from the samples, see equalizingScale, instead of
    * isosurface.scale. */
@@ -53,6 +110,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   std::optional<double> max_error;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
+  ValidationParameters validation;
 
   static auto
   listMembers()
@@ -65,7 +123,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"normals", &Own::normals},
                            Member{"normal_neighbors", &Own::normal_neighbors},
                            Member{"max_error", &Own::max_error},
-                           Member{"drop_bridged", &Own::drop_bridged});
+                           Member{"drop_bridged", &Own::drop_bridged},
+                           Member{"validation", &Own::validation});
   }
 
   std::string
@@ -80,7 +139,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
 /** \throws InvalidArgument for what can be told without samples: see
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number, or that, as leaving out bridged points, linear interpolation cannot serve */
+ * number; a hold-out test of one fold */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfacePipelineParameters& parameters);
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How samples lie around each other: all around, in sheets, along lines, or alone; and
+// how far apart they are along these and across.
+#pragma once
+
+#include "neighbors/local_metric.h"
+#include "neighbors/nearest_finder.h"
+#include "neighbors/sample_set.h"
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/neighbors/sampling_summary.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief The sampling around a sample. Lengths are those of the stretched input. */
+struct LocalSampling {
+  LocalDimension dimension;
+  float along;  ///< spacing in the line, the sheet or the volume
+  float across; ///< to the next line or sheet; in a volume the widest spacing; infinite
+                ///< where nothing lies beside
+};
+
+/** \brief The sampling of one sample after another; one object per thread. */
+class SamplingFinder {
+public:
+  /** \param samples must outlive the finder */
+  explicit SamplingFinder(const SampleSet& samples);
+
+  LocalSampling
+  find(std::uint32_t sample);
+
+private:
+  bool
+  isAlone(std::uint32_t sample, double& nearest);
+
+  const SampleSet& samples_;
+  LocalMetricFinder metrics_;
+  NearestFinder nearest_, around_;
+};
+
+/** \brief Of all samples, in leaf order. */
+PCL_UVOL_EXPORTS std::vector<LocalSampling>
+diagnoseSampling(const SampleSet& samples, unsigned threads);
+
+/** \brief Look at some samples in all parts of the cloud: at 1024 of more.
+ * Deterministic, and good to 3 %. */
+PCL_UVOL_EXPORTS SamplingSummary
+summarizeSampling(const SampleSet& samples, unsigned threads);
+
+} // namespace pcl_uvol

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/hold_out.h"
+
+#include "common/parallel.h"
+#include "common/scalar_field.h"
+#include "neighbors/nearest_finder.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/interpolation/field_interpolation.h>
+
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Samples to a block of work. */
+constexpr std::size_t block_samples = 256;
+
+/** Samples that remained whose mean distance is the local spacing: of uniform random
+ * samples of density 1 it is 0.87. */
+constexpr std::size_t spacing_samples = 6;
+
+/** Local spacings from the surface up to which a sample has a side of it. */
+constexpr double covered_spacings = 2.0;
+
+/** Samples that the field at a place is kriged from, an eighth from each octant: the
+ * nearest ones may all lie on one line. */
+constexpr std::size_t kriged_samples = 16;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/** The isopoints of one isovalue with a search among them. */
+class Sides {
+public:
+  /** \param isopoints must outlive the object */
+  Sides(const pcl::PointCloud<PointIso>& isopoints,
+        const Position& scale,
+        Outside outside,
+        unsigned threads)
+      : isopoints_(isopoints)
+      , inside_is_above_(outside == Outside::Lower)
+  {
+    if (isopoints.empty())
+      return;
+    std::vector<std::uint32_t> all(isopoints.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i] = static_cast<std::uint32_t>(i);
+    Report report;
+    const CloudView view = viewOf(isopoints);
+    search_ = SampleSet::build(view.xyz(0), view.stride(), all, scale, threads, report);
+  }
+
+  /** \brief Tell the side of the nearest isopoint in the stretched space. A place is
+   * covered where that one lies within a distance. */
+  void
+  tellSide(NearestFinder& finder,
+           const Position& place,
+           double farthest,
+           HeldOutSample& sample) const
+  {
+    const LengthUnit& unit = search_->getUnit();
+    const auto row = finder.find(unit.apply(place), 1.0f);
+    sample.is_covered = unit.toInput(std::sqrt(row.sq_dists[0])) <= farthest;
+    const PointIso& nearest = isopoints_[search_->getInputIndex(row.samples[0])];
+    double height = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      height += static_cast<double>(nearest.data_n[axis]) *
+                (static_cast<double>(place[axis]) - nearest.data[axis]);
+    sample.is_side_above = (height <= 0.0) == inside_is_above_;
+    sample.distance = static_cast<float>(std::abs(height));
+    sample.error = nearest.error;
+  }
+
+  const SampleSet*
+  getSearch() const
+  {
+    return search_.get();
+  }
+
+private:
+  const pcl::PointCloud<PointIso>& isopoints_;
+  bool inside_is_above_;
+  SampleSet::ConstPtr search_; ///< null without isopoints
+};
+
+/** The isopoints of a result, apart by isovalue. */
+std::vector<pcl::PointCloud<PointIso>>
+splitSurface(const IsosurfaceResult& result)
+{
+  pcl::PointCloud<PointIso> all;
+  pcl::fromPCLPointCloud2(result.surface.cloud, all);
+  std::vector<pcl::PointCloud<PointIso>> surfaces;
+  auto begin = all.begin();
+  for (const std::size_t count : result.isopoints) {
+    const auto end = begin + static_cast<std::ptrdiff_t>(count);
+    surfaces.emplace_back();
+    surfaces.back().assign(begin, end);
+    begin = end;
+  }
+  return surfaces;
+}
+
+/** One division of the samples. */
+struct Division {
+  pcl::Indices rest, left_out;
+};
+
+Division
+divide(const pcl::Indices& use, const Folds& folds, std::size_t fold)
+{
+  Division division;
+  for (const int index : use)
+    (folds[static_cast<std::size_t>(index)] == fold ? division.left_out : division.rest)
+        .push_back(index);
+  if (division.rest.empty())
+    throw InvalidArgument("All samples are in one fold: divide them otherwise.");
+  return division;
+}
+
+/** The field at the samples that were left out. */
+std::vector<double>
+interpolateLeftOut(const CloudView& cloud,
+                   const Division& division,
+                   const IsosurfaceParameters& isosurface,
+                   unsigned threads)
+{
+  InterpolationParameters parameters;
+  parameters.fields = {isosurface.field};
+  parameters.model = InterpolationModel::Kriging;
+  parameters.kriging.octants = true;
+  parameters.kriging.k = kriged_samples;
+  parameters.gradients = parameters.errors = false;
+  parameters.scale = isosurface.scale;
+  std::vector<std::array<double, 3>> places;
+  for (const int index : division.left_out) {
+    const float* const xyz = cloud.xyz(static_cast<std::size_t>(index));
+    places.push_back({xyz[0], xyz[1], xyz[2]});
+  }
+  Report report;
+  return detail::FieldInterpolator(cloud, division.rest, parameters, threads, report)
+      .interpolate(places, threads, report)
+      .values;
+}
+
+/** What the samples of a division that remained say of places. */
+class Remaining {
+public:
+  Remaining(const CloudView& cloud,
+            const Division& division,
+            const Position& scale,
+            unsigned threads)
+  {
+    Report report;
+    samples_ = SampleSet::build(cloud.xyz(0),
+                                cloud.stride(),
+                                {division.rest.begin(), division.rest.end()},
+                                scale,
+                                threads,
+                                report);
+  }
+
+  const SampleSet&
+  getSamples() const
+  {
+    return *samples_;
+  }
+
+  /** \brief The nearest sample, and the local spacing. */
+  std::pair<std::uint32_t, double>
+  look(NearestFinder& finder, const Position& place) const
+  {
+    const auto row = finder.find(samples_->getUnit().apply(place), 1.0f);
+    double sum = 0.0;
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < row.size; ++i) {
+      sum += std::sqrt(static_cast<double>(row.sq_dists[i]));
+      if (row.sq_dists[i] < row.sq_dists[nearest])
+        nearest = i;
+    }
+    return {samples_->getInputIndex(row.samples[nearest]),
+            samples_->getUnit().toInput(sum / static_cast<double>(row.size))};
+  }
+
+private:
+  SampleSet::ConstPtr samples_;
+};
+
+/** Everything that is needed to ask for the class of one sample after another. */
+struct Question {
+  const CloudView& cloud;
+  const std::vector<float>& values; ///< in a frame
+  const Division& division;
+  const Remaining& remaining;
+  const Sides& sides;
+  const std::vector<double>& interpolated;
+  float isovalue; ///< in the frame
+  double isovalue_of_field;
+};
+
+void
+askFor(const Question& question,
+       std::size_t begin,
+       std::size_t end,
+       HeldOutSample* answers)
+{
+  NearestFinder samples(question.remaining.getSamples(), spacing_samples);
+  std::optional<NearestFinder> isopoints;
+  if (question.sides.getSearch() != nullptr)
+    isopoints.emplace(*question.sides.getSearch(), 1);
+  for (std::size_t i = begin; i < end; ++i) {
+    HeldOutSample& answer = answers[i];
+    answer.point = static_cast<std::uint32_t>(question.division.left_out[i]);
+    const float* const xyz = question.cloud.xyz(answer.point);
+    const Position place{{xyz[0], xyz[1], xyz[2]}};
+    const auto [nearest, spacing] = question.remaining.look(samples, place);
+    answer.is_above = question.values[answer.point] >= question.isovalue;
+    answer.is_nearest_above = question.values[nearest] >= question.isovalue;
+    answer.is_field_above =
+        std::isnan(question.interpolated[i])
+            ? answer.is_nearest_above
+            : question.interpolated[i] >= question.isovalue_of_field;
+    answer.is_side_above = answer.is_nearest_above;
+    if (isopoints)
+      question.sides.tellSide(*isopoints, place, covered_spacings * spacing, answer);
+  }
+}
+
+/** Those with a value and a place. */
+pcl::Indices
+selectMeasured(const CloudView& cloud,
+               const std::vector<float>& values,
+               const pcl::Indices& use)
+{
+  pcl::Indices measured;
+  for (const int index : use) {
+    const auto i = static_cast<std::size_t>(index);
+    const float* const xyz = cloud.xyz(i);
+    if (!std::isnan(values[i]) && isFinite({{xyz[0], xyz[1], xyz[2]}}))
+      measured.push_back(index);
+  }
+  return measured;
+}
+
+} // namespace
+
+std::vector<std::vector<HeldOutSample>>
+holdOut(const std::shared_ptr<const Dataset>& samples,
+        const pcl::Indices& use,
+        const IsosurfacePipelineParameters& parameters,
+        const Folds& folds,
+        unsigned threads,
+        Report& report)
+{
+  const CloudView cloud = viewOf(samples->cloud);
+  const IsosurfaceParameters& isosurface = parameters.isosurface;
+  const ScalarField field(cloud.fields, isosurface.field);
+  const ValueFrame frame = findValueRange(cloud, field, threads).findFrame();
+  const std::vector<float> values = readValues(cloud, field, frame, threads);
+  const pcl::Indices measured = selectMeasured(cloud, values, use);
+  const Position scale = toPosition(isosurface.scale);
+  IsosurfacePipelineParameters of_rest = parameters;
+  of_rest.automatic_scale = false;
+  of_rest.validation = {};
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(of_rest);
+  pipeline.setNumberOfThreads(threads);
+
+  std::vector<std::vector<HeldOutSample>> told(isosurface.isovalues.size());
+  StepTimer step(report, "validation", folds.size());
+  for (std::size_t fold = 0; fold < folds.size(); ++fold) {
+    const Division division = divide(measured, folds, fold);
+    if (division.left_out.empty())
+      continue;
+    pipeline.setIndices(std::make_shared<pcl::Indices>(division.rest));
+    const auto surfaces = splitSurface(pipeline.run());
+    const auto interpolated = interpolateLeftOut(cloud, division, isosurface, threads);
+    const Remaining remaining(cloud, division, scale, threads);
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      const double isovalue = isosurface.isovalues[i];
+      const Sides sides(surfaces[i], scale, isosurface.outside, threads);
+      const Question question{cloud,
+                              values,
+                              division,
+                              remaining,
+                              sides,
+                              interpolated,
+                              static_cast<float>(frame.apply(isovalue)),
+                              isovalue};
+      const std::size_t first = told[i].size();
+      told[i].resize(first + division.left_out.size());
+      parallelBlocks(division.left_out.size(),
+                     block_samples,
+                     threads,
+                     [&](std::size_t begin, std::size_t end) {
+                       askFor(question, begin, end, &told[i][first]);
+                     });
+    }
+    step.advance(1);
+  }
+  return told;
+}
+
+ValidationScore
+scoreHeldOut(const std::vector<HeldOutSample>& samples)
+{
+  ValidationScore score;
+  score.tested = samples.size();
+  std::size_t above = 0, nearest = 0, field = 0, side_everywhere = 0;
+  std::size_t side = 0, above_near = 0, nearest_near = 0, field_near = 0, sure = 0;
+  for (const HeldOutSample& sample : samples) {
+    above += sample.is_above;
+    nearest += sample.is_nearest_above == sample.is_above;
+    field += sample.is_field_above == sample.is_above;
+    const bool is_right = sample.is_side_above == sample.is_above;
+    side_everywhere += is_right;
+    if (!sample.is_covered)
+      continue;
+    ++score.covered;
+    side += is_right;
+    above_near += sample.is_above;
+    nearest_near += sample.is_nearest_above == sample.is_above;
+    field_near += sample.is_field_above == sample.is_above;
+    if (sample.distance > sample.error) {
+      ++score.beyond_error;
+      sure += is_right;
+    }
+  }
+  const auto share = [](std::size_t part, std::size_t all) {
+    return all == 0 ? nan : static_cast<double>(part) / static_cast<double>(all);
+  };
+  const auto base = [&](std::size_t part, std::size_t all) {
+    return share(std::max(part, all - part), all);
+  };
+  score.side = {share(side, score.covered),
+                base(above_near, score.covered),
+                share(nearest_near, score.covered)};
+  score.side_of_field = share(field_near, score.covered);
+  score.field = {share(field, score.tested),
+                 base(above, score.tested),
+                 share(nearest, score.tested)};
+  score.side_everywhere = share(side_everywhere, score.tested);
+  score.side_beyond_error = share(sure, score.beyond_error);
+  return score;
+}
+
+Folds
+makeFolds(const CloudView& cloud,
+          const ValidationParameters& parameters,
+          unsigned threads)
+{
+  switch (parameters.by) {
+  case ValidateBy::Blocks:
+    return Folds::byBlocks(cloud, parameters.folds, threads);
+  case ValidateBy::Field:
+    return Folds::byField(cloud, parameters.field, parameters.folds);
+  default:
+    return Folds::byRandom(cloud.count, parameters.folds);
+  }
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hold-out test of an isosurface: samples are left out, the surface is extracted
+// from the others, and asked on which side of it each of them lies.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/interpolation/cross_validation.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <pcl/types.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief What is said of a sample that was left out. Above: at the isovalue or higher.
+ */
+struct HeldOutSample {
+  std::uint32_t point;   ///< index in the input
+  bool is_above;         ///< as it was measured
+  bool is_nearest_above; ///< the nearest sample that remained
+  bool is_field_above;   ///< the field interpolated from those that remained; where it
+                         ///< has no value, the nearest sample
+  bool is_side_above;    ///< the side of the nearest isopoint's normal; without
+                         ///< isopoints, the nearest sample
+  bool is_covered =
+      false;             ///< no farther from the surface than 2 local spacings, which
+                         ///< are mean distances of the 6 nearest samples that remained
+  float distance = 0.0f; ///< from the plane of that isopoint, in units of length
+  float error = 0.0f;    ///< of that isopoint
+};
+
+/** \brief Leave out the folds one after the other.
+ * \param use points to take part, with those without a value left aside
+ * \param parameters with the field and the scale that are meant
+ * \return per isovalue the samples, fold by fold
+ * \throws InvalidArgument for folds that leave no samples, and as IsosurfacePipeline */
+PCL_UVOL_EXPORTS std::vector<std::vector<HeldOutSample>>
+holdOut(const std::shared_ptr<const Dataset>& samples,
+        const pcl::Indices& use,
+        const IsosurfacePipelineParameters& parameters,
+        const Folds& folds,
+        unsigned threads,
+        Report& report);
+
+/** \brief Shares of samples, see ValidationScore. */
+PCL_UVOL_EXPORTS ValidationScore
+scoreHeldOut(const std::vector<HeldOutSample>& samples);
+
+/** \brief Divide points as the parameters say. */
+PCL_UVOL_EXPORTS Folds
+makeFolds(const CloudView& cloud,
+          const ValidationParameters& parameters,
+          unsigned threads);
+
+} // namespace pcl_uvol

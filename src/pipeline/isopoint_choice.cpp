@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/isopoint_choice.h"
+
+#include "common/parallel.h"
+#include "common/scalar_field.h"
+#include "neighbors/nearest_finder.h"
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t block_points = 512;
+
+/** Sums of unit vectors that are shorter have no direction to speak of. */
+constexpr double smallest_sum = 1e-3;
+
+/** Cosine between an isopoint's normal and its edge: below it they disagree. */
+constexpr float clear_side = 0.3f;
+
+/** Of the ends of the edges around: an isopoint goes back to its edge where so many
+ * more of them lie on their side. Less, and the surfaces of dense samples suffer, by
+ * noise; more, and those of samples on lines do (tests/benchmarks, holdout). */
+constexpr double least_gain = 0.1;
+
+template <typename Enum>
+std::vector<std::int32_t>
+toNumbers(const std::vector<Enum>& values)
+{
+  std::vector<std::int32_t> numbers;
+  for (const Enum value : values)
+    numbers.push_back(static_cast<std::int32_t>(value));
+  return numbers;
+}
+
+bool
+hasFit(const PointIso& point)
+{
+  return !std::isnan(point.mean_curvature);
+}
+
+bool
+isSupport(const PointIso& point, IsoSupport support)
+{
+  return point.support == static_cast<std::uint8_t>(support);
+}
+
+/** Edges of isopoints in the stretched space. */
+class StretchedEdges {
+public:
+  StretchedEdges(const CloudView& samples,
+                 const IsoEdges& edges,
+                 const IsosurfaceParameters& parameters)
+      : samples_(samples)
+      , edges_(edges)
+      , field_(samples.fields, parameters.field)
+      , scale_(parameters.scale.cast<double>())
+      , is_lower_outside_(parameters.outside == Outside::Lower)
+  {
+  }
+
+  /** \brief The unit vector along an edge that points to the outside. */
+  Vector3d
+  findOutside(std::size_t i) const
+  {
+    const auto [a, b, t] = edges_[i];
+    const bool falls = field_.read(samples_.point(b)) < field_.read(samples_.point(a));
+    const Vector3d along = (placeOf(b) - placeOf(a)).cwiseProduct(scale_.matrix());
+    return (falls == is_lower_outside_ ? along : Vector3d(-along)).normalized();
+  }
+
+  /** \brief Its linear root, in the original space. */
+  Vector3d
+  findRoot(std::size_t i) const
+  {
+    const auto [a, b, t] = edges_[i];
+    return placeOf(a) + static_cast<double>(t) * (placeOf(b) - placeOf(a));
+  }
+
+  /** \brief The samples at its ends, the inner one first. */
+  std::pair<Vector3d, Vector3d>
+  findEnds(std::size_t i) const
+  {
+    const auto [a, b, t] = edges_[i];
+    const bool falls = field_.read(samples_.point(b)) < field_.read(samples_.point(a));
+    return falls == is_lower_outside_ ? std::pair(placeOf(a), placeOf(b))
+                                      : std::pair(placeOf(b), placeOf(a));
+  }
+
+  /** \brief A covector of the stretched space in the original one. */
+  Eigen::Vector3f
+  carryBack(const Vector3d& covector) const
+  {
+    return covector.cwiseProduct(scale_.matrix()).normalized().cast<float>();
+  }
+
+private:
+  Vector3d
+  placeOf(std::uint32_t sample) const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(samples_.xyz(sample)).cast<double>();
+  }
+
+  const CloudView& samples_;
+  const IsoEdges& edges_;
+  ScalarField field_;
+  Eigen::Array3d scale_;
+  bool is_lower_outside_;
+};
+
+/** Put an isopoint back to where its edge has it. */
+void
+returnToEdge(const StretchedEdges& edges, float t, std::size_t i, PointIso& point)
+{
+  const Vector3d root = edges.findRoot(i);
+  const bool is_measured = hasFit(point) && isSupport(point, IsoSupport::Measured);
+  const double height = point.getNormalVector3fMap().cast<double>().dot(
+      root - point.getVector3fMap().cast<double>());
+  point.error = is_measured ? static_cast<float>(std::abs(height)) + point.error
+                            : std::max(t, 1.0f - t) * point.edge_length;
+  point.getVector3fMap() = root.cast<float>();
+  point.getNormalVector3fMap() = edges.carryBack(edges.findOutside(i));
+  point.mean_curvature = std::numeric_limits<float>::quiet_NaN();
+}
+
+/** One isovalue's isopoints, and the edges of those around each of them. */
+class Surface {
+public:
+  /** \param isopoints may be moved and turned; the search is among where they were */
+  Surface(const pcl::PointCloud<PointIso>& isopoints,
+          std::size_t first,
+          std::size_t last,
+          const StretchedEdges& edges,
+          const IsosurfacePipelineParameters& parameters,
+          unsigned threads)
+      : edges_(edges)
+      , neighbors_(parameters.normal_neighbors)
+  {
+    std::vector<std::uint32_t> surface(last - first);
+    std::iota(surface.begin(), surface.end(), static_cast<std::uint32_t>(first));
+    Report report;
+    const CloudView view = viewOf(isopoints);
+    places_ = SampleSet::build(view.xyz(0),
+                               view.stride(),
+                               surface,
+                               toPosition(parameters.isosurface.scale),
+                               threads,
+                               report);
+  }
+
+  NearestFinder
+  makeFinder() const
+  {
+    return {*places_, neighbors_};
+  }
+
+  /** \brief Isopoints around one, itself among them. */
+  void
+  findAround(NearestFinder& finder,
+             const PointIso& point,
+             std::vector<std::uint32_t>& around) const
+  {
+    const auto row =
+        finder.find(places_->getUnit().apply({{point.x, point.y, point.z}}), 1.0f);
+    around.clear();
+    for (std::size_t j = 0; j < row.size; ++j)
+      around.push_back(places_->getInputIndex(row.samples[j]));
+  }
+
+  /** \brief The bisector of an isopoint's edge and the mean of the edges around. */
+  Vector3d
+  bisect(std::size_t i, const std::vector<std::uint32_t>& around) const
+  {
+    Vector3d sum = Vector3d::Zero();
+    for (const std::uint32_t other : around)
+      sum += edges_.findOutside(other);
+    const Vector3d own = edges_.findOutside(i);
+    const double length = sum.norm();
+    if (!(length > smallest_sum))
+      return own;
+    const Vector3d bisector = sum / length + own;
+    return bisector.norm() > smallest_sum ? Vector3d(bisector.normalized()) : own;
+  }
+
+  /** \brief Of the samples at the ends of edges around, how many lie on their side of
+   * a plane. \param root, outside in the original space */
+  std::size_t
+  countRightEnds(const Vector3d& root,
+                 const Eigen::Vector3f& outside,
+                 const std::vector<std::uint32_t>& around) const
+  {
+    const Vector3d normal = outside.cast<double>();
+    std::size_t right = 0;
+    for (const std::uint32_t other : around) {
+      const auto [inner, outer] = edges_.findEnds(other);
+      right += normal.dot(inner - root) <= 0.0;
+      right += normal.dot(outer - root) >= 0.0;
+    }
+    return right;
+  }
+
+private:
+  const StretchedEdges& edges_;
+  std::size_t neighbors_;
+  SampleSet::ConstPtr places_;
+};
+
+/** Whether an isopoint may be a guess, by itself and its edge alone. */
+bool
+isDoubtful(const StretchedEdges& edges, std::size_t i, const PointIso& point)
+{
+  return !isSupport(point, IsoSupport::Measured) ||
+         edges.carryBack(edges.findOutside(i)).dot(point.getNormalVector3fMap()) <
+             clear_side;
+}
+
+/** Which isopoints go back to their edges, and the normals that they have there. */
+void
+judgeSurface(const Surface& surface,
+             const StretchedEdges& edges,
+             std::size_t first,
+             std::size_t last,
+             const pcl::PointCloud<PointIso>& isopoints,
+             unsigned threads,
+             std::vector<std::uint8_t>& returns,
+             std::vector<Eigen::Vector3f>& bisectors)
+{
+  parallelBlocks(last - first, block_points, threads, [&](auto begin, auto end) {
+    NearestFinder finder = surface.makeFinder();
+    std::vector<std::uint32_t> around;
+    for (std::size_t i = first + begin; i < first + end; ++i) {
+      const PointIso& point = isopoints[i];
+      if (!isDoubtful(edges, i, point))
+        continue;
+      surface.findAround(finder, point, around);
+      bisectors[i] = edges.carryBack(surface.bisect(i, around));
+      const std::size_t as_it_is = surface.countRightEnds(
+          point.getVector3fMap().cast<double>(), point.getNormalVector3fMap(), around);
+      const std::size_t by_edges =
+          surface.countRightEnds(edges.findRoot(i), bisectors[i], around);
+      returns[i] = static_cast<double>(by_edges) >=
+                   static_cast<double>(as_it_is) +
+                       least_gain * 2.0 * static_cast<double>(around.size());
+    }
+  });
+}
+
+} // namespace
+
+void
+IsopointChoice::addFields(Dataset& surface) const
+{
+  setField(surface, "method", toNumbers(method));
+  setField(surface, "orientation", toNumbers(orientation));
+}
+
+IsosurfaceParameters
+withErrors(const IsosurfacePipelineParameters& parameters)
+{
+  IsosurfaceParameters extraction = parameters.isosurface;
+  if (parameters.max_error || parameters.drop_bridged)
+    extraction.interpolation = Interpolation::Fit;
+  return extraction;
+}
+
+namespace {
+
+/** Normals as the parameters ask, if isopoints stay where they are. */
+void
+orientIsopoints(const IsosurfacePipelineParameters& parameters,
+                unsigned threads,
+                pcl::PointCloud<PointIso>& isopoints,
+                IsopointChoice& choice,
+                Report& report)
+{
+  const auto become = [&](IsoOrientation orientation) {
+    for (std::size_t i = 0; i < isopoints.size(); ++i)
+      choice.orientation[i] = hasFit(isopoints[i]) ? IsoOrientation::Fit : orientation;
+  };
+  become(IsoOrientation::Edge);
+  if (parameters.normals == NormalMethod::Edge || isopoints.empty())
+    return;
+  SurfaceNormalParameters pca;
+  pca.k = parameters.normal_neighbors;
+  pca.scale = parameters.isosurface.scale;
+  if (parameters.normals == NormalMethod::Pca ||
+      parameters.isosurface.interpolation == Interpolation::Linear) {
+    detail::replaceNormals(isopoints, pca, threads, report);
+    choice.orientation.assign(isopoints.size(), IsoOrientation::Pca);
+    return;
+  }
+  detail::replaceMissingNormals(isopoints, pca, threads, report);
+  become(IsoOrientation::Pca);
+}
+
+/** Put isopoints back to their edges that rest on these alone. */
+void
+returnDoubtful(const StretchedEdges& stretched,
+               const IsoEdges& edges,
+               const IsosurfacePipelineParameters& parameters,
+               unsigned threads,
+               pcl::PointCloud<PointIso>& isopoints,
+               IsopointChoice& choice)
+{
+  std::vector<std::uint8_t> returns(isopoints.size(), 0);
+  std::vector<Eigen::Vector3f> bisectors(isopoints.size());
+  for (std::size_t first = 0, last = 0; first < isopoints.size(); first = last) {
+    while (last < isopoints.size() &&
+           isopoints[last].isovalue == isopoints[first].isovalue)
+      ++last;
+    const Surface surface(isopoints, first, last, stretched, parameters, threads);
+    judgeSurface(
+        surface, stretched, first, last, isopoints, threads, returns, bisectors);
+  }
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    if (returns[i] == 0)
+      continue;
+    PointIso& point = isopoints[i];
+    const Eigen::Vector3f normal = point.getNormalVector3fMap();
+    returnToEdge(stretched, edges[i].t, i, point);
+    choice.method[i] = IsoMethod::Linear;
+    if (parameters.normals == NormalMethod::Auto) {
+      point.getNormalVector3fMap() = bisectors[i];
+      choice.orientation[i] = IsoOrientation::Bisector;
+    }
+    else if (parameters.normals == NormalMethod::Edge)
+      choice.orientation[i] = IsoOrientation::Edge;
+    else
+      point.getNormalVector3fMap() = normal;
+  }
+}
+
+} // namespace
+
+IsopointChoice
+chooseIsopoints(const CloudView& samples,
+                const IsoEdges& edges,
+                const IsosurfacePipelineParameters& parameters,
+                unsigned threads,
+                pcl::PointCloud<PointIso>& isopoints,
+                Report& report)
+{
+  const StepTimer timer(report, "normals");
+  const StretchedEdges stretched(samples, edges, parameters.isosurface);
+  IsopointChoice choice;
+  if (parameters.isosurface.interpolation == Interpolation::Linear)
+    for (std::size_t i = 0; i < isopoints.size(); ++i)
+      if (!isSupport(isopoints[i], IsoSupport::Unknown))
+        returnToEdge(stretched, edges[i].t, i, isopoints[i]);
+  for (const PointIso& point : isopoints)
+    choice.method.push_back(hasFit(point) ? IsoMethod::Fit : IsoMethod::Linear);
+  choice.orientation.resize(isopoints.size());
+  orientIsopoints(parameters, threads, isopoints, choice, report);
+  if (parameters.isosurface.interpolation == Interpolation::Auto)
+    returnDoubtful(stretched, edges, parameters, threads, isopoints, choice);
+  return choice;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where isopoints lie and how they are oriented, one by one, by what the samples around
+// them carry.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+
+#include <pcl/point_cloud.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief How each isopoint came about. */
+struct IsopointChoice {
+  std::vector<IsoMethod> method;
+  std::vector<IsoOrientation> orientation;
+
+  /** \brief Leave only what filterIsopoints will leave. */
+  template <typename Keep>
+  void
+  filter(const pcl::PointCloud<PointIso>& isopoints, const Keep& keep)
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < isopoints.size(); ++i)
+      if (keep(isopoints[i])) {
+        method[kept] = method[i];
+        orientation[kept++] = orientation[i];
+      }
+    method.resize(kept);
+    orientation.resize(kept);
+  }
+
+  /** \brief Add the fields `method` and `orientation`. */
+  void
+  addFields(Dataset& surface) const;
+};
+
+/** \brief What an extraction has to do so that isopoints can be chosen: bounds of the
+ * error and of gaps need fits even where isopoints lie on their edges. */
+IsosurfaceParameters
+withErrors(const IsosurfacePipelineParameters& parameters);
+
+/** \brief Place and orient isopoints as the parameters ask.
+ *
+ * Interpolation::Auto doubts an isopoint that is bridged or on a rim, or whose normal
+ * and edge disagree. Of the samples at the ends of the edges around it, those of the
+ * normal_neighbors nearest isopoints, more may lie on their side of a plane across the
+ * linear root than of the tangent plane at the fit: then the isopoint goes back to its
+ * edge. The normal of that plane is the bisector of the edge and the mean of the edges
+ * around: an edge is right about its own ends, but along a line of samples edges say
+ * nothing of what lies beside it.
+ * \param isopoints from the extraction that withErrors() asks for, one isovalue after
+ * another
+ * \param edges of isopoints, with indices into the samples */
+IsopointChoice
+chooseIsopoints(const CloudView& samples,
+                const IsoEdges& edges,
+                const IsosurfacePipelineParameters& parameters,
+                unsigned threads,
+                pcl::PointCloud<PointIso>& isopoints,
+                Report& report);
+
+} // namespace pcl_uvol

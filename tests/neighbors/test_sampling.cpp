@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Local dimension and spacings of samples whose layout is known.
+#include "src/common/random.h"
+#include "src/neighbors/sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+
+SampleSet::ConstPtr
+makeSamples(const std::vector<Position>& positions, const Position& scale)
+{
+  std::vector<std::uint32_t> use(positions.size());
+  std::iota(use.begin(), use.end(), 0u);
+  Report report;
+  return SampleSet::build(
+      positions.front().x, sizeof(Position) / sizeof(float), use, scale, 0, report);
+}
+
+/** A lattice of spacings dx, dy, dz, with a little disorder. */
+std::vector<Position>
+makeLattice(int nx, int ny, int nz, float dx, float dy, float dz)
+{
+  std::uint64_t draw = 0;
+  const auto place = [&](int i, float spacing) {
+    return spacing * (static_cast<float>(i) +
+                      0.02f * static_cast<float>(uniformAt(3, draw++, 0)));
+  };
+  std::vector<Position> positions;
+  for (int z = 0; z < nz; ++z)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x)
+        positions.push_back({{place(x, dx), place(y, dy), place(z, dz)}});
+  return positions;
+}
+
+SamplingSummary
+summarize(const std::vector<Position>& positions,
+          const Position& scale = {{1.0f, 1.0f, 1.0f}})
+{
+  return summarizeSampling(*makeSamples(positions, scale), 0);
+}
+
+TEST(Sampling, TellsVolumesSheetsAndLines)
+{
+  const auto volume = summarize(makeLattice(12, 12, 12, 1.0f, 1.0f, 1.0f));
+  EXPECT_EQ(LocalDimension::Volume, volume.most);
+  EXPECT_NEAR(1.0, volume.along, 0.05);
+  EXPECT_NEAR(1.0, volume.across, 0.05);
+  const auto sheets = summarize(makeLattice(20, 20, 8, 1.0f, 1.0f, 12.0f));
+  EXPECT_EQ(LocalDimension::Sheet, sheets.most);
+  EXPECT_NEAR(1.0, sheets.along, 0.1);
+  EXPECT_NEAR(12.0, sheets.across, 1.5);
+  const auto lines = summarize(makeLattice(60, 8, 8, 1.0f, 12.0f, 12.0f));
+  EXPECT_EQ(LocalDimension::Line, lines.most);
+  EXPECT_NEAR(1.0, lines.along, 0.5);
+  EXPECT_NEAR(12.0, lines.across, 1.5);
+}
+
+TEST(Sampling, SpacingsAreThoseOfTheStretchedSpace)
+{
+  const auto positions = makeLattice(60, 8, 8, 1.0f, 12.0f, 12.0f);
+  const auto stretched = summarize(positions, {{12.0f, 1.0f, 1.0f}});
+  EXPECT_EQ(LocalDimension::Volume, stretched.most);
+  EXPECT_NEAR(12.0, stretched.along, 1.0);
+}
+
+TEST(Sampling, KnowsOneLineAndOnePlane)
+{
+  std::vector<Position> line, plane;
+  for (int i = 0; i < 100; ++i)
+    line.push_back({{0.5f * static_cast<float>(i), 0.0f, 0.0f}});
+  for (const Position& place : makeLattice(15, 15, 1, 1.0f, 1.0f, 0.0f))
+    plane.push_back(place);
+  const auto of_line = summarize(line), of_plane = summarize(plane);
+  EXPECT_EQ(LocalDimension::Line, of_line.most);
+  EXPECT_FLOAT_EQ(0.5f, of_line.along);
+  EXPECT_TRUE(std::isinf(of_line.across));
+  EXPECT_EQ(LocalDimension::Sheet, of_plane.most);
+  EXPECT_TRUE(std::isinf(of_plane.across));
+}
+
+TEST(Sampling, KnowsWhatIsAlone)
+{
+  auto positions = makeLattice(8, 8, 8, 1.0f, 1.0f, 1.0f);
+  positions.push_back({{40.0f, 0.0f, 0.0f}});
+  const auto samples = makeSamples(positions, {{1.0f, 1.0f, 1.0f}});
+  const auto found = diagnoseSampling(*samples, 0);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_EQ(samples->getInputIndex(i) == positions.size() - 1,
+              found[i].dimension == LocalDimension::Isolated);
+  EXPECT_EQ(LocalDimension::Isolated, summarize({{{1.0f, 2.0f, 3.0f}}}).most);
+}
+
+TEST(Sampling, DoesNotDependOnThreadsOrUnits)
+{
+  auto positions = makeLattice(20, 20, 8, 1.0f, 1.0f, 12.0f);
+  const auto samples = makeSamples(positions, {{1.0f, 1.0f, 1.0f}});
+  const auto one = diagnoseSampling(*samples, 1), four = diagnoseSampling(*samples, 4);
+  for (Position& position : positions)
+    for (int axis = 0; axis < 3; ++axis)
+      position[axis] *= 0x1p-30f;
+  const auto small = diagnoseSampling(*makeSamples(positions, {{1.0f, 1.0f, 1.0f}}), 0);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].along, four[i].along);
+    EXPECT_EQ(one[i].across, four[i].across);
+    EXPECT_EQ(0x1p-30f * one[i].along, small[i].along);
+    EXPECT_EQ(one[i].dimension, small[i].dimension);
+  }
+}
+
+} // namespace

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where isopoints lie and how they are oriented, chosen one by one.
+#include "common/scalar_field.h"
+#include "support/environment.h"
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+
+/** Profiles of 100 samples each at random places of the unit square, and the height
+ * above a tilted plane.
+ * \param depth of the profiles
+ * \param noise range of what is added to the values */
+std::shared_ptr<Dataset>
+makeProfiles(std::size_t count,
+             float depth = 1.0f,
+             float tilt = 0.3f,
+             float noise = 0.0f)
+{
+  uvol_test::Random random(11);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (std::size_t profile = 0; profile < count; ++profile) {
+    const auto x = static_cast<float>(random.uniform());
+    const auto y = static_cast<float>(random.uniform());
+    for (int i = 0; i < 100; ++i) {
+      pcl::PointXYZI point;
+      point.x = x;
+      point.y = y;
+      point.z = depth *
+                (static_cast<float>(i) + 0.3f * static_cast<float>(random.uniform())) /
+                100.0f;
+      point.intensity = point.z / depth - 0.4f - tilt * x +
+                        noise * static_cast<float>(random.uniform() - 0.5);
+      cloud.push_back(point);
+    }
+  }
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  return samples;
+}
+
+/** A sphere of radius 0.6 in a cube of samples. */
+std::shared_ptr<Dataset>
+makeSphere(std::size_t n)
+{
+  uvol_test::Random random(5);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (std::size_t i = 0; i < n; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(2.0 * random.uniform() - 1.0);
+    point.intensity = 0.6f - point.getVector3fMap().norm();
+    cloud.push_back(point);
+  }
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  return samples;
+}
+
+IsosurfacePipelineParameters
+makeParameters(Interpolation interpolation)
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {0.0};
+  parameters.isosurface.interpolation = interpolation;
+  return parameters;
+}
+
+IsosurfaceResult
+run(const std::shared_ptr<Dataset>& samples,
+    const IsosurfacePipelineParameters& parameters,
+    unsigned threads = 0)
+{
+  IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  pipeline.setNumberOfThreads(threads);
+  return pipeline.run();
+}
+
+pcl::PointCloud<PointIso>
+isopointsOf(const IsosurfaceResult& result)
+{
+  pcl::PointCloud<PointIso> points;
+  pcl::fromPCLPointCloud2(result.surface.cloud, points);
+  return points;
+}
+
+std::size_t
+countValue(const IsosurfaceResult& result, const std::string& field, double value)
+{
+  const CloudView view = viewOf(result.surface.cloud);
+  const ScalarField scalar(view.fields, field);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < view.count; ++i)
+    count += scalar.read(view.point(i)) == value;
+  return count;
+}
+
+/** Mean cosine between normals and a direction. */
+double
+meanCosine(const pcl::PointCloud<PointIso>& points, const Eigen::Vector3f& direction)
+{
+  double sum = 0.0;
+  for (const PointIso& point : points)
+    sum += point.getNormalVector3fMap().dot(direction.normalized());
+  return sum / static_cast<double>(points.size());
+}
+
+TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
+{
+  const auto samples = makeSphere(20000);
+  const auto fit = run(samples, makeParameters(Interpolation::Fit));
+  const auto chosen = run(samples, makeParameters(Interpolation::Auto));
+  EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "method", 2));
+  EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "orientation", 2));
+  const auto a = isopointsOf(fit), b = isopointsOf(chosen);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].getVector3fMap(), b[i].getVector3fMap());
+    EXPECT_EQ(a[i].getNormalVector3fMap(), b[i].getNormalVector3fMap());
+    EXPECT_EQ(a[i].error, b[i].error);
+  }
+  EXPECT_TRUE(chosen.report.warnings.empty());
+  ASSERT_TRUE(chosen.sampling);
+  EXPECT_EQ(LocalDimension::Volume, chosen.sampling->most);
+}
+
+TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
+{
+  const auto samples = makeProfiles(60, 1.0f, 0.3f, 0.1f);
+  const auto fit = run(samples, makeParameters(Interpolation::Fit));
+  const auto chosen = run(samples, makeParameters(Interpolation::Auto));
+  EXPECT_GT(countValue(chosen, "method", 1), 0u);
+  EXPECT_GT(countValue(chosen, "orientation", 4), 0u);
+  const Eigen::Vector3f truth(0.3f, 0.0f, -1.0f); // to lower values
+  EXPECT_GE(meanCosine(isopointsOf(chosen), truth),
+            meanCosine(isopointsOf(fit), truth));
+  EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
+  ASSERT_EQ(1u, chosen.report.warnings.size());
+  EXPECT_NE(std::string::npos, chosen.report.warnings[0].find("-validate"));
+}
+
+TEST(IsopointChoice, EdgeNormalsAreCovectorsOfTheStretchedSpace)
+{
+  auto parameters = makeParameters(Interpolation::Linear);
+  parameters.normals = NormalMethod::Edge;
+  parameters.isosurface.scale = {1.0f, 1.0f, 100.0f};
+  // In the stretched space profiles are as deep as they are apart: level isotherms
+  // have upright normals but for those of edges along them.
+  const auto points = isopointsOf(run(makeProfiles(200, 0.01f, 0.05f), parameters));
+  std::size_t level = 0;
+  for (const PointIso& point : points)
+    level += std::abs(point.normal_z) < 0.7f;
+  EXPECT_LT(static_cast<double>(level), 0.1 * static_cast<double>(points.size()));
+}
+
+TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
+{
+  const auto samples = makeProfiles(60);
+  auto parameters = makeParameters(Interpolation::Linear);
+  const auto all = isopointsOf(run(samples, parameters));
+  parameters.drop_bridged = true;
+  const auto result = run(samples, parameters);
+  const auto measured = isopointsOf(result);
+  EXPECT_GT(result.report.getCount("removed_bridged"), 0u);
+  ASSERT_EQ(all.size(), measured.size() + result.report.getCount("removed_bridged"));
+  std::size_t found = 0;
+  for (const PointIso& point : all)
+    found += found < measured.size() &&
+             (point.getVector3fMap() - measured[found].getVector3fMap()).norm() < 1e-5f;
+  EXPECT_EQ(measured.size(), found);
+  parameters.drop_bridged = false;
+  parameters.max_error = 0.01;
+  for (const PointIso& point : isopointsOf(run(samples, parameters)))
+    EXPECT_LE(point.error, 0.01f);
+}
+
+TEST(IsopointChoice, ErrorsOfLinearIsopointsCoverTheirDeviations)
+{
+  auto parameters = makeParameters(Interpolation::Linear);
+  parameters.max_error = 1.0;
+  const auto points = isopointsOf(run(makeSphere(8000), parameters));
+  std::size_t covered = 0;
+  for (const PointIso& point : points)
+    covered += std::abs(point.getVector3fMap().norm() - 0.6f) <= point.error;
+  EXPECT_GT(static_cast<double>(covered), 0.95 * static_cast<double>(points.size()));
+}
+
+TEST(IsopointChoice, DoesNotDependOnThreads)
+{
+  const auto samples = makeProfiles(60);
+  const auto parameters = makeParameters(Interpolation::Auto);
+  EXPECT_EQ(run(samples, parameters, 1).surface.cloud.data,
+            run(samples, parameters, 4).surface.cloud.data);
+}
+
+TEST(IsopointChoice, IsTheSameInOtherUnits)
+{
+  const auto samples = makeProfiles(60);
+  auto larger = std::make_shared<Dataset>(*samples);
+  for (std::size_t i = 0; i < larger->cloud.width; ++i) {
+    auto* const xyz =
+        reinterpret_cast<float*>(&larger->cloud.data[i * larger->cloud.point_step]);
+    for (int axis = 0; axis < 3; ++axis)
+      xyz[axis] *= 0x1p30f;
+  }
+  const auto parameters = makeParameters(Interpolation::Auto);
+  const auto a = isopointsOf(run(samples, parameters));
+  const auto b = isopointsOf(run(larger, parameters));
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(0x1p30f * a[i].getVector3fMap(), b[i].getVector3fMap());
+    EXPECT_EQ(a[i].getNormalVector3fMap(), b[i].getNormalVector3fMap());
+  }
+}
+
+} // namespace
