@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/color_bar.h"
 
-#include "charts/drawing.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +28,36 @@ inkOn(const Image& image)
 
 } // namespace
 
+int
+drawBar(Image& image,
+        const ColorMap& map,
+        const PlotArea& area,
+        const std::vector<BarLabel>& labels,
+        TextAnchor anchor,
+        int font,
+        const Ink& ink)
+{
+  const int length = area.bottom - area.top + 1;
+  for (int row = 0; row < length; ++row) {
+    const Ink color = inkOf(map.at((length - 0.5 - row) / length));
+    for (int column = area.left; column <= area.right; ++column)
+      blend(image, column, area.top + row, color, 1.0);
+  }
+  int widest = 0;
+  for (const BarLabel& label : labels)
+    widest = std::max(widest,
+                      writeText(image,
+                                label.text,
+                                font,
+                                anchor == TextAnchor::Right ? area.left - font / 2
+                                                            : area.right + 1 + font / 2,
+                                area.top + static_cast<int>(std::lround(
+                                               (1.0 - label.place) * length)),
+                                anchor,
+                                ink));
+  return widest;
+}
+
 void
 drawColorBar(Image& image,
              const ColorMap& map,
@@ -44,24 +72,17 @@ drawColorBar(Image& image,
   const int size = std::clamp(height / 40, 11, 48);
   const int right = static_cast<int>(image.width) - size, left = right - size;
   const Ink ink = inkOn(image);
-  for (int row = 0; row < length; ++row) {
-    const pcl_uvol::Rgba packed = toRgba(map.at((length - 0.5 - row) / length));
-    const Ink color{static_cast<std::uint8_t>(packed),
-                    static_cast<std::uint8_t>(packed >> 8),
-                    static_cast<std::uint8_t>(packed >> 16)};
-    for (int column = left; column < right; ++column)
-      blend(image, column, top + row, color, 1.0);
-  }
-  for (const double value : roundValues(low, high)) {
-    const double place = high > low ? (value - low) / (high - low) : 0.5;
-    writeText(image,
-              shortNumber(value),
-              size,
-              left - size / 2,
-              top + static_cast<int>(std::lround((1.0 - place) * length)),
-              TextAnchor::Right,
-              ink);
-  }
+  const AxisScale scale{low, high};
+  std::vector<BarLabel> labels;
+  for (const double value : roundValues(low, high))
+    labels.push_back({scale.placeOf(value), shortNumber(value)});
+  drawBar(image,
+          map,
+          {left, right - 1, top, top + length - 1},
+          labels,
+          TextAnchor::Right,
+          size,
+          ink);
   writeText(image, title, size, right, top - size * 3 / 2, TextAnchor::Right, ink);
 }
 

@@ -33,20 +33,7 @@ AttributeOptions::declare(Options& options)
 std::vector<std::string>
 AttributeOptions::required() const
 {
-  // The commas of |vx,vy,vz| part components.
-  std::vector<std::string> names(1);
-  bool is_in_bars = false;
-  for (const char c : text_) {
-    is_in_bars ^= c == '|';
-    if (c == ',' && !is_in_bars)
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  if (text_.empty())
-    names.clear();
-  if (std::find(names.begin(), names.end(), "") != names.end())
-    throw UsageError("-attributes has an empty name in " + text_ + ".");
+  std::vector<std::string> names = parseNames("attributes", text_);
   if (has_position_)
     for (const char* const axis : {"x", "y", "z"})
       if (std::find(names.begin(), names.end(), axis) == names.end())

@@ -109,6 +109,25 @@ parseNumbers(const std::string& option, const std::string& value, std::size_t co
   return numbers;
 }
 
+std::vector<std::string>
+parseNames(const std::string& option, const std::string& value)
+{
+  if (value.empty())
+    return {};
+  std::vector<std::string> names(1);
+  bool is_in_bars = false;
+  for (const char c : value) {
+    is_in_bars ^= c == '|';
+    if (c == ',' && !is_in_bars)
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError("-" + option + " has an empty name in " + value + ".");
+  return names;
+}
+
 Options::Options(std::string tool, std::string synopsis, std::string purpose)
     : tool_(std::move(tool))
     , synopsis_(std::move(synopsis))

@@ -191,6 +191,12 @@ checkDistinct(const std::vector<std::string>& inputs,
 std::vector<double>
 parseNumbers(const std::string& option, const std::string& value, std::size_t count);
 
+/** \brief Names joined by commas, as an option's value; the commas of |vx,vy,vz| part
+ * components. "": none.
+ * \throws UsageError that names the option */
+std::vector<std::string>
+parseNames(const std::string& option, const std::string& value);
+
 /** \brief Print facts, what was counted, and warnings: PCL's colours on a terminal,
  * plain in a pipe. With -v all counts and times; with -json one JSON object (keys:
  * those of the facts, counts, milliseconds, warnings).
