@@ -154,7 +154,10 @@ QueryLattice::at(std::size_t index) const
 double
 QueryLattice::spacing(std::size_t axis) const
 {
-  return vectorOf(steps[axis]).norm();
+  // Exact for a step along an axis of the coordinates.
+  const Vector3d step = vectorOf(steps[axis]);
+  const double largest = step.cwiseAbs().maxCoeff();
+  return largest * (step / largest).norm();
 }
 
 QueryLattice
