@@ -13,8 +13,10 @@ namespace {
 
 constexpr double index_bytes = sizeof(std::uint32_t), number_bytes = sizeof(double);
 
-/** Spacings of samples within which fits are made on both sides of a query. */
-constexpr double fit_reach = 8.0;
+/** Spacings of samples within which fits are made on both sides of a query, buckets
+ * that are reached at a corner included; samples that cluster about a plane add as many
+ * (measured on even and clustered samples). */
+constexpr double fit_reach = 16.0;
 
 /** Samples whose fits are made. */
 double

@@ -67,7 +67,7 @@ makeGrid(const Bounds& box, const std::array<std::size_t, 3>& counts);
 
 /** \brief A plane through a point. */
 struct Plane {
-  Place point, normal;
+  Place point{}, normal{};
 };
 
 /** \brief A rectangle of places in a plane. */

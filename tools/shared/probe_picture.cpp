@@ -3,9 +3,7 @@
 
 #include "charts/line_plot.h"
 #include "charts/slice_plot.h"
-#include "common/number_range.h"
 #include "common/scalar_field.h"
-#include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/image_file.h>
 
@@ -55,18 +53,6 @@ struct PictureAxis {
     name = text.str();
   }
 };
-
-/** What the samples' values range over, widened to numbers in single precision. */
-AxisScale
-rangeOfSamples(const pcl_uvol::Dataset& samples, const std::string& field)
-{
-  pcl_uvol::NumberRange range;
-  for (const double value : pcl_uvol::readFieldValues(
-           samples, pcl_uvol::ScalarField(samples.cloud.fields, field)))
-    if (std::isfinite(value))
-      range.add(value);
-  return {range.low - range.float_error, range.high + range.float_error};
-}
 
 std::string
 withUnit(const std::string& name, const std::string& unit)
@@ -137,6 +123,7 @@ void
 ProbePicture::drawSlice(const std::string& field,
                         const Slice& slice,
                         const std::vector<float>& values,
+                        const AxisScale& of_samples,
                         const pcl_uvol::Dataset& samples) const
 {
   const PictureAxis across(slice.lattice, slice.horizontal),
@@ -152,10 +139,8 @@ ProbePicture::drawSlice(const std::string& field,
   plot.title = label_.empty() ? field : label_;
   plot.map = pcl_uvol::ColorMap(color_map_);
   plot.is_logarithmic = is_logarithmic_;
-  plot.range =
-      range_.empty()
-          ? findColorRange(values, rangeOfSamples(samples, field), is_logarithmic_)
-          : AxisScale{range_[0], range_[1]};
+  plot.range = range_.empty() ? findColorRange(values, of_samples, is_logarithmic_)
+                              : AxisScale{range_[0], range_[1]};
   plot.contours = contours_;
   if (near_ >= 0.0) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);

@@ -2,6 +2,7 @@
 // The picture of a field along a line or in a plane.
 #pragma once
 
+#include "charts/axes.h"
 #include "interpolation/query_lattice.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
@@ -38,11 +39,13 @@ public:
            const std::vector<double>& errors) const;
 
   /** \brief Draw a field in a plane.
-   * \param values in the order of the lattice */
+   * \param values in the order of the lattice
+   * \param of_samples range of the samples' values */
   void
   drawSlice(const std::string& field,
             const pcl_uvol::detail::Slice& slice,
             const std::vector<float>& values,
+            const AxisScale& of_samples,
             const pcl_uvol::Dataset& samples) const;
 
 private:

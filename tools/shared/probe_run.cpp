@@ -58,6 +58,9 @@ private:
   Facts
   writeLattice(const Slice& slice);
 
+  void
+  drawSlice(const Slice& slice, const std::vector<float>& values);
+
   std::vector<pcl_uvol::LatticeArray>
   listArrays() const;
 
@@ -192,9 +195,18 @@ Runner::writeLatticeAsPoints(const Slice& slice)
                             values,
                             {answers.errors.begin(), answers.errors.begin() + first});
   else if (probe_.picture.isAskedFor())
-    probe_.picture.drawSlice(
-        answers.names.front(), slice, {values.begin(), values.end()}, samples_);
+    drawSlice(slice, {values.begin(), values.end()});
   return writePoints(answers, {}, points);
+}
+
+/** The first field as a picture. */
+void
+Runner::drawSlice(const Slice& slice, const std::vector<float>& values)
+{
+  const StepTimer timer(report_, "picture");
+  const AnswerSummary::Field& field = summary_.getFields().front();
+  probe_.picture.drawSlice(
+      field.name, slice, values, {field.sample_low, field.sample_high}, samples_);
 }
 
 std::vector<pcl_uvol::LatticeArray>
@@ -254,8 +266,7 @@ Runner::writeLattice(const Slice& slice)
             });
       });
   if (probe_.picture.isAskedFor())
-    probe_.picture.drawSlice(
-        probe_.interpolator.getNames().front(), slice, drawn, samples_);
+    drawSlice(slice, drawn);
   std::string list;
   for (const std::string& file : files)
     list += (list.empty() ? "" : ", ") + file;
