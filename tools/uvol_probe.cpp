@@ -3,6 +3,7 @@
 // and how sure it is.
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
+#include "io/memory_need.h"
 #include "shared/interpolation_options.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
@@ -15,8 +16,10 @@
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 namespace {
@@ -28,6 +31,7 @@ using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
 using pcl_uvol::detail::AnswerSummary;
 using pcl_uvol::detail::FieldInterpolator;
+using pcl_uvol::detail::Slice;
 using uvol_tools::Fact;
 using uvol_tools::Facts;
 using uvol_tools::Options;
@@ -104,29 +108,72 @@ addRanges(const AnswerSummary& summary, Facts& facts)
   facts.emplace_back("ranges", ranges);
 }
 
+/** Places that are asked for at once, and bytes of each in the output. */
+struct QuerySize {
+  double count = 0.0, point_step = 0.0;
+};
+
+/** \param lattice null for points, and where it is not known yet */
+QuerySize
+findQuerySize(const Arguments& arguments, const Slice* lattice)
+{
+  const std::string& file = arguments.queries.getPoints();
+  if (!file.empty()) {
+    const auto header = pcl_uvol::peekHeader(file);
+    return header ? QuerySize{static_cast<double>(header->points),
+                              static_cast<double>(header->point_step)}
+                  : QuerySize();
+  }
+  if (!lattice)
+    return {};
+  const auto places = static_cast<double>(lattice->lattice.size());
+  if (uvol_tools::isWrittenInParts(arguments.queries, arguments.output))
+    return {std::min(places, static_cast<double>(pcl_uvol::detail::lattice_block)),
+            0.0};
+  return {places, sizeof(float) * 3 + sizeof(double)};
+}
+
 /** What the tool holds beside the samples. */
 uvol_tools::MemoryGuard::Work
-forecastMemory(const Arguments& arguments, double fields)
+forecastMemory(const Arguments& arguments, double fields, const QuerySize& queries)
 {
-  return
-      [&arguments, fields](double points, double, pcl_uvol::MemoryForecast& forecast) {
-        using pcl_uvol::QueryShape;
-        const Kind kind = arguments.queries.getKind();
-        const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
-                                 : kind == Kind::Plane ? QueryShape::Plane
-                                                       : QueryShape::Space;
-        forecast.hold(sizeof(int) * points); // indices of all
-        const InterpolationParameters& parameters = arguments.model.getParameters();
-        constexpr auto block = static_cast<double>(pcl_uvol::detail::lattice_block);
-        if (arguments.model.hasValidation())
-          forecast.run({pcl_uvol::interpolationNeed(
-                            points, fields, parameters, points / 2.0, QueryShape::Space)
-                            .peak,
-                        0.0});
-        if (kind != Kind::None)
-          forecast.run(
-              pcl_uvol::interpolationNeed(points, fields, parameters, block, shape));
-      };
+  return [&arguments, fields, queries](
+             double points, double, pcl_uvol::MemoryForecast& forecast) {
+    using pcl_uvol::QueryShape;
+    const Kind kind = arguments.queries.getKind();
+    const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
+                             : kind == Kind::Plane ? QueryShape::Plane
+                                                   : QueryShape::Space;
+    forecast.hold(sizeof(int) * points); // indices of all
+    const InterpolationParameters& parameters = arguments.model.getParameters();
+    if (arguments.model.hasValidation())
+      forecast.run({pcl_uvol::interpolationNeed(
+                        points, fields, parameters, points / 2.0, QueryShape::Space)
+                        .peak,
+                    0.0});
+    if (kind == Kind::None)
+      return;
+    if (queries.point_step > 0.0) // places and distances, and the points
+      forecast.hold((4.0 * sizeof(double) + queries.point_step) * queries.count);
+    forecast.run(
+        pcl_uvol::interpolationNeed(points, fields, parameters, queries.count, shape));
+    // Points with the answers, while they are written as well.
+    if (queries.point_step > 0.0)
+      forecast.hold((queries.point_step + 2.0 * sizeof(double) * fields + 4.0) *
+                    queries.count);
+  };
+}
+
+/** The box of the samples, as they are told. */
+pcl_uvol::detail::Bounds
+findBounds(const Dataset& samples)
+{
+  auto bounds = pcl_uvol::detail::boundsOf(pcl_uvol::viewOf(samples.cloud));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds.low[axis] += samples.origin[axis];
+    bounds.high[axis] += samples.origin[axis];
+  }
+  return bounds;
 }
 
 int
@@ -147,9 +194,11 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   check(options, arguments);
+  const Kind kind = arguments.queries.getKind();
   uvol_tools::MemoryGuard memory("Interpolation");
   if (arguments.where.empty())
-    memory.checkFile(arguments.input, forecastMemory(arguments, 1.0));
+    memory.checkFile(arguments.input,
+                     forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)));
   else
     memory.checkFile(arguments.input, nullptr);
 
@@ -163,9 +212,14 @@ run(int argc, char** argv)
       uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
   InterpolationParameters parameters = arguments.model.resolve(samples);
+  std::optional<Slice> lattice;
+  if (kind != Kind::None && kind != Kind::Points)
+    lattice = arguments.queries.makeLattice(findBounds(samples));
   memory.checkCloud(
       samples,
-      forecastMemory(arguments, static_cast<double>(parameters.fields.size())));
+      forecastMemory(arguments,
+                     static_cast<double>(parameters.fields.size()),
+                     findQuerySize(arguments, lattice ? &*lattice : nullptr)));
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
   pcl::Indices indices(view.count);
   std::iota(indices.begin(), indices.end(), 0);
@@ -188,12 +242,13 @@ run(int argc, char** argv)
     for (const Fact& fact : arguments.model.validate(
              samples, indices, parameters, options.threads(), report))
       facts.push_back(fact);
-  if (arguments.queries.getKind() != Kind::None) {
+  if (kind != Kind::None) {
     const FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
     AnswerSummary summary(view, indices, interpolator.getNames());
     const Facts found = uvol_tools::runProbe({options,
                                               arguments.queries,
+                                              lattice,
                                               arguments.picture,
                                               arguments.input,
                                               arguments.output,

@@ -8,7 +8,7 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/interpolation_functions.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/natural_neighbor_coordinates_3.h>
 #include <benchmark/benchmark.h>
 #include <vtkDoubleArray.h>
@@ -18,7 +18,6 @@
 #include <vtkPointInterpolator.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSMPTools.h>
 #include <vtkStaticPointLocator.h>
 
 #include <cmath>
@@ -77,7 +76,10 @@ setRms(benchmark::State& state, const Places& queries, const double* values)
 }
 
 FieldInterpolator
-makeInterpolator(const Setup& data, InterpolationModel model, std::size_t fields)
+makeInterpolator(const Setup& data,
+                 InterpolationModel model,
+                 std::size_t fields,
+                 unsigned threads)
 {
   pcl_uvol::InterpolationParameters parameters;
   parameters.model = model;
@@ -85,18 +87,21 @@ makeInterpolator(const Setup& data, InterpolationModel model, std::size_t fields
   for (std::size_t f = 0; f < fields; ++f)
     parameters.fields.push_back("f" + std::to_string(f));
   pcl_uvol::Report report;
-  return {pcl_uvol::viewOf(data.cloud), data.indices, parameters, 0, report};
+  return {pcl_uvol::viewOf(data.cloud), data.indices, parameters, threads, report};
 }
 
 void
-uvolMade(benchmark::State& state, InterpolationModel model, std::size_t fields)
+uvolMade(benchmark::State& state,
+         InterpolationModel model,
+         std::size_t fields,
+         unsigned threads = 0)
 {
   const Setup& data = setup(state);
   pcl_uvol::InterpolatedFields answers;
   for (auto _ : state) {
     pcl_uvol::Report report;
-    answers =
-        makeInterpolator(data, model, fields).interpolate(data.queries, 0, report);
+    answers = makeInterpolator(data, model, fields, threads)
+                  .interpolate(data.queries, threads, report);
   }
   setRms(state, data.queries, answers.values.data());
 }
@@ -105,7 +110,7 @@ void
 uvolKept(benchmark::State& state, InterpolationModel model, std::size_t fields)
 {
   const Setup& data = setup(state);
-  const FieldInterpolator interpolator = makeInterpolator(data, model, fields);
+  const FieldInterpolator interpolator = makeInterpolator(data, model, fields, 0);
   pcl_uvol::Report report;
   auto answers = interpolator.interpolate(data.queries, 0, report);
   for (auto _ : state)
@@ -161,26 +166,28 @@ void
 cgalSibson(benchmark::State& state)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Fast_location>;
+  using Vertex = CGAL::Triangulation_vertex_base_with_info_3<double, Kernel>;
+  using Cell = CGAL::Delaunay_triangulation_cell_base_3<Kernel>;
+  using Triangulation =
+      CGAL::Delaunay_triangulation_3<Kernel,
+                                     CGAL::Triangulation_data_structure_3<Vertex, Cell>,
+                                     CGAL::Fast_location>;
   const Setup& data = setup(state);
-  std::vector<Kernel::Point_3> points;
-  std::map<Kernel::Point_3, double> known;
-  for (const auto& place : data.samples) {
-    points.emplace_back(place[0], place[1], place[2]);
-    known[points.back()] = franke(vectorOf(place));
-  }
+  std::vector<std::pair<Kernel::Point_3, double>> samples;
+  for (const auto& place : data.samples)
+    samples.emplace_back(Kernel::Point_3(place[0], place[1], place[2]),
+                         franke(vectorOf(place)));
   std::vector<double> values(data.queries.size());
   for (auto _ : state) {
-    const Triangulation triangulation(points.begin(), points.end());
+    const Triangulation triangulation(samples.begin(), samples.end());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      std::vector<std::pair<Kernel::Point_3, double>> weights;
-      double sum = 0.0;
+      std::vector<std::pair<Triangulation::Vertex_handle, double>> weights;
+      double sum = 0.0, value = 0.0;
       const auto& q = data.queries[i];
       CGAL::sibson_natural_neighbor_coordinates_3(
           triangulation, {q[0], q[1], q[2]}, std::back_inserter(weights), sum);
-      double value = 0.0;
-      for (const auto& [point, weight] : weights)
-        value += weight / sum * known[point];
+      for (const auto& [vertex, weight] : weights)
+        value += weight / sum * vertex->info();
       values[i] = value;
     }
   }
@@ -197,8 +204,8 @@ SIZED((uvolKept, fit, InterpolationModel::Fit, 1))->Args({million, million});
 SIZED((uvolKept, fit_8_fields, InterpolationModel::Fit, 8))->Args({million, million});
 SIZED((vtkGaussian, 1_5_spacings, 1.5))->Args({million, million});
 SIZED((vtkGaussian, 2_5_spacings, 2.5))->Args({million, million});
-SIZED((uvolMade, natural, InterpolationModel::Sibson, 1))->Args({100000, 20000});
-SIZED((uvolMade, laplace, InterpolationModel::Laplace, 1))->Args({100000, 20000});
+SIZED((uvolMade, natural, InterpolationModel::Sibson, 1, 1))->Args({100000, 20000});
+SIZED((uvolMade, laplace, InterpolationModel::Laplace, 1, 1))->Args({100000, 20000});
 BENCHMARK(cgalSibson)
     ->Args({100000, 20000})
     ->Unit(benchmark::kMillisecond)

@@ -18,7 +18,6 @@ using pcl_uvol::InterpolatedFields;
 using pcl_uvol::Report;
 using pcl_uvol::StepTimer;
 using pcl_uvol::detail::AnswerSummary;
-using pcl_uvol::detail::Bounds;
 using pcl_uvol::detail::Place;
 using pcl_uvol::detail::QueryLattice;
 using pcl_uvol::detail::Slice;
@@ -63,9 +62,6 @@ private:
 
   std::vector<pcl_uvol::LatticeArray>
   listArrays() const;
-
-  Bounds
-  findBounds() const;
 
   const Probe& probe_;
   const Dataset& samples_;
@@ -273,22 +269,10 @@ Runner::writeLattice(const Slice& slice)
   return files.size() > 1 ? Facts{{"files", list}} : Facts{};
 }
 
-/** The box of the samples, as they are told. */
-Bounds
-Runner::findBounds() const
-{
-  Bounds bounds = pcl_uvol::detail::boundsOf(pcl_uvol::viewOf(samples_.cloud));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    bounds.low[axis] += samples_.origin[axis];
-    bounds.high[axis] += samples_.origin[axis];
-  }
-  return bounds;
-}
-
 Facts
 Runner::probeLattice()
 {
-  const Slice slice = probe_.queries.makeLattice(findBounds());
+  const Slice& slice = *probe_.lattice;
   const QueryLattice& lattice = slice.lattice;
   std::ostringstream text;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -321,8 +305,7 @@ Facts
 runProbe(const Probe& probe, AnswerSummary& summary, Report& report)
 {
   Runner runner(probe, summary, report);
-  return probe.queries.getKind() == Kind::Points ? runner.probePoints()
-                                                 : runner.probeLattice();
+  return probe.lattice ? runner.probeLattice() : runner.probePoints();
 }
 
 } // namespace uvol_tools

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
+#include <optional>
 #include <string>
 
 namespace uvol_tools {
@@ -17,6 +18,7 @@ namespace uvol_tools {
 struct Probe {
   const Options& options;
   const QueryOptions& queries;
+  const std::optional<pcl_uvol::detail::Slice>& lattice; ///< none for points
   const ProbePicture& picture;
   std::string input, output;
   std::string xyz; ///< columns of coordinates, of the samples and of points like them
