@@ -34,9 +34,12 @@ fittedSamples(double samples, QueryShape shape)
 double
 modelBytes(double samples, double fields, InterpolationModel model, QueryShape shape)
 {
+  const double fit_bytes = 24.0 + 168.0 * fields; // see BucketFits
   switch (model) {
   case InterpolationModel::Fit:
-    return (24.0 + 168.0 * fields) * fittedSamples(samples, shape); // see BucketFits
+    return fit_bytes * fittedSamples(samples, shape);
+  case InterpolationModel::Auto: // which makes fits all over the samples
+    return fit_bytes * samples;
   case InterpolationModel::Sph:
     return 4.0 * number_bytes * samples;
   default:
