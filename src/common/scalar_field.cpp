@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 
 #include "common/printable.h"
+#include "common/scalar_names.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -174,6 +175,21 @@ isCandidate(const pcl::PCLPointField& field)
 }
 
 } // namespace
+
+std::vector<std::string>
+listScalars(const Fields& fields)
+{
+  std::vector<std::string> names;
+  for (const pcl::PCLPointField& field : fields) {
+    if (!isCandidate(field))
+      continue;
+    const std::size_t count = componentCount(field);
+    for (std::size_t i = 0; i < count; ++i)
+      names.push_back(count > 1 ? field.name + '[' + std::to_string(i) + ']'
+                                : field.name);
+  }
+  return names;
+}
 
 double
 FieldComponent::read(const std::uint8_t* point) const

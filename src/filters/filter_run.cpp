@@ -8,13 +8,16 @@
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <string>
 
 namespace pcl_uvol {
@@ -78,6 +81,52 @@ PipelineProgress::tell(double done)
   filter_.UpdateProgress(std::min(std::max(whole, filter_.GetProgress()), 1.0));
   if (filter_.GetAbortExecute())
     throw Aborted();
+}
+
+int
+runGuarded(vtkAlgorithm& filter,
+           vtkDataObject& output,
+           const std::function<void(PipelineProgress&, Report&)>& work)
+{
+  output.Initialize();
+  PipelineProgress progress(filter);
+  Report report;
+  report.progress = [&](const std::string&, double done) { progress.tell(done); };
+  std::string error;
+  try {
+    work(progress, report);
+  }
+  catch (const Aborted&) {
+    output.Initialize();
+    return 1;
+  }
+  catch (const Exception& exception) {
+    error = exception.message();
+  }
+  catch (const std::bad_alloc&) {
+    error = "There is not enough memory.";
+  }
+  catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  for (const std::string& warning : report.warnings)
+    vtkWarningWithObjectMacro(&filter, << warning);
+  if (error.empty())
+    return 1;
+  vtkErrorWithObjectMacro(&filter, << error);
+  output.Initialize();
+  return 0;
+}
+
+void
+askForAll(vtkInformation& input)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  input.Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+  input.Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+  input.Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  if (input.Has(Pipeline::WHOLE_EXTENT()))
+    input.Set(Pipeline::UPDATE_EXTENT(), input.Get(Pipeline::WHOLE_EXTENT()), 6);
 }
 
 std::vector<int>

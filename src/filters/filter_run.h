@@ -8,11 +8,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <thread>
 #include <vector>
 
 class vtkAlgorithm;
+class vtkDataObject;
 class vtkDataSet;
+class vtkInformation;
 class vtkPolyData;
 
 namespace pcl_uvol {
@@ -45,6 +48,20 @@ private:
   const std::thread::id thread_ = std::this_thread::get_id();
   std::size_t expected_ = 1, started_ = 0;
 };
+
+/** \brief Empty the output of a filter and fill it by a function: exceptions become an
+ * ErrorEvent and an empty output, warnings of the report WarningEvents, an abort an
+ * empty output.
+ * \param work gets the progress to tell, and a report that tells it
+ * \return what RequestData returns */
+int
+runGuarded(vtkAlgorithm& filter,
+           vtkDataObject& output,
+           const std::function<void(PipelineProgress& progress, Report& report)>& work);
+
+/** \brief Ask an input for its data as a whole. */
+void
+askForAll(vtkInformation& input);
 
 /** \brief Indices of the points that are neither duplicates of another piece nor
  * hidden.

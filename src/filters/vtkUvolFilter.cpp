@@ -12,7 +12,6 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <new>
 
 using pcl_uvol::InvalidArgument;
 
@@ -63,38 +62,16 @@ vtkUvolFilter::RequestData(vtkInformation*,
   vtkPolyData* const output = vtkPolyData::GetData(outputs);
   if (!input || !output)
     return 0;
-  output->Initialize();
-  pcl_uvol::PipelineProgress progress(*this);
-  pcl_uvol::Report report;
-  report.progress = [&](const std::string&, double done) { progress.tell(done); };
-  std::string error;
-  try {
-    const std::vector<int> visible = pcl_uvol::visiblePoints(*input);
-    if (visible.empty())
-      return 1; // as a piece of a parallel pipeline may be
-    pcl_uvol::FilterRun run{*input, visible, *output, progress, report};
-    this->Execute(run);
-  }
-  catch (const pcl_uvol::Aborted&) {
-    output->Initialize();
-    return 1;
-  }
-  catch (const pcl_uvol::Exception& exception) {
-    error = exception.message();
-  }
-  catch (const std::bad_alloc&) {
-    error = "There is not enough memory.";
-  }
-  catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  for (const std::string& warning : report.warnings)
-    vtkWarningMacro(<< warning);
-  if (error.empty())
-    return 1;
-  vtkErrorMacro(<< error);
-  output->Initialize();
-  return 0;
+  return pcl_uvol::runGuarded(
+      *this,
+      *output,
+      [&](pcl_uvol::PipelineProgress& progress, pcl_uvol::Report& report) {
+        const std::vector<int> visible = pcl_uvol::visiblePoints(*input);
+        if (visible.empty())
+          return; // as a piece of a parallel pipeline may be
+        pcl_uvol::FilterRun run{*input, visible, *output, progress, report};
+        this->Execute(run);
+      });
 }
 
 std::string

@@ -22,24 +22,23 @@ joined(const KdBox& a, const KdBox& b)
   return box;
 }
 
-/** Least squared distance between two boxes. */
+} // namespace
+
 double
 sqGap(const std::array<double, 3>& low,
       const std::array<double, 3>& high,
-      const KdBox& b)
+      const KdBox& box)
 {
   double sum = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const int i = static_cast<int>(axis);
-    const double gap = std::max({static_cast<double>(b.low[i]) - high[axis],
-                                 low[axis] - static_cast<double>(b.high[i]),
+    const double gap = std::max({static_cast<double>(box.low[i]) - high[axis],
+                                 low[axis] - static_cast<double>(box.high[i]),
                                  0.0});
     sum += gap * gap;
   }
   return sum;
 }
-
-} // namespace
 
 BallTree::BallTree(const SampleSet& samples,
                    const std::function<double(const Bucket&)>& reach,

@@ -13,6 +13,12 @@
 
 namespace pcl_uvol::detail {
 
+/** \brief Least squared distance between two boxes. */
+double
+sqGap(const std::array<double, 3>& low,
+      const std::array<double, 3>& high,
+      const KdBox& box);
+
 /** \brief The buckets of a tree of samples, and how far balls around their samples
  * reach. */
 class BallTree {

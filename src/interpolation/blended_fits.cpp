@@ -106,10 +106,13 @@ private:
     const std::vector<Position>& positions = sampled_.samples->getPositions();
     candidates.clear();
     for (const std::uint32_t bucket : buckets_) {
-      const std::uint32_t first = fits_.getBalls().getBuckets()[bucket].begin;
+      const BallTree::Bucket& samples = fits_.getBalls().getBuckets()[bucket];
       const BucketFits& fits = fits_.getFits(bucket);
+      // The bound that the bucket was found by is a loose one.
+      if (!(sqGap(low, high, samples.box) < factor * factor * fits.largest_sq_reach))
+        continue;
       for (std::size_t i = 0; i < fits.radius.size(); ++i) {
-        const Position& center = positions[first + i];
+        const Position& center = positions[samples.begin + i];
         double sq_gap = 0.0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double x = center[static_cast<int>(axis)];

@@ -56,6 +56,7 @@ BucketFitter::fit(std::uint32_t begin, std::uint32_t count)
   finder_.expect(&sampled_.samples->getPositions()[begin], count);
   for (std::size_t first = 0; first < count; first += polynomial_lanes)
     fitLanes(begin, first, std::min(polynomial_lanes, count - first), fits);
+  fits.largest_sq_reach = *std::max_element(fits.sq_reach.begin(), fits.sq_reach.end());
   return fits;
 }
 

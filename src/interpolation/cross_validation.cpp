@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/random.h"
 #include "common/scalar_field.h"
+#include "interpolation/fold_split.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
-#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,42 +165,19 @@ crossValidate(const CloudView& cloud,
   std::vector<Errors> errors;
   std::vector<std::string> names;
   for (std::size_t fold = 0; fold < folds.size(); ++fold) {
-    pcl::Indices rest, left_out;
-    for (const int index : indices)
-      (folds[static_cast<std::size_t>(index)] == fold ? left_out : rest)
-          .push_back(index);
-    if (left_out.empty())
+    const detail::FoldSplit split(indices, folds, fold, most);
+    if (split.left_out.empty())
       continue;
-    if (rest.empty())
-      throw InvalidArgument("All samples are in one fold: divide them otherwise.");
-    if (most > 0 && left_out.size() > most) {
-      std::sort(left_out.begin(), left_out.end(), [](int a, int b) {
-        return mixBits(static_cast<std::uint64_t>(a)) <
-               mixBits(static_cast<std::uint64_t>(b));
-      });
-      left_out.resize(most);
-    }
-    std::vector<std::array<double, 3>> places;
-    for (const int index : left_out) {
-      const float* const xyz = cloud.xyz(static_cast<std::size_t>(index));
-      places.push_back({xyz[0], xyz[1], xyz[2]});
-    }
-    Report own;
-    own.progress = report.progress;
-    const detail::FieldInterpolator interpolator(cloud, rest, tested, threads, own);
-    const auto result = interpolator.interpolate(places, threads, own);
-    for (const std::string& warning : own.warnings)
-      if (std::find(report.warnings.begin(), report.warnings.end(), warning) ==
-          report.warnings.end())
-        report.warnings.push_back(warning);
+    const auto result = split.interpolate(cloud, tested, threads, report);
     names = result.names;
     errors.resize(names.size());
     for (std::size_t f = 0; f < names.size(); ++f) {
       const ScalarField field(cloud.fields, names[f]);
-      for (std::size_t i = 0; i < left_out.size(); ++i)
-        errors[f].add(field.read(cloud.point(static_cast<std::size_t>(left_out[i]))),
-                      result.getValue(f, i),
-                      result.getError(f, i));
+      for (std::size_t i = 0; i < split.left_out.size(); ++i)
+        errors[f].add(
+            field.read(cloud.point(static_cast<std::size_t>(split.left_out[i]))),
+            result.getValue(f, i),
+            result.getError(f, i));
     }
   }
   std::vector<FieldScore> scores;

@@ -8,9 +8,11 @@
 #include "interpolation/kernel_sums.h"
 #include "interpolation/kriging_model.h"
 #include "interpolation/natural_model.h"
+#include "interpolation/query_lattice.h"
 #include "interpolation/query_order.h"
 #include "interpolation/simple_models.h"
 #include "neighbors/sample_values.h"
+#include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <pcl/point_types.h>
@@ -255,6 +257,9 @@ FieldInterpolator::FieldInterpolator(const CloudView& cloud,
 {
   checkParameters(parameters);
   checkIndices(indices, cloud.count, "FieldInterpolation");
+  if (parameters.model == InterpolationModel::Auto)
+    parameters_.model =
+        chooseModel(cloud, indices, parameters, threads, report).scores.front().model;
   if (names_.empty())
     names_.push_back(ScalarField::defaultName(cloud.fields));
   for (std::size_t f = 0; f < names_.size(); ++f) {
@@ -273,15 +278,15 @@ FieldInterpolator::FieldInterpolator(const CloudView& cloud,
     group.columns.push_back(std::move(values));
   }
   for (Group& group : groups_)
-    group.build(cloud, parameters, names_, threads, report);
+    group.build(cloud, parameters_, names_, threads, report);
 }
 
 FieldInterpolator::~FieldInterpolator() = default;
 
 InterpolatedFields
-FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries,
-                               unsigned threads,
-                               Report& report) const
+FieldInterpolator::answer(const std::vector<std::array<double, 3>>& queries,
+                          unsigned threads,
+                          StepTimer& step) const
 {
   InterpolatedFields result;
   result.names = names_;
@@ -290,7 +295,6 @@ FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries
   result.errors.assign(parameters_.errors ? result.values.size() : 0, none);
   result.gradients.assign(parameters_.gradients ? 3 * result.values.size() : 0, none);
   result.support.assign(queries.size(), FieldSupport::Measured);
-  StepTimer step(report, "interpolation", groups_.size() * queries.size());
   for (const Group& group : groups_) {
     std::vector<Query> places(queries.size());
     std::vector<std::uint32_t> sources;
@@ -311,10 +315,41 @@ FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries
         group.scatter(answers.arrays(), i - begin, sources[order[i]], result);
       step.advance(end - begin);
     });
-    group.model->tell(report);
   }
+  return result;
+}
+
+InterpolatedFields
+FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries,
+                               unsigned threads,
+                               Report& report) const
+{
+  StepTimer step(report, "interpolation", groups_.size() * queries.size());
+  InterpolatedFields result = answer(queries, threads, step);
+  for (const Group& group : groups_)
+    group.model->tell(report);
   countSupport(result.support, report);
   return result;
+}
+
+void
+FieldInterpolator::interpolate(const QueryLattice& lattice,
+                               unsigned threads,
+                               Report& report,
+                               const TakeAnswers& take) const
+{
+  StepTimer step(report, "interpolation", groups_.size() * lattice.size());
+  std::vector<std::array<double, 3>> queries;
+  for (std::size_t first = 0; first < lattice.size(); first += lattice_block) {
+    queries.resize(std::min(lattice_block, lattice.size() - first));
+    for (std::size_t i = 0; i < queries.size(); ++i)
+      queries[i] = lattice.at(first + i);
+    const InterpolatedFields result = answer(queries, threads, step);
+    countSupport(result.support, report);
+    take(first, result);
+  }
+  for (const Group& group : groups_)
+    group.model->tell(report);
 }
 
 std::vector<std::array<double, 3>>

@@ -33,17 +33,27 @@ doubles(const std::string& name, std::uint32_t count, const double* data)
           reinterpret_cast<const std::uint8_t*>(data)};
 }
 
-bool
-isAmong(const std::vector<NewField>& fields, const std::string& name)
+/** A name, or the first of name_2, name_3, ... that goes with all endings without being
+ * taken. */
+std::string
+findFreeName(const std::vector<pcl::PCLPointField>& fields,
+             const std::string& name,
+             const std::vector<std::string>& endings)
 {
-  return std::any_of(fields.begin(), fields.end(), [&](const NewField& field) {
-    return field.name == name;
-  });
+  const auto is_taken = [&](const std::string& candidate) {
+    return std::any_of(endings.begin(), endings.end(), [&](const std::string& ending) {
+      return findField(fields, candidate + ending) != nullptr;
+    });
+  };
+  std::string free = name;
+  for (int i = 2; is_taken(free); ++i)
+    free = name + '_' + std::to_string(i);
+  return free;
 }
 
 } // namespace
 
-void
+std::vector<std::string>
 appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
 {
   const std::size_t count = static_cast<std::size_t>(points.width) * points.height;
@@ -53,7 +63,8 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
                           " points: ask for the values at these points.");
   std::vector<NewField> added;
   for (std::size_t f = 0; f < fields.names.size(); ++f) {
-    const std::string& name = fields.names[f];
+    const std::string name =
+        findFreeName(points.fields, fields.names[f], {"", "_error", "_gradient"});
     added.push_back(doubles(name, 1, fields.values.data() + f * count));
     if (!fields.errors.empty())
       added.push_back(doubles(name + "_error", 1, fields.errors.data() + f * count));
@@ -61,17 +72,13 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
       added.push_back(
           doubles(name + "_gradient", 3, fields.gradients.data() + 3 * f * count));
   }
-  added.push_back({"support",
+  added.push_back({findFreeName(points.fields, "support", {""}),
                    pcl::PCLPointField::UINT8,
                    1,
                    reinterpret_cast<const std::uint8_t*>(fields.support.data())});
 
   const std::size_t old_step = points.point_step;
   pcl::PCLPointCloud2 joined = points;
-  joined.fields.clear();
-  for (const pcl::PCLPointField& field : points.fields)
-    if (!isAmong(added, field.name))
-      joined.fields.push_back(field);
   std::size_t step = old_step;
   for (const NewField& field : added) {
     pcl::PCLPointField described;
@@ -96,6 +103,10 @@ appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points)
     }
   }
   points = std::move(joined);
+  std::vector<std::string> names;
+  for (const NewField& field : added)
+    names.push_back(field.name);
+  return names;
 }
 
 } // namespace pcl_uvol

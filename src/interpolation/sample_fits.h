@@ -18,11 +18,12 @@ namespace pcl_uvol::detail {
  *
  * Memory per sample: 24 bytes and 168 per field. */
 struct BucketFits {
-  std::vector<double> radius;   ///< [sample] of the support of the fit: its unit
-  std::vector<double> sq_reach; ///< [sample] of the ball in which the fit has a weight
-  std::vector<bool> is_inner;   ///< [sample] neighbours on all sides
-  std::vector<bool> is_reduced; ///< [sample] neighbours on few planes or lines, or too
-                                ///< few of them: a polynomial of lower degree
+  std::vector<double> radius;    ///< [sample] of the support of the fit: its unit
+  std::vector<double> sq_reach;  ///< [sample] of the ball in which the fit has a weight
+  double largest_sq_reach = 0.0; ///< of these
+  std::vector<bool> is_inner;    ///< [sample] neighbours on all sides
+  std::vector<bool> is_reduced;  ///< [sample] neighbours on few planes or lines, or too
+                                 ///< few of them: a polynomial of lower degree
   std::vector<double> coefficients; ///< [sample][field][term], see PolynomialFit
   std::vector<double> errors;       ///< [sample][field] standard errors at the sample
 };

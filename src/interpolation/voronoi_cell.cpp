@@ -84,7 +84,8 @@ VoronoiCellFinder::improve()
       }
   if (!farthest)
     return false;
-  final_.push_back(*farthest);
+  final_.insert(std::lower_bound(final_.begin(), final_.end(), sq_farthest),
+                {sq_farthest, *farthest});
   std::uint32_t sample;
   if (findInBall(*farthest, sample)) {
     const Vector3d offset = offsetOf(sample);
@@ -102,10 +103,14 @@ VoronoiCellFinder::improve()
 bool
 VoronoiCellFinder::isKnown(const Vector3d& vertex) const
 {
-  const double sq_tolerance = slack * slack * vertex.squaredNorm();
-  return std::any_of(final_.begin(), final_.end(), [&](const Vector3d& known) {
-    return (known - vertex).squaredNorm() <= sq_tolerance;
-  });
+  const double sq_length = vertex.squaredNorm();
+  // Those of about that length.
+  constexpr double room = 4.0 * slack;
+  auto known = std::lower_bound(final_.begin(), final_.end(), (1.0 - room) * sq_length);
+  for (; known != final_.end() && known->sq_length <= (1.0 + room) * sq_length; ++known)
+    if ((known->place - vertex).squaredNorm() <= slack * slack * sq_length)
+      return true;
+  return false;
 }
 
 bool

@@ -51,6 +51,17 @@ public:
   offsetOf(std::uint32_t sample) const;
 
 private:
+  struct Vertex {
+    double sq_length; ///< from the place
+    Eigen::Vector3d place;
+
+    bool
+    operator<(double other) const
+    {
+      return sq_length < other;
+    }
+  };
+
   /** Look at the farthest vertex that may not be final: cut it off if it is not.
    * \return false if all are */
   bool
@@ -67,7 +78,7 @@ private:
   Query place_{};
   ConvexCell cell_;
   std::vector<std::uint32_t> neighbors_;
-  std::vector<Eigen::Vector3d> final_; ///< vertices
+  std::vector<Vertex> final_; ///< ascending
   bool is_bounded_ = true;
   double sq_reach_ = 0.0; ///< all samples nearer to the place are tried
 };

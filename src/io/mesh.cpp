@@ -33,6 +33,16 @@ loadMesh(const std::string& path)
   return mesh;
 }
 
+Dataset
+loadMesh(const std::string& path, std::vector<Triangle>& triangles)
+{
+  return io::reading(path, [&] {
+    io::PlyMesh mesh = io::readPlyMesh(path);
+    triangles = std::move(mesh.triangles);
+    return std::move(mesh.vertices);
+  });
+}
+
 void
 saveMesh(const std::string& path,
          const Dataset& vertices,

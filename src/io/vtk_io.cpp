@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points with their point data in VTK's files.
-#include "common/printable.h"
 #include "common/records.h"
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/vtk_messages.h"
 #include "io/vtk_readers.h"
 #include "io/xml_scanner.h"
+#include "io/xml_text.h"
 #include <pcl_uvol/filters/point_data.h>
 
 #include <vtkPointData.h>
@@ -53,42 +53,6 @@ addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
   element->SetAttribute("type", xmlTypeOf(array).c_str());
   element->SetAttribute("Name", name);
   element->SetIntAttribute("NumberOfComponents", array.GetNumberOfComponents());
-}
-
-/** A text as the value of an attribute, which VTK writes as it is. Bytes that are no
- * UTF-8 are taken for Latin-1; control characters, which XML cannot hold, become '_'.
- */
-std::string
-escapeAttribute(const std::string& text)
-{
-  std::string value;
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t bytes = 1;
-    while (bytes < 4 && !isPrintable(std::string_view(text).substr(at, bytes)))
-      ++bytes;
-    const char c = text[at];
-    const auto byte = static_cast<unsigned char>(c);
-    if (!isPrintable(std::string_view(text).substr(at, bytes))) {
-      bytes = 1;
-      if (byte >= 0xa0)
-        value += {static_cast<char>(0xc0 | byte >> 6),
-                  static_cast<char>(0x80 | (byte & 0x3f))};
-      else
-        value += '_';
-    }
-    else if (c == '&')
-      value += "&amp;";
-    else if (c == '<')
-      value += "&lt;";
-    else if (c == '>')
-      value += "&gt;";
-    else if (c == '"')
-      value += "&quot;";
-    else
-      value += text.substr(at, bytes);
-    at += bytes;
-  }
-  return value;
 }
 
 /** A cloud as VTK data with names as XML has them, each of them once. */

@@ -318,13 +318,18 @@ TEST(FieldInterpolation, AnswersBecomeFieldsOfTheQueries)
   pcl::PCLPointCloud2 points =
       sampleFunctions(randomPlaces(30, 20), {[](const Vector3d& x) { return x[0]; }});
   const auto result = interpolate(samples, {}, detail::placesOf(viewOf(points)));
-  appendFields(result, points);
-  const ScalarField value(points.fields, "f0"), error(points.fields, "f0_error"),
-      along(points.fields, "f0_gradient[2]"), support(points.fields, "support");
+  // The points have another f0 of their own.
+  EXPECT_EQ(
+      appendFields(result, points),
+      (std::vector<std::string>{"f0_2", "f0_2_error", "f0_2_gradient", "support"}));
+  const ScalarField own(points.fields, "f0"), value(points.fields, "f0_2"),
+      error(points.fields, "f0_2_error"), along(points.fields, "f0_2_gradient[2]"),
+      support(points.fields, "support");
   ASSERT_EQ(points.data.size(), points.point_step * points.width);
   const CloudView view = viewOf(points);
   for (std::size_t i = 0; i < result.size; ++i) {
     const std::uint8_t* const point = view.point(i);
+    EXPECT_EQ(own.read(point), static_cast<double>(view.xyz(i)[0]));
     EXPECT_EQ(value.read(point), result.getValue(0, i));
     EXPECT_EQ(error.read(point), result.getError(0, i));
     EXPECT_EQ(along.read(point), result.getGradient(0, i)[2]);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/color_bar.h"
 
-#include "charts/drawing.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -65,6 +63,36 @@ colorBarWidth(int image_width, int image_height)
   return std::min(letters * letterSize(image_height), image_width / 3);
 }
 
+int
+drawBar(Image& image,
+        const ColorMap& map,
+        const PlotArea& area,
+        const std::vector<BarLabel>& labels,
+        TextAnchor anchor,
+        int font,
+        const Ink& ink)
+{
+  const int length = area.bottom - area.top + 1;
+  for (int row = 0; row < length; ++row) {
+    const Ink color = inkOf(map.at((length - 0.5 - row) / length));
+    for (int column = area.left; column <= area.right; ++column)
+      blend(image, column, area.top + row, color, 1.0);
+  }
+  int widest = 0;
+  for (const BarLabel& label : labels)
+    widest = std::max(widest,
+                      writeText(image,
+                                label.text,
+                                font,
+                                anchor == TextAnchor::Right ? area.left - font / 2
+                                                            : area.right + 1 + font / 2,
+                                area.top + static_cast<int>(std::lround(
+                                               (1.0 - label.place) * length)),
+                                anchor,
+                                ink));
+  return widest;
+}
+
 void
 drawColorBar(Image& image,
              const ColorMap& map,
@@ -79,30 +107,23 @@ drawColorBar(Image& image,
   const int size = letterSize(height);
   const int right = static_cast<int>(image.width) - size, left = right - size;
   const Ink ink = inkOn(image);
-  for (int row = 0; row < length; ++row) {
-    const pcl_uvol::Rgba packed = toRgba(map.at((length - 0.5 - row) / length));
-    const Ink color{static_cast<std::uint8_t>(packed),
-                    static_cast<std::uint8_t>(packed >> 8),
-                    static_cast<std::uint8_t>(packed >> 16)};
-    for (int column = left; column < right; ++column)
-      blend(image, column, top + row, color, 1.0);
-  }
   const std::vector<double> values =
       barValues(low, high, label_distance * size / length);
-  const AxisLabels labels = labelValues(values);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double place = high > low ? (values[i] - low) / (high - low) : 0.5;
-    writeText(image,
-              labels.texts[i],
-              size,
-              left - size / 2,
-              top + static_cast<int>(std::lround((1.0 - place) * length)),
-              TextAnchor::Right,
-              ink);
-  }
+  const AxisLabels texts = labelValues(values);
+  const AxisScale scale{low, high};
+  std::vector<BarLabel> labels;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    labels.push_back({high > low ? scale.placeOf(values[i]) : 0.5, texts.texts[i]});
+  drawBar(image,
+          map,
+          {left, right - 1, top, top + length - 1},
+          labels,
+          TextAnchor::Right,
+          size,
+          ink);
   writeText(image, title, size, right, top - size * 3 / 2, TextAnchor::Right, ink);
   writeText(image,
-            labels.offset,
+            texts.offset,
             size,
             right,
             top + length + size * 3 / 2,

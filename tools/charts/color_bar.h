@@ -2,10 +2,13 @@
 // The legend of a picture that is coloured by a scalar field.
 #pragma once
 
+#include "charts/axes.h"
+#include "charts/drawing.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
 #include <string>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -23,5 +26,24 @@ drawColorBar(pcl_uvol::Image& image,
              double low,
              double high,
              const std::string& title);
+
+/** \brief A value beside a bar. */
+struct BarLabel {
+  double place; ///< along the bar, 0 at its lower end and 1 at the upper one
+  std::string text;
+};
+
+/** \brief Draw a standing bar of colours with values beside it.
+ * \param anchor Left: the values stand to the right of the bar; Right: to the left
+ * \param font size, pixels
+ * \return the width of the widest value, pixels */
+int
+drawBar(pcl_uvol::Image& image,
+        const pcl_uvol::ColorMap& map,
+        const PlotArea& area,
+        const std::vector<BarLabel>& labels,
+        TextAnchor anchor,
+        int font,
+        const Ink& ink);
 
 } // namespace uvol_tools

@@ -2,6 +2,7 @@
 #include "charts/drawing.h"
 
 #include "io/vtk_messages.h"
+#include <pcl_uvol/render/color_map.h>
 
 #include <vtkFreeTypeTools.h>
 #include <vtkImageData.h>
@@ -15,6 +16,13 @@
 namespace uvol_tools {
 
 using pcl_uvol::Image;
+
+Ink
+inkOf(const pcl_uvol::Color& color)
+{
+  return {
+      pcl_uvol::toByte(color.r), pcl_uvol::toByte(color.g), pcl_uvol::toByte(color.b)};
+}
 
 void
 blend(Image& image, int column, int row, const Ink& ink, double opacity)
@@ -34,7 +42,47 @@ blend(Image& image, int column, int row, const Ink& ink, double opacity)
   pixel[3] = static_cast<std::uint8_t>(std::lround(255.0 * sum));
 }
 
-void
+namespace {
+
+/** A line of text as opacities. */
+struct Letters {
+  int width = 0, height = 0;
+  vtkNew<vtkImageData> image;
+
+  Letters(const std::string& text, int size)
+  {
+    vtkNew<vtkTextProperty> font;
+    font->SetFontSize(size);
+    font->SetFontFamilyToArial();
+    font->SetColor(1.0, 1.0, 1.0);
+    int extent[2];
+    constexpr int dpi = 72;
+    const pcl_uvol::io::VtkMessages messages;
+    if (!vtkFreeTypeTools::GetInstance()->RenderString(
+            font, vtkStdString(text), dpi, image, extent))
+      return;
+    width = extent[0];
+    height = extent[1];
+  }
+
+  /** Call set(along, above, opacity) with pixels from the text's left end, and from the
+   * middle of its height. */
+  template <typename Set>
+  void
+  forEach(const Set& set) const
+  {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto* const letter = static_cast<const std::uint8_t*>(
+            image.GetPointer()->GetScalarPointer(x, y, 0));
+        set(x, y - height / 2, letter[3] / 255.0);
+      }
+  }
+};
+
+} // namespace
+
+int
 writeText(Image& image,
           const std::string& text,
           int size,
@@ -43,36 +91,38 @@ writeText(Image& image,
           TextAnchor anchor,
           const Ink& ink)
 {
-  vtkNew<vtkTextProperty> font;
-  font->SetFontSize(size);
-  font->SetFontFamilyToArial();
-  font->SetColor(1.0, 1.0, 1.0);
-  vtkNew<vtkImageData> letters;
-  int extent[2];
-  constexpr int dpi = 72;
-  const pcl_uvol::io::VtkMessages messages;
-  if (!vtkFreeTypeTools::GetInstance()->RenderString(
-          font, vtkStdString(text), dpi, letters, extent))
-    return;
+  const Letters letters(text, size);
   const int left = column - (anchor == TextAnchor::Left     ? 0
-                             : anchor == TextAnchor::Center ? extent[0] / 2
-                                                            : extent[0]);
-  for (int y = 0; y < extent[1]; ++y)
-    for (int x = 0; x < extent[0]; ++x) {
-      const auto* const letter =
-          static_cast<const std::uint8_t*>(letters->GetScalarPointer(x, y, 0));
-      blend(image, left + x, row + extent[1] / 2 - y, ink, letter[3] / 255.0);
-    }
+                             : anchor == TextAnchor::Center ? letters.width / 2
+                                                            : letters.width);
+  letters.forEach([&](int along, int above, double opacity) {
+    blend(image, left + along, row - above, ink, opacity);
+  });
+  return letters.width;
 }
 
 void
-drawLine(Image& image,
-         double x0,
-         double y0,
-         double x1,
-         double y1,
-         double width,
-         const Ink& ink)
+writeUpwards(Image& image,
+             const std::string& text,
+             int size,
+             int column,
+             int row,
+             const Ink& ink)
+{
+  const Letters letters(text, size);
+  const int start = row + letters.width / 2;
+  letters.forEach([&](int along, int above, double opacity) {
+    blend(image, column - above, start - along, ink, opacity);
+  });
+}
+
+void
+forLinePixels(double x0,
+              double y0,
+              double x1,
+              double y1,
+              double width,
+              const std::function<void(int column, int row, double opacity)>& visit)
 {
   const double dx = x1 - x0, dy = y1 - y0, sq_length = dx * dx + dy * dy;
   const double border = 0.5 * width + 1.0;
@@ -90,8 +140,22 @@ drawLine(Image& image,
           std::hypot(column - x0 - along * dx, row - y0 - along * dy);
       const double opacity = std::clamp(0.5 * width + 0.5 - distance, 0.0, 1.0);
       if (opacity > 0.0)
-        blend(image, column, row, ink, opacity);
+        visit(column, row, opacity);
     }
+}
+
+void
+drawLine(Image& image,
+         double x0,
+         double y0,
+         double x1,
+         double y1,
+         double width,
+         const Ink& ink)
+{
+  forLinePixels(x0, y0, x1, y1, width, [&](int column, int row, double opacity) {
+    blend(image, column, row, ink, opacity);
+  });
 }
 
 std::string
@@ -165,7 +229,7 @@ roundValues(double low, double high)
                                             : 1.0);
   std::vector<double> values;
   for (double i = std::ceil(low / step); i * step <= high + 1e-9 * step; ++i)
-    values.push_back(i * step);
+    values.push_back(i * step + 0.0); // which turns -0 into 0
   return values;
 }
 

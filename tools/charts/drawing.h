@@ -3,15 +3,21 @@
 #pragma once
 
 #include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/lighting.h>
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace uvol_tools {
 
 using Ink = std::array<std::uint8_t, 3>;
+
+/** \brief A colour rounded to 8 bits. */
+Ink
+inkOf(const pcl_uvol::Color& color);
 
 /** \brief Lay a color over a pixel; nothing outside the image. */
 void
@@ -21,8 +27,9 @@ enum class TextAnchor { Left, Center, Right };
 
 /** \brief Write a line of text around a row.
  * \param size of the font, pixels
- * \param column of the anchor */
-void
+ * \param column of the anchor
+ * \return its width, pixels */
+int
 writeText(pcl_uvol::Image& image,
           const std::string& text,
           int size,
@@ -31,7 +38,27 @@ writeText(pcl_uvol::Image& image,
           TextAnchor anchor,
           const Ink& ink);
 
-/** \brief A straight line with soft edges; coordinates of pixel centres are whole. */
+/** \brief Write a line of text that runs upwards, centred at a pixel. */
+void
+writeUpwards(pcl_uvol::Image& image,
+             const std::string& text,
+             int size,
+             int column,
+             int row,
+             const Ink& ink);
+
+/** \brief Visit the pixels that a straight line with soft edges covers, whole or in
+ * part; coordinates of pixel centres are whole. */
+void
+forLinePixels(double x0,
+              double y0,
+              double x1,
+              double y1,
+              double width,
+              const std::function<void(int column, int row, double opacity)>& visit);
+
+/** \brief Draw a straight line with soft edges; coordinates of pixel centres are whole.
+ */
 void
 drawLine(pcl_uvol::Image& image,
          double x0,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/line_plot.h"
 
+#include "charts/axes.h"
 #include "charts/drawing.h"
 
 #include <algorithm>
@@ -19,6 +20,16 @@ constexpr double line_width = 2.0;
 
 constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
 constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
+
+Image
+makePaper()
+{
+  Image image;
+  image.width = width;
+  image.height = height;
+  image.color.assign(std::size_t{4} * width * height, 255);
+  return image;
+}
 
 bool
 isDrawn(double value)
@@ -49,13 +60,80 @@ decadesOf(const std::vector<PlotLine>& lines)
 
 } // namespace
 
+namespace {
+
+/** What the values range over, and some more. */
+AxisScale
+ordinateOf(const std::vector<double>& values)
+{
+  constexpr double room = 0.05;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values)
+    if (std::isfinite(value)) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  if (!(low <= high))
+    return {0.0, 1.0};
+  const double more = high > low ? room * (high - low) : std::abs(low) + 1.0;
+  return {low - more, high + more};
+}
+
+} // namespace
+
+Image
+drawProfile(const Profile& profile)
+{
+  constexpr int margin = font / 2, wide_left = 110;
+  constexpr Ink band{205, 225, 240};
+  Image image = makePaper();
+  const PlotArea area{wide_left, right, top, bottom - font};
+  const AxisScale x{profile.abscissas.front(), profile.abscissas.back()},
+      y = ordinateOf(profile.values);
+  const auto column = [&](std::size_t i) {
+    return area.left + x.placeOf(profile.abscissas[i]) * (area.right - area.left);
+  };
+  const auto row = [&](double value) {
+    const double place = std::clamp(y.placeOf(value), 0.0, 1.0);
+    return area.bottom - place * (area.bottom - area.top);
+  };
+  const auto has_line = [&](std::size_t i) {
+    return std::isfinite(profile.values[i - 1]) && std::isfinite(profile.values[i]);
+  };
+  // A column of the band after the other, between the points left and right of it.
+  std::size_t i = 1;
+  for (int at = area.left; at <= area.right; ++at) {
+    while (i + 1 < profile.values.size() && column(i) < at)
+      ++i;
+    if (!has_line(i) || !(profile.errors[i - 1] >= 0.0) || !(profile.errors[i] >= 0.0))
+      continue;
+    const double part = (at - column(i - 1)) / (column(i) - column(i - 1));
+    const auto mean = [&](const std::vector<double>& numbers) {
+      return numbers[i - 1] + part * (numbers[i] - numbers[i - 1]);
+    };
+    const double value = mean(profile.values), error = mean(profile.errors);
+    for (int pixel = static_cast<int>(row(value + error)); pixel <= row(value - error);
+         ++pixel)
+      blend(image, at, pixel, band, 1.0);
+  }
+  for (std::size_t k = 1; k < profile.values.size(); ++k)
+    if (has_line(k))
+      drawLine(image,
+               column(k - 1),
+               row(profile.values[k - 1]),
+               column(k),
+               row(profile.values[k]),
+               line_width,
+               inks[0]);
+  drawAxisBelow(image, area, margin, x, profile.abscissa, font);
+  drawAxisLeft(image, area, margin, y, profile.ordinate, font);
+  return image;
+}
+
 Image
 drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
 {
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.color.assign(std::size_t{4} * width * height, 255);
+  Image image = makePaper();
 
   std::size_t count = 2;
   for (const PlotLine& line : lines)

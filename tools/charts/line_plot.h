@@ -20,4 +20,17 @@ struct PlotLine {
 pcl_uvol::Image
 drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa);
 
+/** \brief A quantity along a way. */
+struct Profile {
+  std::vector<double> abscissas;  ///< ascending
+  std::vector<double> values;     ///< one per abscissa; NaN leaves a gap
+  std::vector<double> errors;     ///< of the values; NaN or 0: none
+  std::string abscissa, ordinate; ///< labels
+};
+
+/** \brief Draw a line on linear axes, 720 x 440 pixels, in a band of the errors above
+ * and below. */
+pcl_uvol::Image
+drawProfile(const Profile& profile);
+
 } // namespace uvol_tools

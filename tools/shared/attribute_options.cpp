@@ -18,35 +18,6 @@
 
 namespace uvol_tools {
 
-namespace {
-
-/** Names between commas that part neither components, as in |vx,vy,vz|, nor arguments,
- * as in atan2(vy,vx), nor a quoted name. */
-std::vector<std::string>
-splitNames(const std::string& text)
-{
-  if (text.empty())
-    return {};
-  std::vector<std::string> names(1);
-  bool is_in_bars = false, is_quoted = false;
-  int depth = 0;
-  for (const char c : text) {
-    is_quoted ^= c == '"';
-    is_in_bars ^= c == '|' && !is_quoted;
-    if (!is_quoted)
-      depth += (c == '(') - (c == ')');
-    if (c == ',' && !is_in_bars && !is_quoted && depth <= 0)
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  if (std::find(names.begin(), names.end(), "") != names.end())
-    throw UsageError("-attributes has an empty name in " + text + ".");
-  return names;
-}
-
-} // namespace
-
 void
 AttributeOptions::declare(Options& options)
 {
@@ -64,7 +35,8 @@ AttributeOptions::declare(Options& options)
 std::vector<std::string>
 AttributeOptions::required() const
 {
-  std::vector<std::string> names = names_.empty() ? splitNames(text_) : names_;
+  std::vector<std::string> names =
+      names_.empty() ? parseNames("attributes", text_) : names_;
   if (has_position_)
     for (const char* const axis : {"x", "y", "z"})
       if (std::find(names.begin(), names.end(), axis) == names.end())
@@ -80,7 +52,7 @@ AttributeOptions::addFields(const Options& options,
                             pcl_uvol::Dataset& dataset,
                             pcl_uvol::Report& report)
 {
-  names_ = splitNames(text_);
+  names_ = parseNames("attributes", text_);
   for (std::string& name : names_)
     addField(dataset, name, options, report);
 }
@@ -90,7 +62,7 @@ AttributeOptions::addFieldsNeed(double points,
                                 double& point_step,
                                 pcl_uvol::MemoryForecast& forecast) const
 {
-  for (const std::string& name : splitNames(text_))
+  for (const std::string& name : parseNames("attributes", text_))
     forecast.run(pcl_uvol::derivedFieldNeed(name, points, point_step));
 }
 

@@ -92,6 +92,29 @@ parseNumbers(const std::string& option, const std::string& value, std::size_t co
   return numbers;
 }
 
+std::vector<std::string>
+parseNames(const std::string& option, const std::string& value)
+{
+  if (value.empty())
+    return {};
+  std::vector<std::string> names(1);
+  bool is_in_bars = false, is_quoted = false;
+  int depth = 0;
+  for (const char c : value) {
+    is_quoted ^= c == '"';
+    is_in_bars ^= c == '|' && !is_quoted;
+    if (!is_quoted)
+      depth += (c == '(') - (c == ')');
+    if (c == ',' && !is_in_bars && !is_quoted && depth <= 0)
+      names.emplace_back();
+    else
+      names.back() += c;
+  }
+  if (std::find(names.begin(), names.end(), "") != names.end())
+    throw UsageError("-" + option + " has an empty name in " + value + ".");
+  return names;
+}
+
 Options::Options(std::string tool, std::string synopsis, std::string purpose)
     : tool_(std::move(tool))
     , synopsis_(std::move(synopsis))

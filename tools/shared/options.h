@@ -191,6 +191,13 @@ checkDistinct(const std::vector<std::string>& inputs,
 std::vector<double>
 parseNumbers(const std::string& option, const std::string& value, std::size_t count);
 
+/** \brief Names joined by commas, as an option's value. Commas that part components, as
+ * in |vx,vy,vz|, or arguments, as in atan2(vy,vx), or stand in a quoted name part no
+ * names. "": none.
+ * \throws UsageError that names the option */
+std::vector<std::string>
+parseNames(const std::string& option, const std::string& value);
+
 /** \brief Print facts, what was counted, and warnings: PCL's colours on a terminal,
  * plain in a pipe. With -v all counts and times; with -json one JSON object (keys:
  * those of the facts, counts, milliseconds, warnings).

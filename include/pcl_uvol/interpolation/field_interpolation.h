@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@
 namespace pcl_uvol {
 
 namespace detail {
+
+struct QueryLattice;
+
+/** \brief Of the queries of a lattice so many are answered at a time. */
+constexpr std::size_t lattice_block = std::size_t{1} << 18;
 
 /** \brief Models of the fields of a cloud, ready for queries: trees and fits are kept.
  */
@@ -45,8 +51,33 @@ public:
               unsigned threads,
               Report& report) const;
 
+  /** \brief Gets the answers to some consecutive queries.
+   * \param first index of the first of them */
+  using TakeAnswers =
+      std::function<void(std::size_t first, const InterpolatedFields& answers)>;
+
+  /** \brief Answer the queries of a lattice, in their order and some at a time, so that
+   * memory does not grow with the lattice. */
+  void
+  interpolate(const QueryLattice& queries,
+              unsigned threads,
+              Report& report,
+              const TakeAnswers& take) const;
+
+  /** \brief The fields, in the order of the answers. */
+  const std::vector<std::string>&
+  getNames() const
+  {
+    return names_;
+  }
+
 private:
   struct Group;
+
+  InterpolatedFields
+  answer(const std::vector<std::array<double, 3>>& queries,
+         unsigned threads,
+         StepTimer& step) const;
 
   InterpolationParameters parameters_;
   std::vector<std::string> names_;

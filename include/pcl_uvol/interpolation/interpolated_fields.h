@@ -61,10 +61,11 @@ struct PCL_UVOL_EXPORTS InterpolatedFields {
 
 /** \brief Append interpolated fields to the points they were asked for: `rho`
  * (float64), `rho_error` (float64), `rho_gradient` (3 x float64), as far as there are,
- * and `support` (uint8, a FieldSupport). A field of such a name that the points have is
- * replaced.
+ * and `support` (uint8, a FieldSupport). Where the points have a field of such a name
+ * already, `rho_2`, `rho_2_error` and so on are appended.
+ * \return the names of the appended fields
  * \throws InvalidArgument unless there is a value per point */
-PCL_UVOL_EXPORTS void
+PCL_UVOL_EXPORTS std::vector<std::string>
 appendFields(const InterpolatedFields& fields, pcl::PCLPointCloud2& points);
 
 } // namespace pcl_uvol

@@ -41,10 +41,12 @@ enum class InterpolationModel {
   Kriging,
   /** Sums of smoothing kernels over particles with their own smoothing lengths and
    * masses. */
-  Sph
+  Sph,
+  /** The one of these that is nearest to samples left out, see chooseModel. */
+  Auto
 };
 
-constexpr std::array<EnumWord<InterpolationModel>, 8>
+constexpr std::array<EnumWord<InterpolationModel>, 9>
 listWords(InterpolationModel)
 {
   return {{{InterpolationModel::Fit, "fit"},
@@ -54,6 +56,7 @@ listWords(InterpolationModel)
            {InterpolationModel::Laplace, "laplace"},
            {InterpolationModel::Kriging, "kriging"},
            {InterpolationModel::Sph, "sph"},
+           {InterpolationModel::Auto, "auto"},
            {InterpolationModel::Sibson, "sibson"}}};
 }
 

@@ -16,6 +16,13 @@ namespace pcl_uvol {
 PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
 
+/** \brief Read the vertices of a PLY file with all their fields, and its faces, as
+ * saveMesh() writes them; polygons become fans of triangles.
+ * \param[out] triangles stay empty for a file of points
+ * \throws IOError in one sentence */
+PCL_UVOL_EXPORTS Dataset
+loadMesh(const std::string& path, std::vector<Triangle>& triangles);
+
 /** \brief Write a mesh as PLY. The file appears whole or not at all.
  * \param vertices with any fields
  * \throws IOError, also for a name that does not end in .ply */

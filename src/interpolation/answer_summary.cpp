@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/answer_summary.h"
+
+#include "common/scalar_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+/** Range and standard deviation of the finite values. */
+void
+describeSamples(const CloudView& cloud,
+                const pcl::Indices& indices,
+                AnswerSummary::Field& described)
+{
+  const ScalarField field(cloud.fields, described.name);
+  double count = 0.0, mean = 0.0, squares = 0.0;
+  for (const int index : indices) {
+    const double value = field.read(cloud.point(static_cast<std::size_t>(index)));
+    if (!std::isfinite(value))
+      continue;
+    described.sample_low = count > 0.0 ? std::min(described.sample_low, value) : value;
+    described.sample_high =
+        count > 0.0 ? std::max(described.sample_high, value) : value;
+    // Welford (1962)
+    count += 1.0;
+    const double off = value - mean;
+    mean += off / count;
+    squares += off * (value - mean);
+  }
+  described.spread = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+}
+
+std::string
+share(std::uint64_t part, std::uint64_t whole, const char* of)
+{
+  return std::to_string(part) + " of the " + std::to_string(whole) + ' ' + of;
+}
+
+} // namespace
+
+AnswerSummary::AnswerSummary(const CloudView& cloud,
+                             const pcl::Indices& indices,
+                             const std::vector<std::string>& fields)
+{
+  for (const std::string& name : fields) {
+    Field field;
+    field.name = name;
+    describeSamples(cloud, indices, field);
+    fields_.push_back(field);
+  }
+}
+
+void
+AnswerSummary::add(const InterpolatedFields& answers)
+{
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    Field& field = fields_[f];
+    const double extent = field.sample_high - field.sample_low;
+    for (std::size_t i = 0; i < answers.size; ++i) {
+      const double value = answers.getValue(f, i);
+      if (!std::isfinite(value))
+        continue;
+      field.low = field.count == 0 ? value : std::min(field.low, value);
+      field.high = field.count == 0 ? value : std::max(field.high, value);
+      ++field.count;
+      field.wild +=
+          value < field.sample_low - extent || value > field.sample_high + extent;
+      field.unsure += !answers.errors.empty() && answers.getError(f, i) > field.spread;
+    }
+  }
+}
+
+void
+AnswerSummary::warn(Report& report) const
+{
+  warnOfSupport(report);
+  for (const Field& field : fields_)
+    if (field.wild > 0)
+      report.warnings.push_back(share(field.wild, field.count, "values") + " of " +
+                                field.name +
+                                " lie farther beyond the samples' range than that is "
+                                "wide: the model overshoots "
+                                "there. The model natural stays within it.");
+}
+
+void
+AnswerSummary::warnOfSupport(Report& report) const
+{
+  const std::uint64_t queries = report.getCount("queries"),
+                      outside = report.getCount("outside"),
+                      invalid = report.getCount("invalid");
+  if (2 * invalid > queries) {
+    report.warnings.push_back(share(invalid, queries, "queries") +
+                              " have no finite coordinates, and no value.");
+    return;
+  }
+  if (2 * outside > queries) {
+    const bool has_values =
+        std::any_of(fields_.begin(), fields_.end(), [&](const Field& field) {
+          return field.count > queries - outside;
+        });
+    report.warnings.push_back(
+        share(outside, queries, "queries") + " lie outside of the data: " +
+        (has_values ? "their values rest on no samples around them."
+                    : "they have no value (NaN)."));
+    return;
+  }
+  const std::uint64_t weak =
+      report.getCount("bridged") + report.getCount("rim") + report.getCount("reduced");
+  if (2 * weak > queries - outside) {
+    report.warnings.push_back(
+        share(weak, queries, "queries") +
+        " lie in gaps of the sampling or at its rim, or among samples that do not "
+        "determine the model: their values rest on little.");
+    return;
+  }
+  for (const Field& field : fields_)
+    if (2 * field.unsure > field.count)
+      report.warnings.push_back(
+          share(field.unsure, field.count, "values") + " of " + field.name +
+          " have a standard error above the spread of the samples: the model does not "
+          "know the field there. Leaving samples out tells which one does better.");
+}
+
+} // namespace pcl_uvol::detail

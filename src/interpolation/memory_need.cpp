@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interpolation/memory_need.h"
+
+#include "interpolation/field_model.h"
+#include "neighbors/memory_need.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr double index_bytes = sizeof(std::uint32_t), number_bytes = sizeof(double);
+
+/** Spacings of samples within which fits are made on both sides of a query, buckets
+ * that are reached at a corner included; samples that cluster about a plane add as many
+ * (measured on even and clustered samples). */
+constexpr double fit_reach = 16.0;
+
+/** Samples whose fits are made. */
+double
+fittedSamples(double samples, QueryShape shape)
+{
+  const double side = std::cbrt(samples);
+  const double about = shape == QueryShape::Space ? samples
+                       : shape == QueryShape::Plane
+                           ? 2.0 * fit_reach * side * side
+                           : 4.0 * fit_reach * fit_reach * side;
+  return std::min(samples, about);
+}
+
+/** What a model keeps of its samples besides their values. */
+double
+modelBytes(double samples, double fields, InterpolationModel model, QueryShape shape)
+{
+  const double fit_bytes = 24.0 + 168.0 * fields; // see BucketFits
+  switch (model) {
+  case InterpolationModel::Fit:
+    return fit_bytes * fittedSamples(samples, shape);
+  case InterpolationModel::Auto: // which makes fits all over the samples
+    return fit_bytes * samples;
+  case InterpolationModel::Sph:
+    return 4.0 * number_bytes * samples;
+  default:
+    return 0.0;
+  }
+}
+
+} // namespace
+
+MemoryNeed
+interpolationNeed(double samples,
+                  double fields,
+                  const InterpolationParameters& parameters,
+                  double queries,
+                  QueryShape shape)
+{
+  MemoryForecast forecast(0.0);
+  // Values by input index, and the indices of the points that have one.
+  const double of_points = (index_bytes + number_bytes * fields) * samples;
+  forecast.hold(of_points);
+  forecast.run(sampleSetNeed(samples));
+  forecast.hold(number_bytes * fields * samples); // in leaf order
+  forecast.release(number_bytes * fields * samples);
+  forecast.hold(modelBytes(samples, fields, parameters.model, shape));
+  // Queries as they came and among the samples, their order and how it is found.
+  const double of_queries = 3.0 * number_bytes + sizeof(detail::Query) +
+                            2.0 * index_bytes + 2.0 * number_bytes;
+  const double numbers =
+      1.0 + (parameters.errors ? 1.0 : 0.0) + (parameters.gradients ? 3.0 : 0.0);
+  const double of_answers = number_bytes * numbers * fields + 1.0;
+  forecast.run({(of_queries + of_answers) * queries, of_answers * queries});
+  return {forecast.getPeak(), forecast.getHeld()};
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Texts in files of XML.
+#pragma once
+
+#include <string>
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief A text as the value of an attribute. Bytes that are no UTF-8 are taken for
+ * Latin-1; control characters, which XML cannot hold, become '_'. */
+std::string
+escapeAttribute(const std::string& text);
+
+} // namespace io
+} // namespace pcl_uvol

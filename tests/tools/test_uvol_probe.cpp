@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields between samples from the outside: every kind of query, every output, and what
+// is refused.
+#include "support/png.h"
+#include "tool_test.h"
+#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/volume.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace {
+
+using namespace uvol_test;
+using Values = std::vector<double>;
+using Json = nlohmann::json;
+
+double
+cubic(double x, double y, double z)
+{
+  return x * x * x - 2.0 * x * y * z + z * z + 1.0;
+}
+
+/** Samples in the unit cube with a cubic, which fits are exact for, a smooth field and
+ * a constant. */
+class ProbeTool : public ToolTest {
+protected:
+  ProbeTool()
+      : ToolTest("uvol_probe", "out.csv")
+  {
+    writeSamples(in_, 3000, 1.0, 0.0);
+  }
+
+  static void
+  writeSamples(const std::string& path, int count, double factor, double shift)
+  {
+    Random random(1);
+    std::ostringstream text;
+    text.precision(17);
+    text << "x,y,z,cubic,wave,same,hole\n";
+    for (int i = 0; i < count; ++i) {
+      const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+      text << factor * x + shift << ',' << factor * y << ',' << factor * z << ','
+           << cubic(x, y, z) << ',' << std::sin(3.0 * x + y) << ",7.5," << i % 20
+           << '\n';
+    }
+    writeFile(path, text.str());
+  }
+
+  Json
+  reportOf(const std::string& options) const
+  {
+    const auto result = run(options + " -json");
+    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    return Json::parse(result.out);
+  }
+
+  std::string
+  bytesOf(const std::string& options) const
+  {
+    expectSuccess(options);
+    return readFile(out_);
+  }
+
+  CommandResult
+  runTo(const std::string& output, const std::string& options) const
+  {
+    return runCommand(tool_ + " " + in_ + " " + (folder_ / output) + " " + options);
+  }
+};
+
+TEST_F(ProbeTool, PointsKeepTheirRowsAndColumns)
+{
+  writeFile(folder_ / "points.csv",
+            "name,z,y,x,cubic\n"
+            "7,0.5,0.25,0.5,100\n"
+            "3,0.125,0.75,0.5,200\n"
+            "5,nan,0.5,0.5,300\n"
+            "5,0.5,3,0.5,400\n");
+  const auto report = reportOf("-field cubic,wave -points " + (folder_ / "points.csv"));
+  const auto result = pcl_uvol::loadDataset(out_);
+  EXPECT_EQ(fieldOf(result, "name"), (Values{7, 3, 5, 5}));
+  EXPECT_EQ(fieldOf(result, "cubic"), (Values{100, 200, 300, 400}));
+  const Values values = fieldOf(result, "cubic_2"), waves = fieldOf(result, "wave"),
+               support = fieldOf(result, "support");
+  EXPECT_NEAR(values[0], cubic(0.5, 0.25, 0.5), 1e-7);
+  EXPECT_NEAR(values[1], cubic(0.5, 0.75, 0.125), 1e-7);
+  EXPECT_NEAR(waves[0], std::sin(1.75), 1e-4);
+  EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
+  EXPECT_EQ(support, (Values{1, 1, 6, 4}));
+  EXPECT_EQ(fieldOf(result, "wave_error").size(), 4u);
+  EXPECT_EQ(report["counts"]["invalid"], 1);
+  EXPECT_EQ(report["counts"]["outside"], 1);
+  EXPECT_EQ(report["appended_fields"],
+            "cubic_2, cubic_2_error, wave, wave_error, support");
+}
+
+TEST_F(ProbeTool, MeshesKeepTheirFaces)
+{
+  writeFile(
+      folder_ / "mesh.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float "
+      "y\nproperty float z\nproperty uchar tag\nelement face 1\nproperty list "
+      "uchar int vertex_indices\nend_header\n0.2 0.2 0.5 9\n0.8 0.2 0.5 8\n0.8 0.8 "
+      "0.5 7\n0.2 0.8 0.5 6\n4 0 1 2 3\n");
+  const auto result =
+      runTo("out.ply", "-field cubic -points " + (folder_ / "mesh.ply") + " -ascii");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  std::vector<pcl_uvol::Triangle> triangles;
+  const auto mesh = pcl_uvol::loadMesh(folder_ / "out.ply", triangles);
+  EXPECT_EQ(triangles, (std::vector<pcl_uvol::Triangle>{{{0, 1, 2}}, {{0, 2, 3}}}));
+  EXPECT_EQ(fieldOf(mesh, "tag"), (Values{9, 8, 7, 6}));
+  EXPECT_NEAR(fieldOf(mesh, "cubic")[2], cubic(0.8, 0.8, 0.5), 1e-6);
+}
+
+TEST_F(ProbeTool, LinesHaveDistances)
+{
+  const auto result =
+      resultOf("-field cubic -line 0.2,0.5,0.5,0.8,0.5,0.5 -n 31 -png " +
+               (folder_ / "line.png"));
+  const Values distances = fieldOf(result, "distance"), x = fieldOf(result, "x"),
+               values = fieldOf(result, "cubic");
+  ASSERT_EQ(distances.size(), 31u);
+  for (std::size_t i = 0; i < 31; ++i) {
+    EXPECT_NEAR(distances[i], 0.02 * static_cast<double>(i), 1e-12);
+    EXPECT_NEAR(x[i], 0.2 + distances[i], 1e-6);
+    EXPECT_NEAR(values[i], cubic(0.2 + distances[i], 0.5, 0.5), 1e-6);
+  }
+  int channels = 0;
+  EXPECT_EQ(readPng(folder_ / "line.png", channels).width, 720u);
+}
+
+TEST_F(ProbeTool, GridsAreTheFieldInEveryFormat)
+{
+  for (const std::string ending : {".vti", ".nrrd", ".mha"}) {
+    SCOPED_TRACE(ending);
+    const auto result =
+        runTo("grid" + ending, "-field cubic -grid 9x5x3 -box 0.2,0.2,0.3,0.8,0.8,0.7");
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    const auto volume = pcl_uvol::loadVolume(folder_ / ("grid" + ending));
+    ASSERT_EQ(volume.dims, (std::array<std::size_t, 3>{9, 5, 3}));
+    EXPECT_NEAR(volume.values[1 + 9 * (2 + 5 * 2)], cubic(0.275, 0.5, 0.7), 1e-6);
+    EXPECT_NEAR(volume.upper()[1], 0.8, 1e-12);
+  }
+  EXPECT_NEAR(pcl_uvol::loadVolume(folder_ / "grid_support.mha").values[70], 1.0, 0.0);
+  ASSERT_EQ(0,
+            runTo("grid.vts",
+                  "-field cubic -grid 9x5x3 -box 0.2,0.2,0.3,0.8,0.8,0.7 -gradients")
+                .exit_code);
+  const auto points = pcl_uvol::loadDataset(folder_ / "grid.vts");
+  const Values x = fieldOf(points, "x"), y = fieldOf(points, "y"),
+               z = fieldOf(points, "z"), values = fieldOf(points, "cubic"),
+               along = fieldOf(points, "cubic_gradient[1]");
+  ASSERT_EQ(values.size(), 135u);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_NEAR(values[i], cubic(x[i], y[i], z[i]), 1e-6);
+    EXPECT_NEAR(along[i], -2.0 * x[i] * z[i], 1e-5);
+  }
+}
+
+TEST_F(ProbeTool, OutsideThereIsNoValueUnlessAskedFor)
+{
+  const std::string far = "-field cubic -line 0.5,0.5,0.5,0.5,0.5,3 -n 11";
+  const auto outside = run(far);
+  EXPECT_EQ(0, outside.exit_code);
+  EXPECT_NE(std::string::npos, outside.err.find("lie outside of the data"));
+  const Values values = fieldOf(pcl_uvol::loadDataset(out_), "cubic");
+  EXPECT_FALSE(std::isnan(values[0]));
+  EXPECT_TRUE(std::isnan(values[10]));
+  EXPECT_FALSE(std::isnan(fieldOf(resultOf(far + " -extrapolate"), "cubic")[10]));
+}
+
+TEST_F(ProbeTool, ThreadsOrderAndUnitsDoNotMatter)
+{
+  const std::string slice = "-field wave -plane 0.5,0.5,0.5,1,1,2 -size 60";
+  EXPECT_EQ(bytesOf(slice + " -threads 1"), bytesOf(slice + " -threads 3"));
+  writeFile(folder_ / "a.csv", "x,y,z\n0.5,0.25,0.5\n0.7,0.2,0.1\n0.4,0.4,0.9\n");
+  writeFile(folder_ / "b.csv", "x,y,z\n0.4,0.4,0.9\n0.5,0.25,0.5\n0.7,0.2,0.1\n");
+  const Values a = fieldOf(resultOf("-field wave -points " + (folder_ / "a.csv")),
+                           "wave"),
+               b = fieldOf(resultOf("-field wave -points " + (folder_ / "b.csv")),
+                           "wave");
+  EXPECT_EQ(a, (Values{b[1], b[2], b[0]}));
+  // In another unit, and beside an origin that float does not hold.
+  const std::string line = "-field wave -n 9 -line ";
+  const Values here = fieldOf(resultOf(line + "0.25,0.5,0.5,0.75,0.5,0.5"), "wave");
+  writeSamples(in_, 3000, 1024.0, 0.0);
+  EXPECT_EQ(here, fieldOf(resultOf(line + "256,512,512,768,512,512"), "wave"));
+  writeSamples(in_, 3000, 1.0, 1e7);
+  const Values there =
+      fieldOf(resultOf(line + "10000000.25,0.5,0.5,10000000.75,0.5,0.5"), "wave");
+  for (std::size_t i = 0; i < here.size(); ++i)
+    EXPECT_NEAR(here[i], there[i], 1e-6);
+}
+
+TEST_F(ProbeTool, PlanesBecomePictures)
+{
+  const auto result =
+      runTo("slice.vti",
+            "-field wave -plane z=0.5 -size 64 -contours 0,0.5 -samples "
+            "0.01 -unit m -png " +
+                (folder_ / "slice.png"));
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const auto volume = pcl_uvol::loadVolume(folder_ / "slice.vti");
+  EXPECT_EQ(volume.dims[2], 1u);
+  EXPECT_EQ(std::max(volume.dims[0], volume.dims[1]), 64u);
+  EXPECT_EQ(volume.origin[2], 0.5);
+  int channels = 0;
+  const auto image = readPng(folder_ / "slice.png", channels);
+  EXPECT_GT(image.width, 512u);
+  EXPECT_GT(image.height, 512u);
+}
+
+TEST_F(ProbeTool, SamplesLeftOutTellHowGoodItIs)
+{
+  const auto fit =
+      reportOf("-field cubic,wave -line 0.1,0.1,0.1,0.9,0.9,0.9 -validate 5"
+               " -validate-by hole");
+  EXPECT_LT(fit["validation"]["cubic"]["rms"], 1e-6);
+  EXPECT_LT(fit["validation"]["wave"]["rms"], 1e-3);
+  EXPECT_EQ(fit["validation"]["wave"]["tested"], 3000);
+  // Without an output nothing is asked for.
+  const auto alone = runCommand(tool_ + " " + in_ +
+                                " -field wave -validate 4 "
+                                "-validate-by blocks -model nearest");
+  EXPECT_EQ(0, alone.exit_code) << alone.err;
+  EXPECT_NE(std::string::npos, alone.out.find("validation of wave: RMS 0."))
+      << alone.out;
+  const auto automatic =
+      reportOf("-field wave -line 0.1,0.1,0.1,0.9,0.9,0.9 -model auto");
+  EXPECT_EQ(automatic["model"], "fit");
+  EXPECT_GT(automatic["compared_models"]["nearest"],
+            automatic["compared_models"]["natural"]);
+}
+
+TEST_F(ProbeTool, ConstantsHaveNoVariogram)
+{
+  const auto result =
+      run("-field same -line 0.2,0.2,0.2,0.8,0.8,0.8 -n 5 -model kriging");
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("there is no variogram")) << result.err;
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n'));
+  const auto points = pcl_uvol::loadDataset(out_);
+  EXPECT_EQ(fieldOf(points, "same"), Values(5, 7.5));
+  EXPECT_EQ(fieldOf(points, "same_error"), Values(5, 0.0));
+}
+
+TEST_F(ProbeTool, FewSamplesGetASimplerModel)
+{
+  writeFile(in_, "x,y,z,v\n0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n");
+  const auto result = resultOf("-line 0.1,0.1,0.1,0.3,0.3,0.3 -n 3 -extrapolate");
+  for (const double value : fieldOf(result, "v")) {
+    EXPECT_GE(value, 1.0);
+    EXPECT_LE(value, 4.0);
+  }
+}
+
+TEST_F(ProbeTool, AllFieldsAreThoseOfTheSamples)
+{
+  const auto report = reportOf("-field all -line 0.2,0.2,0.2,0.8,0.8,0.8 -n 3");
+  EXPECT_EQ(report["ranges"].size(), 4u);
+  EXPECT_EQ(report["ranges"]["same"]["min"], 7.5);
+  EXPECT_EQ(2, run("-field all -line 0,0,0,0,0,0 -n").exit_code);
+}
+
+TEST_F(ProbeTool, RefusesNonsense)
+{
+  const std::string line = "-field wave -line 0,0,0,1,1,1 ";
+  expectFailure("-field wave", 2, "Say where the field is asked for");
+  expectFailure(line + "-grid 8", 2, "Only one of -points, -line, -plane and -grid");
+  expectFailure(line + "-model cubic", 2, "-model is fit or");
+  expectFailure(line + "-modle fit", 2, "did you mean -model?");
+  expectFailure(line + "-n 1", 2, "-n is a whole number");
+  expectFailure(line + "-size 9", 2, "-size needs -plane");
+  expectFailure(line + "-k 9", 2, "-k needs -model kriging");
+  expectFailure(line + "-power 2", 2, "-power needs -model shepard");
+  expectFailure(line + "-model kriging -variogram cubic", 2, "-variogram starts with");
+  expectFailure(line + "-model kriging -variogram gaussian,1,2", 2, "takes 3 numbers");
+  expectFailure(line + "-model kriging -variogram gaussian,1,2,-3", 1, "range");
+  expectFailure(line + "-contours 1", 2, "-contours needs -png");
+  expectFailure(line + "-png " + (folder_ / "a.png") + " -log", 2, "-log needs -plane");
+  expectFailure("-field wave -grid 8 -png " + (folder_ / "a.png"), 2, "-png needs");
+  expectFailure("-field wave -plane w=3", 2, "-plane is x=");
+  expectFailure("-field wave -plane 1,2,3,0,0,0", 2, "no direction");
+  expectFailure("-field wave -plane z=3", 1, "The plane misses the box of the data");
+  expectFailure("-field wave -plane z=3 -size 4x4x4", 2, "-size is one number");
+  expectFailure("-field wave -grid 8x8", 2, "-grid is one number");
+  expectFailure("-field wave -grid 8 -box 0,0,0,-1,1,1", 1, "box of a grid");
+  expectFailure("-field rho -grid 8", 1, "There is no field 'rho'");
+  expectFailure("-grid 8", 1, "Name the scalar field to use");
+  expectFailure("-field wave,, -grid 8", 2, "-field has an empty name");
+  expectFailure("-field wave -line 1,1,1,1,1,1", 1, "two different ends");
+  expectFailure("-field wave -points " + in_ + " -validate 1", 2, "-validate");
+  expectFailure(line + "-validate-by random", 2, "-validate-by needs -validate");
+  expectFailure(line + "-validate 21 -validate-by hole", 1, "2 to 20");
+  expectFailure("-field wave -points " + out_, 2, "would be read and written");
+  expectFailure("-field wave -points " + (folder_ / "none.csv"), 1, "none.csv");
+  EXPECT_EQ(2, runCommand(tool_ + " " + in_ + " " + in_ + " " + line).exit_code);
+  EXPECT_EQ(2, runCommand(tool_ + " " + in_ + " " + line).exit_code);
+  EXPECT_EQ(1, runTo("out.xyz", line).exit_code);
+  EXPECT_EQ(1, runTo("line.vti", line).exit_code);
+}
+
+} // namespace

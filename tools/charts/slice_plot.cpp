@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "charts/slice_plot.h"
+
+#include "charts/color_bar.h"
+#include "charts/drawing.h"
+#include "common/number_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace uvol_tools {
+
+using pcl_uvol::Image;
+
+namespace {
+
+constexpr std::size_t least_side = 512; ///< pixels along the longer side of the slice
+constexpr Ink black{0, 0, 0}, white{255, 255, 255}, ground{232, 232, 232};
+constexpr double middle_gray = 128.0;
+
+/** Black on light colours, white on dark ones. */
+Ink
+inkAgainst(const Ink& color)
+{
+  // ITU-R BT.601
+  const double gray = 0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2];
+  return gray < middle_gray ? white : black;
+}
+
+/** From values to places in a range of colours. */
+class ColorScale {
+public:
+  explicit ColorScale(const SlicePlot& plot)
+      : map_(plot.map)
+      , is_logarithmic_(plot.is_logarithmic)
+      , range_{transform(plot.range.low), transform(plot.range.high)}
+  {
+  }
+
+  double
+  placeOf(double value) const
+  {
+    if (is_logarithmic_ && !(value > 0.0))
+      return 0.0;
+    return std::clamp(range_.placeOf(transform(value)), 0.0, 1.0);
+  }
+
+  Ink
+  colorOf(double value) const
+  {
+    return std::isnan(value) ? ground : inkOf(map_.at(placeOf(value)));
+  }
+
+  /** Values to write beside the bar. */
+  std::vector<double>
+  listTicks() const
+  {
+    if (!is_logarithmic_)
+      return roundValues(range_.low, range_.high);
+    std::vector<double> values;
+    const bool is_short = range_.high - range_.low < 2.0;
+    for (double power = std::floor(range_.low); power <= range_.high; power += 1.0)
+      for (const double digit : {1.0, 2.0, 5.0}) {
+        const double place = power + std::log10(digit);
+        if ((digit == 1.0 || is_short) && place >= range_.low - 1e-9 &&
+            place <= range_.high + 1e-9)
+          values.push_back(digit * std::pow(10.0, power));
+      }
+    return values;
+  }
+
+private:
+  double
+  transform(double value) const
+  {
+    return is_logarithmic_ ? std::log10(value) : value;
+  }
+
+  const pcl_uvol::ColorMap& map_;
+  bool is_logarithmic_;
+  AxisScale range_;
+};
+
+/** Sizes of a figure, in pixels. */
+struct Layout {
+  int square, font, margin;
+  PlotArea area;
+  std::uint32_t width, height;
+
+  explicit Layout(const SlicePlot& plot)
+  {
+    const std::size_t longer = std::max(plot.width, plot.height);
+    square = static_cast<int>((least_side + longer - 1) / longer);
+    const int across = square * static_cast<int>(plot.width),
+              up = square * static_cast<int>(plot.height);
+    font = std::max(13, std::max(across, up) / 45);
+    margin = font / 2;
+    area.left = 8 * font;
+    area.right = area.left + across - 1;
+    area.top = 3 * font / 2;
+    area.bottom = area.top + up - 1;
+    width = static_cast<std::uint32_t>(area.right + 13 * font);
+    height = static_cast<std::uint32_t>(area.bottom + 5 * font);
+  }
+
+  /** The area from centre to centre of the outermost values. */
+  PlotArea
+  centers() const
+  {
+    const int half = square / 2;
+    return {area.left + half, area.right - half, area.top + half, area.bottom - half};
+  }
+};
+
+void
+drawValues(const SlicePlot& plot,
+           const ColorScale& colors,
+           const Layout& layout,
+           Image& image)
+{
+  for (std::size_t row = 0; row < plot.height; ++row)
+    for (std::size_t column = 0; column < plot.width; ++column) {
+      const Ink ink =
+          colors.colorOf(static_cast<double>(plot.values[row * plot.width + column]));
+      const int left = layout.area.left + layout.square * static_cast<int>(column);
+      const int top =
+          layout.area.bottom + 1 - layout.square * static_cast<int>(row + 1);
+      for (int y = 0; y < layout.square; ++y)
+        for (int x = 0; x < layout.square; ++x)
+          blend(image, left + x, top + y, ink, 1.0);
+    }
+}
+
+/** Lines of equal values, by the edges of the squares between four of them; lines are
+ * covered once, however many pieces meet in a pixel. */
+class ContourPen {
+public:
+  ContourPen(const SlicePlot& plot, const Layout& layout, Image& image)
+      : plot_(plot)
+      , layout_(layout)
+      , image_(image)
+      , cover_(image.pixels())
+  {
+  }
+
+  void
+  draw(double value, const Ink& ink)
+  {
+    std::fill(cover_.begin(), cover_.end(), 0.0f);
+    for (std::size_t row = 0; row + 1 < plot_.height; ++row)
+      for (std::size_t column = 0; column + 1 < plot_.width; ++column)
+        drawSquare(row, column, value);
+    for (std::size_t i = 0; i < cover_.size(); ++i)
+      if (cover_[i] > 0.0f)
+        blend(image_,
+              static_cast<int>(i % image_.width),
+              static_cast<int>(i / image_.width),
+              ink,
+              static_cast<double>(cover_[i]));
+  }
+
+private:
+  using Pixel = std::array<double, 2>;
+
+  double
+  valueAt(std::size_t row, std::size_t column) const
+  {
+    return static_cast<double>(plot_.values[row * plot_.width + column]);
+  }
+
+  Pixel
+  pixelOf(double row, double column) const
+  {
+    const PlotArea centers = layout_.centers();
+    return {centers.left + layout_.square * column,
+            centers.bottom - layout_.square * row};
+  }
+
+  /** The line through a square, or two where corners across are on the same side: these
+   * are joined as the mean of the four says. */
+  void
+  drawSquare(std::size_t row, std::size_t column, double value)
+  {
+    const double corners[] = {valueAt(row, column),
+                              valueAt(row, column + 1),
+                              valueAt(row + 1, column + 1),
+                              valueAt(row + 1, column)};
+    constexpr double rows[] = {0.0, 0.0, 1.0, 1.0}, columns[] = {0.0, 1.0, 1.0, 0.0};
+    Pixel ends[4];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      if (std::isnan(corners[i]))
+        return;
+      if ((corners[i] < value) == (corners[j] < value))
+        continue;
+      const double part = (value - corners[i]) / (corners[j] - corners[i]);
+      ends[count++] = pixelOf(
+          static_cast<double>(row) + rows[i] + part * (rows[j] - rows[i]),
+          static_cast<double>(column) + columns[i] + part * (columns[j] - columns[i]));
+    }
+    if (count == 2)
+      cover(ends[0], ends[1]);
+    if (count == 4) {
+      const double mean = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+      const bool first_is_cut_off = (corners[0] < value) != (mean < value);
+      cover(ends[0], first_is_cut_off ? ends[3] : ends[1]);
+      cover(ends[2], first_is_cut_off ? ends[1] : ends[3]);
+    }
+  }
+
+  void
+  cover(const Pixel& from, const Pixel& to)
+  {
+    const double width = layout_.font / 9.0;
+    forLinePixels(
+        from[0], from[1], to[0], to[1], width, [&](int column, int row, double part) {
+          if (column < layout_.area.left || column > layout_.area.right ||
+              row < layout_.area.top || row > layout_.area.bottom)
+            return;
+          float& covered = cover_[static_cast<std::size_t>(row) * image_.width +
+                                  static_cast<std::size_t>(column)];
+          covered = std::max(covered, static_cast<float>(part));
+        });
+  }
+
+  const SlicePlot& plot_;
+  const Layout& layout_;
+  Image& image_;
+  std::vector<float> cover_;
+};
+
+/** Dots in the colours of the samples, with a rim that tells them from the slice. */
+void
+drawSamples(const SlicePlot& plot,
+            const ColorScale& colors,
+            const Layout& layout,
+            Image& image)
+{
+  const PlotArea centers = layout.centers();
+  const double radius = layout.font / 4.0, rim = layout.font / 12.0;
+  for (const SliceSample& sample : plot.samples) {
+    const double column = centers.left + plot.across.placeOf(sample.across) *
+                                             (centers.right - centers.left);
+    const double row =
+        centers.bottom - plot.up.placeOf(sample.up) * (centers.bottom - centers.top);
+    if (column < layout.area.left || column > layout.area.right ||
+        row < layout.area.top || row > layout.area.bottom)
+      continue;
+    drawLine(image, column, row, column, row, 2.0 * radius, black);
+    drawLine(image,
+             column,
+             row,
+             column,
+             row,
+             2.0 * (radius - rim),
+             colors.colorOf(sample.value));
+  }
+}
+
+void
+drawScale(const SlicePlot& plot,
+          const ColorScale& colors,
+          const Layout& layout,
+          Image& image)
+{
+  const int font = layout.font, left = layout.area.right + 2 * font;
+  const PlotArea bar{left, left + font - 1, layout.area.top, layout.area.bottom};
+  const auto ticks = colors.listTicks();
+  const auto texts = pcl_uvol::describeNumbers(ticks);
+  std::vector<BarLabel> labels;
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+    labels.push_back({colors.placeOf(ticks[i]), texts[i]});
+  const int widest =
+      drawBar(image, plot.map, bar, labels, TextAnchor::Left, font, black);
+  for (const double value : plot.contours) {
+    if (value < plot.range.low || value > plot.range.high)
+      continue;
+    const double row = bar.bottom - colors.placeOf(value) * (bar.bottom - bar.top);
+    drawLine(image,
+             bar.left,
+             row,
+             bar.right,
+             row,
+             font / 9.0,
+             inkAgainst(colors.colorOf(value)));
+  }
+  writeUpwards(image,
+               plot.title,
+               font,
+               bar.right + 2 * font + widest,
+               (bar.top + bar.bottom) / 2,
+               black);
+}
+
+} // namespace
+
+AxisScale
+findColorRange(const std::vector<float>& values,
+               const AxisScale& bounds,
+               bool is_logarithmic)
+{
+  constexpr double most_decades = 1e6;
+  AxisScale range = bounds;
+  bool is_empty = true;
+  for (const float single : values) {
+    const auto value = static_cast<double>(single);
+    if (!(value >= bounds.low && value <= bounds.high) ||
+        (is_logarithmic && !(value > 0.0)))
+      continue;
+    range.low = is_empty ? value : std::min(range.low, value);
+    range.high = is_empty ? value : std::max(range.high, value);
+    is_empty = false;
+  }
+  if (is_logarithmic && !(range.high > 0.0))
+    return {0.1, 1.0};
+  if (is_logarithmic)
+    range.low = std::max(range.low, range.high / most_decades);
+  return range;
+}
+
+Image
+drawSlicePlot(const SlicePlot& plot)
+{
+  const Layout layout(plot);
+  Image image;
+  image.width = layout.width;
+  image.height = layout.height;
+  image.color.assign(4 * image.pixels(), 255);
+  const ColorScale colors(plot);
+  drawValues(plot, colors, layout, image);
+  ContourPen pen(plot, layout, image);
+  for (const double value : plot.contours)
+    pen.draw(value, inkAgainst(colors.colorOf(value)));
+  drawSamples(plot, colors, layout, image);
+  drawAxisBelow(image,
+                layout.centers(),
+                layout.margin + layout.square / 2,
+                plot.across,
+                plot.across_label,
+                layout.font);
+  drawAxisLeft(image,
+               layout.centers(),
+               layout.margin + layout.square / 2,
+               plot.up,
+               plot.up_label,
+               layout.font);
+  drawScale(plot, colors, layout, image);
+  return image;
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/interpolation_options.h"
+
+#include "common/scalar_field.h"
+#include "common/scalar_names.h"
+#include "shared/scale_option.h"
+#include <pcl_uvol/common/cloud_view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace uvol_tools {
+
+using pcl_uvol::Folds;
+using pcl_uvol::InterpolationModel;
+using pcl_uvol::InterpolationParameters;
+
+void
+InterpolationOptions::declare(Options& options)
+{
+  constexpr double most = std::numeric_limits<double>::max();
+  options.text("field",
+               "a,b,...|all",
+               fields_,
+               "scalar fields: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
+               "else the only candidate)");
+  options.choice(
+      "model",
+      parameters_.model,
+      "the field between its samples: blended local polynomials; Sibson's or "
+      "Laplace's natural neighbours; kriging; sums of SPH kernels; the "
+      "nearest sample; inverse distances; auto: the best at samples left out");
+  options.flag("extrapolate",
+               parameters_.extrapolate,
+               "give values outside of the data as well, where they are nan else");
+  options.flag("gradients", parameters_.gradients, "write gradients as well");
+  options.integer(
+      "k",
+      k_,
+      1,
+      512,
+      "nearest samples that kriging (default 32) or shepard (16) take; with "
+      "sph the one at which a kernel ends (48)");
+  options.text("variogram",
+               "kind[,nugget,sill,range]",
+               variogram_,
+               "of kriging: spherical, exponential, gaussian, matern32 or matern52 "
+               "(default spherical, fitted to the samples)");
+  options.integer("trend",
+                  parameters_.kriging.trend,
+                  0,
+                  2,
+                  "of kriging: degree of the polynomial that the mean is");
+  options.flag("octants",
+               parameters_.kriging.octants,
+               "with kriging: an eighth of the samples from each octant");
+  options.number("power",
+                 parameters_.shepard.power,
+                 std::numeric_limits<double>::min(),
+                 most,
+                 "of the inverse distance, with shepard");
+  options.choice("kernel", parameters_.sph.kernel, "of sph");
+  options.text("smoothing-length",
+               "field",
+               parameters_.sph.length_field,
+               "with sph: the field h of the particles");
+  options.text(
+      "mass", "field", parameters_.sph.mass_field, "with sph: masses (default: equal)");
+  options.text("scale",
+               "sx,sy,sz|auto",
+               scale_,
+               "measure distances in a stretched space; auto: equal spread per axis");
+  options.integer("validate",
+                  folds_,
+                  2,
+                  1000,
+                  "leave out one of so many parts of the samples after the other, and "
+                  "tell how far values from the others are off");
+  options.text("validate-by",
+               "random|blocks|FIELD",
+               validate_by_,
+               "parts of random samples, of compact blocks, or of equal values of a "
+               "field, as drill holes (default random)");
+}
+
+void
+InterpolationOptions::finish(const Options& options)
+{
+  parseNames("field", fields_);
+  const ScaleOption checked(scale_);
+  checkModel(options);
+  if (!options.given("gradients"))
+    parameters_.gradients = false;
+  if (options.given("validate-by") && folds_ == 0)
+    throw UsageError("-validate-by needs -validate.");
+  if (!variogram_.empty())
+    parseVariogram();
+  if (k_ > 0)
+    parameters_.kriging.k = parameters_.shepard.k = parameters_.sph.k = k_;
+  checkParameters(parameters_);
+}
+
+void
+InterpolationOptions::checkModel(const Options& options) const
+{
+  const auto check = [&](const char* option,
+                         std::initializer_list<InterpolationModel> models,
+                         const char* words) {
+    const bool fits =
+        parameters_.model == InterpolationModel::Auto ||
+        std::find(models.begin(), models.end(), parameters_.model) != models.end();
+    if (options.given(option) && !fits)
+      throw UsageError(std::string("-") + option + " needs -model " + words + ".");
+  };
+  check("k",
+        {InterpolationModel::Kriging,
+         InterpolationModel::Shepard,
+         InterpolationModel::Sph},
+        "kriging, shepard or sph");
+  for (const char* const option : {"variogram", "trend", "octants"})
+    check(option, {InterpolationModel::Kriging}, "kriging");
+  check("power", {InterpolationModel::Shepard}, "shepard");
+  for (const char* const option : {"kernel", "smoothing-length", "mass"})
+    check(option, {InterpolationModel::Sph}, "sph");
+}
+
+void
+InterpolationOptions::parseVariogram()
+{
+  const std::size_t comma = std::min(variogram_.find(','), variogram_.size());
+  pcl_uvol::KrigingParameters& kriging = parameters_.kriging;
+  if (!fromWord(variogram_.substr(0, comma), kriging.variogram))
+    throw UsageError("-variogram starts with spherical, exponential, gaussian, "
+                     "matern32 or matern52, not '" +
+                     variogram_ + "'.");
+  if (comma == variogram_.size())
+    return;
+  const auto numbers = parseNumbers("variogram", variogram_.substr(comma + 1), 3);
+  kriging.nugget = numbers[0];
+  kriging.sill = numbers[1];
+  kriging.range = numbers[2];
+}
+
+InterpolationParameters
+InterpolationOptions::resolve(const pcl_uvol::Dataset& samples) const
+{
+  const auto& fields = samples.cloud.fields;
+  InterpolationParameters parameters = parameters_;
+  parameters.scale = ScaleOption(scale_).resolveScale(pcl_uvol::viewOf(samples.cloud));
+  if (fields_.empty())
+    parameters.fields = {pcl_uvol::ScalarField::defaultName(fields)};
+  else if (fields_ == "all" && pcl_uvol::findField(fields, "all") == nullptr)
+    parameters.fields = pcl_uvol::listScalars(fields);
+  else
+    parameters.fields = parseNames("field", fields_);
+  for (const std::string& field : parameters.fields)
+    const pcl_uvol::ScalarField exists(fields, field);
+  return parameters;
+}
+
+Folds
+InterpolationOptions::makeFolds(const pcl_uvol::Dataset& samples,
+                                unsigned threads) const
+{
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
+  if (validate_by_ == "random")
+    return Folds::byRandom(view.count, folds_);
+  if (validate_by_ == "blocks")
+    return Folds::byBlocks(view, folds_, threads);
+  return Folds::byField(view, validate_by_, folds_);
+}
+
+Facts
+InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
+                               const pcl::Indices& indices,
+                               const InterpolationParameters& parameters,
+                               unsigned threads,
+                               pcl_uvol::Report& report) const
+{
+  const pcl_uvol::StepTimer timer(report, "validation");
+  const auto scores = crossValidate(pcl_uvol::viewOf(samples.cloud),
+                                    indices,
+                                    parameters,
+                                    makeFolds(samples, threads),
+                                    0,
+                                    threads,
+                                    report);
+  Facts facts, of_fields;
+  for (const pcl_uvol::FieldScore& score : scores) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "RMS " << score.rms << ", bias " << score.bias;
+    if (!std::isnan(score.share))
+      text << ", " << std::round(1000.0 * score.share) / 10.0
+           << " % within their standard error";
+    text << ", at " << score.covered << " of " << score.tested << " samples left out";
+    of_fields.emplace_back(
+        score.field,
+        text.str(),
+        Fact::Members{{"rms", {score.rms}},
+                      {"bias", {score.bias}},
+                      {"share_within_error", {score.share}},
+                      {"tested", {static_cast<double>(score.tested)}},
+                      {"covered", {static_cast<double>(score.covered)}}});
+    facts.push_back(
+        Fact("validation of " + score.field, of_fields.back().getText()).withoutJson());
+  }
+  facts.emplace_back("validation", of_fields);
+  return facts;
+}
+
+Facts
+describe(const pcl_uvol::ModelChoice& choice)
+{
+  std::ostringstream text;
+  text.precision(3);
+  Facts errors;
+  for (const pcl_uvol::ModelScore& score : choice.scores) {
+    text << (errors.empty() ? "" : ", ") << toWord(score.model) << ' ' << score.error;
+    errors.emplace_back(toWord(score.model), score.error);
+  }
+  text << " (RMS errors by the spread of the field, at " << choice.tested
+       << " values left out)";
+  return {Fact("compared", text.str()).withoutJson(), Fact("compared_models", errors)};
+}
+
+} // namespace uvol_tools

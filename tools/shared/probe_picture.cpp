@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/probe_picture.h"
+
+#include "charts/line_plot.h"
+#include "charts/slice_plot.h"
+#include "common/scalar_field.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/io/image_file.h>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace uvol_tools {
+
+using pcl_uvol::detail::Place;
+using pcl_uvol::detail::QueryLattice;
+using pcl_uvol::detail::Slice;
+
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d
+vectorOf(const Place& place)
+{
+  return Vector3d(place.data());
+}
+
+/** An axis of a slice's picture. */
+struct PictureAxis {
+  Vector3d direction;
+  std::string name;
+  AxisScale scale{}; ///< coordinates in that direction
+
+  PictureAxis(const QueryLattice& lattice, std::size_t axis)
+      : direction(vectorOf(lattice.steps[axis]) / lattice.spacing(axis))
+  {
+    scale.low = direction.dot(vectorOf(lattice.origin));
+    scale.high = scale.low +
+                 lattice.spacing(axis) * static_cast<double>(lattice.counts[axis] - 1);
+    Eigen::Index along = 0;
+    if (direction.maxCoeff(&along) == 1.0) {
+      name = std::string(1, static_cast<char>('x' + along));
+      return;
+    }
+    std::ostringstream text;
+    text << std::setprecision(3) << "along (" << direction.x() << ", " << direction.y()
+         << ", " << direction.z() << ")";
+    name = text.str();
+  }
+};
+
+std::string
+withUnit(const std::string& name, const std::string& unit)
+{
+  return unit.empty() ? name : name + " (" + unit + ")";
+}
+
+} // namespace
+
+void
+ProbePicture::declare(Options& options)
+{
+  options.output("png",
+                 "out.png",
+                 path_,
+                 "draw the first field as well, of -line or -plane; the options below "
+                 "are for the picture");
+  options.numbers("contours", "v,...", 0, contours_, "draw lines of these values");
+  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
+  options.choice(
+      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of the values");
+  options.number("samples",
+                 near_,
+                 0.0,
+                 std::numeric_limits<double>::max(),
+                 "draw the samples that are so near to the plane, in their colours");
+  options.text("label", "text", label_, "beside the values (default: the field)");
+  options.text("unit", "text", unit_, "of the coordinates, such as km");
+}
+
+void
+ProbePicture::finish(const Options& options, bool is_plane, bool is_line) const
+{
+  for (const char* const option :
+       {"contours", "range", "log", "colormap", "samples", "label", "unit"})
+    if (options.given(option) && path_.empty())
+      throw UsageError(std::string("-") + option + " needs -png.");
+  for (const char* const option : {"contours", "range", "log", "colormap", "samples"})
+    if (options.given(option) && !is_plane)
+      throw UsageError(std::string("-") + option + " needs -plane.");
+  if (path_.empty())
+    return;
+  if (!is_plane && !is_line)
+    throw UsageError("-png needs -plane or -line.");
+  if (!range_.empty() && !(range_[0] < range_[1]))
+    throw UsageError("-range is a lower value and a higher one.");
+  if (!range_.empty() && is_logarithmic_ && !(range_[0] > 0.0))
+    throw UsageError("With -log the values of -range are above 0.");
+  pcl_uvol::checkPngPath(path_);
+}
+
+void
+ProbePicture::drawLine(const std::string& field,
+                       const std::vector<double>& distances,
+                       const std::vector<double>& values,
+                       const std::vector<double>& errors) const
+{
+  savePng(path_,
+          drawProfile({distances,
+                       values,
+                       errors,
+                       withUnit("distance", unit_),
+                       label_.empty() ? field : label_}));
+}
+
+void
+ProbePicture::drawSlice(const std::string& field,
+                        const Slice& slice,
+                        const std::vector<float>& values,
+                        const AxisScale& of_samples,
+                        const pcl_uvol::Dataset& samples) const
+{
+  const PictureAxis across(slice.lattice, slice.horizontal),
+      up(slice.lattice, slice.vertical);
+  SlicePlot plot;
+  plot.width = slice.lattice.counts[slice.horizontal];
+  plot.height = slice.lattice.counts[slice.vertical];
+  plot.values = values;
+  plot.across = across.scale;
+  plot.up = up.scale;
+  plot.across_label = withUnit(across.name, unit_);
+  plot.up_label = withUnit(up.name, unit_);
+  plot.title = label_.empty() ? field : label_;
+  plot.map = pcl_uvol::ColorMap(color_map_);
+  plot.is_logarithmic = is_logarithmic_;
+  plot.range = range_.empty() ? findColorRange(values, of_samples, is_logarithmic_)
+                              : AxisScale{range_[0], range_[1]};
+  plot.contours = contours_;
+  if (near_ >= 0.0) {
+    const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
+    const pcl_uvol::ScalarField scalar(view.fields, field);
+    const Vector3d origin = vectorOf(slice.lattice.origin),
+                   normal = across.direction.cross(up.direction);
+    for (std::size_t i = 0; i < view.count; ++i) {
+      const float* const x = view.xyz(i);
+      const Vector3d place =
+          Vector3d(x[0], x[1], x[2]) + Vector3d(samples.origin.data());
+      const double value = scalar.read(view.point(i));
+      if (std::abs(normal.dot(place - origin)) <= near_ && std::isfinite(value))
+        plot.samples.push_back(
+            {across.direction.dot(place), up.direction.dot(place), value});
+    }
+  }
+  savePng(path_, drawSlicePlot(plot));
+}
+
+} // namespace uvol_tools

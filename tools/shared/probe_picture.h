@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture of a field along a line or in a plane.
+#pragma once
+
+#include "charts/axes.h"
+#include "interpolation/query_lattice.h"
+#include "shared/options.h"
+#include <pcl_uvol/common/dataset.h>
+
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief -png, and what it is drawn by. */
+class ProbePicture {
+public:
+  void
+  declare(Options& options);
+
+  /** \brief To be called before any file is read.
+   * \param is_plane, is_line what is drawn; of other queries there is no picture
+   * \throws UsageError, and IOError for a path that is none */
+  void
+  finish(const Options& options, bool is_plane, bool is_line) const;
+
+  bool
+  isAskedFor() const
+  {
+    return !path_.empty();
+  }
+
+  /** \brief Draw a field along a line.
+   * \param distances, values, errors per point */
+  void
+  drawLine(const std::string& field,
+           const std::vector<double>& distances,
+           const std::vector<double>& values,
+           const std::vector<double>& errors) const;
+
+  /** \brief Draw a field in a plane.
+   * \param values in the order of the lattice
+   * \param of_samples range of the samples' values */
+  void
+  drawSlice(const std::string& field,
+            const pcl_uvol::detail::Slice& slice,
+            const std::vector<float>& values,
+            const AxisScale& of_samples,
+            const pcl_uvol::Dataset& samples) const;
+
+private:
+  std::string path_, color_map_ = "viridis", label_, unit_;
+  std::vector<double> contours_, range_;
+  double near_ = -1.0; ///< samples so near to the plane are drawn
+  bool is_logarithmic_ = false;
+};
+
+} // namespace uvol_tools

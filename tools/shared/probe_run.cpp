@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/probe_run.h"
+
+#include "common/scalar_field.h"
+#include "io/lattice_file.h"
+#include "shared/point_files.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace uvol_tools {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::InterpolatedFields;
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using pcl_uvol::detail::AnswerSummary;
+using pcl_uvol::detail::Place;
+using pcl_uvol::detail::QueryLattice;
+using pcl_uvol::detail::Slice;
+using Kind = QueryOptions::Kind;
+
+namespace {
+
+/** One run: the probe with what it fills. */
+class Runner {
+public:
+  Runner(const Probe& probe, AnswerSummary& summary, Report& report)
+      : probe_(probe)
+      , samples_(probe.samples)
+      , summary_(summary)
+      , report_(report)
+  {
+  }
+
+  Facts
+  probePoints();
+
+  Facts
+  probeLattice();
+
+private:
+  InterpolatedFields
+  answer(const std::vector<Place>& queries);
+
+  Facts
+  writePoints(const InterpolatedFields& answers,
+              const std::vector<pcl_uvol::Triangle>& triangles,
+              Dataset& points);
+
+  Facts
+  writeLatticeAsPoints(const Slice& slice);
+
+  Facts
+  writeLattice(const Slice& slice);
+
+  void
+  drawSlice(const Slice& slice, const std::vector<float>& values);
+
+  std::vector<pcl_uvol::LatticeArray>
+  listArrays() const;
+
+  const Probe& probe_;
+  const Dataset& samples_;
+  AnswerSummary& summary_;
+  Report& report_;
+};
+
+/** The type of a field's values in a grid: that of its samples, if it is floating. */
+std::uint8_t
+valueTypeOf(const Dataset& samples, const std::string& name)
+{
+  using Type = pcl::PCLPointField;
+  const pcl_uvol::ScalarField field(samples.cloud.fields, name);
+  const auto& components = field.getComponents();
+  const bool is_short =
+      std::all_of(components.begin(), components.end(), [](const auto& component) {
+        return component.datatype == Type::FLOAT32 ||
+               pcl_uvol::datatypeSize(component.datatype) <= 2;
+      });
+  return is_short ? Type::FLOAT32 : Type::FLOAT64;
+}
+
+/** Put numbers in double as an array's type. */
+void
+putNumbers(const pcl_uvol::PutNumbers& put,
+           const pcl_uvol::LatticeArray& array,
+           std::size_t index,
+           std::size_t first,
+           std::size_t places,
+           const double* numbers)
+{
+  if (array.datatype == pcl::PCLPointField::FLOAT64)
+    return put(index, first, places, numbers);
+  const std::vector<float> singles(numbers, numbers + places * array.components);
+  put(index, first, places, singles.data());
+}
+
+InterpolatedFields
+Runner::answer(const std::vector<Place>& queries)
+{
+  InterpolatedFields answers =
+      probe_.interpolator.interpolate(queries, probe_.options.threads(), report_);
+  summary_.add(answers);
+  return answers;
+}
+
+/** Append answers to points and write them. */
+Facts
+Runner::writePoints(const InterpolatedFields& answers,
+                    const std::vector<pcl_uvol::Triangle>& triangles,
+                    Dataset& points)
+{
+  const auto names = appendFields(answers, points.cloud);
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  pcl_uvol::checkSavePath(probe_.output, points.cloud.fields);
+  pcl_uvol::SaveOptions save;
+  save.ascii = probe_.ascii;
+  const StepTimer timer(report_, "write");
+  if (triangles.empty())
+    saveDataset(probe_.output, points, save);
+  else
+    saveMesh(probe_.output, points, triangles, save);
+  return {{"appended fields", list}};
+}
+
+Facts
+Runner::probePoints()
+{
+  const std::string& path = probe_.queries.getPoints();
+  const auto ending = [](const std::string& file) {
+    return std::filesystem::path(file).extension();
+  };
+  Dataset points;
+  std::vector<pcl_uvol::Triangle> triangles;
+  if (ending(path) == ".ply" && ending(probe_.output) == ".ply") {
+    const StepTimer timer(report_, "read");
+    points = pcl_uvol::loadMesh(path, triangles);
+  }
+  else {
+    pcl_uvol::LoadOptions load;
+    if (ending(path) == ending(probe_.input))
+      load.xyz_columns = parseColumns(probe_.xyz);
+    points = loadPoints(path, report_, load);
+  }
+  std::vector<Place> queries =
+      pcl_uvol::detail::placesOf(pcl_uvol::viewOf(points.cloud));
+  for (Place& query : queries)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      query[axis] += points.origin[axis] - samples_.origin[axis];
+  const InterpolatedFields answers = answer(queries);
+  Facts facts = writePoints(answers, triangles, points);
+  if (!triangles.empty())
+    facts.emplace_back("triangles", static_cast<double>(triangles.size()));
+  return facts;
+}
+
+/** The places of a lattice as points. */
+Facts
+Runner::writeLatticeAsPoints(const Slice& slice)
+{
+  const QueryLattice& lattice = slice.lattice;
+  std::vector<Place> queries(lattice.size());
+  std::vector<double> xyz, distances;
+  xyz.reserve(3 * queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    queries[i] = lattice.at(i);
+    distances.push_back(static_cast<double>(i) * lattice.spacing(0));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      xyz.push_back(queries[i][axis]);
+      queries[i][axis] -= samples_.origin[axis];
+    }
+  }
+  const InterpolatedFields answers = answer(queries);
+  Dataset points;
+  points.double_coordinates = samples_.double_coordinates;
+  setCoordinates(points, xyz);
+  const auto first = static_cast<std::ptrdiff_t>(answers.size);
+  const std::vector<double> values(answers.values.begin(),
+                                   answers.values.begin() + first);
+  if (probe_.queries.getKind() == Kind::Line)
+    setField(points, "distance", distances);
+  if (probe_.picture.isAskedFor() && probe_.queries.getKind() == Kind::Line)
+    probe_.picture.drawLine(answers.names.front(),
+                            distances,
+                            values,
+                            {answers.errors.begin(), answers.errors.begin() + first});
+  else if (probe_.picture.isAskedFor())
+    drawSlice(slice, {values.begin(), values.end()});
+  return writePoints(answers, {}, points);
+}
+
+/** The first field as a picture. */
+void
+Runner::drawSlice(const Slice& slice, const std::vector<float>& values)
+{
+  const StepTimer timer(report_, "picture");
+  const AnswerSummary::Field& field = summary_.getFields().front();
+  probe_.picture.drawSlice(
+      field.name, slice, values, {field.sample_low, field.sample_high}, samples_);
+}
+
+std::vector<pcl_uvol::LatticeArray>
+Runner::listArrays() const
+{
+  using Type = pcl::PCLPointField;
+  std::vector<pcl_uvol::LatticeArray> arrays;
+  for (const std::string& name : probe_.interpolator.getNames()) {
+    arrays.push_back({name, valueTypeOf(samples_, name), 1});
+    arrays.push_back({name + "_error", Type::FLOAT32, 1});
+    if (probe_.parameters.gradients)
+      arrays.push_back({name + "_gradient", Type::FLOAT32, 3});
+  }
+  arrays.push_back({"support", Type::UINT8, 1});
+  return arrays;
+}
+
+/** Answer the queries of a lattice a block after the other, into a file. */
+Facts
+Runner::writeLattice(const Slice& slice)
+{
+  const Place to_samples{-samples_.origin[0], -samples_.origin[1], -samples_.origin[2]};
+  const auto arrays = listArrays();
+  const std::vector<std::string> files = pcl_uvol::latticeFiles(probe_.output, arrays);
+  checkDistinct({probe_.input}, files);
+  std::vector<float> drawn;
+  const auto take = [&](const pcl_uvol::PutNumbers& put,
+                        std::size_t first,
+                        const InterpolatedFields& answers) {
+    summary_.add(answers);
+    const std::size_t count = answers.size;
+    if (probe_.picture.isAskedFor())
+      drawn.insert(drawn.end(),
+                   answers.values.begin(),
+                   answers.values.begin() + static_cast<std::ptrdiff_t>(count));
+    std::size_t array = 0;
+    const auto next = [&](const double* numbers) {
+      putNumbers(put, arrays[array], array, first, count, numbers);
+      ++array;
+    };
+    for (std::size_t f = 0; f < answers.names.size(); ++f) {
+      next(answers.values.data() + f * count);
+      next(answers.errors.data() + f * count);
+      if (probe_.parameters.gradients)
+        next(answers.gradients.data() + 3 * f * count);
+    }
+    put(array, first, count, answers.support.data());
+  };
+  saveLattice(
+      probe_.output, slice.lattice, arrays, [&](const pcl_uvol::PutNumbers& put) {
+        probe_.interpolator.interpolate(
+            slice.lattice.shiftedBy(to_samples),
+            probe_.options.threads(),
+            report_,
+            [&](std::size_t first, const InterpolatedFields& answers) {
+              take(put, first, answers);
+            });
+      });
+  if (probe_.picture.isAskedFor())
+    drawSlice(slice, drawn);
+  std::string list;
+  for (const std::string& file : files)
+    list += (list.empty() ? "" : ", ") + file;
+  return files.size() > 1 ? Facts{{"files", list}} : Facts{};
+}
+
+Facts
+Runner::probeLattice()
+{
+  const Slice& slice = *probe_.lattice;
+  const QueryLattice& lattice = slice.lattice;
+  std::ostringstream text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    text << (axis > 0 ? " x " : "") << lattice.counts[axis];
+  text << " points, " << lattice.spacing(slice.horizontal) << " apart";
+  Facts facts{Fact(
+      "lattice",
+      text.str(),
+      Fact::Members{
+          {"counts", toNumbers(lattice.counts)},
+          {"origin", toNumbers(lattice.origin)},
+          {"spacing", {lattice.spacing(0), lattice.spacing(1), lattice.spacing(2)}}})};
+  const Facts written = isWrittenInParts(probe_.queries, probe_.output)
+                            ? writeLattice(slice)
+                            : writeLatticeAsPoints(slice);
+  facts.insert(facts.end(), written.begin(), written.end());
+  return facts;
+}
+
+} // namespace
+
+bool
+isWrittenInParts(const QueryOptions& queries, const std::string& output)
+{
+  const Kind kind = queries.getKind();
+  return (kind == Kind::Plane || kind == Kind::Grid) && pcl_uvol::isLatticeFile(output);
+}
+
+Facts
+runProbe(const Probe& probe, AnswerSummary& summary, Report& report)
+{
+  Runner runner(probe, summary, report);
+  return probe.lattice ? runner.probeLattice() : runner.probePoints();
+}
+
+} // namespace uvol_tools

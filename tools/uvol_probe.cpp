@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The field between scattered samples: at points, along lines, in planes and in grids,
+// and how sure it is.
+#include "interpolation/answer_summary.h"
+#include "interpolation/memory_need.h"
+#include "io/memory_need.h"
+#include "shared/interpolation_options.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/probe_picture.h"
+#include "shared/probe_run.h"
+#include "shared/progress_bar.h"
+#include "shared/query_options.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
+#include <pcl_uvol/io/dataset.h>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::InterpolationModel;
+using pcl_uvol::InterpolationParameters;
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+using pcl_uvol::detail::AnswerSummary;
+using pcl_uvol::detail::FieldInterpolator;
+using pcl_uvol::detail::Slice;
+using uvol_tools::Fact;
+using uvol_tools::Facts;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+using Kind = uvol_tools::QueryOptions::Kind;
+
+struct Arguments {
+  std::string input, output, where, xyz;
+  uvol_tools::QueryOptions queries;
+  uvol_tools::InterpolationOptions model;
+  uvol_tools::ProbePicture picture;
+  bool ascii = false;
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  options.file("in", arguments.input);
+  options.file("out", arguments.output, false);
+  arguments.queries.declare(options);
+  arguments.model.declare(options);
+  options.text("where",
+               "expr",
+               arguments.where,
+               "use only the samples for which it holds: \"experiment=1 && T>4\"");
+  uvol_tools::declareColumns(options, arguments.xyz);
+  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+  arguments.picture.declare(options);
+}
+
+void
+check(const Options& options, Arguments& arguments)
+{
+  arguments.queries.finish(options);
+  arguments.model.finish(options);
+  uvol_tools::parseColumns(arguments.xyz);
+  const Kind kind = arguments.queries.getKind();
+  arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line);
+  if (kind == Kind::None) {
+    if (!arguments.model.hasValidation() || !arguments.output.empty())
+      throw UsageError("Say where the field is asked for: -points, -line, -plane or "
+                       "-grid.");
+    return;
+  }
+  if (arguments.output.empty())
+    throw UsageError("The argument <out> is missing: where the values go.");
+  if (!arguments.queries.getPoints().empty())
+    uvol_tools::checkDistinct({arguments.queries.getPoints()}, {arguments.output});
+  if (!uvol_tools::isWrittenInParts(arguments.queries, arguments.output))
+    pcl_uvol::checkSavePath(arguments.output);
+}
+
+/** What the values of each field range over. */
+void
+addRanges(const AnswerSummary& summary, Facts& facts)
+{
+  Facts ranges;
+  for (const AnswerSummary::Field& field : summary.getFields()) {
+    std::ostringstream text;
+    if (field.count == 0)
+      text << "no value";
+    else
+      text << field.low << " to " << field.high;
+    const auto number = [&](double value) {
+      return field.count > 0 ? Fact::Numbers{value} : Fact::Numbers{};
+    };
+    facts.push_back(Fact(field.name, text.str()).withoutJson());
+    ranges.emplace_back(field.name,
+                        "",
+                        Fact::Members{{"values", {static_cast<double>(field.count)}},
+                                      {"min", number(field.low)},
+                                      {"max", number(field.high)}});
+  }
+  facts.emplace_back("ranges", ranges);
+}
+
+/** Places that are asked for at once, and bytes of each in the output. */
+struct QuerySize {
+  double count = 0.0, point_step = 0.0;
+};
+
+/** \param lattice null for points, and where it is not known yet */
+QuerySize
+findQuerySize(const Arguments& arguments, const Slice* lattice)
+{
+  const std::string& file = arguments.queries.getPoints();
+  if (!file.empty()) {
+    const auto header = pcl_uvol::peekHeader(file);
+    return header ? QuerySize{static_cast<double>(header->points),
+                              static_cast<double>(header->point_step)}
+                  : QuerySize();
+  }
+  if (!lattice)
+    return {};
+  const auto places = static_cast<double>(lattice->lattice.size());
+  if (uvol_tools::isWrittenInParts(arguments.queries, arguments.output))
+    return {std::min(places, static_cast<double>(pcl_uvol::detail::lattice_block)),
+            0.0};
+  return {places, sizeof(float) * 3 + sizeof(double)};
+}
+
+/** What the tool holds beside the samples. */
+uvol_tools::MemoryGuard::Work
+forecastMemory(const Arguments& arguments, double fields, const QuerySize& queries)
+{
+  return [&arguments, fields, queries](
+             double points, double, pcl_uvol::MemoryForecast& forecast) {
+    using pcl_uvol::QueryShape;
+    const Kind kind = arguments.queries.getKind();
+    const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
+                             : kind == Kind::Plane ? QueryShape::Plane
+                                                   : QueryShape::Space;
+    forecast.hold(sizeof(int) * points); // indices of all
+    const InterpolationParameters& parameters = arguments.model.getParameters();
+    if (arguments.model.hasValidation())
+      forecast.run({pcl_uvol::interpolationNeed(
+                        points, fields, parameters, points / 2.0, QueryShape::Space)
+                        .peak,
+                    0.0});
+    if (kind == Kind::None)
+      return;
+    if (queries.point_step > 0.0) // places and distances, and the points
+      forecast.hold((4.0 * sizeof(double) + queries.point_step) * queries.count);
+    forecast.run(
+        pcl_uvol::interpolationNeed(points, fields, parameters, queries.count, shape));
+    // Points with the answers, while they are written as well.
+    if (queries.point_step > 0.0)
+      forecast.hold((queries.point_step + 2.0 * sizeof(double) * fields + 4.0) *
+                    queries.count);
+  };
+}
+
+/** The box of the samples, as they are told. */
+pcl_uvol::detail::Bounds
+findBounds(const Dataset& samples)
+{
+  auto bounds = pcl_uvol::detail::boundsOf(pcl_uvol::viewOf(samples.cloud));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds.low[axis] += samples.origin[axis];
+    bounds.high[axis] += samples.origin[axis];
+  }
+  return bounds;
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options(
+      "uvol_probe",
+      "in.csv out.csv -points file|-line ...|-plane ...|-grid n [options]",
+      "Tells a field given at scattered points anywhere between them, with its "
+      "standard "
+      "error.\nThe field support says what a value rests on: 1 samples all around, 2 a "
+      "gap of the sampling, 3 its rim, 4 outside of the data (no value: nan), 5 "
+      "samples "
+      "that do not determine the model, 6 no finite place.\nWrites pcd ply vtp csv, "
+      "planes and grids also as vti vts nrrd mha.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  check(options, arguments);
+  const Kind kind = arguments.queries.getKind();
+  uvol_tools::MemoryGuard memory("Interpolation");
+  if (arguments.where.empty())
+    memory.checkFile(arguments.input,
+                     forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)));
+  else
+    memory.checkFile(arguments.input, nullptr);
+
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  auto total = std::make_unique<StepTimer>(report, "total");
+  pcl_uvol::LoadOptions load;
+  load.xyz_columns = uvol_tools::parseColumns(arguments.xyz);
+  const Dataset samples =
+      uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
+  report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
+  InterpolationParameters parameters = arguments.model.resolve(samples);
+  std::optional<Slice> lattice;
+  if (kind != Kind::None && kind != Kind::Points)
+    lattice = arguments.queries.makeLattice(findBounds(samples));
+  memory.checkCloud(
+      samples,
+      forecastMemory(arguments,
+                     static_cast<double>(parameters.fields.size()),
+                     findQuerySize(arguments, lattice ? &*lattice : nullptr)));
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
+  pcl::Indices indices(view.count);
+  std::iota(indices.begin(), indices.end(), 0);
+
+  Facts facts = {{"input", arguments.input}};
+  if (!arguments.output.empty())
+    facts.emplace_back("output", arguments.output);
+  if (parameters.model == InterpolationModel::Auto) {
+    const StepTimer timer(report, "choice");
+    const auto choice =
+        chooseModel(view, indices, parameters, options.threads(), report);
+    parameters.model = choice.scores.front().model;
+    facts.emplace_back("model", toWord(parameters.model));
+    for (const Fact& fact : uvol_tools::describe(choice))
+      facts.push_back(fact);
+  }
+  else
+    facts.emplace_back("model", toWord(parameters.model));
+  if (arguments.model.hasValidation())
+    for (const Fact& fact : arguments.model.validate(
+             samples, indices, parameters, options.threads(), report))
+      facts.push_back(fact);
+  if (kind != Kind::None) {
+    const FieldInterpolator interpolator(
+        view, indices, parameters, options.threads(), report);
+    AnswerSummary summary(view, indices, interpolator.getNames());
+    const Facts found = uvol_tools::runProbe({options,
+                                              arguments.queries,
+                                              lattice,
+                                              arguments.picture,
+                                              arguments.input,
+                                              arguments.output,
+                                              arguments.xyz,
+                                              arguments.ascii,
+                                              samples,
+                                              parameters,
+                                              interpolator},
+                                             summary,
+                                             report);
+    facts.insert(facts.end(), found.begin(), found.end());
+    addRanges(summary, facts);
+    summary.warn(report);
+  }
+  total.reset();
+  facts.push_back(memory.describe());
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_probe", [&] { return run(argc, argv); });
+}
