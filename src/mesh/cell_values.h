@@ -24,7 +24,6 @@ struct BandCell {
   Eigen::Vector3d foot;   ///< the point of the surface next to the centre
   Eigen::Vector3d normal; ///< of the surface there, towards lower values
   double mean_curvature;  ///< there, positive where higher values are convex
-  std::uint32_t partner;  ///< the sample that the cell was looked at for
 };
 
 /** \brief The cells beside one isosurface.
