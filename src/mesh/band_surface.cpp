@@ -170,16 +170,16 @@ private:
   {
     const BandCell &a = values_.getCell(pair.lower), &b = values_.getCell(pair.higher);
     const Eigen::Vector3d way = b.center - a.center;
-    const double t = a.distance / (a.distance - b.distance);
+    const double t = a.value / (a.value - b.value);
     WorkingVertex vertex;
     vertex.pair = pair;
     vertex.size = way.norm();
     vertex.foot.place = a.center + t * way;
-    vertex.foot.normal = (a.distance >= 0.0 ? way : -way).stableNormalized();
+    vertex.foot.normal = (a.value >= 0.0 ? way : -way).stableNormalized();
     vertex.foot.mean_curvature = 0.0;
     std::vector<Foot> feet;
     for (const BandCell* const cell : {&a, &b})
-      if (cell->is_fitted)
+      if (cell->has_foot)
         feet.push_back({cell->foot, cell->normal, cell->mean_curvature});
     if (feet.empty() || !(vertex.size > 0.0))
       return vertex;

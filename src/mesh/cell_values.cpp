@@ -50,11 +50,7 @@ CellValues::CellValues(const CellTiling& tiling,
     candidates = findOthers(candidates);
   }
   std::sort(band_.begin(), band_.end());
-  report.count("fitted_cells",
-               static_cast<std::uint64_t>(
-                   std::count_if(cells_.begin(), cells_.end(), [](const auto& cell) {
-                     return cell.is_fitted;
-                   })));
+  report.count("band_cells", cells_.size());
 }
 
 std::vector<CellValues::Candidate>
@@ -139,29 +135,18 @@ CellValues::fit(const std::vector<Candidate>& candidates, StepTimer& step)
       });
   const std::vector<RootFit> fits = fitRoots(input_, isovalue_, edges, feet, step);
   const double side = input_.outside == Outside::Lower ? 1.0 : -1.0;
-  const auto& positions = input_.samples.getPositions();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const auto [sample, partner] = candidates[i];
+    const std::uint32_t sample = candidates[i].sample;
     BandCell& cell = cells_[first + i];
-    cell.is_fitted = fits[i].outcome <= RootOutcome::Quadratic;
-    if (cell.is_fitted) {
+    // A fit that is too rough to place a root is still better than a rough sample.
+    cell.value = std::isnan(fits[i].value)
+                     ? static_cast<double>(input_.values[sample]) - isovalue_
+                     : static_cast<double>(fits[i].value);
+    cell.has_foot = fits[i].outcome <= RootOutcome::Quadratic;
+    if (cell.has_foot) {
       cell.foot = feet[i].getVector3fMap().cast<double>();
       cell.normal = side * feet[i].getNormalVector3fMap().cast<double>();
       cell.mean_curvature = side * static_cast<double>(feet[i].mean_curvature);
-      cell.distance = cell.normal.dot(cell.foot - cell.center);
-    }
-    else {
-      // As if the field were linear towards the partner.
-      const double value = static_cast<double>(input_.values[sample]) - isovalue_;
-      const double other = static_cast<double>(input_.values[partner]) - isovalue_;
-      const double length =
-          (toInput(positions[sample], scale) - toInput(positions[partner], scale))
-              .norm();
-      const double part =
-          std::min(1.0, std::abs(value) / std::max(std::abs(value - other), 1e-30));
-      cell.distance = value >= 0.0 ? part * length : -part * length;
-      if (value < 0.0 && cell.distance == 0.0)
-        cell.distance = -std::numeric_limits<double>::min();
     }
     place_of_[sample] = static_cast<std::uint32_t>(first + i);
     band_.push_back(sample);

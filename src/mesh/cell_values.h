@@ -18,9 +18,9 @@ namespace pcl_uvol::detail {
  */
 struct BandCell {
   Eigen::Vector3d center; ///< of its box
-  /** Of the centre from the surface, >= 0 where values are not below the isovalue. */
-  double distance;
-  bool is_fitted;         ///< by a polynomial; the members below are undefined else
+  /** There, minus the isovalue: that of a fit, or where there is none the sample's. */
+  double value;
+  bool has_foot;          ///< else the members below are undefined
   Eigen::Vector3d foot;   ///< the point of the surface next to the centre
   Eigen::Vector3d normal; ///< of the surface there, towards lower values
   double mean_curvature;  ///< there, positive where higher values are convex
@@ -37,7 +37,7 @@ struct BandCell {
 class CellValues {
 public:
   /** \param tiling of the samples of the input
-   * \param report gets the count "fitted_cells" and the time of "cells" */
+   * \param report gets the count "band_cells" and the time of "cells" */
   CellValues(const CellTiling& tiling,
              const IsopointInput& input,
              float isovalue,
@@ -49,7 +49,7 @@ public:
   {
     const std::uint32_t place = place_of_[cell];
     return place == none ? input_.values[cell] >= isovalue_
-                         : cells_[place].distance >= 0.0;
+                         : cells_[place].value >= 0.0;
   }
 
   /** \brief Whether a cell touches one of the other side, or did for its sample. */

@@ -170,7 +170,7 @@ public:
    * interpolation or neighbours of a Voronoi diagram; the mesh is then untouched
    *
    * Counts of the report: those of the samples as IsosurfaceExtraction has them,
-   * fitted_cells, vertices, triangles, pieces, dropped_pieces, handles, rim_edges,
+   * band_cells, vertices, triangles, pieces, dropped_pieces, handles, rim_edges,
    * cap_vertices, folds (triangles that look away from their vertices' normals), and
    * those of the fits. */
   void
