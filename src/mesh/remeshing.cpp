@@ -34,18 +34,29 @@ constexpr double least_agreement = 0.5;
 /** A vertex of fewer neighbours would fold. */
 constexpr std::size_t least_neighbors = 4;
 
-constexpr int first_rounds = 5, later_rounds = 3, flip_passes = 5, collapse_passes = 3;
+constexpr int first_rounds = 5, later_rounds = 3, flip_passes = 5;
+
+/** Passes over all edges, each of which leaves those that others nearby have spoilt; a
+ * pass that removes a smaller part of the vertices is the last one. */
+constexpr int collapse_passes = 30;
+constexpr double least_collapsed = 0.01;
+
+/** Local length of vertices over that of the edges that come of it, where it is the same
+ * everywhere. */
+constexpr double size_per_edge = 1.56;
 
 class Remesher {
 public:
-  Remesher(WorkingMesh& mesh, unsigned threads)
+  Remesher(WorkingMesh& mesh, double edge_length, unsigned threads)
       : mesh_(mesh)
       , edges_(mesh.triangles, mesh.vertices.size())
       , is_gone_(mesh.triangles.size(), false)
       , threads_(threads)
   {
-    for (const WorkingVertex& vertex : mesh.vertices)
+    for (WorkingVertex& vertex : mesh.vertices) {
       feet_.push_back(vertex.foot);
+      vertex.size = std::max(vertex.size, size_per_edge * edge_length);
+    }
   }
 
   void
@@ -71,18 +82,12 @@ public:
   void
   collapseShort()
   {
+    std::size_t left = mesh_.vertices.size();
     for (int pass = 0; pass < collapse_passes; ++pass) {
-      std::vector<std::pair<double, HalfEdge>> shorts;
-      for (HalfEdge edge = 0; edge < 3 * mesh_.triangles.size(); ++edge)
-        if (!is_gone_[edge / 3] && edges_.originOf(edge) < edges_.targetOf(edge))
-          if (const double length = lengthOf(edge); isShort(edge, length))
-            shorts.emplace_back(length, edge);
-      std::sort(shorts.begin(), shorts.end());
-      std::size_t collapsed = 0;
-      for (const auto& [length, edge] : shorts)
-        if (!is_gone_[edge / 3] && isShort(edge, lengthOf(edge)))
-          collapsed += collapse(edge);
-      if (collapsed == 0)
+      const std::size_t collapsed = collapseOnce();
+      flipToDelaunay();
+      left -= collapsed;
+      if (static_cast<double>(collapsed) < least_collapsed * static_cast<double>(left))
         break;
     }
   }
@@ -114,6 +119,22 @@ public:
   }
 
 private:
+  std::size_t
+  collapseOnce()
+  {
+    std::vector<std::pair<double, HalfEdge>> shorts;
+    for (HalfEdge edge = 0; edge < 3 * mesh_.triangles.size(); ++edge)
+      if (!is_gone_[edge / 3] && edges_.originOf(edge) < edges_.targetOf(edge))
+        if (const double length = lengthOf(edge); isShort(edge, length))
+          shorts.emplace_back(length, edge);
+    std::sort(shorts.begin(), shorts.end());
+    std::size_t collapsed = 0;
+    for (const auto& [length, edge] : shorts)
+      if (!is_gone_[edge / 3] && isShort(edge, lengthOf(edge)))
+        collapsed += collapse(edge);
+    return collapsed;
+  }
+
   const Eigen::Vector3d&
   placeOf(std::uint32_t vertex) const
   {
@@ -319,12 +340,11 @@ private:
 } // namespace
 
 void
-remesh(WorkingMesh& mesh, unsigned threads)
+remesh(WorkingMesh& mesh, double edge_length, unsigned threads)
 {
-  Remesher remesher(mesh, threads);
+  Remesher remesher(mesh, edge_length, threads);
   remesher.smooth(first_rounds);
   remesher.collapseShort();
-  remesher.flipToDelaunay();
   for (int i = 0; i < 2; ++i) {
     remesher.smooth(later_rounds);
     remesher.flipToDelaunay();

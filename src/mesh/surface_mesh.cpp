@@ -217,7 +217,7 @@ makeSurfaceMesh(const CloudView& cloud,
       openCaps(mesh);
     if (parameters.meshing.remesh == Remeshing::Even) {
       const StepTimer step(report, "remeshing");
-      remesh(mesh, threads);
+      remesh(mesh, parameters.meshing.edge_length, threads);
     }
     dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
     SurfaceTriangles surface =
