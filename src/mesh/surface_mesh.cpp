@@ -31,25 +31,13 @@ SurfaceMeshParameters::fromJson(const std::string& text)
 }
 
 void
-checkParameters(const MeshingParameters& parameters)
-{
-  if (!(parameters.edge_length >= 0.0) || !std::isfinite(parameters.edge_length))
-    throw InvalidArgument("The edge length " + std::to_string(parameters.edge_length) +
-                          " is not allowed: it must be a length from 0.");
-}
-
-namespace detail {
-
-namespace {
-
-/** A cap that closes more of a surface than this may be on the wrong side of it. */
-constexpr double large_cap = 0.1;
-
-void
-checkMeshed(const SurfaceMeshParameters& parameters)
+checkParameters(const SurfaceMeshParameters& parameters)
 {
   checkParameters(parameters.isosurface);
-  checkParameters(parameters.meshing);
+  const double length = parameters.meshing.edge_length;
+  if (!(length >= 0.0) || !std::isfinite(length))
+    throw InvalidArgument("The edge length " + std::to_string(length) +
+                          " is not allowed: it must be a length from 0.");
   if (parameters.isosurface.interpolation != Interpolation::Fit)
     throw InvalidArgument(
         "A mesh needs interpolation by fits: between samples alone its "
@@ -59,6 +47,33 @@ checkMeshed(const SurfaceMeshParameters& parameters)
         "A mesh is made from the cells of the kd-tree: neighbours from "
         "a Voronoi diagram are of no use to it.");
 }
+
+void
+SurfaceTriangles::append(const SurfaceTriangles& other)
+{
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  const auto first_piece = static_cast<std::int32_t>(pieces.size());
+  const auto join = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  join(other.vertices, vertices);
+  join(other.edges, edges);
+  for (const auto& [a, b, c] : other.triangles)
+    triangles.push_back({a + first, b + first, c + first});
+  for (const std::int32_t piece : other.piece_of)
+    piece_of.push_back(piece + first_piece);
+  join(other.is_on_cap, is_on_cap);
+  join(other.pieces, pieces);
+  smallest_angle = std::min(smallest_angle, other.smallest_angle);
+  cap_part = std::max(cap_part, other.cap_part);
+}
+
+namespace detail {
+
+namespace {
+
+/** A cap that closes more of a surface than this may be on the wrong side of it. */
+constexpr double large_cap = 0.1;
 
 /** Samples in a tree of compact cells, and their values. */
 struct MeshSamples {
@@ -137,34 +152,6 @@ dropSmallPieces(WorkingMesh& mesh, std::size_t least, Report& report)
                    })));
 }
 
-/** Append one isosurface to others. */
-void
-append(SurfaceTriangles&& surface, double isovalue, SurfaceTriangles& all)
-{
-  const auto first = static_cast<std::uint32_t>(all.vertices.size());
-  const auto first_piece = static_cast<std::int32_t>(all.pieces.size());
-  for (PointIso& vertex : surface.vertices)
-    vertex.isovalue = static_cast<float>(isovalue);
-  for (Triangle& triangle : surface.triangles)
-    for (std::uint32_t& vertex : triangle)
-      vertex += first;
-  for (std::int32_t& piece : surface.piece_of)
-    piece += first_piece;
-  for (SurfacePiece& piece : surface.pieces)
-    piece.isovalue = isovalue;
-  const auto join = [](const auto& from, auto& to) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  join(surface.vertices, all.vertices);
-  join(surface.edges, all.edges);
-  join(surface.triangles, all.triangles);
-  join(surface.piece_of, all.piece_of);
-  join(surface.is_on_cap, all.is_on_cap);
-  join(surface.pieces, all.pieces);
-  all.smallest_angle = std::min(all.smallest_angle, surface.smallest_angle);
-  all.cap_part = std::max(all.cap_part, surface.cap_part);
-}
-
 void
 warnOfCaps(const SurfaceTriangles& surface,
            double isovalue,
@@ -191,7 +178,7 @@ makeSurfaceMesh(const CloudView& cloud,
                 unsigned threads,
                 Report& report)
 {
-  checkMeshed(parameters);
+  checkParameters(parameters);
   checkIndices(indices, cloud.count, "SurfaceMesh");
   const IsosurfaceParameters& isosurface = parameters.isosurface;
   const MeshSamples read = readSamples(cloud, indices, isosurface, threads, report);
@@ -223,7 +210,11 @@ makeSurfaceMesh(const CloudView& cloud,
     SurfaceTriangles surface =
         finishMesh(input, rounded, std::move(mesh), read.values.sources, report);
     warnOfCaps(surface, isovalue, isosurface.outside, report);
-    append(std::move(surface), isovalue, all);
+    for (PointIso& vertex : surface.vertices)
+      vertex.isovalue = static_cast<float>(isovalue);
+    for (SurfacePiece& piece : surface.pieces)
+      piece.isovalue = isovalue;
+    all.append(surface);
   }
   report.setCount("vertices", all.vertices.size());
   report.setCount("triangles", all.triangles.size());

@@ -113,10 +113,10 @@ runPipelineOutOfCore(PointSource& points,
                      const ProgressCallback& progress)
 {
   checkParameters(parameters);
-  if (parameters.smooth || parameters.automatic_scale ||
+  if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
       parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale and Voronoi grids need all "
-                          "samples in memory.");
+    throw InvalidArgument("Level sets, an automatic scale, meshes and Voronoi grids need "
+                          "all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

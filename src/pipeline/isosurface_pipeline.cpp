@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
@@ -41,7 +42,7 @@ orientIsopoints(pcl::PointCloud<PointIso>& isopoints,
                 Report& report)
 {
   const NormalMethod method = chooseNormals(parameters);
-  if (method == NormalMethod::Edge || isopoints.empty())
+  if (method == NormalMethod::Edge || parameters.mesh || isopoints.empty())
     return;
   const StepTimer timer(report, "normals");
   SurfaceNormalParameters normals;
@@ -136,6 +137,15 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if ((parameters.max_error || parameters.drop_bridged) && !fits)
     throw InvalidArgument("Errors and bridged points are known with interpolation by "
                           "fits only: linear interpolation estimates none.");
+  if (!parameters.mesh)
+    return;
+  checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
+  if (parameters.max_error || parameters.drop_bridged)
+    throw InvalidArgument("A mesh keeps all of its vertices: leave out the bound of the "
+                          "error and bridged points, or the mesh.");
+  if (parameters.normals == NormalMethod::Pca)
+    throw InvalidArgument("The vertices of a mesh have the normals of their fits: those "
+                          "by principal components are for isopoints.");
 }
 
 void
@@ -173,21 +183,55 @@ IsosurfacePipeline::run()
   parameters.isosurface = resolveParameters();
   startReport();
   std::vector<LevelSetSummary> level_sets;
-  Isopoints found = parameters.smooth
-                        ? extractLevelSets(parameters.isosurface, level_sets)
-                        : extract(parameters.isosurface, report_);
+  SurfaceTriangles found = parameters.smooth
+                               ? extractLevelSets(parameters.isosurface, level_sets)
+                               : extract(parameters.isosurface, report_);
   IsosurfaceResult result = finishIsosurface(*samples_,
-                                             std::move(found.points),
+                                             std::move(found.vertices),
                                              std::move(found.edges),
                                              parameters,
                                              threads_,
                                              std::move(report_));
+  if (parameters.mesh) {
+    setField(result.surface, "piece", found.piece_of);
+    setField(result.surface,
+             "cap",
+             std::vector<std::int32_t>(found.is_on_cap.begin(), found.is_on_cap.end()));
+    result.triangles = std::move(found.triangles);
+    result.pieces = std::move(found.pieces);
+    result.smallest_angle = found.smallest_angle;
+  }
   result.level_sets = std::move(level_sets);
   report_ = result.report;
   return result;
 }
 
 namespace {
+
+/** As extractZeroLevel(), a mesh. */
+SurfaceTriangles
+meshZeroLevel(const CloudView& samples,
+              const std::vector<float>& phi,
+              const IsosurfaceParameters& parameters,
+              const MeshingParameters& meshing,
+              unsigned threads,
+              Report& report)
+{
+  const auto cloud = cloudOfPhi(samples, phi);
+  const CloudView view = viewOf(cloud);
+  pcl::Indices all(view.count);
+  std::iota(all.begin(), all.end(), 0);
+  SurfaceMeshParameters of_phi{parameters, meshing};
+  of_phi.isosurface.field = "phi";
+  of_phi.isosurface.isovalues = {0.0};
+  SurfaceTriangles mesh = detail::makeSurfaceMesh(view, all, of_phi, threads, report);
+  const double isovalue = parameters.isovalues.front();
+  for (PointIso& vertex : mesh.vertices)
+    vertex.isovalue = static_cast<float>(isovalue);
+  for (SurfacePiece& piece : mesh.pieces)
+    piece.isovalue = isovalue;
+  return mesh;
+}
 
 /** Merge the report of a stage on samples that an earlier stage has told of. */
 void
@@ -206,20 +250,32 @@ mergeLater(Report& report, Report stage)
 
 } // namespace
 
-IsosurfacePipeline::Isopoints
+SurfaceTriangles
 IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& report)
 {
+  if (parameters_.mesh) {
+    pcl::Indices all;
+    if (!indices_) {
+      all.resize(samples_->cloud.width);
+      std::iota(all.begin(), all.end(), 0);
+    }
+    return detail::makeSurfaceMesh(viewOf(samples_->cloud),
+                                   indices_ ? *indices_ : all,
+                                   {parameters, *parameters_.mesh},
+                                   threads_,
+                                   report);
+  }
   extraction_.setParameters(parameters);
   extraction_.setNumberOfThreads(threads_);
   extraction_.setProgressCallback(report.progress);
-  Isopoints found;
-  extraction_.extract(found.points);
+  SurfaceTriangles found;
+  extraction_.extract(found.vertices);
   report.merge(extraction_.getReport());
   found.edges = extraction_.getEdges();
   return found;
 }
 
-IsosurfacePipeline::Isopoints
+SurfaceTriangles
 IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
                                      std::vector<LevelSetSummary>& summaries)
 {
@@ -232,7 +288,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
   evolution.setScalarField(parameters.field);
   evolution.setScale(parameters.scale);
   evolution.setOutside(parameters.outside);
-  Isopoints all;
+  SurfaceTriangles all;
   bool is_first = true;
   const auto tell = [&](const Report& stage) {
     if (is_first)
@@ -256,7 +312,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     catch (const NoLevelSet&) {
       // Extraction says what is wrong with the isovalue, and goes on.
     }
-    Isopoints found;
+    SurfaceTriangles found;
     Report zero_level;
     zero_level.progress = report_.progress;
     if (summaries.back().smoothed) {
@@ -265,19 +321,23 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
                                     std::numeric_limits<float>::quiet_NaN());
       for (const std::uint32_t source : evolution.getSources())
         of_sources[source] = phi[source];
-      extractZeroLevel(viewOf(samples_->cloud),
-                       of_sources,
-                       of_isovalue,
-                       threads_,
-                       found.points,
-                       found.edges,
-                       zero_level);
+      const CloudView view = viewOf(samples_->cloud);
+      if (parameters_.mesh)
+        found = meshZeroLevel(
+            view, of_sources, of_isovalue, *parameters_.mesh, threads_, zero_level);
+      else
+        extractZeroLevel(view,
+                         of_sources,
+                         of_isovalue,
+                         threads_,
+                         found.vertices,
+                         found.edges,
+                         zero_level);
     }
     else
       found = extract(of_isovalue, zero_level);
     tell(zero_level);
-    all.points += found.points;
-    all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
+    all.append(found);
   }
   return all;
 }

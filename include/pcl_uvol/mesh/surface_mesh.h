@@ -84,9 +84,11 @@ struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
   fromJson(const std::string& text);
 };
 
-/** \throws InvalidArgument for a length that is negative or no number */
+/** \throws InvalidArgument as checkParameters(IsosurfaceParameters), for linear
+ * interpolation, for neighbours of a Voronoi diagram, and for a length that is negative
+ * or no number */
 PCL_UVOL_EXPORTS void
-checkParameters(const MeshingParameters& parameters);
+checkParameters(const SurfaceMeshParameters& parameters);
 
 /** \brief A connected part of a mesh. */
 struct SurfacePiece {
@@ -109,6 +111,10 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   std::vector<SurfacePiece> pieces;
   double smallest_angle = 180.0; ///< of all triangles, in degrees
   double cap_part = 0.0;         ///< of the area, in triangles with a vertex on a cap
+
+  /** \brief Add another mesh behind this one. */
+  void
+  append(const SurfaceTriangles& other);
 };
 
 namespace detail {
@@ -166,8 +172,8 @@ public:
 
   /** \brief Make the meshes of all isovalues.
    *
-   * \throws InvalidArgument as IsosurfaceExtraction::extract, and for linear
-   * interpolation or neighbours of a Voronoi diagram; the mesh is then untouched
+   * \throws InvalidArgument as IsosurfaceExtraction::extract and checkParameters(); the
+   * mesh is then untouched
    *
    * Counts of the report: those of the samples as IsosurfaceExtraction has them,
    * band_cells, vertices, triangles, pieces, dropped_pieces, handles, rim_edges,

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <Eigen/Core>
@@ -31,8 +32,13 @@ struct ErrorSummary {
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
-   * isovalues as infinite or as zero. */
+   * isovalues as infinite or as zero. With a mesh its vertices, and behind the other
+   * fields `piece`, among pieces, and `cap`, 1 where a vertex closes the samples' box.
+   */
   Dataset surface;
+  std::vector<Triangle> triangles;  ///< with a mesh: counter-clockwise seen from outside
+  std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
+  double smallest_angle = 0.0;      ///< with a mesh: of all triangles, in degrees
   IsoEdges edges;                     ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
@@ -41,8 +47,9 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
-  /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
-   * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
+  /** Counts, times and warnings of IsosurfaceExtraction or SurfaceMesh,
+   * LevelSetEvolution and SurfaceNormalEstimation, and "removed_by_error" and
+   * "removed_bridged". */
   Report report;
 };
 
@@ -94,15 +101,11 @@ public:
   estimateMemory() const;
 
 private:
-  struct Isopoints {
-    pcl::PointCloud<PointIso> points;
-    IsoEdges edges;
-  };
-
-  Isopoints
+  /** Isopoints are vertices without triangles. */
+  SurfaceTriangles
   extract(const IsosurfaceParameters& parameters, Report& report);
 
-  Isopoints
+  SurfaceTriangles
   extractLevelSets(const IsosurfaceParameters& parameters,
                    std::vector<LevelSetSummary>& summaries);
 
