@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -20,6 +24,14 @@ constexpr double farthest_foot = 1.0;
 /** Rounds of means over neighbours that the sizes of vertices take. */
 constexpr int size_rounds = 5;
 
+/** Rounds of putting cells on the other side. */
+constexpr int repair_rounds = 4;
+
+/** Cosine of the angle between normals of fits that tell of one smooth sheet. */
+constexpr double least_agreement = 0.7;
+
+constexpr std::uint32_t no_cell = std::numeric_limits<std::uint32_t>::max();
+
 /** Makes the surface of one isovalue. */
 class BandSurface {
 public:
@@ -29,12 +41,40 @@ public:
       , tiling_(input.samples.getTree(), input.samples.getPositions())
       , values_(tiling_, input, isovalue, report)
       , ghosts_are_above_(input.outside == Outside::Higher)
+      , report_(report)
   {
   }
 
   WorkingMesh
   make()
   {
+    WorkingMesh mesh = join();
+    for (int round = 0; round < repair_rounds; ++round) {
+      const std::vector<std::uint32_t> wrong = findWrongCells(mesh);
+      if (wrong.empty())
+        break;
+      is_turned_.resize(input_.samples.size());
+      for (const std::uint32_t cell : wrong)
+        is_turned_[cell] = true;
+      values_.turn(wrong, report_);
+      mesh = join();
+    }
+    smoothSizes(mesh);
+    return mesh;
+  }
+
+private:
+  bool
+  isAbove(std::uint32_t cell) const
+  {
+    return tiling_.isGhost(cell) ? ghosts_are_above_ : values_.isAbove(cell);
+  }
+
+  /** The surface between the cells as they are. */
+  WorkingMesh
+  join()
+  {
+    const StepTimer step(report_, "triangles");
     findPairs();
     WorkingMesh mesh;
     const KdTree& tree = input_.samples.getTree();
@@ -62,15 +102,148 @@ public:
           return (placeOf(a) - placeOf(b)).squaredNorm();
         },
         input_.threads);
-    smoothSizes(mesh);
     return mesh;
   }
 
-private:
-  bool
-  isAbove(std::uint32_t cell) const
+  /** The cell that pairs have in common; ghosts count as none. */
+  std::uint32_t
+  commonCell(const CellPair& a, const CellPair& b) const
   {
-    return tiling_.isGhost(cell) ? ghosts_are_above_ : values_.isAbove(cell);
+    if (a.lower == b.lower || a.lower == b.higher)
+      return a.lower;
+    const bool is_shared = a.higher == b.lower || a.higher == b.higher;
+    return is_shared && !tiling_.isGhost(a.higher) ? a.higher : no_cell;
+  }
+
+  /** Euler's characteristic, by place in the band, of what a cell touches on the other
+   * side: that of a disc, 1, where the surface passes it as it passes a plane. */
+  std::vector<int>
+  findCharacteristics(const WorkingMesh& mesh) const
+  {
+    std::vector<int> euler(values_.getBand().size());
+    const auto count = [&](std::uint32_t cell, int change) {
+      if (cell != no_cell && values_.isInBand(cell))
+        euler[values_.placeOf(cell)] += change;
+    };
+    for (const WorkingVertex& vertex : mesh.vertices) {
+      count(vertex.pair.lower, 1);
+      count(tiling_.isGhost(vertex.pair.higher) ? no_cell : vertex.pair.higher, 1);
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+      std::uint32_t common[3];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+        common[i] = commonCell(mesh.vertices[from].pair, mesh.vertices[to].pair);
+        if (from < to) // of the two triangles at an edge one counts it
+          count(common[i], -1);
+      }
+      if (common[0] == common[1] && common[1] == common[2])
+        count(common[0], 1);
+    }
+    return euler;
+  }
+
+  /** Cells whose side makes a crumb or a handle where the field, by the fits, has none:
+   * a few of the tetrahedra between the centres of cells are turned inside out. Of
+   * those that touch one another only the one nearest to the surface. */
+  std::vector<std::uint32_t>
+  findWrongCells(const WorkingMesh& mesh) const
+  {
+    const std::vector<int> euler = findCharacteristics(mesh);
+    const std::vector<bool> is_smooth = findSmoothCells(mesh);
+    std::vector<std::pair<double, std::uint32_t>> wrong;
+    for (const std::uint32_t cell : values_.getBand()) {
+      const std::uint32_t place = values_.placeOf(cell);
+      const bool was_turned = !is_turned_.empty() && is_turned_[cell];
+      // Of a crumb the whole surroundings are on the other side: a sphere.
+      if ((euler[place] == 0 || euler[place] == 2) && is_smooth[place] && !was_turned &&
+          isCrumbOrHandle(cell))
+        wrong.emplace_back(
+            (values_.getCell(cell).foot - values_.getCell(cell).center).norm(), cell);
+    }
+    std::sort(wrong.begin(), wrong.end());
+    std::vector<std::uint32_t> chosen, touching;
+    for (const auto& [distance, cell] : wrong) {
+      input_.candidates.find(cell, touching);
+      if (std::find_first_of(
+              chosen.begin(), chosen.end(), touching.begin(), touching.end()) ==
+          chosen.end())
+        chosen.push_back(cell);
+    }
+    return chosen;
+  }
+
+  /** By place in the band: cells at which the surface is one smooth sheet, by normals.
+   */
+  std::vector<bool>
+  findSmoothCells(const WorkingMesh& mesh) const
+  {
+    std::vector<bool> is_smooth(values_.getBand().size(), true);
+    for (const WorkingVertex& vertex : mesh.vertices)
+      for (const std::uint32_t cell : {vertex.pair.lower, vertex.pair.higher})
+        if (!tiling_.isGhost(cell) && values_.isInBand(cell)) {
+          const BandCell& own = values_.getCell(cell);
+          if (vertex.cap >= 0 || !own.has_foot ||
+              own.normal.dot(vertex.foot.normal) < least_agreement)
+            is_smooth[values_.placeOf(cell)] = false;
+        }
+    return is_smooth;
+  }
+
+  /** True for a cell that touches none of its own side, but others; and for one that
+   * touches several groups of its own side, which others nearby join as well. */
+  bool
+  isCrumbOrHandle(std::uint32_t cell) const
+  {
+    std::vector<std::uint32_t> touching, own;
+    input_.candidates.find(cell, touching);
+    const auto is_own = [&](std::uint32_t other) {
+      return other != cell && isAbove(other) == isAbove(cell);
+    };
+    std::copy_if(touching.begin(), touching.end(), std::back_inserter(own), is_own);
+    if (own.empty() || own.size() == touching.size())
+      return own.empty();
+    std::sort(own.begin(), own.end());
+    if (countReached(own, own) == own.size())
+      return false;
+    std::vector<std::uint32_t> nearby = own, around;
+    for (const std::uint32_t other : own) {
+      input_.candidates.find(other, around);
+      std::copy_if(around.begin(), around.end(), std::back_inserter(nearby), is_own);
+    }
+    std::sort(nearby.begin(), nearby.end());
+    nearby.erase(std::unique(nearby.begin(), nearby.end()), nearby.end());
+    return countReached(own, nearby) == own.size();
+  }
+
+  /** How many of some cells are joined with the first of them through cells of a set
+   * that holds them. \param cells, set ascending */
+  std::size_t
+  countReached(const std::vector<std::uint32_t>& cells,
+               const std::vector<std::uint32_t>& set) const
+  {
+    std::vector<bool> is_reached(set.size());
+    std::vector<std::uint32_t> open{cells.front()}, touching;
+    const auto placeIn = [&](std::uint32_t cell) {
+      const auto at = std::lower_bound(set.begin(), set.end(), cell);
+      return at != set.end() && *at == cell ? static_cast<std::size_t>(at - set.begin())
+                                            : set.size();
+    };
+    is_reached[placeIn(cells.front())] = true;
+    while (!open.empty()) {
+      input_.candidates.find(open.back(), touching);
+      open.pop_back();
+      for (const std::uint32_t other : touching)
+        if (const std::size_t place = placeIn(other);
+            place < set.size() && !is_reached[place]) {
+          is_reached[place] = true;
+          open.push_back(other);
+        }
+    }
+    return static_cast<std::size_t>(
+        std::count_if(cells.begin(), cells.end(), [&](std::uint32_t cell) {
+          return is_reached[placeIn(cell)];
+        }));
   }
 
   void
@@ -214,7 +387,9 @@ private:
   CellTiling tiling_;
   CellValues values_;
   bool ghosts_are_above_;
+  Report& report_;
   std::vector<CellPair> pairs_;
+  std::vector<bool> is_turned_; // by sample; empty: none is
 };
 
 } // namespace
@@ -223,7 +398,6 @@ WorkingMesh
 makeBandSurface(const IsopointInput& input, float isovalue, Report& report)
 {
   BandSurface surface(input, isovalue, report);
-  const StepTimer step(report, "triangles");
   return surface.make();
 }
 

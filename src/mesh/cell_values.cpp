@@ -42,15 +42,36 @@ CellValues::CellValues(const CellTiling& tiling,
     , isovalue_(isovalue)
     , place_of_(input.samples.size(), none)
 {
+  fitAll(findPartners(
+             input.candidates.findCrossing(input.ranges, isovalue, input.threads)),
+         report);
+}
+
+void
+CellValues::turn(const std::vector<std::uint32_t>& cells, Report& report)
+{
+  // So near to the surface that it passes beside the centre.
+  constexpr double part = 0.25;
+  std::vector<Candidate> turned;
+  for (const std::uint32_t cell : cells) {
+    double& value = cells_[place_of_[cell]].value;
+    value = value >= 0.0 ? std::min(-part * value, -std::numeric_limits<double>::min())
+                         : -part * value;
+    turned.push_back({cell, cell});
+  }
+  fitAll(findOthers(turned), report);
+}
+
+void
+CellValues::fitAll(std::vector<Candidate> candidates, Report& report)
+{
   StepTimer step(report, "cells");
-  std::vector<Candidate> candidates = findPartners(
-      input.candidates.findCrossing(input.ranges, isovalue, input.threads));
   while (!candidates.empty()) {
     fit(candidates, step);
     candidates = findOthers(candidates);
   }
   std::sort(band_.begin(), band_.end());
-  report.count("band_cells", cells_.size());
+  report.setCount("band_cells", cells_.size());
 }
 
 std::vector<CellValues::Candidate>

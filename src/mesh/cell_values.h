@@ -65,6 +65,17 @@ public:
     return cells_[place_of_[cell]];
   }
 
+  /** \brief Put cells of the band on the other side of the surface. */
+  void
+  turn(const std::vector<std::uint32_t>& cells, Report& report);
+
+  /** \brief Number of a cell of the band, from 0 in the order in which they came. */
+  std::uint32_t
+  placeOf(std::uint32_t cell) const
+  {
+    return place_of_[cell];
+  }
+
   /** \brief The cells of the band, ascending. */
   const std::vector<std::uint32_t>&
   getBand() const
@@ -86,6 +97,10 @@ private:
   /** The cells without a fit that touch one of these on the other side. */
   std::vector<Candidate>
   findOthers(const std::vector<Candidate>& fitted) const;
+
+  /** Fit what is given, and what then turns out to touch the other side. */
+  void
+  fitAll(std::vector<Candidate> candidates, Report& report);
 
   void
   fit(const std::vector<Candidate>& candidates, StepTimer& step);

@@ -41,8 +41,8 @@ constexpr int first_rounds = 5, later_rounds = 3, flip_passes = 5;
 constexpr int collapse_passes = 30;
 constexpr double least_collapsed = 0.01;
 
-/** Local length of vertices over that of the edges that come of it, where it is the same
- * everywhere. */
+/** Local length of vertices over that of the edges that come of it, where it is the
+ * same everywhere. */
 constexpr double size_per_edge = 1.56;
 
 class Remesher {
