@@ -2,6 +2,7 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
 #include "common/number_range.h"
+#include "common/numbers.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
 #include "pipeline/memory_need.h"
@@ -13,8 +14,11 @@
 #include "shared/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -59,6 +63,14 @@ describeBound(const Options& options, const Arguments& arguments)
           Fact::Members{{"bound", {bound}}, {"peak", {peak}}}};
 }
 
+/** Before work whose result would be lost. */
+void
+checkOutput(const Arguments& arguments, const pcl_uvol::Dataset& samples)
+{
+  if (!pcl_uvol::isMeshOnly(arguments.output))
+    pcl_uvol::checkSavePath(arguments.output, samples.cloud.fields);
+}
+
 IsosurfaceResult
 runInMemory(const Options& options,
             const Arguments& arguments,
@@ -77,7 +89,7 @@ runInMemory(const Options& options,
   const auto samples = std::make_shared<pcl_uvol::Dataset>(uvol_tools::loadPoints(
       arguments.input, report, arguments.makeLoadOptions(), arguments.where));
   report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
-  pcl_uvol::checkSavePath(arguments.output, samples->cloud.fields);
+  checkOutput(arguments, *samples);
 
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
@@ -108,13 +120,36 @@ IsosurfaceResult
 runFromDisk(const Options& options, const Arguments& arguments, Report& report)
 {
   pcl_uvol::PointStream points(arguments.input, arguments.makeLoadOptions());
-  pcl_uvol::checkSavePath(arguments.output, points.getHeader().cloud.fields);
+  checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
   report.count("points", points.size());
   return pcl_uvol::runPipelineOutOfCore(points,
                                         arguments.parameters,
                                         arguments.makeOutOfCoreSettings(options),
                                         report.progress);
+}
+
+bool
+isStl(const std::string& path)
+{
+  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
+         ".stl";
+}
+
+void
+saveMesh(const std::string& path,
+         const IsosurfaceResult& result,
+         const pcl_uvol::SaveOptions& options,
+         Report& report)
+{
+  const StepTimer timer(report, "write");
+  const auto& origin = result.surface.origin;
+  if (isStl(path) && origin != std::array<double, 3>{})
+    report.warnings.push_back(
+        "STL holds single precision, which these coordinates exceed: those in the file "
+        "are relative to " +
+        joined(std::vector<double>(origin.begin(), origin.end())) + ".");
+  pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
 }
 
 int
@@ -125,8 +160,9 @@ run(int argc, char** argv)
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
-      "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
-      "pcd ply vtp csv.");
+      "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
+      "ply csv txt vtk vtp vtu vts, writes pcd ply vtp csv, meshes as ply vtp obj off "
+      "stl.");
   arguments.declare(options);
   if (!options.parse(argc, argv))
     return 0;
@@ -148,7 +184,10 @@ run(int argc, char** argv)
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
   save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
-  uvol_tools::savePoints(arguments.output, result.surface, save, report);
+  if (arguments.parameters.mesh)
+    saveMesh(arguments.output, result, save, report);
+  else
+    uvol_tools::savePoints(arguments.output, result.surface, save, report);
   uvol_tools::Facts facts = {
       {"input", arguments.input},
       {"output", arguments.output},
@@ -158,6 +197,9 @@ run(int argc, char** argv)
       {"scale", uvol_tools::toNumbers(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
       describeErrors(result.errors)};
+  if (arguments.parameters.mesh)
+    for (const Fact& fact : uvol_tools::describeMesh(result))
+      facts.push_back(fact);
   for (std::size_t i = 0; i < result.level_sets.size(); ++i)
     for (const auto& fact : uvol_tools::describe(
              result.level_sets[i],

@@ -62,6 +62,7 @@ PipelineOptions::declare(Options& options)
                scratch_,
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
+  mesh_.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
 }
@@ -70,7 +71,7 @@ bool
 PipelineOptions::needsAllSamples() const
 {
   return parameters.smooth || parameters.automatic_scale || !where.empty() ||
-         parameters.isosurface.neighbors == NeighborSource::Voronoi;
+         parameters.mesh || parameters.isosurface.neighbors == NeighborSource::Voronoi;
 }
 
 void
@@ -91,10 +92,20 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
-    throw UsageError("-max-memory goes without -smooth, -where, -scale auto and "
+    throw UsageError("-max-memory goes without -smooth, -where, -scale auto, -mesh and "
                      "-neighbors voronoi, which need all samples in memory.");
   if ((options.given("max-error") || parameters.drop_bridged) && !fits)
     throw UsageError("-max-error and -drop-bridged need -interpolation fit.");
+  if (!parameters.mesh)
+    return;
+  if (!fits || parameters.isosurface.neighbors == NeighborSource::Voronoi ||
+      parameters.normals == NormalMethod::Pca)
+    throw UsageError(
+        "-mesh is made of fits and of cells of the kd-tree: it goes without "
+        "-interpolation linear, -neighbors voronoi and -normals pca.");
+  if (options.given("max-error") || parameters.drop_bridged)
+    throw UsageError("-mesh keeps all of its vertices: it goes without -max-error and "
+                     "-drop-bridged.");
 }
 
 void
@@ -107,8 +118,10 @@ PipelineOptions::finish(const Options& options)
   parameters.level_set.max_steps = steps_;
   if (options.given("max-error"))
     parameters.max_error = max_error_;
+  parameters.mesh = mesh_.finish(options, output);
   checkCombinations(options);
-  pcl_uvol::checkSavePath(output);
+  if (!parameters.mesh)
+    pcl_uvol::checkSavePath(output);
   picture.check(options);
 }
 
