@@ -88,7 +88,7 @@ private:
     parallelBlocks(
         pairs_.size(), block_vertices, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
-            mesh.vertices[i] = makeVertex(pairs_[i], mesh);
+            mesh.vertices[i] = makeVertex(pairs_[i]);
         });
     const auto placeOf = [&](const CellPair& pair) -> const Eigen::Vector3d& {
       const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
@@ -309,18 +309,17 @@ private:
   }
 
   WorkingVertex
-  makeVertex(const CellPair& pair, const WorkingMesh& mesh) const
+  makeVertex(const CellPair& pair) const
   {
-    return tiling_.isGhost(pair.higher) ? makeCapVertex(pair, mesh)
-                                        : makeSurfaceVertex(pair);
+    return tiling_.isGhost(pair.higher) ? makeCapVertex(pair) : makeSurfaceVertex(pair);
   }
 
   WorkingVertex
-  makeCapVertex(const CellPair& pair, const WorkingMesh& mesh) const
+  makeCapVertex(const CellPair& pair) const
   {
     const std::uint32_t side = pair.higher - tiling_.countSamples();
     const auto axis = static_cast<int>(side / 2);
-    const KdBox box = tiling_.boxOf(tiling_.cellOf(pair.lower));
+    const KdBox box = tiling_.boxOf(pair.lower, tiling_.cellOf(pair.lower));
     WorkingVertex vertex;
     vertex.pair = pair;
     vertex.cap = static_cast<std::int8_t>(side);
@@ -328,8 +327,10 @@ private:
     for (int i = 0; i < 3; ++i)
       vertex.foot.place[i] =
           0.5 * (static_cast<double>(box.low[i]) + box.high[i]) / scale[i];
-    const double depth = std::abs(mesh.sides[side] - vertex.foot.place[axis]);
-    vertex.foot.place[axis] = mesh.sides[side];
+    const Position& face = side % 2 == 1 ? box.high : box.low;
+    const double border = static_cast<double>(face[axis]) / scale[axis];
+    const double depth = std::abs(border - vertex.foot.place[axis]);
+    vertex.foot.place[axis] = border;
     // From where values are on the inner side to where they are not.
     vertex.foot.normal = Eigen::Vector3d::Unit(axis) *
                          ((side % 2 == 1) != ghosts_are_above_ ? 1.0 : -1.0);

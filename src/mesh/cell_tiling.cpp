@@ -67,15 +67,25 @@ CellTiling::cellOf(std::uint32_t cell) const
 }
 
 KdBox
-CellTiling::boxOf(const TileCell& cell) const
+CellTiling::boxOf(std::uint32_t sample, const TileCell& cell) const
 {
+  // Of uniform samples hardly any lies farther from the box, in these terms.
+  constexpr float farthest = 3.0f;
+  const Position& place = positions_[sample];
   KdBox box = tree_.getBox(tree_.getRoot());
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    if (!isOuter(cell.low[a]))
+    const bool is_low_open = isOuter(cell.low[a]), is_high_open = isOuter(cell.high[a]);
+    if (!is_low_open)
       box.low[axis] = cell.low[a].plane.coordinate;
-    if (!isOuter(cell.high[a]))
+    if (!is_high_open)
       box.high[axis] = cell.high[a].plane.coordinate;
+    const float below = place[axis] - box.low[axis],
+                above = box.high[axis] - place[axis];
+    if (is_low_open && !is_high_open && below > farthest * above)
+      box.low[axis] = place[axis] - above;
+    if (is_high_open && !is_low_open && above > farthest * below)
+      box.high[axis] = place[axis] + below;
   }
   return box;
 }

@@ -66,9 +66,11 @@ public:
   TileCell
   cellOf(std::uint32_t cell) const;
 
-  /** \brief The part of a sample's cell within the box around all samples. */
+  /** \brief The part of a sample's cell that stands for it: within the box around all
+   * samples, and towards the border of the domain not much farther out than the sample
+   * lies from the opposite side, as where samples fill a ball within their box. */
   KdBox
-  boxOf(const TileCell& cell) const;
+  boxOf(std::uint32_t sample, const TileCell& cell) const;
 
   /** \brief The cells around the face that two touching cells share, in the order in
    * which they are met: two that follow one another form a tetrahedron with the pair,

@@ -172,7 +172,6 @@ private:
     if (own.cap >= 0) {
       Foot foot = own.foot;
       foot.place = place;
-      foot.place[own.cap / 2] = mesh_.sides[static_cast<std::size_t>(own.cap)];
       return foot;
     }
     feet.assign(1, feet_[vertex]);

@@ -14,11 +14,11 @@ namespace pcl_uvol::detail {
  * flips towards Delaunay's criterion, and six more rounds of smoothing with flips
  * between them.
  *
- * Vertices stay on the surface that the feet around them tell, those of a cap on its
- * plane, and an edge between the two neither moves from it nor vanishes. Nothing is
- * done that turns a triangle by more than 60 degrees from the normals of its vertices.
- * Deterministic. \param mesh comes out without unused vertices
- * \param edge_length about the least one; 0: that of the local sizes */
+ * Vertices stay on the surface that the feet around them tell, those of a cap in the
+ * plane of their side, and an edge between the two neither moves from it nor vanishes.
+ * Nothing is done that turns a triangle by more than 60 degrees from the normals of its
+ * vertices. Deterministic. \param mesh comes out without unused vertices \param
+ * edge_length about the least one; 0: that of the local sizes */
 PCL_UVOL_EXPORTS void
 remesh(WorkingMesh& mesh, double edge_length, unsigned threads);
 

@@ -75,6 +75,9 @@ namespace {
 /** A cap that closes more of a surface than this may be on the wrong side of it. */
 constexpr double large_cap = 0.1;
 
+/** Of the triangles: smooth fields have none that is folded. */
+constexpr double many_folds = 0.01;
+
 /** Samples in a tree of compact cells, and their values. */
 struct MeshSamples {
   SampleSet::ConstPtr samples;
@@ -169,12 +172,27 @@ warnOfCaps(const SurfaceTriangles& surface,
       " outside of the surface you want, ask for the other outside.");
 }
 
+void
+warnOfFolds(Report& report)
+{
+  const std::uint64_t folds = report.getCount("folds"),
+                      triangles = report.getCount("triangles");
+  if (static_cast<double>(folds) <= many_folds * static_cast<double>(triangles))
+    return;
+  report.warnings.push_back(
+      std::to_string(folds) + " of " + std::to_string(triangles) +
+      " triangles look away from the surface they are on: the samples there are too "
+      "sparse, too noisy or too stretched for a mesh; a level set or a scale may "
+      "help.");
+}
+
 } // namespace
 
 SurfaceTriangles
 makeSurfaceMesh(const CloudView& cloud,
                 const pcl::Indices& indices,
                 const SurfaceMeshParameters& parameters,
+                const std::vector<double>& shown_isovalues,
                 unsigned threads,
                 Report& report)
 {
@@ -193,7 +211,8 @@ makeSurfaceMesh(const CloudView& cloud,
                             threads};
   const NodeRanges::Range range = read.ranges[read.samples->getTree().getRoot()];
   SurfaceTriangles all;
-  for (const double isovalue : isosurface.isovalues) {
+  for (std::size_t i = 0; i < isosurface.isovalues.size(); ++i) {
+    const double isovalue = isosurface.isovalues[i], shown = shown_isovalues[i];
     const auto rounded = static_cast<float>(read.frame.apply(isovalue));
     if (!(range.min < rounded && rounded <= range.max)) {
       warnIfOutside(isovalue, isosurface.field, range, read.frame, report);
@@ -209,15 +228,16 @@ makeSurfaceMesh(const CloudView& cloud,
     dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
     SurfaceTriangles surface =
         finishMesh(input, rounded, std::move(mesh), read.values.sources, report);
-    warnOfCaps(surface, isovalue, isosurface.outside, report);
+    warnOfCaps(surface, shown, isosurface.outside, report);
     for (PointIso& vertex : surface.vertices)
-      vertex.isovalue = static_cast<float>(isovalue);
+      vertex.isovalue = static_cast<float>(shown);
     for (SurfacePiece& piece : surface.pieces)
-      piece.isovalue = isovalue;
+      piece.isovalue = shown;
     all.append(surface);
   }
   report.setCount("vertices", all.vertices.size());
   report.setCount("triangles", all.triangles.size());
+  warnOfFolds(report);
   return all;
 }
 

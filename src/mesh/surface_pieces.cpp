@@ -100,7 +100,8 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
     const auto all_edges = static_cast<std::int64_t>(half_edges[i] + rim_edges[i]) / 2;
     const std::int64_t euler =
         std::int64_t{piece.vertices} - all_edges + piece.triangles;
-    piece.genus = static_cast<std::uint32_t>((2 - piece.rims - euler) / 2);
+    piece.genus =
+        static_cast<std::uint32_t>((2 - std::int64_t{piece.rims} - euler) / 2);
   }
   // Large ones first.
   std::vector<std::uint32_t> first(list.pieces.size());

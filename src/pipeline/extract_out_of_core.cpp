@@ -115,8 +115,9 @@ runPipelineOutOfCore(PointSource& points,
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
       parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale, meshes and Voronoi grids need "
-                          "all samples in memory.");
+    throw InvalidArgument(
+        "Level sets, an automatic scale, meshes and Voronoi grids need "
+        "all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

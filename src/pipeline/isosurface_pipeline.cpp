@@ -141,11 +141,13 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
   if (parameters.max_error || parameters.drop_bridged)
-    throw InvalidArgument("A mesh keeps all of its vertices: leave out the bound of the "
-                          "error and bridged points, or the mesh.");
+    throw InvalidArgument(
+        "A mesh keeps all of its vertices: leave out the bound of the "
+        "error and bridged points, or the mesh.");
   if (parameters.normals == NormalMethod::Pca)
-    throw InvalidArgument("The vertices of a mesh have the normals of their fits: those "
-                          "by principal components are for isopoints.");
+    throw InvalidArgument(
+        "The vertices of a mesh have the normals of their fits: those "
+        "by principal components are for isopoints.");
 }
 
 void
@@ -224,13 +226,8 @@ meshZeroLevel(const CloudView& samples,
   SurfaceMeshParameters of_phi{parameters, meshing};
   of_phi.isosurface.field = "phi";
   of_phi.isosurface.isovalues = {0.0};
-  SurfaceTriangles mesh = detail::makeSurfaceMesh(view, all, of_phi, threads, report);
-  const double isovalue = parameters.isovalues.front();
-  for (PointIso& vertex : mesh.vertices)
-    vertex.isovalue = static_cast<float>(isovalue);
-  for (SurfacePiece& piece : mesh.pieces)
-    piece.isovalue = isovalue;
-  return mesh;
+  return detail::makeSurfaceMesh(
+      view, all, of_phi, parameters.isovalues, threads, report);
 }
 
 /** Merge the report of a stage on samples that an earlier stage has told of. */
@@ -262,6 +259,7 @@ IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& repo
     return detail::makeSurfaceMesh(viewOf(samples_->cloud),
                                    indices_ ? *indices_ : all,
                                    {parameters, *parameters_.mesh},
+                                   parameters.isovalues,
                                    threads_,
                                    report);
   }

@@ -119,11 +119,14 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
 
 namespace detail {
 
-/** \brief SurfaceMesh on any cloud. */
+/** \brief SurfaceMesh on any cloud.
+ * \param shown_isovalues what vertices, pieces and warnings call the isovalues, where
+ * the field is a level-set function that stands for another one */
 PCL_UVOL_EXPORTS SurfaceTriangles
 makeSurfaceMesh(const CloudView& cloud,
                 const pcl::Indices& indices,
                 const SurfaceMeshParameters& parameters,
+                const std::vector<double>& shown_isovalues,
                 unsigned threads,
                 Report& report);
 
@@ -185,8 +188,12 @@ public:
     this->withInput(
         "SurfaceMesh", [&](const CloudView& cloud, const pcl::Indices& indices) {
           this->startReport();
-          surface =
-              detail::makeSurfaceMesh(cloud, indices, parameters_, threads_, report_);
+          surface = detail::makeSurfaceMesh(cloud,
+                                            indices,
+                                            parameters_,
+                                            parameters_.isosurface.isovalues,
+                                            threads_,
+                                            report_);
           surface.vertices.header = this->input_->header;
         });
   }
