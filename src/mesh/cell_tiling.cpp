@@ -69,23 +69,31 @@ CellTiling::cellOf(std::uint32_t cell) const
 KdBox
 CellTiling::boxOf(std::uint32_t sample, const TileCell& cell) const
 {
-  // Of uniform samples hardly any lies farther from the box, in these terms.
-  constexpr float farthest = 3.0f;
-  const Position& place = positions_[sample];
+  // Of the longest side between planes: the tree leaves no side of a cell longer, but
+  // where the samples end.
+  constexpr float longest_side = 3.0f;
   KdBox box = tree_.getBox(tree_.getRoot());
+  float longest = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const bool is_low_open = isOuter(cell.low[a]), is_high_open = isOuter(cell.high[a]);
-    if (!is_low_open)
+    if (!isOuter(cell.low[a]))
       box.low[axis] = cell.low[a].plane.coordinate;
-    if (!is_high_open)
+    if (!isOuter(cell.high[a]))
       box.high[axis] = cell.high[a].plane.coordinate;
-    const float below = place[axis] - box.low[axis],
-                above = box.high[axis] - place[axis];
-    if (is_low_open && !is_high_open && below > farthest * above)
-      box.low[axis] = place[axis] - above;
-    if (is_high_open && !is_low_open && above > farthest * below)
-      box.high[axis] = place[axis] + below;
+    if (!isOuter(cell.low[a]) && !isOuter(cell.high[a]))
+      longest = std::max(longest, box.high[axis] - box.low[axis]);
+  }
+  if (longest == 0.0f)
+    return box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const float place = positions_[sample][axis];
+    if (isOuter(cell.low[a]) && !isOuter(cell.high[a]))
+      box.low[axis] = std::max(
+          box.low[axis], std::min(place, box.high[axis] - longest_side * longest));
+    if (isOuter(cell.high[a]) && !isOuter(cell.low[a]))
+      box.high[axis] = std::min(
+          box.high[axis], std::max(place, box.low[axis] + longest_side * longest));
   }
   return box;
 }

@@ -67,8 +67,8 @@ public:
   cellOf(std::uint32_t cell) const;
 
   /** \brief The part of a sample's cell that stands for it: within the box around all
-   * samples, and towards the border of the domain not much farther out than the sample
-   * lies from the opposite side, as where samples fill a ball within their box. */
+   * samples, and towards the border of the domain at most three times as long as
+   * between planes, or up to the sample: samples may fill a ball within their box. */
   KdBox
   boxOf(std::uint32_t sample, const TileCell& cell) const;
 
