@@ -2,6 +2,7 @@
 // The main job: a file of scattered samples in, an oriented isosurface out.
 #include "common/memory.h"
 #include "common/number_range.h"
+#include "common/numbers.h"
 #include "expressions/derived_source.h"
 #include "expressions/memory_need.h"
 #include "io/point_stream.h"
@@ -16,8 +17,11 @@
 #include "shared/sampling_fact.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -125,6 +129,14 @@ addFieldsNeed(const Arguments& arguments,
   arguments.picture.addColorNeed(points, step, forecast);
 }
 
+/** Before work whose result would be lost. */
+void
+checkOutput(const Arguments& arguments, const pcl_uvol::Dataset& samples)
+{
+  if (!pcl_uvol::isMeshOnly(arguments.output))
+    pcl_uvol::checkSavePath(arguments.output, samples.cloud.fields);
+}
+
 /** The samples with all fields that are asked for. */
 std::shared_ptr<pcl_uvol::Dataset>
 loadSamples(const Options& options,
@@ -146,7 +158,7 @@ loadSamples(const Options& options,
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
   arguments.picture.addColorOfSamples(options, *samples, report);
-  pcl_uvol::checkSavePath(arguments.output, samples->cloud.fields);
+  checkOutput(arguments, *samples);
   return samples;
 }
 
@@ -199,13 +211,36 @@ runFromDisk(const Options& options, const Arguments& arguments, Report& report)
   pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
   pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
   parameters.isosurface.field = points.getField();
-  pcl_uvol::checkSavePath(arguments.output, points.getHeader().cloud.fields);
+  checkOutput(arguments, points.getHeader());
   report.warnings = points.getHeader().notes;
   report.count("points", points.size());
   auto result = pcl_uvol::runPipelineOutOfCore(
       points, parameters, arguments.makeOutOfCoreSettings(options), report.progress);
   points.tell(report);
   return result;
+}
+
+bool
+isStl(const std::string& path)
+{
+  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
+         ".stl";
+}
+
+void
+saveMesh(const std::string& path,
+         const IsosurfaceResult& result,
+         const pcl_uvol::SaveOptions& options,
+         Report& report)
+{
+  const StepTimer timer(report, "write");
+  const auto& origin = result.surface.origin;
+  if (isStl(path) && origin != std::array<double, 3>{})
+    report.warnings.push_back(
+        "STL holds single precision, which these coordinates exceed: those in the file "
+        "are relative to " +
+        joined(std::vector<double>(origin.begin(), origin.end())) + ".");
+  pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
 }
 
 int
@@ -216,8 +251,9 @@ run(int argc, char** argv)
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
-      "an oriented point cloud.\nReads pcd ply csv txt vtk vtp vtu vts, writes "
-      "pcd ply vtp csv.");
+      "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
+      "ply csv txt vtk vtp vtu vts, writes pcd ply vtp csv, meshes as ply vtp obj off "
+      "stl.");
   arguments.declare(options);
   if (!options.parse(argc, argv))
     return 0;
@@ -240,7 +276,10 @@ run(int argc, char** argv)
   pcl_uvol::SaveOptions save;
   save.ascii = arguments.ascii;
   save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
-  uvol_tools::savePoints(arguments.output, result.surface, save, report);
+  if (arguments.parameters.mesh)
+    saveMesh(arguments.output, result, save, report);
+  else
+    uvol_tools::savePoints(arguments.output, result.surface, save, report);
   uvol_tools::Facts facts = {
       {"input", arguments.input},
       {"output", arguments.output},
@@ -259,6 +298,8 @@ run(int argc, char** argv)
   const auto append = [&](const Facts& more) {
     facts.insert(facts.end(), more.begin(), more.end());
   };
+  if (arguments.parameters.mesh)
+    append(uvol_tools::describeMesh(result));
   for (std::size_t i = 0; i < result.level_sets.size(); ++i)
     append(uvol_tools::describe(
         result.level_sets[i], !arguments.parameters.level_set.mu, of_isovalue(i)));

@@ -63,6 +63,7 @@ fitRegister(const FitSample* samples,
   for (int i = 0; i < cubic_terms; ++i)
     coefficient[i] = is_cubic ? coefficient[i] : quadratic[i];
 
+  const Mask determined = is_cubic | quadratic_possible;
   Lanes x = zero, y = zero, z = zero, gradient[3];
   for (int step = 0; step < newton_steps; ++step) {
     evaluateGradient(coefficient, x, y, z, gradient);
@@ -77,7 +78,7 @@ fitRegister(const FitSample* samples,
   const Lanes slope = squareRoot(sumOfSquares(gradient, 0, 3));
   const Lanes rest = evaluate(coefficient, x, y, z) / slope;
   const Mask found = (rest < converged_step) & (rest > -converged_step) &
-                     (x * x + y * y + z * z < one) & (is_cubic | quadratic_possible);
+                     (x * x + y * y + z * z < one) & determined;
 
   evaluateTerms(x, y, z, influence);
   equations.forward(influence);
@@ -85,6 +86,7 @@ fitRegister(const FitSample* samples,
       sumOfSquares(influence, 0, quadratic_terms) +
       (is_cubic ? sumOfSquares(influence, quadratic_terms, cubic_terms) : zero);
   const Lanes variance = is_cubic ? cubic_variance : quadratic_variance;
+  store(determined ? coefficient[0] : zero / zero, result.value + first);
   store(x, result.offset[0] + first);
   store(y, result.offset[1] + first);
   store(z, result.offset[2] + first);

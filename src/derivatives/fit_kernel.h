@@ -25,6 +25,8 @@ enum FitOrder { fit_failed = 0, fit_quadratic = 2, fit_cubic = 3 };
 
 /** \brief Zero level of the eight fits, in units of the radius of the support. */
 struct alignas(64) FitResult {
+  double value[fit_lanes];       ///< at the centre; NaN where the samples determine
+                                 ///< neither polynomial
   double offset[3][fit_lanes];   ///< from the centre to the zero level
   double gradient[3][fit_lanes]; ///< there; value per radius
   double hessian[6][fit_lanes];  ///< there: xx xy xz yy yz zz

@@ -84,7 +84,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
     else if (ending == ".ply")
       io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
-      io::writeVtp(file, path, dataset);
+      io::writeVtp(file, path, dataset, {});
     else
       io::writeCsv(file, path, dataset);
   });

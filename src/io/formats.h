@@ -107,8 +107,35 @@ writePly(const std::string& file,
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset);
 
+/** \brief Points, or faces over them where there are triangles. */
 void
-writeVtp(const std::string& file, const std::string& path, const Dataset& dataset);
+writeVtp(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const std::vector<Triangle>& triangles);
+
+/** \brief Meshes as text, vertices with their normals where they have any. */
+void
+writeObj(const std::string& file,
+         const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles,
+         const SaveOptions& options);
+
+/** \brief Meshes as text, nothing but vertices and triangles. */
+void
+writeOff(const std::string& file,
+         const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles,
+         const SaveOptions& options);
+
+/** \brief Binary; coordinates, in single precision, are relative to the origin. */
+void
+writeStl(const std::string& file,
+         const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles);
 
 /** \brief A .pvtp.
  * \param dataset has the fields of the pieces

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangles of PLY files.
+// Meshes from PLY files, and into files of several formats.
 #include "common/records.h"
 #include "io/files.h"
 #include "io/formats.h"
@@ -50,18 +50,37 @@ saveMesh(const std::string& path,
          const SaveOptions& options)
 {
   checkMeshPath(path);
-  checkSavePath(path, vertices.cloud.fields);
+  const std::string ending = io::getEnding(path);
+  if (ending == ".ply")
+    io::checkPlyFields(path, vertices.cloud.fields);
   writeAtomically(path, [&](const std::string& file) {
-    io::writePly(file, path, vertices, triangles, options);
+    if (ending == ".ply")
+      io::writePly(file, path, vertices, triangles, options);
+    else if (ending == ".vtp")
+      io::writeVtp(file, path, vertices, triangles);
+    else if (ending == ".obj")
+      io::writeObj(file, path, vertices, triangles, options);
+    else if (ending == ".off")
+      io::writeOff(file, path, vertices, triangles, options);
+    else
+      io::writeStl(file, path, vertices, triangles);
   });
 }
 
 void
 checkMeshPath(const std::string& path)
 {
-  if (io::getEnding(path) != ".ply")
-    io::throwUnwritable(path, "meshes are written as .ply");
+  const std::string ending = io::getEnding(path);
+  if (ending != ".ply" && ending != ".vtp" && !isMeshOnly(path))
+    io::throwUnwritable(path, "meshes are written as .ply, .vtp, .obj, .off or .stl");
   io::checkWritable(path);
+}
+
+bool
+isMeshOnly(const std::string& path)
+{
+  const std::string ending = io::getEnding(path);
+  return ending == ".obj" || ending == ".off" || ending == ".stl";
 }
 
 Dataset

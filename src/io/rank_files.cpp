@@ -346,7 +346,7 @@ savePieces(const std::string& path, const Dataset& part, Communicator& communica
   bool is_there = false;
   try {
     writeAtomically(own, [&](const std::string& file) {
-      io::writeVtp(file, own, part);
+      io::writeVtp(file, own, part, {});
       communicator.barrier(); // whoever cannot write keeps all from taking their places
     });
     is_there = true;

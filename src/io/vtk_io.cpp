@@ -9,6 +9,7 @@
 #include "io/xml_text.h"
 #include <pcl_uvol/filters/point_data.h>
 
+#include <vtkCellArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkXMLDataElement.h>
@@ -138,9 +139,19 @@ readVtk(const std::string& path)
 }
 
 void
-writeVtp(const std::string& file, const std::string& path, const Dataset& dataset)
+writeVtp(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const std::vector<Triangle>& triangles)
 {
   const auto data = makeWritable(dataset);
+  if (!triangles.empty()) {
+    vtkNew<vtkCellArray> faces;
+    for (const Triangle& triangle : triangles)
+      faces->InsertNextCell({triangle[0], triangle[1], triangle[2]});
+    data->SetVerts(nullptr);
+    data->SetPolys(faces);
+  }
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writeXml(*writer, file, path);

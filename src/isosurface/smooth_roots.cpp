@@ -132,7 +132,10 @@ private:
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
       const float radius = has_all ? std::numeric_limits<float>::infinity()
                                    : static_cast<float>(surroundings[lane].radius);
-      fits[i] = {judge(result, lane, surroundings[lane]), radius, radius};
+      fits[i] = {judge(result, lane, surroundings[lane]),
+                 radius,
+                 radius,
+                 static_cast<float>(result.value[lane])};
       if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
                        surroundings[lane].support != IsoSupport::Measured))
         doubtful_.push_back({i, centers[lane], result.pivot[lane], false});
@@ -265,6 +268,7 @@ private:
               distance(positions[edges[i].first], positions[edges[i].second])))
         continue;
       fits[i].outcome = outcome;
+      fits[i].value = static_cast<float>(result.value[lane]);
       setIsopoint(input_, result, lane, surroundings[lane], true, edges[i], points[i]);
     }
   }

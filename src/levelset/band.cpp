@@ -50,7 +50,7 @@ private:
       std::fill_n(marked_.begin() + node.begin, node.count, true);
       return;
     }
-    const int axis = tree_.getAxis(node.depth);
+    const int axis = tree_.getAxis(node);
     const float plane = tree_.getPlane(node).coordinate;
     if (low[axis] <= plane)
       mark(node.left(), low, high);

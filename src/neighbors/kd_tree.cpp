@@ -209,16 +209,91 @@ private:
   std::vector<std::uint16_t> places_;
 };
 
+/** Split axes by depth: cells need not be known. */
+class CycledAxes {
+public:
+  struct Cell {};
+
+  explicit CycledAxes(const AxisCycle& axes)
+      : axes_(axes)
+  {
+  }
+
+  int
+  choose(const KdNode& node, const Cell&) const
+  {
+    return axes_[static_cast<std::size_t>(node.depth)];
+  }
+
+  static Cell
+  cutAbove(const Cell& cell, int, float)
+  {
+    return cell;
+  }
+
+  static Cell
+  cutBelow(const Cell& cell, int, float)
+  {
+    return cell;
+  }
+
+private:
+  const AxisCycle& axes_;
+};
+
+/** Split axes by the longest sides of cells, which are remembered. */
+class LongestSides {
+public:
+  using Cell = KdBox;
+
+  explicit LongestSides(std::vector<std::int8_t>& axes)
+      : axes_(axes)
+  {
+  }
+
+  int
+  choose(const KdNode& node, const Cell& cell) const
+  {
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+      if (cell.high[axis] - cell.low[axis] > cell.high[longest] - cell.low[longest])
+        longest = axis;
+    axes_[node.number] = static_cast<std::int8_t>(longest);
+    return longest;
+  }
+
+  static Cell
+  cutAbove(Cell cell, int axis, float plane)
+  {
+    cell.high[axis] = plane;
+    return cell;
+  }
+
+  static Cell
+  cutBelow(Cell cell, int axis, float plane)
+  {
+    cell.low[axis] = plane;
+    return cell;
+  }
+
+private:
+  std::vector<std::int8_t>& axes_; // by node number
+};
+
 /** Parts records from the root down to blocks, which tell whether positions are equal;
- * only where none are the rest of the tree is of use. */
+ * only where none are the rest of the tree is of use.
+ * \tparam Axes CycledAxes or LongestSides */
+template <typename Axes>
 class Builder {
 public:
-  Builder(const KdTree& tree,
+  using Cell = typename Axes::Cell;
+
+  Builder(const Axes& axes,
           std::vector<SampleRecord>& records,
           std::vector<SplitPlane>& planes,
           std::vector<KdBox>& boxes,
           StepTimer& step)
-      : tree_(tree)
+      : axes_(axes)
       , records_(records)
       , planes_(planes)
       , boxes_(boxes)
@@ -228,12 +303,12 @@ public:
 
   /** False if positions are equal. */
   bool
-  build(const KdNode& root)
+  build(const KdNode& root, const Cell& cell)
   {
-    partToBlocks(root);
+    partToBlocks(root, cell);
     if (has_equals_)
       return false;
-    buildBlocks(root);
+    buildBlocks(root, cell);
     return true;
   }
 
@@ -241,29 +316,31 @@ private:
   /** Where a cut runs through equal positions, they stay together between the others.
    */
   void
-  partToBlocks(const KdNode& node)
+  partToBlocks(const KdNode& node, const Cell& cell)
   {
     if (node.count < task_samples) {
       inspectBlock(node);
       return;
     }
     KdNode left = node.left(), right = node.right();
-    if (const SampleRecord* const equal = split(node)) {
+    const int axis = axes_.choose(node, cell);
+    if (const SampleRecord* const equal = split(node, axis)) {
       has_equals_.store(true, std::memory_order_relaxed);
-      const auto [less_end, greater] = partAround(node, equal->position);
+      const auto [less_end, greater] = partAround(node, axis, equal->position);
       left.count = less_end - node.begin;
       right.begin = greater;
       right.count = node.begin + node.count - greater;
     }
-    TaskGroup::fork([&] { partToBlocks(left); }, [&] { partToBlocks(right); });
+    const float plane = planes_[node.number].coordinate;
+    TaskGroup::fork([&] { partToBlocks(left, Axes::cutAbove(cell, axis, plane)); },
+                    [&] { partToBlocks(right, Axes::cutBelow(cell, axis, plane)); });
   }
 
   /** Records below a position, equal to it and above it; returns the ends of the first
    * two parts. */
   std::pair<std::uint32_t, std::uint32_t>
-  partAround(const KdNode& node, const Position position)
+  partAround(const KdNode& node, int axis, const Position position)
   {
-    const int axis = tree_.getAxis(node.depth);
     SampleRecord* const first = records_.data() + node.begin;
     SampleRecord* const last = first + node.count;
     SampleRecord* const less_end =
@@ -289,49 +366,56 @@ private:
   }
 
   void
-  buildBlocks(const KdNode& node)
+  buildBlocks(const KdNode& node, const Cell& cell)
   {
     if (node.count < task_samples) {
-      buildAlone(node);
+      buildAlone(node, cell);
       step_.advance(node.count);
       return;
     }
-    TaskGroup::fork([&] { buildBlocks(node.left()); },
-                    [&] { buildBlocks(node.right()); });
+    const int axis = axes_.choose(node, cell);
+    const float plane = planes_[node.number].coordinate;
+    TaskGroup::fork(
+        [&] { buildBlocks(node.left(), Axes::cutAbove(cell, axis, plane)); },
+        [&] { buildBlocks(node.right(), Axes::cutBelow(cell, axis, plane)); });
     joinBoxes(node);
   }
 
   /** A subtree by one task. */
   void
-  buildAlone(const KdNode& node)
+  buildAlone(const KdNode& node, const Cell& cell)
   {
     if (KdTree::isBucket(node)) {
       boxes_[node.number] = boxAround(node);
-      buildBucket(node);
+      buildBucket(node, cell);
       return;
     }
-    split(node);
-    buildAlone(node.left());
-    buildAlone(node.right());
+    const int axis = axes_.choose(node, cell);
+    split(node, axis);
+    const float plane = planes_[node.number].coordinate;
+    buildAlone(node.left(), Axes::cutAbove(cell, axis, plane));
+    buildAlone(node.right(), Axes::cutBelow(cell, axis, plane));
     joinBoxes(node);
   }
 
   void
-  buildBucket(const KdNode& node)
+  buildBucket(const KdNode& node, const Cell& cell)
   {
     if (node.isLeaf())
       return;
-    split(node);
-    buildBucket(node.left());
-    buildBucket(node.right());
+    const int axis = axes_.choose(node, cell);
+    split(node, axis);
+    const float plane = planes_[node.number].coordinate;
+    buildBucket(node.left(), Axes::cutAbove(cell, axis, plane));
+    buildBucket(node.right(), Axes::cutBelow(cell, axis, plane));
   }
 
   /** Returns a record of the position that stands on both sides of the cut, if there is
    * one. */
   const SampleRecord*
-  split(const KdNode& node)
+  split(const KdNode& node, int axis)
   {
-    switch (tree_.getAxis(node.depth)) {
+    switch (axis) {
     case 0:
       return split<0>(node);
     case 1:
@@ -383,7 +467,7 @@ private:
     }
   }
 
-  const KdTree& tree_;
+  const Axes& axes_;
   std::vector<SampleRecord>& records_;
   std::vector<SplitPlane>& planes_;
   std::vector<KdBox>& boxes_;
@@ -441,7 +525,10 @@ KdTree::cycleOver(const std::array<bool, 3>& axes)
 }
 
 bool
-KdTree::build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step)
+KdTree::build(std::vector<SampleRecord>& records,
+              unsigned threads,
+              StepTimer& step,
+              SplitRule rule)
 {
   // An axis along which all samples agree would only add splits by the other
   // coordinates.
@@ -451,7 +538,7 @@ KdTree::build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& s
         std::any_of(records.begin(), records.end(), [&](const SampleRecord& record) {
           return record.position[axis] != records.front().position[axis];
         });
-  return build(records, cycleOver(varies), 0, threads, step);
+  return buildBy(rule, records, cycleOver(varies), 0, threads, step);
 }
 
 bool
@@ -461,13 +548,51 @@ KdTree::build(std::vector<SampleRecord>& records,
               unsigned threads,
               StepTimer& step)
 {
+  return buildBy(SplitRule::Cycle, records, axes, depth, threads, step);
+}
+
+namespace {
+
+KdBox
+boxAround(const std::vector<SampleRecord>& records)
+{
+  KdBox box{records.front().position, records.front().position};
+  for (const SampleRecord& record : records)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], record.position[axis]);
+      box.high[axis] = std::max(box.high[axis], record.position[axis]);
+    }
+  return box;
+}
+
+} // namespace
+
+bool
+KdTree::buildBy(SplitRule rule,
+                std::vector<SampleRecord>& records,
+                const AxisCycle& axes,
+                int depth,
+                unsigned threads,
+                StepTimer& step)
+{
   root_ = {1, 0, static_cast<std::uint32_t>(records.size()), depth};
   axis_at_depth_ = axes;
   planes_.assign(countParts(root_.count, 1), SplitPlane{0.0f, 0});
   boxes_.resize(2 * countParts(root_.count, bucket_samples));
-  Builder builder(*this, records, planes_, boxes_, step);
-  bool is_built = false;
-  TaskGroup::run(threads, [&] { is_built = builder.build(getRoot()); });
+  const auto buildWith = [&](const auto& chosen, const auto& cell) {
+    Builder builder(chosen, records, planes_, boxes_, step);
+    bool is_built = false;
+    TaskGroup::run(threads, [&] { is_built = builder.build(getRoot(), cell); });
+    return is_built;
+  };
+  axes_.clear();
+  bool is_built;
+  if (rule == SplitRule::LongestSide) {
+    axes_.resize(planes_.size());
+    is_built = buildWith(LongestSides(axes_), pcl_uvol::boxAround(records));
+  }
+  else
+    is_built = buildWith(CycledAxes(axis_at_depth_), CycledAxes::Cell());
   if (!is_built)
     return false;
 

@@ -119,6 +119,13 @@ struct KdBox {
 /** \brief Axis of the splits at each depth. */
 using AxisCycle = std::array<std::int8_t, 64>;
 
+/** \brief Which axis a node is split along. */
+enum class SplitRule {
+  Cycle,      ///< thesis 2.2.1: in turn over the axes along which the samples differ
+  LongestSide ///< that of the cell's longest side within the samples' box, which keeps
+              ///< cells compact where the density of samples varies along one axis
+};
+
 /** \brief Smallest and largest value of a scalar below every node, by node number;
  * leaves are the values themselves. */
 struct PCL_UVOL_EXPORTS NodeRanges {
@@ -144,7 +151,8 @@ struct PCL_UVOL_EXPORTS NodeRanges {
 };
 
 /** \brief The tree: by node number splitting planes, and boxes down to buckets. Memory:
- * 8 to 16 bytes per sample for planes, 1.5 to 3 for boxes. It refers to positions in
+ * 8 to 16 bytes per sample for planes, 1.5 to 3 for boxes, 1 to 2 for axes unless they
+ * are a cycle. It refers to positions in
  * leaf order, which its owner (SampleSet) keeps. */
 class PCL_UVOL_EXPORTS KdTree {
 public:
@@ -158,7 +166,10 @@ public:
    * and there is no tree, since their cells could not be told apart
    * \param step is advanced by the number of records */
   bool
-  build(std::vector<SampleRecord>& records, unsigned threads, StepTimer& step);
+  build(std::vector<SampleRecord>& records,
+        unsigned threads,
+        StepTimer& step,
+        SplitRule rule = SplitRule::Cycle);
 
   /** \brief The same for a subtree of a larger tree, whose cycle of axes decides.
    * \param depth of the subtree's root in that tree */
@@ -193,12 +204,19 @@ public:
     return cell_;
   }
 
-  /** \brief Axis of the splits at a depth: a cycle over the axes along which the
-   * samples differ. */
+  /** \brief Axis at a depth of the cycle over the axes along which the samples differ,
+   * which SplitRule::Cycle splits along. */
   int
   getAxis(int depth) const
   {
     return axis_at_depth_[static_cast<std::size_t>(depth)];
+  }
+
+  /** \brief Axis that a node, no leaf, is split along. */
+  int
+  getAxis(const KdNode& node) const
+  {
+    return axes_.empty() ? getAxis(node.depth) : axes_[node.number];
   }
 
   const SplitPlane&
@@ -296,9 +314,18 @@ private:
                 const KdCell& cell,
                 std::vector<std::uint32_t>& touching) const;
 
+  bool
+  buildBy(SplitRule rule,
+          std::vector<SampleRecord>& records,
+          const AxisCycle& axes,
+          int depth,
+          unsigned threads,
+          StepTimer& step);
+
   KdNode root_{1, 0, 0, 0};
   KdCell cell_ = unboundedCell();
   AxisCycle axis_at_depth_{};
+  std::vector<std::int8_t> axes_; // by node number; empty: those of the cycle
   std::vector<SplitPlane> planes_;
   std::vector<KdBox> boxes_;
 };

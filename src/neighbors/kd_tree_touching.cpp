@@ -44,7 +44,7 @@ public:
   {
     if (node.isLeaf() || !crosses(ranges_[node], ranges_[node]))
       return;
-    const int axis = tree_.getAxis(node.depth);
+    const int axis = tree_.getAxis(node);
     const KdNode left = node.left(), right = node.right();
     KdCell left_cell = cell, right_cell = cell;
     left_cell.high[static_cast<std::size_t>(axis)] = tree_.getPlane(node);
@@ -114,7 +114,7 @@ private:
     const KdNode& other = split_lower ? upper : lower;
     KdCell& cell = split_lower ? lower_cell : upper_cell;
     const KdCell& other_cell = split_lower ? upper_cell : lower_cell;
-    const int axis = tree_.getAxis(node.depth);
+    const int axis = tree_.getAxis(node);
     const auto a = static_cast<std::size_t>(axis);
     const SplitPlane& plane = tree_.getPlane(node);
     const bool parallel = axis == separating_axis;
@@ -176,7 +176,7 @@ public:
       examine(node.begin, cell);
       return;
     }
-    const auto axis = static_cast<std::size_t>(tree_.getAxis(node.depth));
+    const auto axis = static_cast<std::size_t>(tree_.getAxis(node));
     const SplitPlane low = cell.low[axis], high = cell.high[axis];
     cell.high[axis] = tree_.getPlane(node);
     descend(node.left(), cell);
@@ -232,7 +232,7 @@ KdTree::searchSubtree(const std::vector<Position>& positions,
   int size = 0;
   for (KdNode node = subtree;;) {
     while (!node.isLeaf()) {
-      const int axis = getAxis(node.depth);
+      const int axis = getAxis(node);
       const auto a = static_cast<std::size_t>(axis);
       const SplitPlane& plane = getPlane(node);
       // One of the halves touches at least.
@@ -264,7 +264,7 @@ KdTree::findTouching(const std::vector<Position>& positions,
   KdNode node = getRoot();
   while (!node.isLeaf()) {
     path[node.depth] = node;
-    const int axis = getAxis(node.depth);
+    const int axis = getAxis(node);
     const KdNode left = node.left();
     if (sample < left.begin + left.count) {
       last_above[axis] = node.depth;
@@ -300,7 +300,7 @@ KdTree::cellOf(std::uint32_t sample) const
 {
   KdCell cell = cell_;
   for (KdNode node = root_; !node.isLeaf();) {
-    const auto axis = static_cast<std::size_t>(getAxis(node.depth));
+    const auto axis = static_cast<std::size_t>(getAxis(node));
     const SplitPlane& plane = getPlane(node);
     const KdNode left = node.left();
     const bool is_below = sample < left.begin + left.count;

@@ -136,7 +136,8 @@ SampleSet::build(const float* xyz,
                  const std::vector<std::uint32_t>& use,
                  const Position& scale,
                  unsigned threads,
-                 Report& report)
+                 Report& report,
+                 SplitRule rule)
 {
   const auto position_at = [&](std::size_t i) -> Position {
     const float* const point = xyz + use[i] * stride;
@@ -144,7 +145,7 @@ SampleSet::build(const float* xyz,
   };
   const LengthUnit unit =
       countMagnitudes(use.size(), position_at, scale, threads).findUnit(scale);
-  return buildInUnit(xyz, stride, use, unit, threads, report);
+  return buildInUnit(xyz, stride, use, unit, threads, report, rule);
 }
 
 SampleSet::ConstPtr
@@ -153,7 +154,8 @@ SampleSet::buildInUnit(const float* xyz,
                        const std::vector<std::uint32_t>& use,
                        const LengthUnit& unit,
                        unsigned threads,
-                       Report& report)
+                       Report& report,
+                       SplitRule rule)
 {
   StepTimer step(report, "tree", use.size());
   Gathered gathered;
@@ -174,9 +176,9 @@ SampleSet::buildInUnit(const float* xyz,
   parts.unit = unit;
   KdTree& tree = parts.trees.emplace_back();
   const std::size_t finite = records.size();
-  if (!tree.build(records, threads, step)) {
+  if (!tree.build(records, threads, step, rule)) {
     Duplicates duplicates = mergeDuplicates(records);
-    tree.build(records, threads, step);
+    tree.build(records, threads, step, rule);
     set->merged_ = findMerged(duplicates, records);
     set->members_ = std::move(duplicates.members);
   }

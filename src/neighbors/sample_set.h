@@ -76,7 +76,8 @@ public:
         const std::vector<std::uint32_t>& use,
         const Position& scale,
         unsigned threads,
-        Report& report);
+        Report& report,
+        SplitRule rule = SplitRule::Cycle);
 
   /** \brief The same in a unit that is known, that of other samples, say. */
   static ConstPtr
@@ -85,7 +86,8 @@ public:
               const std::vector<std::uint32_t>& use,
               const LengthUnit& unit,
               unsigned threads,
-              Report& report);
+              Report& report,
+              SplitRule rule = SplitRule::Cycle);
 
   std::size_t
   size() const

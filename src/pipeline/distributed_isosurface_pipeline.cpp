@@ -24,6 +24,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.automatic_scale)
     throw InvalidArgument("An automatic scale is not offered for samples of several "
                           "processes, as none sees them all: give three factors.");
+  if (parameters.mesh)
+    throw InvalidArgument("A mesh is not offered for samples of several processes: its "
+                          "cells would have to be joined across their borders.");
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");

@@ -267,6 +267,7 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
   IsosurfacePipelineParameters of_rest = parameters;
   of_rest.automatic_scale = false;
   of_rest.validation = {};
+  of_rest.mesh.reset();
   IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(of_rest);

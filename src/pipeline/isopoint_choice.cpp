@@ -287,7 +287,7 @@ orientIsopoints(const IsosurfacePipelineParameters& parameters,
       choice.orientation[i] = hasFit(isopoints[i]) ? IsoOrientation::Fit : orientation;
   };
   become(IsoOrientation::Edge);
-  if (parameters.normals == NormalMethod::Edge || isopoints.empty())
+  if (parameters.normals == NormalMethod::Edge || parameters.mesh || isopoints.empty())
     return;
   SurfaceNormalParameters pca;
   pca.k = parameters.normal_neighbors;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace pcl_uvol {
@@ -135,6 +136,17 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
+  if (!parameters.mesh)
+    return;
+  checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
+  if (parameters.max_error || parameters.drop_bridged)
+    throw InvalidArgument(
+        "A mesh keeps all of its vertices: leave out the bound of the "
+        "error and bridged points, or the mesh.");
+  if (parameters.normals == NormalMethod::Pca)
+    throw InvalidArgument(
+        "The vertices of a mesh have the normals of their fits: those "
+        "by principal components are for isopoints.");
 }
 
 void
@@ -174,20 +186,30 @@ IsosurfacePipeline::run()
   std::vector<LevelSetSummary> level_sets;
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
-  Isopoints found = parameters.smooth
-                        ? extractLevelSets(parameters.isosurface, level_sets)
-                        : extract(withErrors(parameters), report_);
-  if (parameters.smooth && parameters.isosurface.interpolation == Interpolation::Auto)
-    parameters.isosurface.interpolation =
-        Interpolation::Fit; // the level set fills gaps
+  // Level sets fill gaps, and the vertices of a mesh belong together.
+  if ((parameters.smooth || parameters.mesh) &&
+      parameters.isosurface.interpolation == Interpolation::Auto)
+    parameters.isosurface.interpolation = Interpolation::Fit;
+  SurfaceTriangles found = parameters.smooth
+                               ? extractLevelSets(parameters.isosurface, level_sets)
+                               : extract(withErrors(parameters), report_);
   IsosurfaceResult result = finishIsosurface(*samples_,
-                                             std::move(found.points),
+                                             std::move(found.vertices),
                                              std::move(found.edges),
                                              parameters,
                                              threads_,
                                              std::move(report_));
+  if (parameters.mesh) {
+    setField(result.surface, "piece", found.piece_of);
+    setField(result.surface,
+             "cap",
+             std::vector<std::int32_t>(found.is_on_cap.begin(), found.is_on_cap.end()));
+    result.triangles = std::move(found.triangles);
+    result.pieces = std::move(found.pieces);
+    result.smallest_angle = found.smallest_angle;
+  }
   result.level_sets = std::move(level_sets);
-  if (!parameters.smooth) {
+  if (!parameters.smooth && !parameters.mesh) {
     const StepTimer timer(result.report, "sampling");
     result.sampling = summarizeSampling(*extraction_.getSamples(), threads_);
   }
@@ -198,6 +220,26 @@ IsosurfacePipeline::run()
 }
 
 namespace {
+
+/** As extractZeroLevel(), a mesh. */
+SurfaceTriangles
+meshZeroLevel(const CloudView& samples,
+              const std::vector<float>& phi,
+              const IsosurfaceParameters& parameters,
+              const MeshingParameters& meshing,
+              unsigned threads,
+              Report& report)
+{
+  const auto cloud = cloudOfPhi(samples, phi);
+  const CloudView view = viewOf(cloud);
+  pcl::Indices all(view.count);
+  std::iota(all.begin(), all.end(), 0);
+  SurfaceMeshParameters of_phi{parameters, meshing};
+  of_phi.isosurface.field = "phi";
+  of_phi.isosurface.isovalues = {0.0};
+  return detail::makeSurfaceMesh(
+      view, all, of_phi, parameters.isovalues, threads, report);
+}
 
 /** Merge the report of a stage on samples that an earlier stage has told of. */
 void
@@ -216,20 +258,33 @@ mergeLater(Report& report, Report stage)
 
 } // namespace
 
-IsosurfacePipeline::Isopoints
+SurfaceTriangles
 IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& report)
 {
+  if (parameters_.mesh) {
+    pcl::Indices all;
+    if (!indices_) {
+      all.resize(samples_->cloud.width);
+      std::iota(all.begin(), all.end(), 0);
+    }
+    return detail::makeSurfaceMesh(viewOf(samples_->cloud),
+                                   indices_ ? *indices_ : all,
+                                   {parameters, *parameters_.mesh},
+                                   parameters.isovalues,
+                                   threads_,
+                                   report);
+  }
   extraction_.setParameters(parameters);
   extraction_.setNumberOfThreads(threads_);
   extraction_.setProgressCallback(report.progress);
-  Isopoints found;
-  extraction_.extract(found.points);
+  SurfaceTriangles found;
+  extraction_.extract(found.vertices);
   report.merge(extraction_.getReport());
   found.edges = extraction_.getEdges();
   return found;
 }
 
-IsosurfacePipeline::Isopoints
+SurfaceTriangles
 IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
                                      std::vector<LevelSetSummary>& summaries)
 {
@@ -242,7 +297,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
   evolution.setScalarField(parameters.field);
   evolution.setScale(parameters.scale);
   evolution.setOutside(parameters.outside);
-  Isopoints all;
+  SurfaceTriangles all;
   bool is_first = true;
   const auto tell = [&](const Report& stage) {
     if (is_first)
@@ -266,7 +321,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     catch (const NoLevelSet&) {
       // Extraction says what is wrong with the isovalue, and goes on.
     }
-    Isopoints found;
+    SurfaceTriangles found;
     Report zero_level;
     zero_level.progress = report_.progress;
     if (summaries.back().smoothed) {
@@ -275,19 +330,23 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
                                     std::numeric_limits<float>::quiet_NaN());
       for (const std::uint32_t source : evolution.getSources())
         of_sources[source] = phi[source];
-      extractZeroLevel(viewOf(samples_->cloud),
-                       of_sources,
-                       of_isovalue,
-                       threads_,
-                       found.points,
-                       found.edges,
-                       zero_level);
+      const CloudView view = viewOf(samples_->cloud);
+      if (parameters_.mesh)
+        found = meshZeroLevel(
+            view, of_sources, of_isovalue, *parameters_.mesh, threads_, zero_level);
+      else
+        extractZeroLevel(view,
+                         of_sources,
+                         of_isovalue,
+                         threads_,
+                         found.vertices,
+                         found.edges,
+                         zero_level);
     }
     else
       found = extract(of_isovalue, zero_level);
     tell(zero_level);
-    all.points += found.points;
-    all.edges.insert(all.edges.end(), found.edges.begin(), found.edges.end());
+    all.append(found);
   }
   return all;
 }

@@ -12,6 +12,10 @@ namespace pcl_uvol {
 
 namespace {
 
+/** A mesh has twice as many vertices as there are isopoints before it is remeshed, each
+ * with two triangles, their neighbours and the cells beside it. */
+constexpr double mesh_bytes_per_isopoint = 1500.0;
+
 /** One surface after the other from a level set of its own; isopoints remain. */
 void
 addLevelSets(const LevelSetParameters& parameters,
@@ -49,6 +53,8 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
     isopoints += surface.isopoints;
     largest = std::max(largest, surface.isopoints);
   }
+  if (parameters.mesh)
+    forecast.run({mesh_bytes_per_isopoint * largest, 0.0});
   // Normals of one surface after the other, beside a copy of all where some are
   // missing.
   const auto normals =

@@ -111,7 +111,7 @@ TEST(MeshWriting, OtherNamesAreRefused)
 {
   const TemporaryFolder folder;
   const Dataset dataset = makeDataset({}, 3, 4);
-  for (const char* name : {"a.pcd", "a.obj", "a", "a.ply.gz", "no/such.ply", ""}) {
+  for (const char* name : {"a.pcd", "a.dxf", "a", "a.ply.gz", "no/such.ply", ""}) {
     EXPECT_THROW(checkMeshPath(folder / name), IOError) << name;
     EXPECT_THROW(saveMesh(folder / name, dataset, {{{0, 1, 2}}}), IOError) << name;
   }

@@ -77,6 +77,7 @@ PipelineOptions::declare(Options& options)
                scratch_,
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
+  mesh_.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
 }
@@ -85,7 +86,7 @@ bool
 PipelineOptions::needsAllSamples() const
 {
   return parameters.smooth || parameters.automatic_scale || !where.empty() ||
-         parameters.validation.folds > 0 ||
+         parameters.validation.folds > 0 || parameters.mesh ||
          parameters.isosurface.neighbors == NeighborSource::Voronoi ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
@@ -111,8 +112,19 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -smooth, -where, -scale auto, -validate, -neighbors "
-        "voronoi and derivatives as fields, which need all samples in memory.");
+        "-max-memory goes without -smooth, -where, -scale auto, -validate, -mesh, "
+        "-neighbors voronoi and derivatives as fields, which need all samples in "
+        "memory.");
+  if (!parameters.mesh)
+    return;
+  if (!fits || parameters.isosurface.neighbors == NeighborSource::Voronoi ||
+      parameters.normals == NormalMethod::Pca)
+    throw UsageError(
+        "-mesh is made of fits and of cells of the kd-tree: it goes without "
+        "-interpolation linear, -neighbors voronoi and -normals pca.");
+  if (options.given("max-error") || parameters.drop_bridged)
+    throw UsageError("-mesh keeps all of its vertices: it goes without -max-error and "
+                     "-drop-bridged.");
 }
 
 void
@@ -130,8 +142,10 @@ PipelineOptions::finish(const Options& options)
                                                         : pcl_uvol::ValidateBy::Field;
   if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
     parameters.validation.field = validate_by_;
+  parameters.mesh = mesh_.finish(options, output);
   checkCombinations(options);
-  pcl_uvol::checkSavePath(output);
+  if (!parameters.mesh)
+    pcl_uvol::checkSavePath(output);
   picture.check(options);
 }
 

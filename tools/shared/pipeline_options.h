@@ -4,6 +4,7 @@
 
 #include "distributed/run_stage.h"
 #include "shared/isosurface_options.h"
+#include "shared/mesh_options.h"
 #include "shared/surface_picture.h"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ private:
   void
   checkCombinations(const Options& options) const;
 
+  MeshOptions mesh_;
   std::string mu_ = "auto", max_memory_, scratch_, validate_by_ = "random";
   std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors,
                 steps_ = parameters.level_set.max_steps;

@@ -23,19 +23,27 @@ loadMesh(const std::string& path);
 PCL_UVOL_EXPORTS Dataset
 loadMesh(const std::string& path, std::vector<Triangle>& triangles);
 
-/** \brief Write a mesh as PLY. The file appears whole or not at all.
+/** \brief Write a mesh as .ply or .vtp with all fields of the vertices, as .obj with
+ * their normals, or as .off or .stl, by the ending of the name. STL is written in
+ * binary and in single precision, relative to the origin of the vertices; the others
+ * hold all digits. The file appears whole or not at all.
  * \param vertices with any fields
- * \throws IOError, also for a name that does not end in .ply */
+ * \throws IOError, also for another ending */
 PCL_UVOL_EXPORTS void
 saveMesh(const std::string& path,
          const Dataset& vertices,
          const std::vector<Triangle>& triangles,
          const SaveOptions& options = {});
 
-/** \brief Throw IOError unless the name ends in .ply and its folder can be written to.
- */
+/** \brief Throw IOError unless saveMesh() knows the ending of the name and its folder
+ * can be written to. */
 PCL_UVOL_EXPORTS void
 checkMeshPath(const std::string& path);
+
+/** \brief True for the endings .obj, .off and .stl, of files that hold no points
+ * without triangles. */
+PCL_UVOL_EXPORTS bool
+isMeshOnly(const std::string& path);
 
 /** \brief The vertices of a mesh with their normals, as points. */
 PCL_UVOL_EXPORTS Dataset

@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
@@ -64,10 +65,15 @@ struct ValidationScore {
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
-   * isovalues as infinite or as zero. */
-  Dataset surface; ///< with Interpolation::Auto, unless `smooth` is set, also `method`
-                   ///< and `orientation`, numbers of IsoMethod and IsoOrientation
-  IsoEdges edges;  ///< one per isopoint, indices into the samples
+   * isovalues as infinite or as zero. With Interpolation::Auto, unless there is a level
+   * set or a mesh, also `method` and `orientation`, numbers of IsoMethod and
+   * IsoOrientation. With a mesh its vertices, and behind the other fields `piece`,
+   * among pieces, and `cap`, 1 where a vertex closes the samples' box. */
+  Dataset surface;
+  std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
+  std::vector<SurfacePiece> pieces;   ///< with a mesh: see SurfaceTriangles
+  double smallest_angle = 0.0;        ///< with a mesh: of all triangles, in degrees
+  IsoEdges edges;                     ///< one per isopoint, indices into the samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
@@ -75,12 +81,13 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
-  /** What the samples are like in the stretched space; none with `smooth`, and where
-   * they are not in memory all at once. */
+  /** What the samples are like in the stretched space; none with a level set or a mesh,
+   * and where they are not in memory all at once. */
   std::optional<SamplingSummary> sampling;
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
-  /** Counts, times and warnings of IsosurfaceExtraction, LevelSetEvolution and
-   * SurfaceNormalEstimation, and "removed_by_error" and "removed_bridged". */
+  /** Counts, times and warnings of IsosurfaceExtraction or SurfaceMesh,
+   * LevelSetEvolution and SurfaceNormalEstimation, and "removed_by_error" and
+   * "removed_bridged". */
   Report report;
 };
 
@@ -132,15 +139,11 @@ public:
   estimateMemory() const;
 
 private:
-  struct Isopoints {
-    pcl::PointCloud<PointIso> points;
-    IsoEdges edges;
-  };
-
-  Isopoints
+  /** Isopoints are vertices without triangles. */
+  SurfaceTriangles
   extract(const IsosurfaceParameters& parameters, Report& report);
 
-  Isopoints
+  SurfaceTriangles
   extractLevelSets(const IsosurfaceParameters& parameters,
                    std::vector<LevelSetSummary>& summaries);
 

@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/isosurface/isosurface_parameters.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
+#include <pcl_uvol/mesh/surface_mesh.h>
 
 #include <array>
 #include <cstddef>
@@ -111,6 +112,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
   ValidationParameters validation;
+  /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
+   * that nothing joins. */
+  std::optional<MeshingParameters> mesh;
 
   static auto
   listMembers()
@@ -124,7 +128,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"normal_neighbors", &Own::normal_neighbors},
                            Member{"max_error", &Own::max_error},
                            Member{"drop_bridged", &Own::drop_bridged},
-                           Member{"validation", &Own::validation});
+                           Member{"validation", &Own::validation},
+                           Member{"mesh", &Own::mesh});
   }
 
   std::string
@@ -139,7 +144,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
 /** \throws InvalidArgument for what can be told without samples: see
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number; a hold-out test of one fold */
+ * number; a hold-out test of one fold; a mesh with a bound of the error, without
+ * bridged points, with other normals than those of the fits, and as
+ * checkParameters(SurfaceMeshParameters) */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfacePipelineParameters& parameters);
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/mesh_vertices.h"
+
+#include "isosurface/smooth_roots.h"
+#include "mesh/half_edges.h"
+#include "mesh/surface_pieces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+/** Of the local length: a fit that moves a vertex farther tells of another sheet. */
+constexpr double farthest_move = 0.5;
+
+/** Cosine of 60 degrees, which no triangle may exceed by the last move. */
+constexpr double least_agreement = 0.5;
+
+constexpr double degrees = 180.0 / 3.14159265358979323846;
+
+/** The samples that a vertex lies between, and where the values between them are the
+ * isovalue; where both are on one side, by the fits, the end that is nearer to it. */
+IsoEdge
+edgeOf(const IsopointInput& input, const WorkingVertex& vertex, float isovalue)
+{
+  if (vertex.cap >= 0)
+    return {vertex.pair.lower, vertex.pair.lower, 0.0f};
+  const auto [a, b] = vertex.pair;
+  const double at_a = static_cast<double>(input.values[a]) - isovalue,
+               at_b = static_cast<double>(input.values[b]) - isovalue;
+  const double t = at_a == at_b ? 0.0 : at_a / (at_a - at_b);
+  return {a, b, static_cast<float>(std::clamp(t, 0.0, 1.0))};
+}
+
+PointIso
+makePoint(const IsopointInput& input, const WorkingVertex& vertex)
+{
+  const double side = input.outside == Outside::Lower ? 1.0 : -1.0;
+  PointIso point;
+  double sq_length = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    point.data[axis] = static_cast<float>(vertex.foot.place[axis]);
+    point.data_n[axis] = static_cast<float>(side * vertex.foot.normal[axis]);
+    if (vertex.cap >= 0)
+      continue;
+    const auto& positions = input.samples.getPositions();
+    const double along = (static_cast<double>(positions[vertex.pair.lower][axis]) -
+                          positions[vertex.pair.higher][axis]) /
+                         input.samples.getScale()[axis];
+    sq_length += along * along;
+  }
+  point.edge_length = static_cast<float>(std::sqrt(sq_length));
+  if (vertex.cap >= 0)
+    point.support = static_cast<std::uint8_t>(IsoSupport::Rim);
+  return point;
+}
+
+/** Vertices on fits, which go back where that would turn triangles over. */
+class VertexFits {
+public:
+  VertexFits(const IsopointInput& input, float isovalue, WorkingMesh& mesh)
+      : input_(input)
+      , isovalue_(isovalue)
+      , mesh_(mesh)
+  {
+  }
+
+  void
+  run(Report& report)
+  {
+    IsoEdges fitted_edges;
+    std::vector<PointIso> fitted;
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t i = 0; i < mesh_.vertices.size(); ++i) {
+      const WorkingVertex& vertex = mesh_.vertices[i];
+      points.push_back(makePoint(input_, vertex));
+      edges.push_back(edgeOf(input_, vertex, isovalue_));
+      if (vertex.cap >= 0)
+        continue;
+      vertices.push_back(i);
+      fitted.push_back(points.back());
+      fitted_edges.push_back(edges.back());
+    }
+    StepTimer step(report, "smooth_roots", fitted.size());
+    std::vector<RootOutcome> outcomes;
+    std::vector<std::uint8_t> supports;
+    for (const RootFit& fit : fitRoots(input_, isovalue_, fitted_edges, fitted, step))
+      outcomes.push_back(fit.outcome);
+    for (const PointIso& point : fitted)
+      supports.push_back(point.support);
+    countRoots(outcomes, supports, report);
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      points[vertices[i]] = fitted[i];
+    settle(vertices);
+  }
+
+  IsoEdges edges;
+  std::vector<PointIso> points;
+
+private:
+  static Eigen::Vector3d
+  placeOf(const PointIso& point)
+  {
+    return point.getVector3fMap().cast<double>();
+  }
+
+  /** Take the places of the fits where these are near and turn no triangle over. */
+  void
+  settle(const std::vector<std::uint32_t>& vertices)
+  {
+    const double side = input_.outside == Outside::Lower ? 1.0 : -1.0;
+    std::vector<Foot> before;
+    for (const WorkingVertex& vertex : mesh_.vertices)
+      before.push_back(vertex.foot);
+    std::vector<bool> agreed;
+    for (const Triangle& triangle : mesh_.triangles)
+      agreed.push_back(mesh_.agreementOf(triangle) >= least_agreement);
+    for (const std::uint32_t i : vertices) {
+      WorkingVertex& vertex = mesh_.vertices[i];
+      const Eigen::Vector3d place = placeOf(points[i]);
+      if ((place - vertex.foot.place).norm() <= farthest_move * vertex.size)
+        vertex.foot.place = place;
+      vertex.foot.normal = side * points[i].getNormalVector3fMap().cast<double>();
+    }
+    for (std::size_t i = 0; i < agreed.size(); ++i)
+      if (agreed[i] && mesh_.agreementOf(mesh_.triangles[i]) < least_agreement)
+        for (const std::uint32_t vertex : mesh_.triangles[i])
+          mesh_.vertices[vertex].foot.place = before[vertex].place;
+    for (const std::uint32_t i : vertices)
+      points[i].getVector3fMap() = mesh_.vertices[i].foot.place.cast<float>();
+  }
+
+  const IsopointInput& input_;
+  float isovalue_;
+  WorkingMesh& mesh_;
+};
+
+/** In degrees; 0 for a triangle without area. */
+double
+smallestAngleOf(const WorkingMesh& mesh, const Triangle& triangle)
+{
+  double smallest = 180.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& tip = mesh.vertices[triangle[i]].foot.place;
+    const Eigen::Vector3d u = mesh.vertices[triangle[(i + 1) % 3]].foot.place - tip,
+                          v = mesh.vertices[triangle[(i + 2) % 3]].foot.place - tip;
+    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * degrees);
+  }
+  return smallest;
+}
+
+void
+measure(const WorkingMesh& mesh, SurfaceTriangles& surface, Report& report)
+{
+  double area = 0.0, on_caps = 0.0;
+  std::uint64_t folds = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    const double own = mesh.normalOf(triangle).norm();
+    const bool is_cap = std::any_of(triangle.begin(), triangle.end(), [&](auto vertex) {
+      return mesh.vertices[vertex].cap >= 0;
+    });
+    area += own;
+    on_caps += is_cap ? own : 0.0;
+    folds += !is_cap && mesh.agreementOf(triangle) <= 0.0;
+    surface.smallest_angle =
+        std::min(surface.smallest_angle, smallestAngleOf(mesh, triangle));
+  }
+  surface.cap_part = area > 0.0 ? on_caps / area : 0.0;
+  report.count("folds", folds);
+  report.count("cap_vertices",
+               static_cast<std::uint64_t>(
+                   std::count(surface.is_on_cap.begin(), surface.is_on_cap.end(), 1)));
+}
+
+} // namespace
+
+SurfaceTriangles
+finishMesh(const IsopointInput& input,
+           float isovalue,
+           WorkingMesh&& mesh,
+           const std::vector<std::uint32_t>& sources,
+           Report& report)
+{
+  VertexFits fits(input, isovalue, mesh);
+  fits.run(report);
+  SurfaceTriangles surface;
+  surface.vertices.assign(fits.points.begin(), fits.points.end(), fits.points.size());
+  for (const IsoEdge& edge : fits.edges)
+    surface.edges.push_back({sources[edge.first], sources[edge.second], edge.t});
+  for (const WorkingVertex& vertex : mesh.vertices)
+    surface.is_on_cap.push_back(vertex.cap >= 0);
+  PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
+  measure(mesh, surface, report);
+  std::uint64_t handles = 0;
+  for (const SurfacePiece& piece : list.pieces)
+    handles += piece.genus;
+  report.count("pieces", list.pieces.size());
+  report.count("handles", handles);
+  report.count("rim_edges",
+               HalfEdges(mesh.triangles, mesh.vertices.size()).countRimEdges());
+  surface.piece_of = std::move(list.of_vertex);
+  surface.pieces = std::move(list.pieces);
+  surface.triangles = std::move(mesh.triangles);
+  if (input.outside == Outside::Higher)
+    for (Triangle& triangle : surface.triangles)
+      std::swap(triangle[1], triangle[2]);
+  return surface;
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/remeshing.h"
+
+#include "common/parallel.h"
+#include "mesh/half_edges.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+constexpr std::size_t block_vertices = 1u << 10;
+
+/** Of the way to the mean of the neighbours, per round of smoothing. */
+constexpr double relaxation = 0.7;
+
+/** Of the local length: shorter edges collapse, and none longer may come of it. */
+constexpr double shortest_edge = 0.4, longest_edge = 1.4;
+
+/** Of the local length: a vertex that glides farther may have met another sheet. */
+constexpr double farthest_move = 2.0;
+
+/** Cosine of 60 degrees, between a triangle and its vertices' normals. */
+constexpr double least_agreement = 0.5;
+
+/** A vertex of fewer neighbours would fold. */
+constexpr std::size_t least_neighbors = 4;
+
+constexpr int first_rounds = 5, later_rounds = 3, flip_passes = 5;
+
+/** Passes over all edges, each of which leaves those that others nearby have spoilt; a
+ * pass that removes a smaller part of the vertices is the last one. */
+constexpr int collapse_passes = 30;
+constexpr double least_collapsed = 0.01;
+
+/** Local length of vertices over that of the edges that come of it, where it is the
+ * same everywhere. */
+constexpr double size_per_edge = 1.56;
+
+class Remesher {
+public:
+  Remesher(WorkingMesh& mesh, double edge_length, unsigned threads)
+      : mesh_(mesh)
+      , edges_(mesh.triangles, mesh.vertices.size())
+      , is_gone_(mesh.triangles.size(), false)
+      , threads_(threads)
+  {
+    for (WorkingVertex& vertex : mesh.vertices) {
+      feet_.push_back(vertex.foot);
+      vertex.size = std::max(vertex.size, size_per_edge * edge_length);
+    }
+  }
+
+  void
+  smooth(int rounds)
+  {
+    std::vector<Foot> moved(mesh_.vertices.size());
+    for (int round = 0; round < rounds; ++round) {
+      parallelBlocks(moved.size(), block_vertices, threads_, [&](auto begin, auto end) {
+        std::vector<std::uint32_t> around;
+        std::vector<Foot> feet;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto vertex = static_cast<std::uint32_t>(i);
+          moved[i] = edges_.firstOf(vertex) == HalfEdges::none
+                         ? mesh_.vertices[i].foot
+                         : glide(vertex, around, feet);
+        }
+      });
+      for (std::size_t i = 0; i < moved.size(); ++i)
+        mesh_.vertices[i].foot = moved[i];
+    }
+  }
+
+  void
+  collapseShort()
+  {
+    std::size_t left = mesh_.vertices.size();
+    for (int pass = 0; pass < collapse_passes; ++pass) {
+      const std::size_t collapsed = collapseOnce();
+      flipToDelaunay();
+      left -= collapsed;
+      if (static_cast<double>(collapsed) < least_collapsed * static_cast<double>(left))
+        break;
+    }
+  }
+
+  void
+  flipToDelaunay()
+  {
+    for (int pass = 0; pass < flip_passes; ++pass) {
+      std::size_t flipped = 0;
+      for (HalfEdge edge = 0; edge < 3 * mesh_.triangles.size(); ++edge)
+        if (!is_gone_[edge / 3] && edges_.twinOf(edge) != HalfEdges::none &&
+            edges_.originOf(edge) < edges_.targetOf(edge))
+          flipped += flip(edge);
+      if (flipped == 0)
+        break;
+    }
+  }
+
+  /** Leave out triangles that are gone. */
+  void
+  finish()
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+      if (!is_gone_[i])
+        mesh_.triangles[kept++] = mesh_.triangles[i];
+    mesh_.triangles.resize(kept);
+    mesh_.dropUnused();
+  }
+
+private:
+  std::size_t
+  collapseOnce()
+  {
+    std::vector<std::pair<double, HalfEdge>> shorts;
+    for (HalfEdge edge = 0; edge < 3 * mesh_.triangles.size(); ++edge)
+      if (!is_gone_[edge / 3] && edges_.originOf(edge) < edges_.targetOf(edge))
+        if (const double length = lengthOf(edge); isShort(edge, length))
+          shorts.emplace_back(length, edge);
+    std::sort(shorts.begin(), shorts.end());
+    std::size_t collapsed = 0;
+    for (const auto& [length, edge] : shorts)
+      if (!is_gone_[edge / 3] && isShort(edge, lengthOf(edge)))
+        collapsed += collapse(edge);
+    return collapsed;
+  }
+
+  const Eigen::Vector3d&
+  placeOf(std::uint32_t vertex) const
+  {
+    return mesh_.vertices[vertex].foot.place;
+  }
+
+  double
+  lengthOf(HalfEdge edge) const
+  {
+    return (placeOf(edges_.targetOf(edge)) - placeOf(edges_.originOf(edge))).norm();
+  }
+
+  double
+  sizeOf(HalfEdge edge) const
+  {
+    return 0.5 * (mesh_.vertices[edges_.originOf(edge)].size +
+                  mesh_.vertices[edges_.targetOf(edge)].size);
+  }
+
+  bool
+  isShort(HalfEdge edge, double length) const
+  {
+    return length < shortest_edge * sizeOf(edge);
+  }
+
+  /** The foot of a place that belongs to a vertex, by the feet that were there before
+   * anything moved. */
+  Foot
+  footBelow(std::uint32_t vertex,
+            const Eigen::Vector3d& place,
+            const std::vector<std::uint32_t>& around,
+            std::vector<Foot>& feet) const
+  {
+    const WorkingVertex& own = mesh_.vertices[vertex];
+    if (own.cap >= 0) {
+      Foot foot = own.foot;
+      foot.place = place;
+      return foot;
+    }
+    feet.assign(1, feet_[vertex]);
+    for (const std::uint32_t other : around)
+      if (mesh_.vertices[other].cap < 0)
+        feet.push_back(feet_[other]);
+    return blendFeet(feet, place, own.size);
+  }
+
+  /** Where a vertex glides to; at a rim, along it. */
+  Foot
+  glide(std::uint32_t vertex,
+        std::vector<std::uint32_t>& around,
+        std::vector<Foot>& feet) const
+  {
+    const WorkingVertex& own = mesh_.vertices[vertex];
+    edges_.findAround(vertex, around);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    if (edges_.isAtRim(vertex))
+      mean = 0.5 * (placeOf(around.front()) + placeOf(around.back()));
+    else {
+      for (const std::uint32_t other : around)
+        mean += placeOf(other);
+      mean /= static_cast<double>(around.size());
+    }
+    Eigen::Vector3d way = relaxation * (mean - own.foot.place);
+    way -= own.foot.normal.dot(way) * own.foot.normal;
+    const Foot moved = footBelow(vertex, own.foot.place + way, around, feet);
+    const bool is_near =
+        (moved.place - own.foot.place).norm() < farthest_move * own.size &&
+        isWithinBox(moved.place);
+    return is_near ? moved : own.foot;
+  }
+
+  bool
+  isWithinBox(const Eigen::Vector3d& place) const
+  {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto low = static_cast<std::size_t>(2 * axis);
+      if (place[axis] < mesh_.sides[low] || place[axis] > mesh_.sides[low + 1])
+        return false;
+    }
+    return true;
+  }
+
+  bool
+  collapse(HalfEdge edge)
+  {
+    const std::uint32_t a = edges_.originOf(edge), b = edges_.targetOf(edge);
+    WorkingVertex &kept = mesh_.vertices[a], &gone = mesh_.vertices[b];
+    if (kept.cap != gone.cap || edges_.isAtRim(a) || edges_.isAtRim(b))
+      return false;
+    edges_.findAround(a, around_);
+    edges_.findAround(b, other_around_);
+    if (!mayMerge(edge))
+      return false;
+    around_.insert(around_.end(), other_around_.begin(), other_around_.end());
+    const Foot foot =
+        footBelow(a, 0.5 * (kept.foot.place + gone.foot.place), around_, nearby_feet_);
+    const double longest = longest_edge * sizeOf(edge);
+    for (const std::uint32_t other : around_)
+      if (other != a && other != b && (placeOf(other) - foot.place).norm() > longest)
+        return false;
+    const Foot kept_foot = kept.foot, gone_foot = gone.foot;
+    kept.foot = gone.foot = foot;
+    const bool agrees = agreesAround(a, edge) && agreesAround(b, edge);
+    kept.foot = kept_foot;
+    gone.foot = gone_foot;
+    if (!agrees)
+      return false;
+    is_gone_[edge / 3] = is_gone_[edges_.twinOf(edge) / 3] = true;
+    edges_.collapse(edge);
+    kept.foot = feet_[a] = foot;
+    kept.size = 0.5 * (kept.size + gone.size);
+    return true;
+  }
+
+  /** Whether the surface stays a manifold: the ends of the edge have two neighbours in
+   * common, each of which keeps enough of its own. */
+  bool
+  mayMerge(HalfEdge edge)
+  {
+    std::size_t common = 0;
+    for (const std::uint32_t other : around_)
+      common += static_cast<std::size_t>(
+          std::count(other_around_.begin(), other_around_.end(), other));
+    if (common != 2)
+      return false;
+    for (const HalfEdge side : {edge, edges_.twinOf(edge)}) {
+      edges_.findAround(edges_.originOf(previousOf(side)), tip_around_);
+      if (tip_around_.size() < least_neighbors)
+        return false;
+    }
+    return true;
+  }
+
+  /** Whether the triangles around a vertex, but the two at an edge, agree with their
+   * normals. */
+  bool
+  agreesAround(std::uint32_t vertex, HalfEdge edge) const
+  {
+    bool agrees = true;
+    edges_.forEachAround(vertex, [&](HalfEdge out) {
+      if (out / 3 != edge / 3 && out / 3 != edges_.twinOf(edge) / 3)
+        agrees =
+            agrees && mesh_.agreementOf(mesh_.triangles[out / 3]) >= least_agreement;
+    });
+    return agrees;
+  }
+
+  bool
+  flip(HalfEdge edge)
+  {
+    const HalfEdge twin = edges_.twinOf(edge);
+    const std::uint32_t a = edges_.originOf(edge), b = edges_.targetOf(edge),
+                        c = edges_.originOf(previousOf(edge)),
+                        d = edges_.originOf(previousOf(twin));
+    const Triangle first{a, d, c}, second{b, c, d};
+    const double before = std::min(mesh_.agreementOf(mesh_.triangles[edge / 3]),
+                                   mesh_.agreementOf(mesh_.triangles[twin / 3]));
+    const bool is_bad = before < least_agreement;
+    if (!is_bad && !isAgainstDelaunay(a, b, c, d))
+      return false;
+    const double after = std::min(mesh_.agreementOf(first), mesh_.agreementOf(second));
+    if (is_bad ? after <= before : after < least_agreement)
+      return false;
+    for (const std::uint32_t end : {a, b}) {
+      edges_.findAround(end, around_);
+      if (around_.size() < least_neighbors)
+        return false;
+    }
+    edges_.findAround(c, around_);
+    if (std::find(around_.begin(), around_.end(), d) != around_.end())
+      return false;
+    edges_.flip(edge);
+    return true;
+  }
+
+  /** Whether the angles opposite of an edge are more than two right ones: the sum of
+   * their cotangents is negative. */
+  bool
+  isAgainstDelaunay(std::uint32_t a,
+                    std::uint32_t b,
+                    std::uint32_t c,
+                    std::uint32_t d) const
+  {
+    const auto cotangent = [&](std::uint32_t tip) {
+      const Eigen::Vector3d u = placeOf(a) - placeOf(tip),
+                            v = placeOf(b) - placeOf(tip);
+      return u.dot(v) / u.cross(v).norm();
+    };
+    constexpr double rounding = 1e-9;
+    return cotangent(c) + cotangent(d) < -rounding;
+  }
+
+  WorkingMesh& mesh_;
+  HalfEdges edges_;
+  std::vector<Foot> feet_; // by vertex, where the surface is known
+  std::vector<bool> is_gone_;
+  unsigned threads_;
+  std::vector<std::uint32_t> around_, other_around_, tip_around_;
+  std::vector<Foot> nearby_feet_;
+};
+
+} // namespace
+
+void
+remesh(WorkingMesh& mesh, double edge_length, unsigned threads)
+{
+  Remesher remesher(mesh, edge_length, threads);
+  remesher.smooth(first_rounds);
+  remesher.collapseShort();
+  for (int i = 0; i < 2; ++i) {
+    remesher.smooth(later_rounds);
+    remesher.flipToDelaunay();
+  }
+  remesher.finish();
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/number_range.h"
+#include "common/parameter_json.h"
+#include "common/scalar_field.h"
+#include "isosurface/isopoints.h"
+#include "isosurface/piece_isopoints.h"
+#include "mesh/band_surface.h"
+#include "mesh/mesh_vertices.h"
+#include "mesh/remeshing.h"
+#include "mesh/surface_pieces.h"
+#include "neighbors/sample_values.h"
+#include <pcl_uvol/mesh/surface_mesh.h>
+
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+std::string
+SurfaceMeshParameters::toJson() const
+{
+  return writeJson(*this);
+}
+
+SurfaceMeshParameters
+SurfaceMeshParameters::fromJson(const std::string& text)
+{
+  return readJson<SurfaceMeshParameters>(text);
+}
+
+void
+checkParameters(const SurfaceMeshParameters& parameters)
+{
+  checkParameters(parameters.isosurface);
+  const double length = parameters.meshing.edge_length;
+  if (!(length >= 0.0) || !std::isfinite(length))
+    throw InvalidArgument("The edge length " + std::to_string(length) +
+                          " is not allowed: it must be a length from 0.");
+  if (parameters.isosurface.interpolation == Interpolation::Linear)
+    throw InvalidArgument(
+        "A mesh needs interpolation by fits: between samples alone its "
+        "topology would not be that of the field.");
+  if (parameters.isosurface.neighbors != NeighborSource::KdTree)
+    throw InvalidArgument(
+        "A mesh is made from the cells of the kd-tree: neighbours from "
+        "a Voronoi diagram are of no use to it.");
+}
+
+void
+SurfaceTriangles::append(const SurfaceTriangles& other)
+{
+  const auto first = static_cast<std::uint32_t>(vertices.size());
+  const auto first_piece = static_cast<std::int32_t>(pieces.size());
+  const auto join = [](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  join(other.vertices, vertices);
+  join(other.edges, edges);
+  for (const auto& [a, b, c] : other.triangles)
+    triangles.push_back({a + first, b + first, c + first});
+  for (const std::int32_t piece : other.piece_of)
+    piece_of.push_back(piece + first_piece);
+  join(other.is_on_cap, is_on_cap);
+  join(other.pieces, pieces);
+  smallest_angle = std::min(smallest_angle, other.smallest_angle);
+  cap_part = std::max(cap_part, other.cap_part);
+}
+
+namespace detail {
+
+namespace {
+
+/** A cap that closes more of a surface than this may be on the wrong side of it. */
+constexpr double large_cap = 0.1;
+
+/** Of the triangles: smooth fields have none that is folded. */
+constexpr double many_folds = 0.01;
+
+/** Samples in a tree of compact cells, and their values. */
+struct MeshSamples {
+  SampleSet::ConstPtr samples;
+  ValueFrame frame;
+  SampleValues values;
+  NodeRanges ranges;
+};
+
+MeshSamples
+readSamples(const CloudView& cloud,
+            const pcl::Indices& indices,
+            const IsosurfaceParameters& parameters,
+            unsigned threads,
+            Report& report)
+{
+  const ScalarField field(cloud.fields, parameters.field);
+  MeshSamples read;
+  read.frame = findValueRange(cloud, field, threads).findFrame();
+  const std::vector<float> values = readValues(cloud, field, read.frame, threads);
+  const std::vector<std::uint32_t> use = pointsWithValue(values, indices, field);
+  read.samples = SampleSet::build(cloud.xyz(0),
+                                  cloud.stride(),
+                                  use,
+                                  toPosition(parameters.scale),
+                                  threads,
+                                  report,
+                                  SplitRule::LongestSide);
+  report.count("no_value", indices.size() - use.size());
+  report.count("samples", read.samples->size());
+  const StepTimer step(report, "ranges");
+  read.values = gatherValues(*read.samples, values, threads, report);
+  read.ranges = read.samples->getTree().computeRanges(read.values.values, threads);
+  return read;
+}
+
+/** Leave the surface open where it reaches the box. */
+void
+openCaps(WorkingMesh& mesh)
+{
+  const auto is_on_cap = [&](std::uint32_t vertex) {
+    return mesh.vertices[vertex].cap >= 0;
+  };
+  mesh.triangles.erase(
+      std::remove_if(mesh.triangles.begin(),
+                     mesh.triangles.end(),
+                     [&](const Triangle& triangle) {
+                       return std::any_of(triangle.begin(), triangle.end(), is_on_cap);
+                     }),
+      mesh.triangles.end());
+  mesh.dropUnused();
+  std::vector<std::uint32_t> source_of;
+  splitPinchedVertices(mesh.triangles, mesh.vertices.size(), source_of);
+  for (const std::uint32_t source : source_of)
+    mesh.vertices.push_back(mesh.vertices[source]);
+}
+
+void
+dropSmallPieces(WorkingMesh& mesh, std::size_t least, Report& report)
+{
+  if (least == 0)
+    return;
+  const PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
+  const auto is_small = [&](const Triangle& triangle) {
+    const auto piece = static_cast<std::size_t>(list.of_vertex[triangle[0]]);
+    return list.pieces[piece].triangles < least;
+  };
+  mesh.triangles.erase(
+      std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_small),
+      mesh.triangles.end());
+  mesh.dropUnused();
+  report.count("dropped_pieces",
+               static_cast<std::uint64_t>(std::count_if(
+                   list.pieces.begin(), list.pieces.end(), [&](const auto& piece) {
+                     return piece.triangles < least;
+                   })));
+}
+
+void
+warnOfCaps(const SurfaceTriangles& surface,
+           double isovalue,
+           Outside outside,
+           Report& report)
+{
+  if (surface.cap_part <= large_cap)
+    return;
+  const long percent = std::lround(100.0 * surface.cap_part);
+  report.warnings.push_back(
+      "Of the mesh at " + describeNumbers({isovalue})[0] + " " +
+      std::to_string(percent) +
+      " % of the area are caps at the border of the samples: if values are " +
+      (outside == Outside::Lower ? "higher" : "lower") +
+      " outside of the surface you want, ask for the other outside.");
+}
+
+void
+warnOfFolds(Report& report)
+{
+  const std::uint64_t folds = report.getCount("folds"),
+                      triangles = report.getCount("triangles");
+  if (static_cast<double>(folds) <= many_folds * static_cast<double>(triangles))
+    return;
+  report.warnings.push_back(
+      std::to_string(folds) + " of " + std::to_string(triangles) +
+      " triangles look away from the surface they are on: the samples there are too "
+      "sparse, too noisy or too stretched for a mesh; a level set or a scale may "
+      "help.");
+}
+
+} // namespace
+
+SurfaceTriangles
+makeSurfaceMesh(const CloudView& cloud,
+                const pcl::Indices& indices,
+                const SurfaceMeshParameters& parameters,
+                const std::vector<double>& shown_isovalues,
+                unsigned threads,
+                Report& report)
+{
+  checkParameters(parameters);
+  checkIndices(indices, cloud.count, "SurfaceMesh");
+  const IsosurfaceParameters& isosurface = parameters.isosurface;
+  const MeshSamples read = readSamples(cloud, indices, isosurface, threads, report);
+  const TouchingCells candidates(*read.samples);
+  const IsopointInput input{*read.samples,
+                            read.values.values,
+                            read.ranges,
+                            candidates,
+                            isosurface.criterion,
+                            isosurface.outside,
+                            isosurface.interpolation,
+                            threads};
+  const NodeRanges::Range range = read.ranges[read.samples->getTree().getRoot()];
+  SurfaceTriangles all;
+  for (std::size_t i = 0; i < isosurface.isovalues.size(); ++i) {
+    const double isovalue = isosurface.isovalues[i], shown = shown_isovalues[i];
+    const auto rounded = static_cast<float>(read.frame.apply(isovalue));
+    if (!(range.min < rounded && rounded <= range.max)) {
+      warnIfOutside(isovalue, isosurface.field, range, read.frame, report);
+      continue;
+    }
+    WorkingMesh mesh = makeBandSurface(input, rounded, report);
+    if (parameters.meshing.open)
+      openCaps(mesh);
+    if (parameters.meshing.remesh == Remeshing::Even) {
+      const StepTimer step(report, "remeshing");
+      remesh(mesh, parameters.meshing.edge_length, threads);
+    }
+    dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
+    SurfaceTriangles surface =
+        finishMesh(input, rounded, std::move(mesh), read.values.sources, report);
+    warnOfCaps(surface, shown, isosurface.outside, report);
+    for (PointIso& vertex : surface.vertices)
+      vertex.isovalue = static_cast<float>(shown);
+    for (SurfacePiece& piece : surface.pieces)
+      piece.isovalue = shown;
+    all.append(surface);
+  }
+  report.setCount("vertices", all.vertices.size());
+  report.setCount("triangles", all.triangles.size());
+  warnOfFolds(report);
+  return all;
+}
+
+} // namespace detail
+
+pcl::PolygonMesh
+toPolygonMesh(const SurfaceTriangles& surface,
+              const CloudView& samples,
+              unsigned threads,
+              Report& report)
+{
+  pcl::PolygonMesh mesh;
+  pcl::toPCLPointCloud2(surface.vertices, mesh.cloud);
+  warnOfReplacedFields(samples.fields, mesh.cloud.fields, report);
+  interpolateFields(samples, surface.edges, mesh.cloud, threads);
+  mesh.header = mesh.cloud.header;
+  mesh.polygons.resize(surface.triangles.size());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    mesh.polygons[i].vertices.assign(surface.triangles[i].begin(),
+                                     surface.triangles[i].end());
+  return mesh;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mesh is made of: connected pieces, their handles and rims.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/mesh/surface_mesh.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief The connected pieces of triangles. */
+struct PieceList {
+  std::vector<std::int32_t> of_vertex; ///< among pieces; -1 without a triangle
+  std::vector<SurfacePiece> pieces;    ///< by falling number of triangles, of equal
+                                       ///< ones by their first vertex; isovalue 0
+};
+
+/** \brief \throws std::logic_error unless the triangles are an oriented manifold */
+PCL_UVOL_EXPORTS PieceList
+findPieces(std::vector<Triangle>& triangles, std::size_t vertices);
+
+/** \brief Give every vertex whose triangles are several fans a copy for each further
+ * one, as rims that touch in a point have. \param source_of gets, behind the other
+ * vertices, the one that each copy is of
+ * \return the vertices with copies */
+PCL_UVOL_EXPORTS std::size_t
+splitPinchedVertices(std::vector<Triangle>& triangles,
+                     std::size_t vertices,
+                     std::vector<std::uint32_t>& source_of);
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/mesh_options.h"
+
+#include <pcl_uvol/io/mesh.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace uvol_tools {
+
+void
+MeshOptions::declare(Options& options)
+{
+  options.flag("mesh",
+               is_asked_for_,
+               "make a closed triangle mesh whose vertices are isopoints; .obj, .off "
+               "and .stl imply it, .ply and .vtp hold one as well");
+  options.choice("remesh",
+                 parameters_.remesh,
+                 "with -mesh: even triangles, or those between the cells as they are");
+  options.number("edge-length",
+                 parameters_.edge_length,
+                 0.0,
+                 std::numeric_limits<double>::max(),
+                 "with -mesh: length of edges, about; 0: that of the local spacing");
+  options.flag("open",
+               parameters_.open,
+               "with -mesh: leave the surface open at the border of the samples "
+               "instead of closing it by caps");
+  options.integer("drop-pieces",
+                  drop_pieces_,
+                  0,
+                  std::numeric_limits<std::int32_t>::max(),
+                  "with -mesh: leave out pieces of fewer triangles");
+}
+
+std::optional<pcl_uvol::MeshingParameters>
+MeshOptions::finish(const Options& options, const std::string& output) const
+{
+  if (!is_asked_for_ && !pcl_uvol::isMeshOnly(output)) {
+    for (const char* const name : {"remesh", "edge-length", "open", "drop-pieces"})
+      if (options.given(name))
+        throw UsageError(std::string("-") + name + " needs -mesh.");
+    return std::nullopt;
+  }
+  pcl_uvol::checkMeshPath(output);
+  if (parameters_.remesh == pcl_uvol::Remeshing::None && options.given("edge-length"))
+    throw UsageError("-edge-length needs -remesh even.");
+  pcl_uvol::MeshingParameters parameters = parameters_;
+  parameters.drop_pieces = drop_pieces_;
+  return parameters;
+}
+
+Facts
+describeMesh(const pcl_uvol::IsosurfaceResult& result)
+{
+  constexpr std::size_t most_shown = 6;
+  std::ostringstream text;
+  Fact::Numbers isovalues, triangles, genus, rims;
+  for (const pcl_uvol::SurfacePiece& piece : result.pieces) {
+    if (isovalues.size() < most_shown) {
+      text << (isovalues.empty() ? "" : "; ") << piece.triangles << " triangles, genus "
+           << piece.genus;
+      if (piece.rims > 0)
+        text << ", " << piece.rims << (piece.rims == 1 ? " rim" : " rims");
+    }
+    isovalues.push_back(piece.isovalue);
+    triangles.push_back(piece.triangles);
+    genus.push_back(piece.genus);
+    rims.push_back(piece.rims);
+  }
+  if (result.pieces.size() > most_shown)
+    text << "; and " << result.pieces.size() - most_shown << " more";
+  std::ostringstream angle;
+  angle.precision(3);
+  angle << result.smallest_angle << " degrees";
+  return {{"pieces",
+           text.str(),
+           Fact::Members{{"isovalue", isovalues},
+                         {"triangles", triangles},
+                         {"genus", genus},
+                         {"rims", rims}}},
+          {"smallest angle", angle.str(), result.smallest_angle}};
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options of meshes, and what is told of one.
+#pragma once
+
+#include "shared/facts.h"
+#include "shared/options.h"
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace uvol_tools {
+
+/** \brief -mesh and what goes with it. */
+class MeshOptions {
+public:
+  void
+  declare(Options& options);
+
+  /** \brief How to mesh; none unless it was asked for, by -mesh or by the ending of the
+   * output. \throws UsageError for options of meshes without one */
+  std::optional<pcl_uvol::MeshingParameters>
+  finish(const Options& options, const std::string& output) const;
+
+private:
+  bool is_asked_for_ = false;
+  std::uint64_t drop_pieces_ = 0;
+  pcl_uvol::MeshingParameters parameters_;
+};
+
+/** \brief Triangles, pieces with their genus and rims, and the smallest angle. */
+Facts
+describeMesh(const pcl_uvol::IsosurfaceResult& result);
+
+} // namespace uvol_tools
