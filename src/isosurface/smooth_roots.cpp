@@ -124,7 +124,8 @@ private:
         const float radius = gaps[lane] > 0.0f
                                  ? gaps[lane]
                                  : static_cast<float>(surroundings[lane].radius);
-        fits[i] = {RootOutcome::Far, radius, radius};
+        fits[i] = {
+            RootOutcome::Far, radius, radius, std::numeric_limits<float>::quiet_NaN()};
         keepInGap(edges[i], points[i]);
         doubtful_.push_back({i, centers[lane], 0.0, true});
         continue;

@@ -47,6 +47,8 @@ change(T& value)
     value += "\"|v,é|";
   else if constexpr (std::is_same_v<T, std::optional<double>>)
     value = 0.125;
+  else if constexpr (std::is_same_v<T, std::optional<pcl_uvol::MeshingParameters>>)
+    value.emplace();
   else if constexpr (std::is_same_v<T, std::vector<double>>)
     value.push_back(0.1);
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
