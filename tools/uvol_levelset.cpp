@@ -214,6 +214,8 @@ makeZeroLevel(const pcl_uvol::Dataset& samples,
   pcl_uvol::IsosurfacePipelineParameters how;
   how.isosurface.isovalues = {parameters.isovalue};
   how.isosurface.scale = parameters.scale;
+  how.isosurface.interpolation =
+      pcl_uvol::Interpolation::Fit; // the level set fills gaps
   pcl::PointCloud<pcl_uvol::PointIso> isopoints;
   pcl_uvol::IsoEdges edges;
   Report report;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace pcl_uvol {
 
@@ -350,18 +351,23 @@ chooseIsopoints(const CloudView& samples,
                 Report& report)
 {
   const StepTimer timer(report, "normals");
-  const StretchedEdges stretched(samples, edges, parameters.isosurface);
+  const Interpolation interpolation = parameters.isosurface.interpolation;
   IsopointChoice choice;
-  if (parameters.isosurface.interpolation == Interpolation::Linear)
+  // Samples whose field made the isopoints are needed only where these may go back.
+  std::optional<StretchedEdges> stretched;
+  if (interpolation == Interpolation::Auto ||
+      withErrors(parameters).interpolation != interpolation)
+    stretched.emplace(samples, edges, parameters.isosurface);
+  if (interpolation == Interpolation::Linear && stretched)
     for (std::size_t i = 0; i < isopoints.size(); ++i)
       if (!isSupport(isopoints[i], IsoSupport::Unknown))
-        returnToEdge(stretched, edges[i].t, i, isopoints[i]);
+        returnToEdge(*stretched, edges[i].t, i, isopoints[i]);
   for (const PointIso& point : isopoints)
     choice.method.push_back(hasFit(point) ? IsoMethod::Fit : IsoMethod::Linear);
   choice.orientation.resize(isopoints.size());
   orientIsopoints(parameters, threads, isopoints, choice, report);
-  if (parameters.isosurface.interpolation == Interpolation::Auto)
-    returnDoubtful(stretched, edges, parameters, threads, isopoints, choice);
+  if (interpolation == Interpolation::Auto)
+    returnDoubtful(*stretched, edges, parameters, threads, isopoints, choice);
   return choice;
 }
 

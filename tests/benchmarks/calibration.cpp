@@ -79,8 +79,8 @@ printScattered(std::size_t n, std::uint64_t seed)
   for (const char* const name : {"radial", "waves", "gyroid"})
     for (const bool clustered : {false, true}) {
       const auto field = uvol_test::makeSmoothField(name, n);
-      const Surface surface =
-          extract(uvol_test::sampleSmoothField(field, n, seed, clustered), field.isovalue);
+      const Surface surface = extract(
+          uvol_test::sampleSmoothField(field, n, seed, clustered), field.isovalue);
       printRow(std::string(name) + (clustered ? ", clustered" : ", uniform"),
                surface,
                uvol_test::deviations(field, surface),
@@ -111,14 +111,15 @@ printHoles(std::size_t n, std::uint64_t seed)
   const auto field = uvol_test::makeSmoothField("radial", n);
   for (const double radius : {2.0, 4.0}) {
     Cloud::Ptr cloud(new Cloud);
-    for (const auto& point : *uvol_test::sampleSmoothField(field, n, seed, false)) {
+    const auto samples = uvol_test::sampleSmoothField(field, n, seed, false);
+    for (const auto& point : *samples) {
       const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
       bool is_in_hole = false;
       for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0})
-          is_in_hole = is_in_hole || (x - side * field.isovalue *
-                                              Eigen::Vector3d::Unit(axis))
-                                             .norm() < radius;
+          is_in_hole =
+              is_in_hole ||
+              (x - side * field.isovalue * Eigen::Vector3d::Unit(axis)).norm() < radius;
       if (!is_in_hole)
         cloud->push_back(point);
     }
@@ -134,12 +135,13 @@ printHoles(std::size_t n, std::uint64_t seed)
 void
 printNoise(double noise, std::uint64_t seed)
 {
-  const auto noisy = uvol_test::makeNoisyCloud(uvol_test::makeShape("sphere"), noise, seed);
+  const auto noisy =
+      uvol_test::makeNoisyCloud(uvol_test::makeShape("sphere"), noise, seed);
   const auto distances = [&](const Surface& surface) {
     std::vector<double> found;
     for (const auto& point : surface)
-      found.push_back(std::abs(
-          noisy.shape.distance(point.getVector3fMap().cast<double>())));
+      found.push_back(
+          std::abs(noisy.shape.distance(point.getVector3fMap().cast<double>())));
     return found;
   };
   const auto isInside = [&](const pcl_uvol::PointIso& point) {

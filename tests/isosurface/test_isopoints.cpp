@@ -76,11 +76,12 @@ TEST(PlaceIsopoint, IsLinearAlongTheEdgeInTheCoordinatesOfTheInput)
         EXPECT_NEAR(
             0.0, (field.place(a) + 0.25 * along - toVector(point.data)).norm(), 1e-6);
         const bool forwards = (fb < fa) == (outside == Outside::Lower);
-        EXPECT_NEAR(
-            0.0,
-            ((forwards ? 1.0 : -1.0) * along.normalized() - toVector(point.data_n))
-                .norm(),
-            1e-6);
+        // A normal is a covector of the stretched space.
+        const Vector3d squares(1.0, 4.0, 0.25);
+        const Vector3d normal = along.cwiseProduct(squares).normalized();
+        EXPECT_NEAR(0.0,
+                    ((forwards ? 1.0 : -1.0) * normal - toVector(point.data_n)).norm(),
+                    1e-6);
         EXPECT_NEAR(along.norm(), point.edge_length, 1e-6);
         EXPECT_EQ(static_cast<float>(isovalue), point.isovalue);
       }

@@ -322,7 +322,8 @@ roughBall()
   std::vector<pcl_uvol::PointSplat> splats;
   std::mt19937_64 engine(4);
   std::normal_distribution<double> off(0.0, 0.004);
-  for (const pcl::PointNormal& point : *makeSphere(6000, 1)) {
+  const auto sphere = makeSphere(6000, 1);
+  for (const pcl::PointNormal& point : *sphere) {
     const Vector normal = point.getNormalVector3fMap().cast<double>();
     const Vector tilted = normal + 10.0 * Vector(off(engine), off(engine), off(engine));
     splats.push_back(discAt((1.0 + off(engine)) * normal, tilted, 0.06));

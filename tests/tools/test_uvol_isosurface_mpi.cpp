@@ -161,7 +161,7 @@ TEST_P(IsosurfaceMpiOnShapes, WritesThePointsOfOneProcess)
 {
   save("in.pcd", labelled(*uvol_test::makeCloud(GetParam(), 3000, 7)));
   const std::string options = " -iso 0.41234,0.2 -field intensity";
-  runAlone("in.pcd alone.pcd" + options);
+  runAlone("in.pcd alone.pcd -interpolation fit" + options);
   const auto expected = sortedPoints({folder_ / "alone.pcd"});
   EXPECT_LT(10u, expected.size());
   for (const std::size_t processes : {1, 2, 3, 4, 8}) {
@@ -200,7 +200,7 @@ TEST_F(IsosurfaceMpi, TakesPiecesWhereverTheirPointsAre)
   const auto dataset = labelled(*uvol_test::makeCloud("uniform", 3000, 4));
   save("in.vtp", dataset);
   const std::string options = " out.pvtp -iso 0.4 -field intensity";
-  runAlone("in.vtp alone.pcd -iso 0.4 -field intensity");
+  runAlone("in.vtp alone.pcd -iso 0.4 -field intensity -interpolation fit");
   const auto expected = sortedPoints({folder_ / "alone.pcd"});
   const auto expectExpected = [&](std::size_t processes, const std::string& input) {
     expectSuccess(processes, input + options);
@@ -220,7 +220,7 @@ TEST_F(IsosurfaceMpi, MergesDuplicatesAcrossProcesses)
   const auto once = *cloud;
   *cloud += once;
   save("in.pcd", labelled(*cloud));
-  runAlone("in.pcd alone.pcd -iso 0.4 -field intensity");
+  runAlone("in.pcd alone.pcd -iso 0.4 -field intensity -interpolation fit");
   expectSuccess(4, "in.pcd out.pvtp -iso 0.4 -field intensity -json");
   EXPECT_EQ(sortedPoints({folder_ / "alone.pcd"}), sortedPoints(piecesOf("out.pvtp")));
 }
