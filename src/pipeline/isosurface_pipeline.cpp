@@ -442,7 +442,8 @@ finishIsosurface(const Dataset& samples,
   const CloudView view = viewOf(samples.cloud);
   IsopointChoice choice =
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
-  warnOfGuesses(isopoints, choice, report);
+  if (!parameters.mesh) // which tells of its caps and folds itself
+    warnOfGuesses(isopoints, choice, report);
   dropIsopoints(isopoints, edges, choice, parameters, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
