@@ -193,6 +193,9 @@ public:
   {
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
+    if (neighbors_.size() < few_neighbors &&
+        !surfaces_.empty()) // others crowd them out
+      gather(many_.find(position, typical_distance), point);
     nearest.fill(point);
     for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
       nearest[i] = neighbors_[i].second;

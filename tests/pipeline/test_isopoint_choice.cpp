@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where isopoints lie and how they are oriented, chosen one by one.
 #include "common/scalar_field.h"
+#include "pipeline/run_pipeline.h"
 #include "support/environment.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -74,18 +75,6 @@ makeParameters(Interpolation interpolation)
   return parameters;
 }
 
-IsosurfaceResult
-run(const std::shared_ptr<Dataset>& samples,
-    const IsosurfacePipelineParameters& parameters,
-    unsigned threads = 0)
-{
-  IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
-  pipeline.setParameters(parameters);
-  pipeline.setNumberOfThreads(threads);
-  return pipeline.run();
-}
-
 pcl::PointCloud<PointIso>
 isopointsOf(const IsosurfaceResult& result)
 {
@@ -118,8 +107,9 @@ meanCosine(const pcl::PointCloud<PointIso>& points, const Eigen::Vector3f& direc
 TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
 {
   const auto samples = makeSphere(20000);
-  const auto fit = run(samples, makeParameters(Interpolation::Fit));
-  const auto chosen = run(samples, makeParameters(Interpolation::Auto));
+  const auto fit = uvol_test::runPipeline(samples, makeParameters(Interpolation::Fit));
+  const auto chosen =
+      uvol_test::runPipeline(samples, makeParameters(Interpolation::Auto));
   EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "method", 2));
   EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "orientation", 2));
   const auto a = isopointsOf(fit), b = isopointsOf(chosen);
@@ -137,8 +127,9 @@ TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
 TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
 {
   const auto samples = makeProfiles(60, 1.0f, 0.3f, 0.1f);
-  const auto fit = run(samples, makeParameters(Interpolation::Fit));
-  const auto chosen = run(samples, makeParameters(Interpolation::Auto));
+  const auto fit = uvol_test::runPipeline(samples, makeParameters(Interpolation::Fit));
+  const auto chosen =
+      uvol_test::runPipeline(samples, makeParameters(Interpolation::Auto));
   EXPECT_GT(countValue(chosen, "method", 1), 0u);
   EXPECT_GT(countValue(chosen, "orientation", 4), 0u);
   const Eigen::Vector3f truth(0.3f, 0.0f, -1.0f); // to lower values
@@ -156,7 +147,8 @@ TEST(IsopointChoice, EdgeNormalsAreCovectorsOfTheStretchedSpace)
   parameters.isosurface.scale = {1.0f, 1.0f, 100.0f};
   // In the stretched space profiles are as deep as they are apart: level isotherms
   // have upright normals but for those of edges along them.
-  const auto points = isopointsOf(run(makeProfiles(200, 0.01f, 0.05f), parameters));
+  const auto points =
+      isopointsOf(uvol_test::runPipeline(makeProfiles(200, 0.01f, 0.05f), parameters));
   std::size_t level = 0;
   for (const PointIso& point : points)
     level += std::abs(point.normal_z) < 0.7f;
@@ -167,9 +159,9 @@ TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
 {
   const auto samples = makeProfiles(60);
   auto parameters = makeParameters(Interpolation::Linear);
-  const auto all = isopointsOf(run(samples, parameters));
+  const auto all = isopointsOf(uvol_test::runPipeline(samples, parameters));
   parameters.drop_bridged = true;
-  const auto result = run(samples, parameters);
+  const auto result = uvol_test::runPipeline(samples, parameters);
   const auto measured = isopointsOf(result);
   EXPECT_GT(result.report.getCount("removed_bridged"), 0u);
   ASSERT_EQ(all.size(), measured.size() + result.report.getCount("removed_bridged"));
@@ -180,7 +172,7 @@ TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
   EXPECT_EQ(measured.size(), found);
   parameters.drop_bridged = false;
   parameters.max_error = 0.01;
-  for (const PointIso& point : isopointsOf(run(samples, parameters)))
+  for (const PointIso& point : isopointsOf(uvol_test::runPipeline(samples, parameters)))
     EXPECT_LE(point.error, 0.01f);
 }
 
@@ -188,7 +180,7 @@ TEST(IsopointChoice, ErrorsOfLinearIsopointsCoverTheirDeviations)
 {
   auto parameters = makeParameters(Interpolation::Linear);
   parameters.max_error = 1.0;
-  const auto points = isopointsOf(run(makeSphere(8000), parameters));
+  const auto points = isopointsOf(uvol_test::runPipeline(makeSphere(8000), parameters));
   std::size_t covered = 0;
   for (const PointIso& point : points)
     covered += std::abs(point.getVector3fMap().norm() - 0.6f) <= point.error;
@@ -199,8 +191,8 @@ TEST(IsopointChoice, DoesNotDependOnThreads)
 {
   const auto samples = makeProfiles(60);
   const auto parameters = makeParameters(Interpolation::Auto);
-  EXPECT_EQ(run(samples, parameters, 1).surface.cloud.data,
-            run(samples, parameters, 4).surface.cloud.data);
+  EXPECT_EQ(uvol_test::runPipeline(samples, parameters, 1).surface.cloud.data,
+            uvol_test::runPipeline(samples, parameters, 4).surface.cloud.data);
 }
 
 TEST(IsopointChoice, IsTheSameInOtherUnits)
@@ -214,8 +206,8 @@ TEST(IsopointChoice, IsTheSameInOtherUnits)
       xyz[axis] *= 0x1p30f;
   }
   const auto parameters = makeParameters(Interpolation::Auto);
-  const auto a = isopointsOf(run(samples, parameters));
-  const auto b = isopointsOf(run(larger, parameters));
+  const auto a = isopointsOf(uvol_test::runPipeline(samples, parameters));
+  const auto b = isopointsOf(uvol_test::runPipeline(larger, parameters));
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(0x1p30f * a[i].getVector3fMap(), b[i].getVector3fMap());

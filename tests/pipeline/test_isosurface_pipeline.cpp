@@ -2,6 +2,7 @@
 // The pipeline gives what its stages give one by one, in every combination.
 #include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
+#include "pipeline/run_pipeline.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -60,18 +61,6 @@ makeParameters(double isovalue = 0.0)
   return parameters;
 }
 
-IsosurfaceResult
-run(const std::shared_ptr<Dataset>& samples,
-    const IsosurfacePipelineParameters& parameters,
-    unsigned threads = 0)
-{
-  IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
-  pipeline.setParameters(parameters);
-  pipeline.setNumberOfThreads(threads);
-  return pipeline.run();
-}
-
 float
 readField(const Dataset& dataset, std::size_t point, const std::string& name)
 {
@@ -92,7 +81,7 @@ readColumn(const Dataset& dataset, const std::string& name)
 TEST(IsosurfacePipeline, CarriesFieldsOriginAndReport)
 {
   const auto samples = makeSamples();
-  const IsosurfaceResult result = run(samples, makeParameters());
+  const IsosurfaceResult result = uvol_test::runPipeline(samples, makeParameters());
   ASSERT_GT(result.surface.cloud.width, 300u);
   EXPECT_EQ(result.surface.cloud.width, result.edges.size());
   EXPECT_EQ(result.surface.cloud.width, result.report.getCount("isopoints"));
@@ -124,7 +113,7 @@ TEST(IsosurfacePipeline, IsTheExtractionWithAllFields)
   IsosurfacePipelineParameters parameters = makeParameters();
   parameters.normals = NormalMethod::Edge;
   parameters.isosurface.interpolation = Interpolation::Fit;
-  const IsosurfaceResult result = run(samples, parameters);
+  const IsosurfaceResult result = uvol_test::runPipeline(samples, parameters);
   ASSERT_EQ(alone.fields.size(), result.surface.cloud.fields.size());
   EXPECT_EQ(alone.data, result.surface.cloud.data);
 }
@@ -137,7 +126,8 @@ TEST(IsosurfacePipeline, OrientsAsItIsTold)
     parameters.isosurface.interpolation = interpolation;
     const auto normals = [&](NormalMethod method) {
       parameters.normals = method;
-      return readColumn(run(samples, parameters).surface, "normal_x");
+      return readColumn(uvol_test::runPipeline(samples, parameters).surface,
+                        "normal_x");
     };
     const auto by_default = normals(NormalMethod::Auto);
     const auto pca = normals(NormalMethod::Pca), edge = normals(NormalMethod::Edge);
@@ -153,16 +143,16 @@ TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)
 {
   const auto samples = makeSamples();
   IsosurfacePipelineParameters parameters = makeParameters();
-  const IsosurfaceResult all = run(samples, parameters);
+  const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
   parameters.max_error = all.errors->median;
-  const IsosurfaceResult some = run(samples, parameters);
+  const IsosurfaceResult some = uvol_test::runPipeline(samples, parameters);
   EXPECT_GT(some.surface.cloud.width, all.surface.cloud.width / 3);
   EXPECT_EQ(all.surface.cloud.width,
             some.surface.cloud.width + some.report.getCount("removed_by_error"));
   EXPECT_LE(some.errors->largest, static_cast<float>(*parameters.max_error));
   parameters.max_error.reset();
   parameters.drop_bridged = true;
-  const IsosurfaceResult measured = run(samples, parameters);
+  const IsosurfaceResult measured = uvol_test::runPipeline(samples, parameters);
   EXPECT_EQ(all.report.getCount("bridged"),
             measured.report.getCount("removed_bridged"));
   for (const float support : readColumn(measured.surface, "support"))
@@ -177,7 +167,7 @@ TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
   parameters.smooth = true;
   parameters.level_set.mu = 0.5;
   parameters.level_set.max_steps = 20;
-  const IsosurfaceResult result = run(samples, parameters);
+  const IsosurfaceResult result = uvol_test::runPipeline(samples, parameters);
   ASSERT_EQ(2u, result.level_sets.size());
   EXPECT_GE(20u, result.level_sets[1].steps.size());
   const auto isovalues = readColumn(result.surface, "isovalue");
@@ -194,7 +184,7 @@ TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
   IsosurfacePipelineParameters of_phi = makeParameters();
   of_phi.isosurface.field = "phi";
   of_phi.isosurface.interpolation = Interpolation::Fit; // as with a level set
-  const auto second = readColumn(run(with_phi, of_phi).surface, "x");
+  const auto second = readColumn(uvol_test::runPipeline(with_phi, of_phi).surface, "x");
   const auto both = readColumn(result.surface, "x");
   ASSERT_LT(second.size(), both.size());
   EXPECT_EQ(second,
@@ -210,8 +200,9 @@ TEST(IsosurfacePipeline, ReusesTheTreeForFurtherIsovalues)
   for (const double isovalue : {0.0, 0.2}) {
     pipeline.setParameters(makeParameters(isovalue));
     const IsosurfaceResult again = pipeline.run();
-    EXPECT_EQ(run(samples, makeParameters(isovalue)).surface.cloud.data,
-              again.surface.cloud.data);
+    EXPECT_EQ(
+        uvol_test::runPipeline(samples, makeParameters(isovalue)).surface.cloud.data,
+        again.surface.cloud.data);
     const auto& steps = again.report.milliseconds;
     EXPECT_EQ(isovalue == 0.0,
               std::any_of(steps.begin(), steps.end(), [](const auto& step) {
@@ -258,7 +249,7 @@ TEST(IsosurfacePipeline, SmoothsPointsAtOnePositionAsOneSample)
   IsosurfacePipelineParameters parameters = makeParameters();
   parameters.smooth = true;
   parameters.level_set.max_steps = 5;
-  const IsosurfaceResult result = run(samples, parameters);
+  const IsosurfaceResult result = uvol_test::runPipeline(samples, parameters);
   ASSERT_GT(result.surface.cloud.width, 300u);
   EXPECT_EQ(n, result.report.getCount("samples"));
   EXPECT_EQ(n / 2, result.report.getCount("duplicates"));
@@ -282,7 +273,8 @@ TEST(IsosurfacePipeline, SmoothsPointsAtOnePositionAsOneSample)
   for (std::size_t i = 0; i < backwards.size(); ++i)
     backwards[i] = backwards.size() - 1 - i;
   EXPECT_EQ(result.surface.cloud.data,
-            run(reordered(*samples, backwards), parameters).surface.cloud.data);
+            uvol_test::runPipeline(reordered(*samples, backwards), parameters)
+                .surface.cloud.data);
 }
 
 TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
@@ -294,7 +286,7 @@ TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
       values.push_back(unit * (2.0 + value));
     pcl_uvol::setField(*samples, "intensity", values);
     IsosurfacePipelineParameters parameters = makeParameters(2.0 * unit);
-    const IsosurfaceResult one = run(samples, parameters);
+    const IsosurfaceResult one = uvol_test::runPipeline(samples, parameters);
     EXPECT_TRUE(one.report.warnings.empty());
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(one.surface.cloud);
     const pcl_uvol::ScalarField isovalue(view.fields, "isovalue");
@@ -303,7 +295,7 @@ TEST(IsosurfacePipeline, KeepsIsovaluesThatFloatDoesNotHold)
       EXPECT_EQ(2.0 * unit, isovalue.read(view.point(i)));
     // Two that float takes for one.
     parameters.isosurface.isovalues = {2.0 * unit, 2.1 * unit};
-    EXPECT_EQ(1u, run(samples, parameters).report.warnings.size());
+    EXPECT_EQ(1u, uvol_test::runPipeline(samples, parameters).report.warnings.size());
   }
 }
 
@@ -322,7 +314,7 @@ TEST(IsosurfacePipeline, NoticesWhatWasChangedInPlace)
       samples->cloud.data[i * samples->cloud.point_step + 3] ^= 0x80; // the sign of x
     const auto after = pipeline.run().surface.cloud.data;
     EXPECT_NE(before, after);
-    EXPECT_EQ(run(samples, parameters).surface.cloud.data, after);
+    EXPECT_EQ(uvol_test::runPipeline(samples, parameters).surface.cloud.data, after);
   }
 }
 
@@ -345,7 +337,7 @@ TEST(IsosurfacePipeline, TakesTheIndices)
     for (const auto& edge : result.edges)
       EXPECT_EQ(0u, (edge.first | edge.second) % 2);
     pipeline.setIndices(nullptr);
-    EXPECT_EQ(run(samples, parameters).surface.cloud.data,
+    EXPECT_EQ(uvol_test::runPipeline(samples, parameters).surface.cloud.data,
               pipeline.run().surface.cloud.data);
   }
 }
@@ -356,16 +348,17 @@ TEST(IsosurfacePipeline, DoesNotDependOnThreads)
   IsosurfacePipelineParameters parameters = makeParameters();
   parameters.smooth = true;
   parameters.level_set.max_steps = 10;
-  const auto one = run(samples, parameters, 1).surface.cloud.data;
+  const auto one = uvol_test::runPipeline(samples, parameters, 1).surface.cloud.data;
   for (const unsigned threads : {2u, 5u})
-    EXPECT_EQ(one, run(samples, parameters, threads).surface.cloud.data);
+    EXPECT_EQ(one,
+              uvol_test::runPipeline(samples, parameters, threads).surface.cloud.data);
 }
 
 TEST(IsosurfacePipeline, WarnsOfReplacedFields)
 {
   const auto samples = makeSamples();
   pcl_uvol::setField(*samples, "error", std::vector<float>(4000, 1.0f));
-  const auto result = run(samples, makeParameters());
+  const auto result = uvol_test::runPipeline(samples, makeParameters());
   ASSERT_EQ(1u, result.report.warnings.size());
   EXPECT_NE(result.report.warnings[0].find("'error'"), std::string::npos);
 }
@@ -394,12 +387,13 @@ TEST(IsosurfacePipeline, ForecastsItsMemory)
 TEST(IsosurfacePipeline, RefusesWhatItCannotDo)
 {
   const auto samples = makeSamples(100);
-  EXPECT_THROW(run(nullptr, makeParameters()), InvalidArgument);
-  EXPECT_THROW(run(samples, IsosurfacePipelineParameters()), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(nullptr, makeParameters()), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(samples, IsosurfacePipelineParameters()),
+               InvalidArgument);
   const auto expect_bad = [&](auto change) {
     IsosurfacePipelineParameters parameters = makeParameters();
     change(parameters);
-    EXPECT_THROW(run(samples, parameters), InvalidArgument);
+    EXPECT_THROW(uvol_test::runPipeline(samples, parameters), InvalidArgument);
   };
   using Parameters = IsosurfacePipelineParameters;
   expect_bad([](Parameters& p) { p.isosurface.field = "nothing"; });
@@ -424,7 +418,7 @@ TEST(IsosurfacePipeline, IsEndedByItsProgress)
       [](const std::string&, double) { throw std::runtime_error("enough"); });
   EXPECT_THROW(pipeline.run(), std::runtime_error);
   pipeline.setProgressCallback(nullptr);
-  EXPECT_EQ(run(samples, makeParameters()).surface.cloud.data,
+  EXPECT_EQ(uvol_test::runPipeline(samples, makeParameters()).surface.cloud.data,
             pipeline.run().surface.cloud.data);
 }
 

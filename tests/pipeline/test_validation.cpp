@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hold-out test of the pipeline: what it says of surfaces whose truth is known.
 #include "pipeline/hold_out.h"
+#include "pipeline/run_pipeline.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -48,18 +49,6 @@ makeParameters(std::size_t folds)
   return parameters;
 }
 
-IsosurfaceResult
-run(const std::shared_ptr<Dataset>& samples,
-    const IsosurfacePipelineParameters& parameters,
-    unsigned threads = 0)
-{
-  IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
-  pipeline.setParameters(parameters);
-  pipeline.setNumberOfThreads(threads);
-  return pipeline.run();
-}
-
 void
 expectEqual(const ValidationScore& a, const ValidationScore& b)
 {
@@ -86,7 +75,7 @@ TEST(Validation, FindsAWellSampledSurfaceRight)
     auto parameters = makeParameters(5);
     parameters.validation.by = by;
     parameters.validation.field = "track";
-    const auto result = run(samples, parameters);
+    const auto result = uvol_test::runPipeline(samples, parameters);
     ASSERT_EQ(1u, result.validation.size());
     const ValidationScore& score = result.validation[0];
     EXPECT_EQ(8000u, score.tested);
@@ -134,7 +123,7 @@ TEST(Validation, CountsWhatItIsTold)
 
 TEST(Validation, SaysThatNoiseHasNoSurface)
 {
-  const auto result = run(makeSphere(3000, true), makeParameters(5));
+  const auto result = uvol_test::runPipeline(makeSphere(3000, true), makeParameters(5));
   const ValidationScore& score = result.validation.at(0);
   EXPECT_NEAR(0.5, score.side.predicted, 0.05);
   EXPECT_NEAR(0.5, score.field.predicted, 0.05);
@@ -188,24 +177,28 @@ TEST(Validation, KnowsThePartOfSamplesNearTheSurface)
 TEST(Validation, DoesNotDependOnThreadsOrUnits)
 {
   auto parameters = makeParameters(4);
-  const auto one = run(makeSphere(3000), parameters, 1).validation.at(0);
-  expectEqual(one, run(makeSphere(3000), parameters, 4).validation.at(0));
-  expectEqual(one, run(makeSphere(3000, false, 0x1p20f), parameters).validation.at(0));
+  const auto one =
+      uvol_test::runPipeline(makeSphere(3000), parameters, 1).validation.at(0);
+  expectEqual(one,
+              uvol_test::runPipeline(makeSphere(3000), parameters, 4).validation.at(0));
+  expectEqual(one,
+              uvol_test::runPipeline(makeSphere(3000, false, 0x1p20f), parameters)
+                  .validation.at(0));
 }
 
 TEST(Validation, LeavesTheSurfaceAsItIs)
 {
   const auto samples = makeSphere(3000);
-  EXPECT_EQ(run(samples, makeParameters(0)).surface.cloud.data,
-            run(samples, makeParameters(3)).surface.cloud.data);
-  EXPECT_TRUE(run(samples, makeParameters(0)).validation.empty());
+  EXPECT_EQ(uvol_test::runPipeline(samples, makeParameters(0)).surface.cloud.data,
+            uvol_test::runPipeline(samples, makeParameters(3)).surface.cloud.data);
+  EXPECT_TRUE(uvol_test::runPipeline(samples, makeParameters(0)).validation.empty());
 }
 
 TEST(Validation, HasOneScorePerIsovalue)
 {
   auto parameters = makeParameters(3);
   parameters.isosurface.isovalues = {0.1, 5.0};
-  const auto scores = run(makeSphere(3000), parameters).validation;
+  const auto scores = uvol_test::runPipeline(makeSphere(3000), parameters).validation;
   ASSERT_EQ(2u, scores.size());
   EXPECT_GT(scores[0].covered, 0u);
   EXPECT_EQ(0u, scores[1].covered); // out of the range of values
@@ -216,15 +209,15 @@ TEST(Validation, HasOneScorePerIsovalue)
 TEST(Validation, RefusesWhatItCannotDo)
 {
   const auto samples = makeSphere(500);
-  EXPECT_THROW(run(samples, makeParameters(1)), InvalidArgument);
-  EXPECT_THROW(run(samples, makeParameters(501)), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(samples, makeParameters(1)), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(samples, makeParameters(501)), InvalidArgument);
   auto parameters = makeParameters(3);
   parameters.validation.by = ValidateBy::Field;
   parameters.validation.field = "nothing";
-  EXPECT_THROW(run(samples, parameters), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(samples, parameters), InvalidArgument);
   parameters.validation.field = "track";
   parameters.validation.folds = 6; // there are 5
-  EXPECT_THROW(run(samples, parameters), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(samples, parameters), InvalidArgument);
 }
 
 TEST(Validation, ItsParametersAreWrittenAndRead)

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline run on samples, as its tests do.
+#pragma once
+
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <memory>
+
+namespace uvol_test {
+
+inline pcl_uvol::IsosurfaceResult
+runPipeline(const std::shared_ptr<pcl_uvol::Dataset>& samples,
+            const pcl_uvol::IsosurfacePipelineParameters& parameters,
+            unsigned threads = 0)
+{
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  pipeline.setNumberOfThreads(threads);
+  return pipeline.run();
+}
+
+} // namespace uvol_test
