@@ -8,9 +8,10 @@ namespace uvol_tools {
 
 namespace {
 
-/** Bytes of a picture in image space, per pixel, where the object covers half of them:
- * blended discs take memory where they are. Measured on 9 million pixels. */
-constexpr double pixel_bytes = 30.0;
+/** Bytes of a picture in image space, per pixel; blended discs take memory where they
+ * are. Measured on 9 million pixels that an object fills, and as the mean of what a
+ * torus and a sphere take to which the camera is fitted. */
+constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 34.0;
 
 } // namespace
 
@@ -114,8 +115,9 @@ SurfacePicture::addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast)
   if (is_ray_traced_)
     forecast.run(pcl_uvol::splatsNeed(points, points, true));
   else
-    forecast.run(
-        {pixel_bytes * pixels + pcl_uvol::splatsNeed(points, 0.0, true).peak, 0.0});
+    forecast.run({(look_.isFitted() ? fitted_pixel_bytes : full_pixel_bytes) * pixels +
+                      pcl_uvol::splatsNeed(points, 0.0, true).peak,
+                  0.0});
 }
 
 } // namespace uvol_tools
