@@ -58,3 +58,8 @@ def count(value, what):
     if not 0 <= number < 2**31:
         raise ValueError(f"{what} is {value!r}: it must be a whole number from 0.")
     return number
+
+
+def from_json(text):
+    """The dictionary of the library's parameters; what is not given is None."""
+    return json.loads(text)

@@ -6,10 +6,11 @@ import os
 import numpy as np
 
 from . import _arrays
+from ._bridges import Bridges
 from ._errors import FieldError
 
 
-class Points:
+class Points(Bridges):
     """Points with named fields, in the memory of the library.
 
     Arrays that are taken out of it are views that cannot be written to; they keep the
@@ -98,19 +99,6 @@ class Points:
     def _comments(self):
         """Lines for files that have comments."""
         return []
-
-    def to_dataframe(self):
-        """All fields as a pandas.DataFrame: x, y, z in double where they have an origin,
-        numbers of one field as `vel_0`, `vel_1`, ..."""
-        import pandas
-        columns = {axis: self.points[:, place] for place, axis in enumerate("xyz")}
-        for name in self.keys():
-            values = self[name]
-            if values.ndim == 1:
-                columns[name] = values
-            else:
-                columns.update((f"{name}_{place}", values[:, place]) for place in range(values.shape[1]))
-        return pandas.DataFrame(columns)
 
     def __getstate__(self):
         state = self.__dict__.copy()

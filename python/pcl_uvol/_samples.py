@@ -148,7 +148,7 @@ class Samples(Points):
         for name in self.keys():
             values = self.records.dtype[name]
             fields.append(f"{name} ({values.base}" + (f" x {values.shape[0]})" if values.shape else ")"))
-        return f"Samples of {len(self)} points: {', '.join(fields) or 'no fields'}"
+        return f"{type(self).__name__} of {len(self)} points: {', '.join(fields) or 'no fields'}"
 
 
 def _split(records, axes):

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Isosurfaces: extraction and what comes out."""
 
+import base64
+import html
 import os
 
-import numpy as np
-
 from . import _arrays, _core, _parameters, _report
+from ._pictures import Drawable
 from ._points import Points
 from ._progress import listening
 from ._samples import as_samples
 
-_NO_TRIANGLES = np.empty((0, 3), np.uint32)
 
-
-class Surface(Points):
+class Surface(Drawable, Points):
     """Points of one or several isosurfaces, with normals and all fields of the samples.
 
     Attributes
@@ -77,6 +76,19 @@ class Surface(Points):
 
     def __repr__(self):
         return self._describe()
+
+    def _repr_html_(self):
+        """A picture, counts and warnings: what a notebook shows."""
+        picture = self._repr_png_()
+        image = base64.b64encode(picture).decode() if picture else ""
+        lines = [f"<b>{html.escape(self._describe())}</b>"]
+        if "error" in self.report:
+            lines.append("estimated error: median {median:.3g}, 95 % within {percentile_95:.3g}".format(
+                **self.report["error"]))
+        lines += [f"&#9888; {html.escape(warning)}" for warning in self.report["warnings"]]
+        if image:
+            lines.append(f'<img src="data:image/png;base64,{image}">')
+        return "<br>".join(lines)
 
 
 class Mesh(Surface):

@@ -16,4 +16,19 @@ bindDataset(pybind11::module_& module);
 void
 bindIsosurface(pybind11::module_& module);
 
+void
+bindInterpolation(pybind11::module_& module);
+
+void
+bindSurfaceStages(pybind11::module_& module);
+
+void
+bindClusterStages(pybind11::module_& module);
+
+void
+bindSamplingStages(pybind11::module_& module);
+
+void
+bindPictures(pybind11::module_& module);
+
 } // namespace pcl_uvol::python

@@ -9,4 +9,9 @@ PYBIND11_MODULE(_core, module)
   bindErrors(module);
   bindDataset(module);
   bindIsosurface(module);
+  bindInterpolation(module);
+  bindSurfaceStages(module);
+  bindClusterStages(module);
+  bindSamplingStages(module);
+  bindPictures(module);
 }
