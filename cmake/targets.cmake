@@ -34,6 +34,7 @@ function(pcl_uvol_add_library name)
     $<BUILD_INTERFACE:pcl_uvol_warnings> $<BUILD_INTERFACE:pcl_uvol_determinism>)
   set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
   if(PCL_UVOL_INSTALL)
-    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets)
+    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets
+            LIBRARY COMPONENT libraries NAMELINK_COMPONENT development)
   endif()
 endfunction()

@@ -12,7 +12,7 @@ from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
 from ._pictures import Picture
 from ._samples import Samples
-from ._stages import (Clusters, PointSurface, Projection, VoronoiGrid, cluster, info, level_set, normals, project,
+from ._stages import (Clusters, Projection, VoronoiGrid, cluster, info, level_set, normals, project,
                       splats, voronoi)
 from ._surface import Extractor, Mesh, Surface, isosurface
 
@@ -26,7 +26,6 @@ __all__ = [
     "Lattice",
     "Mesh",
     "Picture",
-    "PointSurface",
     "Projection",
     "ResultWarning",
     "Samples",

@@ -110,6 +110,8 @@ def view_records(dataset, data=None):
 
 def view_axes(records, names, dtype=np.float32):
     """Three neighbouring numbers of each record as an array of shape (n, 3): no copy."""
+    if len(records) == 0:
+        return np.empty((0, 3), dtype)
     first = records.dtype.fields[names[0]][1]
     size = np.dtype(dtype).itemsize
     for place, name in enumerate(names):

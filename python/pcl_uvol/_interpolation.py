@@ -32,7 +32,7 @@ class Answers:
         def shaped(array, *more):
             if array is None:
                 return None
-            return array.reshape(*(() if is_single else array.shape[:1]), *shape, *more)
+            return array.reshape((() if is_single else array.shape[:1]) + shape + more)
 
         self.values = shaped(found["values"])
         self.errors = shaped(found.get("errors"))

@@ -174,9 +174,6 @@ class Drawable:
             return self._dataset
         return self._dataset.with_field(color, _parameters.count(threads, "threads"), None)[0]
 
-    def _repr_png_(self):
-        return self.render(size=(640, 480))._repr_png_() if len(self) > 0 else None
-
 
 def _finish(drawn):
     picture = Picture(*drawn)

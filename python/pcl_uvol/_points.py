@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import _arrays
+from . import _arrays, _core
 from ._bridges import Bridges
 from ._errors import FieldError
 
@@ -107,7 +107,6 @@ class Points(Bridges):
 
 
 def _describe_missing(name, names):
-    import difflib
-    similar = difflib.get_close_matches(name, names, 1)
-    hint = f" (did you mean {similar[0]!r}?)" if similar else ""
+    similar = _core.find_similar(names, name)
+    hint = f" (did you mean {similar!r}?)" if similar else ""
     return f"There is no field {name!r}{hint}; the fields are {', '.join(names) or 'none'}."

@@ -4,11 +4,12 @@
 import numpy as np
 
 from . import _arrays, _parameters, _report
+from ._pictures import Drawable
 from ._points import Points
 from ._progress import listening
 
 
-class Samples(Points):
+class Samples(Drawable, Points):
     """Samples of fields at scattered points.
 
     Parameters
@@ -148,7 +149,7 @@ class Samples(Points):
         for name in self.keys():
             values = self.records.dtype[name]
             fields.append(f"{name} ({values.base}" + (f" x {values.shape[0]})" if values.shape else ")"))
-        return f"{type(self).__name__} of {len(self)} points: {', '.join(fields) or 'no fields'}"
+        return f"Samples of {len(self)} points: {', '.join(fields) or 'no fields'}"
 
 
 def _split(records, axes):

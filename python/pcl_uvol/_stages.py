@@ -4,13 +4,8 @@
 import numpy as np
 
 from . import _core, _parameters, _report
-from ._pictures import Drawable
 from ._progress import listening
 from ._samples import Samples, as_samples
-
-
-class PointSurface(Drawable, Samples):
-    """Points on a surface with normals: what `normals` and `splats` give."""
 
 
 def _run(function, samples, parameters, threads, progress, *more):
@@ -22,8 +17,8 @@ def _run(function, samples, parameters, threads, progress, *more):
     return results
 
 
-def _with_report(cls, dataset, report):
-    samples = cls._of(dataset)
+def _with_report(dataset, report):
+    samples = Samples._of(dataset)
     samples.report = report
     return samples
 
@@ -81,7 +76,7 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
                       scale=factors)
-    return _with_report(Samples, *_run(_core.evolve_level_set, samples, parameters, threads, progress))
+    return _with_report(*_run(_core.evolve_level_set, samples, parameters, threads, progress))
 
 
 def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0, 0.0, 0.0), threads=0, progress=None):
@@ -100,13 +95,13 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0
 
     Returns
     -------
-    PointSurface
-        With normals and `curvature`.
+    Samples
+        With normals and `curvature`, and a `report`.
     """
     samples = as_samples(points, fields)
     parameters = {"k": k, "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
                   "view_point": _parameters.numbers(view_point, "view_point")}
-    return _with_report(PointSurface, *_run(_core.estimate_normals, samples, parameters, threads, progress))
+    return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 
 def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, threads=0, progress=None):
@@ -124,11 +119,11 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
 
     Returns
     -------
-    PointSurface
+    Samples
+        The splats, with a `report`.
     """
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
-    return _with_report(PointSurface,
-                        *_run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress))
+    return _with_report(*_run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress))
 
 
 class Clusters:

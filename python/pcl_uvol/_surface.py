@@ -77,6 +77,9 @@ class Surface(Drawable, Points):
     def __repr__(self):
         return self._describe()
 
+    def _repr_png_(self):
+        return self.render(size=(640, 480))._repr_png_() if len(self) > 0 else None
+
     def _repr_html_(self):
         """A picture, counts and warnings: what a notebook shows."""
         picture = self._repr_png_()

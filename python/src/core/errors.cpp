@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/similar_words.h"
 #include "core/bindings.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <exception>
+#include <pybind11/stl.h>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -35,6 +37,7 @@ bindErrors(py::module_& module)
   // Exceptions of the module itself are Python's classes: pcl_uvol/_errors.py.
   module.attr("_errors") = py::module_::import("pcl_uvol._errors");
   static const py::handle errors = py::object(module.attr("_errors")).release();
+  module.def("find_similar", &findSimilar);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown)

@@ -196,8 +196,6 @@ bindIsosurface(py::module_& module)
   py::class_<Extractor>(module, "Extractor")
       .def(py::init<>())
       .def("extract", &Extractor::extract);
-  module.def("isosurface_defaults",
-             [] { return IsosurfacePipelineParameters().toJson(); });
 }
 
 } // namespace pcl_uvol::python
