@@ -3,6 +3,7 @@
 #include "common/memory.h"
 #include "core/bindings.h"
 #include "core/interruptible.h"
+#include "pipeline/memory_need.h"
 #include "shared/convert.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -17,6 +18,9 @@ namespace pcl_uvol::python {
 namespace py = pybind11;
 
 namespace {
+
+/** Edges of a sample across the isovalue, if its value jumps to and fro. */
+constexpr double most_edges = 6.0;
 
 /** Memory that a run will not get, with the forecast. */
 class NotEnoughMemory : public std::bad_alloc {
@@ -179,8 +183,23 @@ private:
     pipeline_.setNumberOfThreads(threads);
     pipeline_.setProgressCallback(progress);
     checkParameters(pipeline_.getParameters());
-    checkForecast(samples->cloud.width, pipeline_.estimateMemory());
+    checkNeed();
     return pipeline_.run();
+  }
+
+  /** Before work whose result would be lost. The sizes of surfaces are estimated, which
+   * takes time, only where the most that there may be does not fit. */
+  void
+  checkNeed() const
+  {
+    const auto points = static_cast<double>(samples_->cloud.width);
+    const IsosurfacePipelineParameters& parameters = pipeline_.getParameters();
+    const std::vector<SurfaceSize> most(parameters.isosurface.isovalues.size(),
+                                        {points, most_edges * points});
+    MemoryForecast forecast(0.0);
+    addMemoryNeed(parameters, points, samples_->cloud.point_step, most, forecast);
+    if (forecast.getPeak() > static_cast<double>(availableMemory()))
+      checkForecast(samples_->cloud.width, pipeline_.estimateMemory());
   }
 
   std::mutex mutex_;
