@@ -3,6 +3,7 @@
 
 import base64
 import html
+import inspect
 import os
 
 from . import _arrays, _core, _parameters, _report
@@ -271,3 +272,13 @@ def isosurface(points, fields=None, **options):
     True
     """
     return Extractor(points, fields).extract(**options)
+
+
+def _show_options():
+    """Let help() and editors show the keywords of extract() as those of isosurface()."""
+    own = list(inspect.signature(isosurface).parameters.values())[:-1]
+    keywords = list(inspect.signature(Extractor.extract).parameters.values())[1:]
+    isosurface.__signature__ = inspect.Signature(own + keywords)
+
+
+_show_options()

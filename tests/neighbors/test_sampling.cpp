@@ -106,8 +106,8 @@ TEST(Sampling, TakesSamplesBothVeryNearAndVeryFar)
   for (std::uint64_t i = 0; i < 300; ++i) {
     const auto draw = [&](unsigned axis) {
       const double number = uniformAt(11, i, axis);
-      return number < 0.2 ? -0x1p63f
-                          : std::floor(static_cast<float>(7.0 * number)) - 4.0f;
+      return number < 0.3 ? -0x1p63f
+                          : std::trunc(static_cast<float>(8.0 * number) - 5.0f);
     };
     positions.push_back({{draw(0), draw(1), draw(2)}});
   }

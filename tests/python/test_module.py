@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The module as a whole: what importing it loads, its documentation, its memory."""
 
+import ast
 import doctest
 import importlib
 import inspect
+import pathlib
 import pkgutil
+import re
+import warnings
 
 import numpy as np
 import pytest
 
 import pcl_uvol as uvol
+
+FOLDER = pathlib.Path(uvol.__file__).parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def test_importing_is_quick_and_loads_neither_vtk_nor_opengl(run_python):
@@ -41,6 +48,38 @@ def test_everything_public_is_documented():
         for member, value in inspect.getmembers(thing):
             if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
                 assert inspect.getdoc(value), f"{name}.{member}"
+
+
+def test_types_of_the_stub_have_the_names_of_the_code():
+    stub = ast.parse((FOLDER / "__init__.pyi").read_text())
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    assert {name for name in {**classes, **functions} if not name.startswith("_")} == set(uvol.__all__)
+
+    def compare(node, function):
+        arguments = node.args
+        listed = [argument.arg for argument in arguments.args + arguments.kwonlyargs]
+        keywords = [parameter.name for parameter in inspect.signature(function).parameters.values()
+                    if parameter.kind != parameter.VAR_KEYWORD]
+        assert [name for name in listed if name not in ("self", "cls")] == [k for k in keywords if k != "self"], node.name
+
+    for name, node in functions.items():
+        compare(node, getattr(uvol, name))
+    for name, node in classes.items():
+        if not name.startswith("_"):
+            for method in node.body:
+                if isinstance(method, ast.FunctionDef) and not method.name.startswith("__"):
+                    compare(method, getattr(getattr(uvol, name), method.name))
+
+
+@pytest.mark.parametrize("path", ["README.md", "python/README.md"])
+def test_examples_of_the_readme_run(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / path).read_text(), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        exec(block, {})
+    assert (tmp_path / "surface.png").exists()
 
 
 def resident():
@@ -88,8 +127,7 @@ def test_random_arrays_never_crash():
         count = int(random.choice([0, 1, 2, 3, 5, 40, 300]))
         points = array((count, 3)) if random.random() < 0.8 else array(shape(count))
         fields = {name: array((count,) if random.random() < 0.8 else shape(count)) for name in "ab"}
-        with np.errstate(all="ignore"), pytest.MonkeyPatch.context():
-            import warnings
+        with np.errstate(all="ignore"), warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
                 choice = random.integers(4)
