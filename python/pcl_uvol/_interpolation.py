@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The field between the samples: at any places, along lines, in slices and grids."""
 
+import functools
+
 import numpy as np
 
 from . import _arrays, _core, _parameters, _report
@@ -87,6 +89,9 @@ class Interpolator:
     def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
                  scale=(1.0, 1.0, 1.0), kriging=None, sph=None, shepard=None, threads=0, progress=None):
         samples = as_samples(points, fields)
+        self._made_of = functools.partial(Interpolator, samples, field=field, model=model, extrapolate=extrapolate,
+                                          gradients=gradients, errors=errors, scale=scale, kriging=kriging, sph=sph,
+                                          shepard=shepard, threads=threads)
         self._is_single = isinstance(field, str)
         self._threads = _parameters.count(threads, "threads")
         names = []
@@ -238,6 +243,9 @@ class Interpolator:
 
     def _threads_of(self, threads):
         return self._threads if threads is None else _parameters.count(threads, "threads")
+
+    def __reduce__(self):
+        return self._made_of, ()
 
     def __repr__(self):
         return f"Interpolator of {', '.join(self.fields)} by {self.parameters['model']} from {len(self.samples)} points"

@@ -178,6 +178,9 @@ class Extractor:
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 
+    def __reduce__(self):
+        return Extractor, (self.samples,)
+
 
 def _validation(folds, by):
     if by in ("random", "blocks"):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields between the samples: the tool's own answers, arrays of the right shapes."""
 
+import pickle
 import threading
 
 import numpy as np
@@ -89,6 +90,13 @@ def test_queries_outside_are_a_warning(linear):
     with pytest.warns(uvol.ResultWarning):
         values, _ = uvol.Interpolator(linear, field="f")(np.zeros((20, 3)))
     assert np.isnan(values).all()
+
+
+def test_pickled_models_answer_the_same(linear):
+    interpolator = uvol.Interpolator(linear, field=["f", "f*g"], model="shepard", shepard={"k": 5})
+    queries = np.random.default_rng(3).random((20, 3)) + [5e5, 4e6, 0]
+    again = pickle.loads(pickle.dumps(interpolator))
+    assert np.array_equal(again(queries)[0], interpolator(queries)[0], equal_nan=True)
 
 
 def test_threads_may_ask_at_once(linear):

@@ -97,6 +97,8 @@ def test_pickled_surfaces_are_the_same(sphere):
     assert np.array_equal(again.triangles, surface.triangles)
     with pytest.raises(ValueError, match="lost its samples"):
         again.mesh()
+    extractor = pickle.loads(pickle.dumps(uvol.Extractor(sphere)))
+    assert extractor.samples.records.tobytes() == sphere.records.tobytes()
 
 
 def test_no_isopoints_are_a_warning(ball):
