@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the Python module costs: importing it, a call beside the steps of the library, and how soon Ctrl-C ends a step.
+
+usage: PYTHONPATH=build/release/python python3 tests/benchmarks/python_calls.py
+"""
+
+import time
+
+import numpy as np
+
+start, processor = time.perf_counter(), time.process_time()
+import pcl_uvol as uvol  # noqa: E402
+
+print(f"import beyond numpy: {1e3 * (time.perf_counter() - start):.0f} ms, "
+      f"{1e3 * (time.process_time() - processor):.0f} ms of the processor")
+
+import signal  # noqa: E402
+import threading  # noqa: E402
+import warnings  # noqa: E402
+
+warnings.simplefilter("ignore")
+random = np.random.default_rng(3)
+
+small = uvol.Extractor(random.random((5, 3)), {"a": random.random(5)})
+small.extract(iso=7.0, threads=1)
+processor, calls = time.process_time(), 1000
+for _ in range(calls):
+    small.extract(iso=7.0, threads=1)
+print(f"a call that finds nothing among 5 samples: {1e3 * (time.process_time() - processor) / calls:.2f} ms of the "
+      "processor")
+
+points = random.random((1000000, 3))
+noisy = np.linalg.norm(points - 0.5, axis=1) + 0.05 * random.standard_normal(len(points))
+start = time.perf_counter()
+samples = uvol.Samples(points.astype(np.float32), {"r": noisy})
+print(f"a million samples from arrays: {1e3 * (time.perf_counter() - start):.0f} ms")
+
+for name, options, delay in (("tree", {}, 0.3), ("isopoints", {}, 2.0), ("level set", {"smooth": True}, 4.0),
+                             ("mesh", {"mesh": True}, 4.0)):
+    pressed = []
+
+    def press():
+        pressed.append(time.perf_counter())
+        signal.raise_signal(signal.SIGINT)
+
+    timer = threading.Timer(delay, press)
+    timer.start()
+    try:
+        uvol.isosurface(samples, iso=0.3, **options)
+        print(f"Ctrl-C, {name}: was done before")
+    except KeyboardInterrupt:
+        print(f"Ctrl-C, {name}: after {time.perf_counter() - pressed[0]:.2f} s")
+    timer.cancel()
