@@ -124,6 +124,17 @@ fitNear(const Band& band,
   return fits;
 }
 
+/** Weights that a search tries at most. */
+std::uint64_t
+countWeights()
+{
+  std::uint64_t count = 0;
+  for (double mu = level_set.mu_ratio; mu > level_set.least_mu;
+       mu *= level_set.mu_ratio)
+    ++count;
+  return count;
+}
+
 /** The data and a copy with known noise on it, smoothed alike. */
 class Search {
 public:
@@ -132,7 +143,8 @@ public:
          const DataTerm& term,
          const LevelSetParameters& parameters,
          double spacing,
-         unsigned threads)
+         unsigned threads,
+         StepTimer& timer)
       : band_(band)
       , samples_(samples)
       , term_(term)
@@ -140,6 +152,7 @@ public:
       , parameters_(parameters)
       , spacing_(spacing)
       , threads_(threads)
+      , timer_(timer)
       , shift_(static_cast<float>(level_set.probe_part * term.noise))
       , best_risk_(std::numeric_limits<double>::infinity())
   {
@@ -173,7 +186,9 @@ private:
     stages_.push_back({mu, 0.0});
     bool is_calm = false;
     misses_ = 0;
-    for (std::size_t step = 1; !is_calm && misses_ < level_set.patience; ++step) {
+    std::size_t step = 1;
+    for (; !is_calm && misses_ < level_set.patience; ++step) {
+      timer_.advance(1);
       const double change = evolver.advance().change;
       other.advance();
       stages_.back().time += evolver.getStep();
@@ -185,6 +200,7 @@ private:
         start(evolver.getPhi());
       look(evolver.getPhi(), other.getPhi());
     }
+    timer_.advance(level_set.steps_of_weight + 1 - step);
     phi_ = evolver.getPhi();
     probed_ = other.getPhi();
   }
@@ -234,6 +250,7 @@ private:
   LevelSetParameters parameters_;
   double spacing_;
   unsigned threads_;
+  StepTimer& timer_;
   float shift_;
   std::vector<float> phi_, probed_;
   std::vector<FitWeights> fits_;
@@ -254,10 +271,10 @@ chooseMu(const Band& band,
          unsigned threads,
          Report& report)
 {
-  const StepTimer timer(report, "mu");
+  StepTimer timer(report, "mu", countWeights() * level_set.steps_of_weight);
   if (term.noise < level_set.invisible_noise * spacing)
     return {};
-  return Search(band, samples, term, parameters, spacing, threads).run();
+  return Search(band, samples, term, parameters, spacing, threads, timer).run();
 }
 
 } // namespace pcl_uvol

@@ -37,6 +37,15 @@ def test_a_level_set_tells_of_its_steps(ball):
     assert np.mean((smooth["phi"] < 0) == inside) > 0.97
 
 
+def test_the_choice_of_a_weight_tells_its_progress(ball):
+    points, fields = ball
+    noisy = fields["r"] + 0.03 * np.random.default_rng(8).standard_normal(len(points))
+    told = []
+    uvol.level_set(points, {"r": noisy}, iso=0.3, progress=lambda step, done: told.append((step, done)))
+    choice = [done for step, done in told if step == "mu"]
+    assert len(choice) > 0 and choice == sorted(choice) and choice[-1] <= 1
+
+
 def test_normals(tmp_path, run_tool, sphere):
     compare(tmp_path, run_tool, "uvol_normals", sphere, ["-k", "12"], lambda samples: uvol.normals(samples, k=12))
     bare = uvol.Samples(sphere.points)
