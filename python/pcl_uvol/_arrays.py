@@ -9,7 +9,7 @@ _LETTERS = {"b": "?", "i": "i", "u": "u", "f": "f"}
 _LARGEST_SIZE = 8
 
 
-def _as_array(values, what):
+def as_array(values, what):
     """The values as a numpy array of numbers; missing ones of masked arrays and of
     pandas become NaN."""
     if hasattr(values, "to_numpy") and not isinstance(values, np.ndarray):
@@ -54,7 +54,7 @@ def _number_type(dtype):
 
 def coordinates(points, what="points"):
     """Points as an array of shape (n, 3); columns of zeros are not made up."""
-    array = _as_array(points, what)
+    array = as_array(points, what)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{what} has the shape {array.shape}: it must be (n, 3), a row for each point.")
     return array
@@ -87,7 +87,7 @@ def make_dataset(points, fields):
 
 
 def _column(name, values, count):
-    column = _as_array(values, f"The field {name!r}")
+    column = as_array(values, f"The field {name!r}")
     if column.ndim not in (1, 2) or (column.ndim == 2 and column.shape[1] == 0):
         raise ValueError(f"The field {name!r} has the shape {column.shape}: it must be (n,), or (n, k) for "
                          "k numbers per point.")

@@ -132,7 +132,7 @@ class Interpolator:
         -------
         Answers
         """
-        places = _arrays._as_array(queries, "queries")
+        places = _arrays.as_array(queries, "queries")
         if places.ndim == 0 or places.shape[-1] != 3:
             raise ValueError(f"queries has the shape {places.shape}: it must be (..., 3), a row for each place.")
         with listening(progress) as listener:
@@ -268,7 +268,8 @@ def _plane(plane):
         place = "xyz".index(axis.strip() or "-")
         number = float(value)
     except ValueError:
-        raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, or a point and a normal.") from None
+        raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, "
+                         "or a point and a normal.") from None
     point, normal = [0.0] * 3, [0.0] * 3
     point[place], normal[place] = number, 1.0
     return point, normal

@@ -3,6 +3,9 @@
 
 import numpy as np
 
+from ._errors import FieldError
+from ._points import describe_missing
+
 
 class Lattice:
     """Fields at places at equal distances along up to three axes.
@@ -38,9 +41,7 @@ class Lattice:
 
     def __getitem__(self, name):
         if name not in self._columns:
-            from ._errors import FieldError
-            from ._points import _describe_missing
-            raise FieldError(_describe_missing(str(name), self.keys()))
+            raise FieldError(describe_missing(str(name), self.keys()))
         return self._columns[name]
 
     def to_xarray(self):

@@ -82,7 +82,7 @@ class Points(Bridges):
             return self.records[name]
         if any(mark in name for mark in "[|"):
             return self._dataset.read_scalar(name)
-        raise FieldError(_describe_missing(name, self.keys()))
+        raise FieldError(describe_missing(name, self.keys()))
 
     def save(self, path, ascii=False):
         """Write a file as the tools do: pcd, ply, vtp or csv, by the ending of its name.
@@ -106,7 +106,8 @@ class Points(Bridges):
         return state
 
 
-def _describe_missing(name, names):
+def describe_missing(name, names):
+    """A sentence about a field that is not there, with the one that was meant."""
     similar = _core.find_similar(names, name)
     hint = f" (did you mean {similar!r}?)" if similar else ""
     return f"There is no field {name!r}{hint}; the fields are {', '.join(names) or 'none'}."

@@ -4,8 +4,9 @@
 import numpy as np
 
 from . import _arrays, _parameters, _report
+from ._errors import FieldError
 from ._pictures import Drawable
-from ._points import Points
+from ._points import Points, describe_missing
 from ._progress import listening
 
 
@@ -75,12 +76,10 @@ class Samples(Drawable, Points):
         names = list(frame.columns) if hasattr(frame, "columns") else list(frame.variables)
         for name in axes + list(fields or []):
             if name not in names:
-                from ._errors import FieldError
-                from ._points import _describe_missing
-                raise FieldError(_describe_missing(name, [str(known) for known in names]))
+                raise FieldError(describe_missing(str(name), [str(known) for known in names]))
         if fields is None:
             fields = [name for name in names if name not in axes and _holds_numbers(frame[name])]
-        xyz = np.stack([np.ravel(_arrays._as_array(frame[axis], f"The column {axis!r}")) for axis in axes], axis=1)
+        xyz = np.stack([np.ravel(_arrays.as_array(frame[axis], f"The column {axis!r}")) for axis in axes], axis=1)
         return cls(xyz, {str(name): _flat(frame[name]) for name in fields})
 
     def compute(self, expression, threads=0, progress=None):
@@ -168,7 +167,7 @@ def _holds_numbers(column):
 
 def _flat(column):
     """A column, or a variable of a grid, as one number per point."""
-    values = _arrays._as_array(column, "A column")
+    values = _arrays.as_array(column, "A column")
     return values.reshape(-1) if values.ndim != 1 else values
 
 

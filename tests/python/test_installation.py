@@ -28,8 +28,8 @@ def test_pip_installs_into_a_virtual_environment(tmp_path):
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "env"], check=True)
     python = tmp_path / "env" / "bin" / "python3"
     environment = {**os.environ, "CMAKE_ARGS": "-DPCL_UVOL_WARNINGS_AS_ERRORS=ON"}  # as compiled before: ccache
-    subprocess.run([python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", ROOT], check=True,
-                   env=environment)
+    subprocess.run([python, "-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps", ROOT],
+                   check=True, env=environment)
     assert tmp_path in use(python, tmp_path).parents
 
 

@@ -23,13 +23,13 @@ def test_importing_is_quick_and_loads_neither_vtk_nor_opengl(run_python):
     out = run_python("""
         import time
         import numpy
-        start = time.perf_counter()
+        start = time.process_time()
         import pcl_uvol
-        print(time.perf_counter() - start)
+        print(time.process_time() - start)
         print([line for line in open("/proc/self/maps") if "libvtk" in line or "libGL" in line or "libEGL" in line])
         """)
     spent, libraries = out.splitlines()
-    assert float(spent) < 0.5  # 0.03 s on a quiet machine
+    assert float(spent) < 0.1
     assert libraries == "[]"
 
 
@@ -61,7 +61,8 @@ def test_types_of_the_stub_have_the_names_of_the_code():
         listed = [argument.arg for argument in arguments.args + arguments.kwonlyargs]
         keywords = [parameter.name for parameter in inspect.signature(function).parameters.values()
                     if parameter.kind != parameter.VAR_KEYWORD]
-        assert [name for name in listed if name not in ("self", "cls")] == [k for k in keywords if k != "self"], node.name
+        owners = ("self", "cls")
+        assert [name for name in listed if name not in owners] == [name for name in keywords if name not in owners]
 
     for name, node in functions.items():
         compare(node, getattr(uvol, name))
