@@ -86,7 +86,9 @@ RayOptions::makeScene(const Options& options,
                                                  options.threads(),
                                                  report);
   if (splats.cloud.empty())
-    throw pcl_uvol::InvalidArgument("None of the input's splats is usable.");
+    throw pcl_uvol::InvalidArgument("None of the splats can be drawn: the coordinates "
+                                    "are too large or too small for "
+                                    "them; scaling them helps.");
   pcl_uvol::SplatObject object;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
