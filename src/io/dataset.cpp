@@ -2,6 +2,8 @@
 // Loading and saving by the ending of the name.
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/hdf5_file.h"
+#include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -30,9 +32,13 @@ describeEnding(const std::string& ending)
 
 namespace io {
 
+namespace {
+
 FileFormat
-findFormat(const std::string& path, const LoadOptions& options)
+formatOf(const std::string& path, const LoadOptions& options)
 {
+  if (hasHdf5Ending(splitHdf5Name(path).file))
+    return FileFormat::Hdf5;
   const std::string ending = getEnding(path);
   if (isOneOf(ending, text_endings))
     return FileFormat::Text;
@@ -46,11 +52,47 @@ findFormat(const std::string& path, const LoadOptions& options)
     return FileFormat::Ply;
   if (isOneOf(ending, vtk_endings))
     return FileFormat::Vtk;
-  const InputFile exists(path); // a missing file matters more than its ending
+  if (isGadget(path)) // a missing file matters more than its ending
+    return FileFormat::Gadget;
+  if (isHdf5(path))
+    return FileFormat::Hdf5;
   throwUnreadable(path,
                   describeEnding(ending) +
                       "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                      ".tsv, .vtk, .vtp, .vtu and .vts");
+                      ".tsv, .vtk, .vtp, .vtu, .vts, files of HDF5 and snapshots of "
+                      "Gadget");
+}
+
+} // namespace
+
+FileFormat
+findFormat(const std::string& path, const LoadOptions& options)
+{
+  const FileFormat format = formatOf(path, options);
+  if (!options.particles.empty() && format != FileFormat::Gadget &&
+      format != FileFormat::Hdf5)
+    throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
+                          "' is none.");
+  return format;
+}
+
+std::unique_ptr<RecordSource>
+openRecords(const std::string& path, FileFormat format, const LoadOptions& options)
+{
+  switch (format) {
+  case FileFormat::Pcd:
+    return openPcd(path);
+  case FileFormat::Ply:
+    return openPly(path);
+  case FileFormat::Text:
+    return openText(path, options);
+  case FileFormat::Gadget:
+    return openGadget(path, options);
+  case FileFormat::Hdf5:
+    return openHdf5(path, options);
+  default:
+    return nullptr;
+  }
 }
 
 } // namespace io
@@ -63,12 +105,12 @@ loadDataset(const std::string& path, const LoadOptions& options)
     switch (format) {
     case io::FileFormat::Pcd:
       return io::readPcd(path);
-    case io::FileFormat::Ply:
-      return io::readPly(path);
     case io::FileFormat::Text:
       return io::readText(path, options);
-    default:
+    case io::FileFormat::Vtk:
       return io::readVtk(path);
+    default:
+      return io::readWhole(io::openRecords(path, format, options));
     }
   });
 }
