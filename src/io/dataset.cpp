@@ -2,7 +2,6 @@
 // Loading and saving by the ending of the name.
 #include "io/files.h"
 #include "io/formats.h"
-#include "io/hdf5_file.h"
 #include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -11,70 +10,11 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr const char* text_endings[] = {".csv", ".txt", ".xyz", ".dat", ".tsv"};
-constexpr const char* vtk_endings[] = {".vtk", ".vtp", ".vtu", ".vts"};
-
-template <std::size_t N>
-bool
-isOneOf(const std::string& ending, const char* const (&endings)[N])
-{
-  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
-}
-
-std::string
-describeEnding(const std::string& ending)
-{
-  return ending.empty() ? "its name has no ending"
-                        : "the ending '" + ending + "' is not known";
-}
+constexpr const char* saved_endings[] = {".pcd", ".ply", ".vtp", ".csv", ".npz"};
 
 } // namespace
 
 namespace io {
-
-namespace {
-
-FileFormat
-formatOf(const std::string& path, const LoadOptions& options)
-{
-  if (hasHdf5Ending(splitHdf5Name(path).file))
-    return FileFormat::Hdf5;
-  const std::string ending = getEnding(path);
-  if (isOneOf(ending, text_endings))
-    return FileFormat::Text;
-  if (options.xyz_columns != LoadOptions().xyz_columns)
-    throw InvalidArgument(
-        "Columns of coordinates can be chosen in text files only, and '" + path +
-        "' is none.");
-  if (ending == ".pcd")
-    return FileFormat::Pcd;
-  if (ending == ".ply")
-    return FileFormat::Ply;
-  if (isOneOf(ending, vtk_endings))
-    return FileFormat::Vtk;
-  if (isGadget(path)) // a missing file matters more than its ending
-    return FileFormat::Gadget;
-  if (isHdf5(path))
-    return FileFormat::Hdf5;
-  throwUnreadable(path,
-                  describeEnding(ending) +
-                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                      ".tsv, .vtk, .vtp, .vtu, .vts, files of HDF5 and snapshots of "
-                      "Gadget");
-}
-
-} // namespace
-
-FileFormat
-findFormat(const std::string& path, const LoadOptions& options)
-{
-  const FileFormat format = formatOf(path, options);
-  if (!options.particles.empty() && format != FileFormat::Gadget &&
-      format != FileFormat::Hdf5)
-    throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
-                          "' is none.");
-  return format;
-}
 
 std::unique_ptr<RecordSource>
 openRecords(const std::string& path, FileFormat format, const LoadOptions& options)
@@ -90,6 +30,12 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openGadget(path, options);
   case FileFormat::Hdf5:
     return openHdf5(path, options);
+  case FileFormat::Las:
+    return openLas(path);
+  case FileFormat::Npy:
+    return openNpy(path);
+  case FileFormat::Npz:
+    return openNpz(path);
   default:
     return nullptr;
   }
@@ -127,6 +73,8 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
       io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
       io::writeVtp(file, path, dataset, {});
+    else if (ending == ".npz")
+      io::writeNpz(file, path, dataset);
     else
       io::writeCsv(file, path, dataset);
   });
@@ -135,12 +83,12 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
 void
 checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
-  constexpr const char* endings[] = {".pcd", ".ply", ".vtp", ".csv"};
   const std::string ending = io::getEnding(path);
-  if (!isOneOf(ending, endings))
+  if (std::find(std::begin(saved_endings), std::end(saved_endings), ending) ==
+      std::end(saved_endings))
     io::throwUnwritable(path,
-                        describeEnding(ending) +
-                            "; points are written as .pcd, .ply, .vtp or .csv");
+                        io::describeEnding(ending) +
+                            "; points are written as .pcd, .ply, .vtp, .csv or .npz");
   io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);

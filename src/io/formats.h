@@ -16,7 +16,7 @@ namespace io {
 
 class RecordSource;
 
-enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5 };
+enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz };
 
 /** \brief The format of the points in a file, by the ending of its name; snapshots of
  * other endings are known by their first bytes.
@@ -26,6 +26,10 @@ enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5 };
  */
 FileFormat
 findFormat(const std::string& path, const LoadOptions& options);
+
+/** \brief "the ending '.doc' is not known". */
+std::string
+describeEnding(const std::string& ending);
 
 /** \brief The points of a file as records.
  * \return null for a file that has to be read whole
@@ -92,16 +96,21 @@ openGadget(const std::string& path, const LoadOptions& options);
 
 std::unique_ptr<RecordSource>
 openHdf5(const std::string& path, const LoadOptions& options);
+
+std::unique_ptr<RecordSource>
+openLas(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openNpy(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openNpz(const std::string& path);
 /** @} */
 
 /** \brief True for a binary snapshot of Gadget.
  * \throws IOError */
 bool
 isGadget(const std::string& path);
-
-/** \brief True for a name of HDF5's, with an ending for it. */
-bool
-hasHdf5Ending(const std::string& path);
 
 /** \brief A file of HDF5 and what is named within it, as in file.h5:/group/x,y,z. */
 struct Hdf5Name {
@@ -135,6 +144,10 @@ writePly(const std::string& file,
 
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset);
+
+/** \brief An array per field. */
+void
+writeNpz(const std::string& file, const std::string& path, const Dataset& dataset);
 
 /** \brief Points, or faces over them where there are triangles. */
 void

@@ -5,6 +5,7 @@
 #include "common/printable.h"
 #include "io/formats.h"
 #include "io/hdf5_file.h"
+#include "io/position_tables.h"
 #include "io/snapshot.h"
 
 #include <pcl/PCLPointField.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -22,18 +24,6 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-constexpr const char* endings[] = {
-    ".h5", ".hdf5", ".hdf", ".he5", ".h5part", ".vtkhdf"};
-/** Tables of positions, three numbers a row. */
-constexpr const char* position_names[] = {"Coordinates",
-                                          "Positions",
-                                          "Position",
-                                          "positions",
-                                          "position",
-                                          "pos",
-                                          "xyz",
-                                          "Points"};
-constexpr std::uint64_t most_components = 64;
 constexpr std::size_t most_groups = 1000;
 constexpr std::size_t mask_rows = std::size_t(1) << 14;
 
@@ -139,22 +129,15 @@ GroupReader::takeCoordinates(const std::vector<std::string>& names)
 bool
 GroupReader::findCoordinates()
 {
-  for (const char* const name : position_names)
-    if (const auto shape = file_.findShape(join(group_, name));
-        shape && shape->components == 3) {
-      takeCoordinates({name});
-      return true;
-    }
-  for (const std::vector<std::string>& names :
-       {std::vector<std::string>{"x", "y", "z"}, {"X", "Y", "Z"}, {"px", "py", "pz"}}) {
-    const auto shape = file_.findShape(join(group_, names[0]));
-    if (shape && shape->components == 1 && file_.findShape(join(group_, names[1])) &&
-        file_.findShape(join(group_, names[2]))) {
-      takeCoordinates(names);
-      return true;
-    }
-  }
-  return false;
+  std::vector<NumberTable> tables;
+  for (const std::string& name : file_.list(group_))
+    if (const auto shape = file_.findShape(join(group_, name)))
+      tables.push_back({name, shape->rows, shape->components});
+  std::vector<std::string> names;
+  for (const std::size_t table : findPositionTables(tables))
+    names.push_back(tables[table].name);
+  takeCoordinates(names);
+  return !names.empty();
 }
 
 void
@@ -166,7 +149,7 @@ GroupReader::takeFields(const std::string& group)
     if (std::find(taken_.begin(), taken_.end(), dataset) != taken_.end() || !shape ||
         shape->rows != rows_)
       continue; // a group, a table of something else
-    if (shape->components > most_components)
+    if (shape->components > most_table_components)
       notes_.push_back("The table " + quoteText(dataset) + " has " +
                        std::to_string(shape->components) +
                        " numbers per point and is left out.");
@@ -541,18 +524,12 @@ openInside(const Hdf5File& file, const std::string& inside)
 
 } // namespace
 
-bool
-hasHdf5Ending(const std::string& path)
-{
-  const std::string ending = getEnding(path);
-  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
-}
-
 Hdf5Name
 splitHdf5Name(const std::string& path)
 {
   const std::size_t colon = path.find(":/");
-  if (colon == std::string::npos || !hasHdf5Ending(path.substr(0, colon)))
+  if (colon == std::string::npos ||
+      !std::filesystem::is_regular_file(path.substr(0, colon)))
     return {path, ""};
   return {path.substr(0, colon), path.substr(colon + 1)};
 }

@@ -4,7 +4,6 @@
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "io/files.h"
-#include "io/formats.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -72,9 +71,10 @@ listSnapshotFiles(const std::string& path, std::size_t count)
   namespace fs = std::filesystem;
   if (count <= 1)
     return {path};
-  const fs::path ending = hasHdf5Ending(path) ? fs::path(path).extension() : fs::path();
+  const bool has_ending = getEnding(path).find_first_of("0123456789", 1) != 1;
+  const fs::path ending = has_ending ? fs::path(path).extension() : fs::path();
   const fs::path stem =
-      hasHdf5Ending(path) ? fs::path(path).replace_extension() : fs::path(path);
+      has_ending ? fs::path(path).replace_extension() : fs::path(path);
   const std::string number = stem.extension().string();
   std::uint64_t own = 0;
   if (number.empty() || !parseCount(number.substr(1), own))

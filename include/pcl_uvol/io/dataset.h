@@ -40,13 +40,18 @@ struct PCL_UVOL_EXPORTS SaveOptions {
  * and from binary snapshots of Gadget, whatever their name. Non-finite positions are
  * kept.
  *
+ * Names that end in .gz, .bz2 or .zst are unpacked into a temporary file (in TMPDIR),
+ * "-" is standard input. Arrays of NumPy (.npy, .npz) and laser scans (.las) are read
+ * as well.
+ *
  * Within a file of HDF5 a group or tables may be named: file.h5:/group,
  * file.h5:/group/pos, file.h5:/group/x,y,z. Of snapshots in several files any one is
  * named. \throws IOError in one sentence that names the file and, for text, the line */
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
-/** \brief Write points as .pcd, .ply, .vtp or .csv, by the ending of the name. The file
+/** \brief Write points as .pcd, .ply, .vtp, .csv or .npz, by the ending of the name, or
+ * to standard output: "-" is PLY, "-.csv" and the like another format. The file
  * appears whole or not at all; an empty cloud gives a valid file with zero points.
  * \throws IOError */
 PCL_UVOL_EXPORTS void
