@@ -3,6 +3,7 @@
 #include "shared/options.h"
 
 #include "common/similar_words.h"
+#include "io/unpacked_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -314,7 +315,8 @@ Options::parse(int argc, const char* const* argv)
   std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
-    if (argument.size() < 2 || argument[0] != '-' || startsWithNumber(argument)) {
+    if (argument.size() < 2 || argument[0] != '-' || argument[1] == '.' ||
+        startsWithNumber(argument)) {
       if (files.size() == positionals_.size() && !positionals_[0].targets)
         throw UsageError("The argument '" + argument + "' is one too many.");
       files.push_back(argument);
@@ -348,7 +350,10 @@ Options::checkFiles(const std::vector<std::string>& files) const
   std::vector<std::string> inputs = files, outputs;
   const std::size_t last = std::min(files.size(), positionals_.size());
   if (last > 0 && positionals_[last - 1].name == "out") {
-    outputs.push_back(files.back());
+    if (pcl_uvol::io::isStandardStream(files.back()))
+      std::cout.rdbuf(std::cerr.rdbuf()); // the report leaves the data alone
+    else
+      outputs.push_back(files.back());
     inputs.pop_back();
   }
   for (const Option& option : options_)
