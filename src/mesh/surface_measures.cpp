@@ -34,6 +34,9 @@ using detail::findScalar;
 using detail::MeasuredMesh;
 using detail::SurfaceIntegrals;
 
+/** Of a figure: one that is known no better is hardly one. */
+constexpr double large_error = 1.0 / 3.0;
+
 /** Fields that number or qualify vertices instead of measuring something there. */
 bool
 isMeasured(const std::string& name)
@@ -191,6 +194,19 @@ public:
           std::to_string(open) +
           " are open, or disagree with others about the outside: they enclose no "
           "volume, and only their area is measured.");
+    const auto vague = std::count_if(
+        figures.isovalues.begin(),
+        figures.isovalues.end(),
+        [](const PieceMeasures& all) {
+          return all.volume.error > large_error * std::abs(all.volume.value) ||
+                 all.area.error > large_error * all.area.value;
+        });
+    if (vague > 0)
+      report.warnings.push_back(
+          "Area or volume of " + std::to_string(vague) + " of " +
+          std::to_string(figures.isovalues.size()) +
+          " surfaces are not known to better than a third: vertices lie that far from "
+          "where the surface may be.");
     for (const PieceMeasures& all : figures.isovalues)
       if (all.volume.value < -all.volume.error) {
         report.warnings.push_back(

@@ -32,6 +32,13 @@ struct PipelineOptions : IsosurfaceOptions {
   bool
   needsAllSamples() const;
 
+  /** \brief Whether the mesh is to be measured. */
+  bool
+  isMeasured() const
+  {
+    return mesh_.isMeasured();
+  }
+
   /** \brief The bound of memory, and where samples wait. \throws UsageError */
   pcl_uvol::OutOfCoreSettings
   makeOutOfCoreSettings(const Options& options) const;
