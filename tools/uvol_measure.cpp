@@ -2,6 +2,7 @@
 // Figures of surfaces: area, volume, axes, genus, integrals of fields, and the samples
 // inside; of a mesh, or of the isosurfaces of samples.
 #include "charts/line_plot.h"
+#include "common/numbers.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
 #include "shared/measure_table.h"
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -67,6 +69,13 @@ declare(Options& options, Arguments& arguments)
                "with -png: the column of the table that is drawn (default volume)");
 }
 
+bool
+isPly(const std::string& path)
+{
+  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
+         ".ply";
+}
+
 void
 check(const Options& options, Arguments& arguments)
 {
@@ -76,6 +85,9 @@ check(const Options& options, Arguments& arguments)
     if (options.given(name) && !has_isovalues)
       throw UsageError(std::string("-") + name +
                        " is for isosurfaces of samples, which need -iso.");
+  if (!has_isovalues && !isPly(arguments.input))
+    throw UsageError("Surfaces are read as .ply with triangles; isosurfaces of samples "
+                     "need -iso.");
   if (has_isovalues) {
     arguments.finish();
     if (options.given("samples"))

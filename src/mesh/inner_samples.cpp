@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -105,10 +106,6 @@ public:
       const float* const place = cloud.xyz(samples_->getInputIndex(i));
       return Eigen::Vector3d(place[0], place[1], place[2]);
     });
-    for (const InnerPoint& point : inner_)
-      is_inner_.resize(std::max<std::size_t>(is_inner_.size(), point.index + 1));
-    for (const InnerPoint& point : inner_)
-      is_inner_[point.index] = true;
   }
 
   /** The sums of a field over each piece. \param at_surface value there, by piece */
@@ -130,7 +127,7 @@ public:
       const double step = valueOf(field, next) - value;
       if (std::isfinite(step))
         of_piece.sq_deviation += volume * volume * step * step;
-      if (isBesideSurface(point.index) && std::isfinite(at_surface[piece]))
+      if (isBesideSurface(point) && std::isfinite(at_surface[piece]))
         of_piece.at_surface += volume * std::abs(value - at_surface[piece]);
     }
     return sums;
@@ -144,22 +141,30 @@ private:
   }
 
   bool
-  isInner(std::size_t sample) const
+  isInside(std::uint32_t sample, std::int32_t piece) const
   {
-    return sample < is_inner_.size() && is_inner_[sample];
+    const auto at =
+        std::lower_bound(inner_.begin(),
+                         inner_.end(),
+                         std::make_pair(sample, piece),
+                         [](const InnerPoint& point, const auto& other) {
+                           return std::make_pair(point.index, point.piece) < other;
+                         });
+    return at != inner_.end() && at->index == sample && at->piece == piece;
   }
 
+  /** Whether the piece leaves out a sample next to one inside, in leaf order. */
   bool
-  isBesideSurface(std::size_t sample) const
+  isBesideSurface(const InnerPoint& point) const
   {
-    return (sample > 0 && !isInner(sample - 1)) || !isInner(sample + 1);
+    return (point.index > 0 && !isInside(point.index - 1, point.piece)) ||
+           !isInside(point.index + 1, point.piece);
   }
 
   const CloudView& cloud_;
   SampleSet::ConstPtr samples_;
-  std::vector<double> volumes_; // by sample
-  std::vector<InnerPoint> inner_;
-  std::vector<bool> is_inner_; // by sample, up to the last one
+  std::vector<double> volumes_;   // by sample
+  std::vector<InnerPoint> inner_; // ascending by sample and piece
 };
 
 /** Mean of a field on a piece; NaN where it has none of that name. */

@@ -74,7 +74,7 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
   options.text("iso",
                "v,...|lo:hi:n[log]",
                isovalues_,
-               "isovalues (required), or a series of them: 0.1:0.9:17, 0.01:1:50log");
+               "isovalues, or a series of them: 0.1:0.9:17, 0.01:1:50log");
   options.text("field",
                "name",
                parameters.isosurface.field,
