@@ -21,13 +21,6 @@ constexpr double least_agreement = 0.5, steepest = 0.7071067811865476;
 constexpr double missed_bulge = 0.1, missed_area = 0.01;
 /** @} */
 
-/** A point of a rule that integrates polynomials of degree 4 exactly (Dunavant 1985),
- * and with it the volume below quadratic triangles. */
-struct QuadraturePoint {
-  std::array<double, 3> lambda;
-  double weight; ///< all together 1
-};
-
 constexpr double far_place = 0.44594849091596488632,
                  far_weight = 0.22338158967801146570;
 constexpr double near_place = 0.09157621350977074346,
@@ -65,6 +58,12 @@ bulgeOf(const SurfaceCorner& a, const SurfaceCorner& b)
 }
 
 } // namespace
+
+const std::array<QuadraturePoint, 6>&
+triangleQuadrature()
+{
+  return quadrature;
+}
 
 void
 SurfaceIntegrals::add(const SurfaceIntegrals& other)

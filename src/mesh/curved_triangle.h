@@ -11,6 +11,17 @@
 
 namespace pcl_uvol::detail {
 
+/** \brief A point of a triangle that stands for a part of it. */
+struct QuadraturePoint {
+  std::array<double, 3> lambda; ///< weights of the corners
+  double weight;                ///< all together 1
+};
+
+/** \brief A rule that integrates polynomials of degree 4 exactly (Dunavant 1985), and
+ * with it the volume below quadratic triangles. */
+PCL_UVOL_EXPORTS const std::array<QuadraturePoint, 6>&
+triangleQuadrature();
+
 /** \brief A corner of a triangle. */
 struct SurfaceCorner {
   Eigen::Vector3d place;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/measured_mesh.h"
 
+#include "common/scalar_names.h"
 #include "mesh/half_edges.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -13,28 +14,6 @@
 namespace pcl_uvol::detail {
 
 namespace {
-
-/** What a triangle mesh is checked for before it is measured.
- * \throws InvalidArgument */
-void
-checkVertices(const CloudView& vertices, const std::vector<Triangle>& triangles)
-{
-  if (triangles.empty())
-    throw InvalidArgument(
-        "The surface has no triangles: areas and volumes are those of a mesh.");
-  for (const Triangle& triangle : triangles)
-    for (const std::uint32_t vertex : triangle) {
-      if (vertex >= vertices.count)
-        throw InvalidArgument("A triangle names vertex " + std::to_string(vertex) +
-                              ", but there are " + std::to_string(vertices.count) +
-                              ".");
-      const float* const place = vertices.xyz(vertex);
-      if (!std::isfinite(place[0]) || !std::isfinite(place[1]) ||
-          !std::isfinite(place[2]))
-        throw InvalidArgument("Vertex " + std::to_string(vertex) +
-                              " of the surface is not finite.");
-    }
-}
 
 /** Leaves out triangles that name a vertex twice, gives every fan of triangles a vertex
  * of its own, and finds the pieces. \param sources one per vertex, and then one per
@@ -92,6 +71,23 @@ readNormals(const CloudView& vertices,
 
 } // namespace
 
+void
+checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles)
+{
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t vertex : triangle) {
+      if (vertex >= vertices.count)
+        throw InvalidArgument("A triangle names vertex " + std::to_string(vertex) +
+                              ", but there are " + std::to_string(vertices.count) +
+                              ".");
+      const float* const place = vertices.xyz(vertex);
+      if (!std::isfinite(place[0]) || !std::isfinite(place[1]) ||
+          !std::isfinite(place[2]))
+        throw InvalidArgument("Vertex " + std::to_string(vertex) +
+                              " of the surface is not finite.");
+    }
+}
+
 std::optional<ScalarField>
 findScalar(const CloudView& vertices, const char* name)
 {
@@ -101,12 +97,37 @@ findScalar(const CloudView& vertices, const char* name)
   return ScalarField(vertices.fields, name);
 }
 
+std::vector<std::string>
+listMeasuredFields(const std::vector<pcl::PCLPointField>& fields)
+{
+  static const std::array<std::string, 8> others = {"isovalue",
+                                                    "edge_length",
+                                                    "support",
+                                                    "method",
+                                                    "orientation",
+                                                    "piece",
+                                                    "cap",
+                                                    "area"};
+  std::vector<std::string> names = listScalars(fields);
+  names.erase(std::remove_if(names.begin(),
+                             names.end(),
+                             [](const std::string& name) {
+                               return std::find(others.begin(), others.end(), name) !=
+                                      others.end();
+                             }),
+              names.end());
+  return names;
+}
+
 MeasuredMesh::MeasuredMesh(const CloudView& vertices,
                            const std::vector<Triangle>& triangles)
     : triangles_(triangles)
     , sources_(vertices.count)
 {
-  checkVertices(vertices, triangles);
+  if (triangles.empty())
+    throw InvalidArgument(
+        "The surface has no triangles: areas and volumes are those of a mesh.");
+  checkTriangles(vertices, triangles);
   std::iota(sources_.begin(), sources_.end(), 0u);
   list_ = findManifoldPieces(triangles_, sources_);
   const std::vector<Eigen::Vector3d> normals =

@@ -13,13 +13,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol::detail {
 
+/** \brief \throws InvalidArgument for a vertex that is not finite or not there */
+void
+checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles);
+
 /** \brief A field of one number per vertex, if there is one of that name. */
 std::optional<ScalarField>
 findScalar(const CloudView& vertices, const char* name);
+
+/** \brief The scalars of a surface, see listScalars(), but for those that number or
+ * qualify vertices instead of measuring something there. */
+std::vector<std::string>
+listMeasuredFields(const std::vector<pcl::PCLPointField>& fields);
 
 /** \brief A mesh of manifold pieces. Vertices at which several fans of triangles meet
  * have a copy for each: see getSources(). */

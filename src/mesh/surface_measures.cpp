@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
-#include "common/scalar_names.h"
 #include "mesh/inner_samples.h"
 #include "mesh/measured_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -36,21 +35,6 @@ using detail::SurfaceIntegrals;
 
 /** Of a figure: one that is known no better is hardly one. */
 constexpr double large_error = 1.0 / 3.0;
-
-/** Fields that number or qualify vertices instead of measuring something there. */
-bool
-isMeasured(const std::string& name)
-{
-  static const char* const others[] = {"isovalue",
-                                       "edge_length",
-                                       "support",
-                                       "method",
-                                       "orientation",
-                                       "piece",
-                                       "cap",
-                                       "area"};
-  return std::find(std::begin(others), std::end(others), name) == std::end(others);
-}
 
 /** What the vertices' estimated distances to the surface make of area and volume. */
 class VertexErrors {
@@ -249,9 +233,7 @@ private:
   void
   describeFields()
   {
-    for (const std::string& name : listScalars(vertices_.fields)) {
-      if (!isMeasured(name))
-        continue;
+    for (const std::string& name : detail::listMeasuredFields(vertices_.fields)) {
       const ScalarField field(vertices_.fields, name);
       std::vector<double> areas(figures.pieces.size()), sums(figures.pieces.size());
       forVertices([&](std::size_t piece, std::size_t vertex) {
