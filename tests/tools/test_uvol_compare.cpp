@@ -67,7 +67,8 @@ TEST_F(CompareTool, TellsDistancesBothWays)
          {"mean", "root_mean_square", "percentile_99_9", "largest"})
       EXPECT_NEAR(0.25, report[way][name].get<double>(), 1e-12) << way << name;
     EXPECT_EQ(3u, report[way]["farthest"].size());
-    EXPECT_EQ(2.0, report[std::string("fields_") + way]["f"]["mean"].get<double>());
+    EXPECT_NEAR(
+        2.0, report[std::string("fields_") + way]["f"]["mean"].get<double>(), 1e-12);
   }
   EXPECT_EQ(0.25, report["largest_distance"].get<double>());
 }
