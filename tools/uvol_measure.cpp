@@ -33,7 +33,7 @@ using uvol_tools::UsageError;
 struct Arguments : uvol_tools::IsosurfaceOptions {
   std::string input, output, samples, picture, plot = "volume";
   std::uint64_t drop_pieces = 0;
-  bool with_pieces = false, is_flat = false;
+  bool with_pieces = false, is_flat = false, is_checked = false;
 };
 
 void
@@ -59,6 +59,9 @@ declare(Options& options, Arguments& arguments)
   options.flag("flat",
                arguments.is_flat,
                "measure triangles as they are, not bent as their normals tell");
+  options.flag("check",
+               arguments.is_checked,
+               "look for triangles that go through one another as well");
   options.output("png",
                  "out.png",
                  arguments.picture,
@@ -238,6 +241,7 @@ run(int argc, char** argv)
                               : loadSurface(arguments, report);
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.curved = !arguments.is_flat;
+  parameters.find_intersections = arguments.is_checked;
   const SurfaceFigures figures =
       uvol_tools::measureSurface(surface.vertices,
                                  surface.triangles,

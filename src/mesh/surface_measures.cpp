@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "mesh/inner_samples.h"
 #include "mesh/measured_mesh.h"
+#include "mesh/self_intersections.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_measures.h>
@@ -378,6 +379,9 @@ SurfaceMeasures::compute()
   }
   measurement.joinPieces();
   measurement.warn(report_);
+  if (parameters_.find_intersections)
+    measurement.figures.intersections = detail::describeIntersections(
+        vertices, triangles_, vertices_->origin, threads_, report_);
   return std::move(measurement.figures);
 }
 

@@ -152,4 +152,34 @@ TriangleTree::find(std::uint32_t number,
       find(child, place, nearest);
 }
 
+void
+TriangleTree::findOverlapping(const Eigen::AlignedBox3d& box,
+                              std::vector<std::uint32_t>& found) const
+{
+  found.clear();
+  findOverlapping(0, box, found);
+}
+
+void
+TriangleTree::findOverlapping(std::uint32_t number,
+                              const Eigen::AlignedBox3d& box,
+                              std::vector<std::uint32_t>& found) const
+{
+  const Node& node = nodes_[number];
+  if (!node.box.intersects(box))
+    return;
+  if (node.second != 0) {
+    findOverlapping(number + 1, box, found);
+    findOverlapping(node.second, box, found);
+    return;
+  }
+  for (std::uint32_t i = node.begin; i < node.end; ++i) {
+    Eigen::AlignedBox3d own;
+    for (const Eigen::Vector3d& corner : cornersOf(order_[i]))
+      own.extend(corner);
+    if (own.intersects(box))
+      found.push_back(order_[i]);
+  }
+}
+
 } // namespace pcl_uvol::detail

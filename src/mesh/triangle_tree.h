@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The point of a mesh that is nearest to a place.
+// The triangles of a mesh that are nearest to a place, or in a box.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
@@ -46,6 +46,12 @@ public:
   Nearest
   find(const Eigen::Vector3d& place) const;
 
+  /** \brief The triangles whose boxes meet a box, in no order. \param found cleared
+   * first */
+  void
+  findOverlapping(const Eigen::AlignedBox3d& box,
+                  std::vector<std::uint32_t>& found) const;
+
 private:
   /** Triangles from begin to end; the first child follows, unless it is a leaf. */
   struct Node {
@@ -61,6 +67,11 @@ private:
 
   void
   find(std::uint32_t node, const Eigen::Vector3d& place, Nearest& nearest) const;
+
+  void
+  findOverlapping(std::uint32_t node,
+                  const Eigen::AlignedBox3d& box,
+                  std::vector<std::uint32_t>& found) const;
 
   std::array<Eigen::Vector3d, 3>
   cornersOf(std::uint32_t triangle) const;

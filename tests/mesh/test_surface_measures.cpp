@@ -235,6 +235,31 @@ TEST(SurfaceMeasures, ThingsThatTouchInAVertexOrAnEdgeAreTwo)
   }
 }
 
+TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)
+{
+  SurfaceMeasuresParameters parameters;
+  parameters.find_intersections = true;
+  EXPECT_TRUE(
+      measure(makeTorus(3.0, 1.0, 30, 12), nullptr, parameters).intersections.empty());
+  MeasuredShape boxes = makeBox({1.0, 1.0, 1.0}), other = boxes;
+  other.transform(Eigen::Matrix3d::Identity(), {0.5, 0.25, 0.25});
+  boxes.append(other);
+  Dataset vertices = boxes.toDataset();
+  vertices.origin = {{64.0, 0.0, 0.0}};
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(vertices), boxes.triangles);
+  measures.setParameters(parameters);
+  const SurfaceFigures figures = measures.compute();
+  ASSERT_FALSE(figures.intersections.empty());
+  for (const TriangleIntersection& pair : figures.intersections) {
+    EXPECT_LT(pair.first, 12u);
+    EXPECT_GE(pair.second, 12u);
+    EXPECT_NEAR(64.5, pair.place[0], 0.5);
+  }
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("through itself"));
+}
+
 TEST(SurfaceMeasures, UnitsAndPlacesChangeNothing)
 {
   MeasuredShape shape = makeTorus(3.0, 1.0, 30, 12);

@@ -108,6 +108,8 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
           surface.isovalue = isovalue;
   // Of the samples' counts the surface has told already.
   const pcl_uvol::Report& own = measures.getReport();
+  if (parameters.find_intersections)
+    report.setCount("intersections", own.getCount("intersections"));
   for (const auto& [step, milliseconds] : own.milliseconds)
     report.time(step, milliseconds);
   report.warnings.insert(
