@@ -163,25 +163,31 @@ loadSamples(const Options& options,
   return samples;
 }
 
-/** Tell the figures of a mesh, and give its vertices their share of the area. */
+/** Measure a mesh and look for intersections, as asked for, and give its vertices their
+ * share of the area. */
 Facts
 measureMesh(const Options& options,
             const Arguments& arguments,
             const std::shared_ptr<const pcl_uvol::Dataset>& samples,
             IsosurfaceResult& result)
 {
-  if (result.triangles.empty())
+  const bool is_measured = arguments.getMesh().isMeasured();
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.find_intersections = arguments.getMesh().isChecked();
+  if (result.triangles.empty() || (!is_measured && !parameters.find_intersections))
     return {};
   const auto vertices = std::make_shared<pcl_uvol::Dataset>(std::move(result.surface));
   const pcl_uvol::SurfaceFigures figures =
       uvol_tools::measureSurface(vertices,
                                  result.triangles,
-                                 samples,
+                                 is_measured ? samples : nullptr,
                                  arguments.parameters.isosurface.isovalues,
-                                 {},
+                                 parameters,
                                  options.threads(),
                                  result.report);
   result.surface = std::move(*vertices);
+  if (!is_measured)
+    return {};
   setField(result.surface, "area", figures.vertex_areas);
   return uvol_tools::describeMeasures(figures);
 }
@@ -228,8 +234,7 @@ runInMemory(const Options& options,
         arguments.picture.addMemoryNeed(isopoints, forecast);
       });
   IsosurfaceResult result = pipeline.run();
-  if (arguments.isMeasured())
-    figures = measureMesh(options, arguments, samples, result);
+  figures = measureMesh(options, arguments, samples, result);
   return result;
 }
 

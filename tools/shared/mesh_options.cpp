@@ -39,6 +39,9 @@ MeshOptions::declare(Options& options)
       "with -mesh: tell area, volume, integrals of fields and the samples "
       "inside, as uvol_measure does; vertices get their share of the area as a "
       "field");
+  options.flag("check",
+               is_checked_,
+               "with -mesh: look for triangles that go through one another");
 }
 
 std::optional<pcl_uvol::MeshingParameters>
@@ -46,7 +49,7 @@ MeshOptions::finish(const Options& options, const std::string& output) const
 {
   if (!is_asked_for_ && !pcl_uvol::isMeshOnly(output)) {
     for (const char* const name :
-         {"remesh", "edge-length", "open", "drop-pieces", "measure"})
+         {"remesh", "edge-length", "open", "drop-pieces", "measure", "check"})
       if (options.given(name))
         throw UsageError(std::string("-") + name + " needs -mesh.");
     return std::nullopt;

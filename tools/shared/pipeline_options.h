@@ -32,11 +32,10 @@ struct PipelineOptions : IsosurfaceOptions {
   bool
   needsAllSamples() const;
 
-  /** \brief Whether the mesh is to be measured. */
-  bool
-  isMeasured() const
+  const MeshOptions&
+  getMesh() const
   {
-    return mesh_.isMeasured();
+    return mesh_;
   }
 
   /** \brief The bound of memory, and where samples wait. \throws UsageError */
