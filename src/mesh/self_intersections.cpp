@@ -3,6 +3,7 @@
 
 #include "common/parallel.h"
 #include "mesh/exact_signs.h"
+#include "mesh/measured_mesh.h"
 #include "mesh/triangle_tree.h"
 
 #include <algorithm>
@@ -129,8 +130,12 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
 findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       const std::vector<Triangle>& triangles,
+                      const std::vector<double>& surface_of,
                       unsigned threads)
 {
+  const auto areOfOne = [&](const Triangle& a, const Triangle& b) {
+    return surface_of.empty() || surface_of[a[0]] == surface_of[b[0]];
+  };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
   const TriangleTree tree(places, triangles);
   return parallelGather<Pair>(
@@ -147,7 +152,7 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
           tree.findOverlapping(box, found);
           std::sort(found.begin(), found.end());
           for (const std::uint32_t second : found)
-            if (second > first &&
+            if (second > first && areOfOne(triangles[first], triangles[second]) &&
                 doIntersect(places, triangles[first], triangles[second]))
               pairs.emplace_back(first, second);
         }
@@ -163,13 +168,17 @@ describeIntersections(const CloudView& vertices,
 {
   const StepTimer timer(report, "intersections");
   std::vector<Eigen::Vector3d> places;
+  std::vector<double> isovalues;
+  const std::optional<ScalarField> isovalue = findScalar(vertices, "isovalue");
   for (std::size_t i = 0; i < vertices.count; ++i) {
     const float* const place = vertices.xyz(i);
     places.emplace_back(place[0], place[1], place[2]);
+    if (isovalue)
+      isovalues.push_back(isovalue->read(vertices.point(i)));
   }
   std::vector<TriangleIntersection> found;
   for (const auto& [first, second] :
-       findSelfIntersections(places, triangles, threads)) {
+       findSelfIntersections(places, triangles, isovalues, threads)) {
     const auto& [a, b, c] = triangles[first];
     found.push_back({first,
                      second,

@@ -162,20 +162,29 @@ TEST(SelfIntersections, AgreeWithPlacesOnBothSides)
 TEST(SelfIntersections, AreFoundInMeshes)
 {
   const MeasuredShape good = makeTorus(3.0, 1.0, 40, 16);
-  EXPECT_TRUE(findSelfIntersections(good.places, good.triangles, 3).empty());
-  EXPECT_TRUE(
-      findSelfIntersections(makeBox({1, 1, 1}).places, makeBox({1, 1, 1}).triangles, 1)
-          .empty());
+  EXPECT_TRUE(findSelfIntersections(good.places, good.triangles, {}, 3).empty());
+  EXPECT_TRUE(findSelfIntersections(
+                  makeBox({1, 1, 1}).places, makeBox({1, 1, 1}).triangles, {}, 1)
+                  .empty());
   const MeasuredShape spindle = makeTorus(1.0, 2.0, 40, 16); // overlaps in the middle
-  const auto pairs = findSelfIntersections(spindle.places, spindle.triangles, 3);
+  const auto pairs = findSelfIntersections(spindle.places, spindle.triangles, {}, 3);
   EXPECT_GT(pairs.size(), 40u);
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
-  EXPECT_EQ(pairs, findSelfIntersections(spindle.places, spindle.triangles, 1));
+  EXPECT_EQ(pairs, findSelfIntersections(spindle.places, spindle.triangles, {}, 1));
   std::size_t all = 0;
   for (std::size_t i = 0; i < spindle.triangles.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       all += doIntersect(spindle.places, spindle.triangles[i], spindle.triangles[k]);
   EXPECT_EQ(all, pairs.size());
+  // Surfaces of several isovalues may do as they like.
+  MeasuredShape boxes = makeBox({1, 1, 1});
+  boxes.append(boxes);
+  std::vector<double> isovalues(16, 1.0);
+  EXPECT_FALSE(
+      findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1).empty());
+  std::fill(isovalues.begin() + 8, isovalues.end(), 2.0);
+  EXPECT_TRUE(
+      findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1).empty());
 }
 
 } // namespace
