@@ -25,7 +25,7 @@ function(pcl_uvol_add_library name)
   add_library(pcl_uvol_${name} SHARED ${sources})
   add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
   set_target_properties(pcl_uvol_${name} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} INSTALL_RPATH "$ORIGIN")
   target_compile_features(pcl_uvol_${name} PUBLIC cxx_std_17)
   target_include_directories(pcl_uvol_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
@@ -34,6 +34,7 @@ function(pcl_uvol_add_library name)
     $<BUILD_INTERFACE:pcl_uvol_warnings> $<BUILD_INTERFACE:pcl_uvol_determinism>)
   set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
   if(PCL_UVOL_INSTALL)
-    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets)
+    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets
+            LIBRARY COMPONENT libraries NAMELINK_COMPONENT development)
   endif()
 endfunction()

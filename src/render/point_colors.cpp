@@ -76,6 +76,14 @@ hasIsovalues(const CloudView& cloud)
   return false;
 }
 
+std::string
+usualColorField(const CloudView& cloud)
+{
+  if (hasColors(cloud))
+    return "rgb";
+  return hasIsovalues(cloud) ? "isovalue" : "";
+}
+
 PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,

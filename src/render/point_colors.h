@@ -28,6 +28,11 @@ hasColors(const CloudView& cloud);
 PCL_UVOL_EXPORTS bool
 hasIsovalues(const CloudView& cloud);
 
+/** \brief What a cloud is coloured by where nobody says: "rgb" if it has colours, else
+ * "isovalue" if it has several, else "", the material's colour. */
+PCL_UVOL_EXPORTS std::string
+usualColorField(const CloudView& cloud);
+
 /** \brief Colour a cloud.
  * \param field a scalar field, as in ScalarField, or "rgb" for the cloud's own colours
  * \param range values at the ends of the colours; none: those of the field

@@ -4,16 +4,13 @@
 #include "charts/color_bar.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
-#include "render/camera_fit.h"
+#include "render/camera_choice.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
 #include "shared/point_files.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -50,38 +47,6 @@ bool
 isColorName(const std::string& color)
 {
   return color == "auto" || color == "none" || color == "rgb" || color == "rgba";
-}
-
-/** z, or y for a camera that looks along z. */
-Eigen::Vector3d
-upwardsOf(const pcl_uvol::Camera& camera)
-{
-  constexpr double least_sine = 1e-3;
-  const Eigen::Vector3d sight = (camera.at - camera.eye).normalized();
-  return sight.head<2>().norm() > least_sine ? Eigen::Vector3d::UnitZ()
-                                             : Eigen::Vector3d::UnitY();
-}
-
-/** A named view of the world turned so that what was z is another direction. */
-pcl_uvol::Camera
-turnedUpwards(pcl_uvol::Camera camera, const Eigen::Vector3d& up)
-{
-  if (!(up.norm() > 0.0))
-    throw UsageError("-up takes a direction, and 0,0,0 is none.");
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
-  camera.eye = camera.at + turn * (camera.eye - camera.at);
-  camera.up = turn * camera.up;
-  return camera;
-}
-
-pcl_uvol::Camera
-zoomed(pcl_uvol::Camera camera, double zoom)
-{
-  constexpr double degree = 3.14159265358979323846 / 180.0;
-  if (zoom != 1.0)
-    camera.vertical_fov =
-        2.0 * std::atan(std::tan(0.5 * degree * camera.vertical_fov) / zoom) / degree;
-  return camera;
 }
 
 /** A picture with columns of background on its right. */
@@ -243,6 +208,8 @@ ViewOptions::check(const Options& options)
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (!options.given("eye") && options.given("at"))
     throw UsageError("-at needs -eye.");
+  if (!up_.empty() && toVector(up_).isZero(0.0))
+    throw UsageError("-up takes a direction, and 0,0,0 is none.");
   if (!range_.empty() && !(range_[0] < range_[1]))
     throw UsageError("-range takes two numbers, the lower one first.");
   if (!surface_color_.empty())
@@ -301,11 +268,8 @@ ViewOptions::getSupersampling() const
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  if (color_ == "auto") {
-    if (pcl_uvol::hasColors(cloud))
-      return "rgb";
-    return pcl_uvol::hasIsovalues(cloud) ? "isovalue" : "";
-  }
+  if (color_ == "auto")
+    return pcl_uvol::usualColorField(cloud);
   return color_ == "none" ? "" : color_;
 }
 
@@ -315,22 +279,15 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         int width,
                         const pcl_uvol::CloudView* cloud) const
 {
-  const Eigen::Vector3d shift(origin.data());
-  const double aspect = static_cast<double>(width) / height_;
-  pcl_uvol::Camera camera = pcl_uvol::Camera::fit(bounds, view_, fov_, aspect);
-  if (!eye_.empty()) {
-    camera.eye = toVector(eye_) - shift;
-    if (!at_.empty())
-      camera.at = toVector(at_) - shift;
-    camera.up = up_.empty() ? upwardsOf(camera) : toVector(up_);
-  }
-  else {
-    if (!up_.empty())
-      camera = turnedUpwards(camera, toVector(up_));
-    if (cloud != nullptr && frames_ == 1)
-      camera = pcl_uvol::fitToPoints(camera, *cloud, aspect);
-  }
-  return zoomed(camera, zoom_);
+  const auto given = [](const std::vector<double>& numbers) {
+    return numbers.empty() ? std::nullopt : std::optional(toVector(numbers));
+  };
+  return pcl_uvol::chooseCamera(
+      {view_, given(eye_), given(at_), given(up_), fov_, zoom_},
+      bounds,
+      origin,
+      static_cast<double>(width) / height_,
+      frames_ == 1 ? cloud : nullptr);
 }
 
 pcl_uvol::Camera
@@ -340,7 +297,7 @@ ViewOptions::adjusted(const Options& options, pcl_uvol::Camera camera) const
     camera.up = toVector(up_);
   if (options.given("fov"))
     camera.vertical_fov = fov_;
-  return zoomed(camera, zoom_);
+  return pcl_uvol::zoomed(camera, zoom_);
 }
 
 pcl_uvol::Camera
