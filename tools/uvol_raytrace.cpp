@@ -52,6 +52,7 @@ checkInput(const Options& options, const Arguments& arguments)
   for (const char* name : {"color",
                            "colormap",
                            "range",
+                           "log",
                            "no-bar",
                            "surface-color",
                            "ambient",

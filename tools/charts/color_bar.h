@@ -4,6 +4,7 @@
 
 #include "charts/axes.h"
 #include "charts/drawing.h"
+#include "render/color_scale.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
@@ -23,9 +24,24 @@ colorBarWidth(int image_width, int image_height);
 void
 drawColorBar(pcl_uvol::Image& image,
              const pcl_uvol::ColorMap& map,
-             double low,
-             double high,
+             const pcl_uvol::ColorScale& scale,
              const std::string& title);
+
+/** \brief Most categories that a legend lists. */
+constexpr std::size_t most_categories = 20;
+
+/** \brief Draw a square for each category with its number, and a title, in the place
+ * of a bar.
+ * \param categories ascending, at most most_categories */
+void
+drawCategories(pcl_uvol::Image& image,
+               const pcl_uvol::ColorMap& map,
+               const std::vector<double>& categories,
+               const std::string& title);
+
+/** \brief Round values within a scale, to be written beside it. */
+std::vector<double>
+listTicks(const pcl_uvol::ColorScale& scale);
 
 /** \brief A value beside a bar. */
 struct BarLabel {

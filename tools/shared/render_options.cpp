@@ -113,9 +113,11 @@ RenderOptions::applyLook(const Options& options,
   renderer.settings() = settings_;
   renderer.setNumberOfThreads(options.threads());
   renderer.setColorField(colorField(cloud));
-  renderer.setColorMap(colorMap());
-  if (const auto range = getRange())
-    renderer.setColorRange((*range)[0], (*range)[1]);
+  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+  renderer.setColorMap(mapping.map);
+  renderer.setLogarithmicColors(mapping.is_logarithmic);
+  if (mapping.range)
+    renderer.setColorRange((*mapping.range)[0], (*mapping.range)[1]);
 }
 
 void

@@ -154,9 +154,7 @@ ViewOptions::declareScene(Options& options)
       color_,
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
-  options.choice(
-      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
-  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  colors_.declare(options);
   options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
   options.numbers(
       "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
@@ -243,8 +241,7 @@ ViewOptions::check(const Options& options)
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (!options.given("eye") && options.given("at"))
     throw UsageError("-at needs -eye.");
-  if (!range_.empty() && !(range_[0] < range_[1]))
-    throw UsageError("-range takes two numbers, the lower one first.");
+  colors_.check();
   if (!surface_color_.empty())
     material_.color = toColor("surface-color", surface_color_);
   parseBackground();
@@ -384,7 +381,17 @@ ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
   if (!drawsBar(cloud))
     return;
   image = widened(image, background_, width_);
-  uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], colorField(cloud));
+  const std::string field = colorField(cloud);
+  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+  const std::vector<double> categories =
+      mapping.map.isCategorical()
+          ? pcl_uvol::listCategories(cloud, field, most_categories)
+          : std::vector<double>();
+  if (categories.empty())
+    drawColorBar(
+        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
+  else
+    drawCategories(image, mapping.map, categories, field);
 }
 
 } // namespace uvol_tools
