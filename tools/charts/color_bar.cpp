@@ -156,6 +156,18 @@ listTicks(const ColorScale& scale)
   return values;
 }
 
+BarLabels
+labelBar(const ColorScale& scale, double nearest)
+{
+  const std::vector<double> values = barValues(scale, nearest);
+  const AxisLabels texts =
+      scale.is_logarithmic ? AxisLabels{shortNumbers(values), ""} : labelValues(values);
+  BarLabels labels{{}, texts.offset};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    labels.values.push_back({scale.placeOf(values[i]), texts.texts[i]});
+  return labels;
+}
+
 void
 drawColorBar(Image& image,
              const ColorMap& map,
@@ -165,17 +177,17 @@ drawColorBar(Image& image,
   if (isTooSmall(image))
     return;
   const Legend legend(image);
-  const std::vector<double> values =
-      barValues(scale, label_distance * legend.size / legend.length);
-  const AxisLabels texts =
-      scale.is_logarithmic ? AxisLabels{shortNumbers(values), ""} : labelValues(values);
-  std::vector<BarLabel> labels;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    labels.push_back({scale.placeOf(values[i]), texts.texts[i]});
-  drawBar(
-      image, map, legend.area(), labels, TextAnchor::Right, legend.size, legend.ink);
+  const BarLabels labels =
+      labelBar(scale, label_distance * legend.size / legend.length);
+  drawBar(image,
+          map,
+          legend.area(),
+          labels.values,
+          TextAnchor::Right,
+          legend.size,
+          legend.ink);
   legend.write(image, title, legend.top - legend.size * 3 / 2);
-  legend.write(image, texts.offset, legend.top + legend.length + legend.size * 3 / 2);
+  legend.write(image, labels.offset, legend.top + legend.length + legend.size * 3 / 2);
 }
 
 void

@@ -39,15 +39,27 @@ drawCategories(pcl_uvol::Image& image,
                const std::vector<double>& categories,
                const std::string& title);
 
-/** \brief Round values within a scale, to be written beside it. */
-std::vector<double>
-listTicks(const pcl_uvol::ColorScale& scale);
-
 /** \brief A value beside a bar. */
 struct BarLabel {
   double place; ///< along the bar, 0 at its lower end and 1 at the upper one
   std::string text;
 };
+
+/** \brief Values beside a bar. */
+struct BarLabels {
+  std::vector<BarLabel> values; ///< from the lower end to the upper one
+  /** What is to be added to all of them, as "+ 1.6e9"; empty for nothing. */
+  std::string offset;
+};
+
+/** \brief Both ends of a scale, and round values in between.
+ * \param nearest two of them, in parts of the bar */
+BarLabels
+labelBar(const pcl_uvol::ColorScale& scale, double nearest);
+
+/** \brief Round values within a scale, to be written beside it. */
+std::vector<double>
+listTicks(const pcl_uvol::ColorScale& scale);
 
 /** \brief Draw a standing bar of colours with values beside it.
  * \param anchor Left: the values stand to the right of the bar; Right: to the left

@@ -373,6 +373,15 @@ ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
   return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
 }
 
+std::vector<double>
+ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
+                            const pcl_uvol::ColorMapping& mapping) const
+{
+  if (!mapping.map.isCategorical())
+    return {};
+  return pcl_uvol::listCategories(cloud, colorField(cloud), most_categories);
+}
+
 void
 ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
                       const std::array<double, 2>& range,
@@ -383,10 +392,7 @@ ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
   image = widened(image, background_, width_);
   const std::string field = colorField(cloud);
   const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
-  const std::vector<double> categories =
-      mapping.map.isCategorical()
-          ? pcl_uvol::listCategories(cloud, field, most_categories)
-          : std::vector<double>();
+  const std::vector<double> categories = listCategories(cloud, mapping);
   if (categories.empty())
     drawColorBar(
         image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);

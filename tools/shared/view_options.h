@@ -196,10 +196,17 @@ public:
   }
   /** @} */
 
-private:
+protected:
+  /** \brief True if the colours of a picture of this cloud need an explanation. */
   bool
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
+  /** \brief The categories that a legend lists; none: it is a bar. */
+  std::vector<double>
+  listCategories(const pcl_uvol::CloudView& cloud,
+                 const pcl_uvol::ColorMapping& mapping) const;
+
+private:
   void
   parseBackground();
 
