@@ -36,6 +36,7 @@ run(int argc, char** argv)
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
+  look.declareExaggeration(options);
   look.declareOrbit(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))
@@ -50,6 +51,7 @@ run(int argc, char** argv)
   Report report;
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);
+  look.exaggerate(dataset);
   std::string backend = "web page";
   if (is_page)
     look.writePage(options, dataset, output, report);

@@ -8,6 +8,7 @@
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
 #include "shared/point_files.h"
+#include "shared/stretch_surface.h"
 
 #include <Eigen/Geometry>
 
@@ -161,6 +162,17 @@ ViewOptions::declareScene(Options& options)
 }
 
 void
+ViewOptions::declareExaggeration(Options& options)
+{
+  options.numbers("exaggerate",
+                  "x,y,z",
+                  3,
+                  exaggeration_,
+                  "stretch the picture along the axes, as 1,1,100; -eye and -at are "
+                  "places in the data");
+}
+
+void
 ViewOptions::declareSupersampling(Options& options)
 {
   options.integer("supersample",
@@ -242,6 +254,9 @@ ViewOptions::check(const Options& options)
   if (!options.given("eye") && options.given("at"))
     throw UsageError("-at needs -eye.");
   colors_.check();
+  for (const double factor : exaggeration_)
+    if (!(factor > 0.0))
+      throw UsageError("-exaggerate takes three factors above 0.");
   if (!surface_color_.empty())
     material_.color = toColor("surface-color", surface_color_);
   parseBackground();
@@ -306,6 +321,13 @@ ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
   return color_ == "none" ? "" : color_;
 }
 
+void
+ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
+{
+  if (isExaggerated())
+    stretchSurface(surface, toVector(exaggeration_));
+}
+
 pcl_uvol::Camera
 ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         const std::array<double, 3>& origin,
@@ -313,12 +335,17 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         const pcl_uvol::CloudView* cloud) const
 {
   const Eigen::Vector3d shift(origin.data());
+  const auto toPicture = [&](const std::vector<double>& place) -> Eigen::Vector3d {
+    const Eigen::Vector3d factors =
+        isExaggerated() ? toVector(exaggeration_) : Eigen::Vector3d::Ones();
+    return toVector(place).cwiseProduct(factors) - shift;
+  };
   const double aspect = static_cast<double>(width) / height_;
   pcl_uvol::Camera camera = pcl_uvol::Camera::fit(bounds, view_, fov_, aspect);
   if (!eye_.empty()) {
-    camera.eye = toVector(eye_) - shift;
+    camera.eye = toPicture(eye_);
     if (!at_.empty())
-      camera.at = toVector(at_) - shift;
+      camera.at = toPicture(at_);
     camera.up = up_.empty() ? upwardsOf(camera) : toVector(up_);
   }
   else {

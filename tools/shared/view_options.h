@@ -28,6 +28,10 @@ public:
   void
   declareScene(Options& options);
 
+  /** \brief -exaggerate, for tools that call exaggerate(). */
+  void
+  declareExaggeration(Options& options);
+
   void
   declareSupersampling(Options& options);
 
@@ -42,6 +46,19 @@ public:
    * \throws UsageError */
   void
   check(const Options& options);
+
+  /** \brief True if the axes of pictures have factors. */
+  bool
+  isExaggerated() const
+  {
+    return !exaggeration_.empty();
+  }
+
+  /** \brief Stretch a surface by the factors of -exaggerate: positions, its normals as
+   * covectors and lengths of edges by the largest factor. Fields keep their values.
+   * \throws InvalidArgument for splats */
+  void
+  exaggerate(pcl_uvol::Dataset& surface) const;
 
   /** \brief
    * \param origin what was subtracted from the coordinates of the cloud: places on the
@@ -216,7 +233,7 @@ private:
   std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
   std::string color_ = "auto", lights_text_;
   ColorOptions colors_;
-  std::vector<double> eye_, at_, up_, surface_color_;
+  std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;
   double fov_ = 30.0, zoom_ = 1.0;
   int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;
