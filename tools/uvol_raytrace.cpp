@@ -131,6 +131,7 @@ run(int argc, char** argv)
   arguments.view.declareExaggeration(options);
   arguments.view.declareSupersampling(options);
   arguments.view.declareOrbit(options);
+  options.group("Ray tracing");
   arguments.rays.declareRays(options);
   arguments.rays.declareSurface(options);
   arguments.view.declareLighting(options);

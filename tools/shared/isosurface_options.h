@@ -38,7 +38,6 @@ struct IsosurfaceOptions {
   makeLoadOptions() const;
 
 private:
-  std::string isovalues_;
   std::string scale_;
   InputOptions input_files_;
 };

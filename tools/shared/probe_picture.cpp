@@ -65,6 +65,7 @@ withUnit(const std::string& name, const std::string& unit)
 void
 ProbePicture::declare(Options& options)
 {
+  options.group("Picture");
   options.output("png",
                  "out.png",
                  path_,

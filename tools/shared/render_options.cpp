@@ -50,6 +50,7 @@ RenderOptions::declarePasses(Options& options)
   using pcl_uvol::ImageSpaceSettings;
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
+  options.group("Drawing points", true);
   options.flag("culling",
                s.cull_back_faces,
                "leave out what looks away from the eye: faster, for closed surfaces");
@@ -66,7 +67,9 @@ RenderOptions::declarePasses(Options& options)
                  "filter of colours");
   options.integer(
       "smoothings", s.smoothing_iterations, 0, 6, "times that it is applied");
+  options.group("Picture");
   options.flag("silhouettes", s.silhouettes, "draw silhouettes");
+  options.group("Lines", true);
   options.number("silhouette-threshold",
                  s.silhouette_threshold,
                  1e-9,
@@ -77,7 +80,9 @@ RenderOptions::declarePasses(Options& options)
                   1,
                   7,
                   "of silhouettes: t for 2 t - 1 pixels");
+  options.group("Picture");
   options.flag("features", s.feature_lines, "draw feature lines");
+  options.group("Lines", true);
   options.number("feature-threshold",
                  s.feature_threshold,
                  1e-9,

@@ -18,14 +18,16 @@ constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 34.0;
 void
 SurfacePicture::declare(Options& options)
 {
+  options.group("Picture");
   options.output("png",
                  "out.png",
                  path_,
-                 "draw the isosurface as well; the options below are for the picture");
+                 "draw the isosurface as well");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
   look_.declareExaggeration(options);
   look_.declarePasses(options);
+  options.group("Ray tracing", true);
   rays_.declareRays(options);
   rays_.declareSurface(options);
 }

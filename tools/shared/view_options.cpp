@@ -98,6 +98,7 @@ toColor(const std::string& option, const std::vector<double>& numbers)
 void
 ViewOptions::declareScene(Options& options)
 {
+  options.group("Picture");
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
   options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
   options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
@@ -140,6 +141,7 @@ ViewOptions::declareExaggeration(Options& options)
 void
 ViewOptions::declareSupersampling(Options& options)
 {
+  options.group("Picture");
   options.integer("supersample",
                   supersampling_,
                   1,
@@ -150,12 +152,14 @@ ViewOptions::declareSupersampling(Options& options)
 void
 ViewOptions::declareOrbit(Options& options)
 {
+  options.group("Picture");
   options.integer("orbit", frames_, 1, 100000, "frames of a full turn about -up");
 }
 
 void
 ViewOptions::declareLighting(Options& options)
 {
+  options.group("Light", true);
   options.text("lights",
                "x,y,z;...",
                lights_text_,
