@@ -17,12 +17,12 @@ ColorOptions::declare(Options& options)
 {
   std::string names;
   for (const std::string& name : pcl_uvol::ColorMap::names())
-    names += (names.empty() ? "" : ", ") + name;
+    names += (names.empty() ? "" : "|") + name;
   options.text("colormap",
-               "name",
+               names,
                map_,
-               names + "; NAME_r runs backwards (default viridis, tab10 for up to ten "
-                       "whole numbers)");
+               "colours of values, backwards with _r behind the name (default viridis, "
+               "tab10 for up to ten whole numbers)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
   options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
 }
