@@ -88,7 +88,7 @@ class Drawable:
         color : str
             A field or an expression, "rgb", "none", or "auto": rgb if there, else
             isovalue if there are several.
-        colormap : {"viridis", "inferno", "coolwarm", "gray"}
+        colormap : {"viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "tab10"}
         range : pair of float, optional
             Values at the ends of the colours; by default those of the field.
         size : int or pair of int

@@ -8,6 +8,7 @@
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
 #include "shared/point_files.h"
+#include "shared/stretch_surface.h"
 
 #include <algorithm>
 #include <charconv>
@@ -97,6 +98,7 @@ toColor(const std::string& option, const std::vector<double>& numbers)
 void
 ViewOptions::declareScene(Options& options)
 {
+  options.group("Picture");
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
   options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
   options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
@@ -119,17 +121,27 @@ ViewOptions::declareScene(Options& options)
       color_,
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
-  options.choice(
-      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
-  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  colors_.declare(options);
   options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
   options.numbers(
       "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
 }
 
 void
+ViewOptions::declareExaggeration(Options& options)
+{
+  options.numbers("exaggerate",
+                  "x,y,z",
+                  3,
+                  exaggeration_,
+                  "stretch the picture along the axes, as 1,1,100; -eye and -at are "
+                  "places in the data");
+}
+
+void
 ViewOptions::declareSupersampling(Options& options)
 {
+  options.group("Picture");
   options.integer("supersample",
                   supersampling_,
                   1,
@@ -140,12 +152,14 @@ ViewOptions::declareSupersampling(Options& options)
 void
 ViewOptions::declareOrbit(Options& options)
 {
+  options.group("Picture");
   options.integer("orbit", frames_, 1, 100000, "frames of a full turn about -up");
 }
 
 void
 ViewOptions::declareLighting(Options& options)
 {
+  options.group("Light", true);
   options.text("lights",
                "x,y,z;...",
                lights_text_,
@@ -210,8 +224,10 @@ ViewOptions::check(const Options& options)
     throw UsageError("-at needs -eye.");
   if (!up_.empty() && toVector(up_).isZero(0.0))
     throw UsageError("-up takes a direction, and 0,0,0 is none.");
-  if (!range_.empty() && !(range_[0] < range_[1]))
-    throw UsageError("-range takes two numbers, the lower one first.");
+  colors_.check();
+  for (const double factor : exaggeration_)
+    if (!(factor > 0.0))
+      throw UsageError("-exaggerate takes three factors above 0.");
   if (!surface_color_.empty())
     material_.color = toColor("surface-color", surface_color_);
   parseBackground();
@@ -273,17 +289,30 @@ ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
   return color_ == "none" ? "" : color_;
 }
 
+void
+ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
+{
+  if (isExaggerated())
+    stretchSurface(surface, toVector(exaggeration_));
+}
+
 pcl_uvol::Camera
 ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         const std::array<double, 3>& origin,
                         int width,
                         const pcl_uvol::CloudView* cloud) const
 {
-  const auto given = [](const std::vector<double>& numbers) {
+  const auto direction = [](const std::vector<double>& numbers) {
     return numbers.empty() ? std::nullopt : std::optional(toVector(numbers));
   };
+  const auto place = [&](const std::vector<double>& numbers) {
+    std::optional<Eigen::Vector3d> point = direction(numbers);
+    if (point && isExaggerated())
+      *point = point->cwiseProduct(toVector(exaggeration_));
+    return point;
+  };
   return pcl_uvol::chooseCamera(
-      {view_, given(eye_), given(at_), given(up_), fov_, zoom_},
+      {view_, place(eye_), place(at_), direction(up_), fov_, zoom_},
       bounds,
       origin,
       static_cast<double>(width) / height_,
@@ -333,6 +362,15 @@ ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
   return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
 }
 
+std::vector<double>
+ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
+                            const pcl_uvol::ColorMapping& mapping) const
+{
+  if (!mapping.map.isCategorical())
+    return {};
+  return pcl_uvol::listCategories(cloud, colorField(cloud), most_categories);
+}
+
 void
 ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
                       const std::array<double, 2>& range,
@@ -341,7 +379,14 @@ ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
   if (!drawsBar(cloud))
     return;
   image = widened(image, background_, width_);
-  uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], colorField(cloud));
+  const std::string field = colorField(cloud);
+  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+  const std::vector<double> categories = listCategories(cloud, mapping);
+  if (categories.empty())
+    drawColorBar(
+        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
+  else
+    drawCategories(image, mapping.map, categories, field);
 }
 
 } // namespace uvol_tools

@@ -174,9 +174,9 @@ coverPoints(const Dataset& points,
     std::optional<std::array<double, 2>> range;
     if (parameters.range)
       range = {(*parameters.range)[0], (*parameters.range)[1]};
-    const auto colored =
-        colorPoints(cloud, drawing.field, ColorMap(parameters.colormap), range);
-    drawing.range = colored.range;
+    const auto colored = colorPoints(
+        cloud, drawing.field, {ColorMap(parameters.colormap), range, false});
+    drawing.range = {colored.scale.low, colored.scale.high};
     for (const std::uint32_t source : splats.sources)
       object.colors.push_back(colored.colors[source]);
   }
