@@ -41,6 +41,10 @@ endmacro()
 string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC) # of SOURCE_DATE_EPOCH where that is set
 file(WRITE ${PROJECT_BINARY_DIR}/changelog.Debian
   "pcl-uvol (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * Packages by tools/package.sh.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+file(WRITE ${PROJECT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+foreach(key CORE LIBRARIES MPI)
+  set(CPACK_DEBIAN_${key}_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/triggers)
+endforeach()
 set(same "(= ${PROJECT_VERSION}-1)")
 set(libraries_needed "libpcl-uvol-core${soversion} ${same}" "libpcl-uvol${soversion} ${same}")
 set(purpose "pcl_uvol extracts isosurfaces straight from scattered samples with scalars, as\n oriented points or closed meshes that carry every field of the samples.")

@@ -19,10 +19,7 @@ void
 SurfacePicture::declare(Options& options)
 {
   options.group("Picture");
-  options.output("png",
-                 "out.png",
-                 path_,
-                 "draw the isosurface as well");
+  options.output("png", "out.png", path_, "draw the isosurface as well");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
   look_.declarePasses(options);
