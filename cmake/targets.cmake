@@ -31,7 +31,8 @@ function(pcl_uvol_add_library name)
   add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
   set_target_properties(pcl_uvol_${name} PROPERTIES
     EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # until 1.0
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} # until 1.0
+    INSTALL_RPATH "$ORIGIN")
   target_compile_features(pcl_uvol_${name} PUBLIC cxx_std_17)
   target_include_directories(pcl_uvol_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

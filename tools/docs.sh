@@ -16,8 +16,9 @@ mkdir -p build/docs/source/benchmarks
 cp -r docs/. build/docs/source
 rm -r build/docs/source/site
 python3 docs/site/make_reference.py "$bin" build/docs/source
-# The diary names files of the repository, which are no pages.
+# These name files of the repository, which are no pages.
 sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' tests/benchmarks/README.md >build/docs/source/benchmarks/diary.md
+sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile
 python3 docs/site/check_links.py build/docs/site

@@ -228,6 +228,7 @@ makeZeroLevel(const pcl_uvol::Dataset& samples,
   Report report;
   pcl_uvol::extractZeroLevel(pcl_uvol::viewOf(samples.cloud),
                              phi,
+                             {}, // on its way, it is not where it will be
                              how.isosurface,
                              threads,
                              isopoints,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/isosurface_options.h"
 
-#include "shared/point_files.h"
 #include "shared/scale_option.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace uvol_tools {
 
@@ -30,7 +32,7 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
                scale_,
                std::string("measure distances in a stretched space") +
                    (automatic ? "; auto: equal spread per axis" : ""));
-  declareColumns(options, xyz_);
+  input_files_.declare(options);
   options.group("Surface");
   options.numbers(
       "iso",
@@ -72,9 +74,7 @@ IsosurfaceOptions::finish()
 pcl_uvol::LoadOptions
 IsosurfaceOptions::makeLoadOptions() const
 {
-  pcl_uvol::LoadOptions options;
-  options.xyz_columns = parseColumns(xyz_);
-  return options;
+  return input_files_.makeLoadOptions();
 }
 
 } // namespace uvol_tools

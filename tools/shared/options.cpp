@@ -3,6 +3,7 @@
 #include "shared/options.h"
 
 #include "common/similar_words.h"
+#include "io/unpacked_file.h"
 #include "shared/number_list.h"
 
 #include <algorithm>
@@ -29,7 +30,9 @@ startsWithNumber(const std::string& text)
 bool
 isOption(const std::string& argument)
 {
-  return argument.size() > 1 && argument[0] == '-' && !startsWithNumber(argument);
+  // "-.csv" is standard output.
+  return argument.size() > 1 && argument[0] == '-' && argument[1] != '.' &&
+         !startsWithNumber(argument);
 }
 
 /** The command line with one dash where it has two, and --name=value as two words. */
@@ -355,7 +358,10 @@ Options::checkFiles(const std::vector<std::string>& files) const
   std::vector<std::string> inputs = files, outputs;
   const std::size_t last = std::min(files.size(), positionals_.size());
   if (last > 0 && positionals_[last - 1].name == "out") {
-    outputs.push_back(files.back());
+    if (pcl_uvol::io::isStandardStream(files.back()))
+      std::cout.rdbuf(std::cerr.rdbuf()); // the report leaves the data alone
+    else
+      outputs.push_back(files.back());
     inputs.pop_back();
   }
   for (const Option& option : options_)
