@@ -69,6 +69,10 @@ if(TARGET uvol_viewer)
     "${purpose}\n This package has a window that shows surfaces, with a slider for isovalues."
     ${libraries_needed})
 endif()
+if(PCL_UVOL_BUILD_PYTHON)
+  pcl_uvol_debian(python python3-pcl-uvol python "surfaces from scattered samples: Python module"
+    "${purpose}\n This package has the module pcl_uvol." ${libraries_needed} python3 python3-numpy)
+endif()
 if(PCL_UVOL_BUILD_MPI)
   pcl_uvol_debian(mpi libpcl-uvol-mpi${soversion} libs "surfaces from scattered samples: MPI"
     "${purpose}\n This package has the library for many processes."
