@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the main job on data that it generates itself.
+# Installs what is missing, builds, and runs the main job on data that it generates itself. Ends with a page of
+# what it made: pictures, reports and the commands.
 # usage: demo.sh [OUTPUT_FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -8,22 +9,55 @@ out=${1:-demo_output}
 bash tools/build.sh tools
 mkdir -p "$out"
 bin=build/release/bin
-run() { printf '\n$ %s\n' "$*"; "$@"; }
+page=$out/index.html
 
+escape() { sed -e 's/&/\&amp;/g' -e 's/</\&lt;/g'; }
+
+# run COMMAND...: run it, and put it and its report into the page.
+run() {
+  printf '\n$ %s\n' "$*"
+  "$@" 2>&1 | tee "$out/report.txt"
+  { echo "<details><summary><code>$(echo "$*" | escape)</code></summary><pre>$(escape <"$out/report.txt")</pre></details>"; } >>"$page"
+  rm "$out/report.txt"
+}
+
+# show PICTURE SENTENCE
+show() { echo "<figure><img src=\"$1\" alt=\"$2\"><figcaption>$2</figcaption></figure>" >>"$page"; }
+
+cat >"$page" <<'EOF'
+<!DOCTYPE html>
+<html lang="en"><meta charset="utf-8"><title>pcl_uvol: a torn star</title>
+<style>
+body { font-family: sans-serif; max-width: 50em; margin: 2em auto }
+pre { background: #f4f4f4; padding: 1em; overflow: auto }
+summary { cursor: pointer; margin: 0.5em 0 }
+img { max-width: 100% }
+</style>
+<h1>A torn star in a million scattered samples</h1>
+<p>Every command that was run, in this order; open one to read its report.</p>
+EOF
 run $bin/uvol_generate "$out/star.pcd" -field star -samples clustered -n 1000000
 run $bin/uvol_info "$out/star.pcd"
 run $bin/uvol_isosurface "$out/star.pcd" "$out/star_surface.ply" -field star -iso 0.001,0.01,0.1
 run $bin/uvol_isosurface "$out/star.pcd" "$out/star_surface.vtp" -field star -iso 0.001,0.01,0.1
 run $bin/uvol_isosurface "$out/star.pcd" "$out/star_inner.ply" -field star -iso 0.01 -max-error 0.01 \
   -png "$out/star.png" -size 640x480 -color mean_curvature -range -2,2 -colormap coolwarm
+show star.png "The surface at 0.01, coloured by its mean curvature."
 run $bin/uvol_render "$out/star_inner.ply" "$out/star_lines.png" -size 640x480 -silhouettes -features
+show star_lines.png "The same with silhouettes and feature lines."
+cat >>"$page" <<'EOF'
+<h2>Files beside this page</h2>
+<ul>
+<li><a href="star_surface.ply">star_surface.ply</a>: three surfaces as points, for CloudCompare, MeshLab, Blender, pcl_viewer
+<li><a href="star_surface.vtp">star_surface.vtp</a>: the same for ParaView (colour by isovalue)
+<li><a href="star.pcd">star.pcd</a>: the samples themselves
+</ul>
+<p>Your own data: <code>build/release/bin/uvol info data.csv</code> names its fields and suggests isovalues,
+<code>build/release/bin/uvol isosurface data.csv surface.ply -field NAME -iso VALUE -png picture.png</code> draws a surface.</p>
+EOF
 
 cat <<EOF
 
-Done. The surfaces of a torn star, straight from a million scattered samples:
-  $out/star_surface.ply   CloudCompare, MeshLab, Blender, pcl_viewer
-  $out/star_surface.vtp   ParaView (colour by isovalue)
-  $out/star.pcd           the samples themselves
-  $out/star.png           a picture of the inner surface, coloured by its mean curvature
-  $out/star_lines.png     the same with silhouettes and feature lines
+Done: surfaces of a torn star, straight from a million scattered samples. Pictures, reports and commands:
+  xdg-open $page
 EOF

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes Debian packages in build/package/deb, and lets lintian check them.
+# Makes Debian packages in build/package/deb, lets lintian check them, and uses what they hold: from a folder that
+# they are unpacked into the tools run, and a project of its own finds the library.
 # usage: package.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -12,4 +13,19 @@ rm -rf build/package/deb
 (cd build/package && cpack -B deb >cpack.log) || { cat build/package/cpack.log; exit 1; }
 rm -rf build/package/deb/_CPack_Packages
 lintian --fail-on error --tag-display-limit 0 build/package/deb/*.deb
-ls build/package/deb/*.deb
+
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+for package in build/package/deb/*.deb; do
+  dpkg-deb -x "$package" "$root"
+done
+libraries=$(dirname "$(find "$root/usr/lib" -name 'libpcl_uvol_core.so.?.?')")
+export LD_LIBRARY_PATH=$libraries PATH="$root/usr/bin:$PATH"
+uvol generate "$root/sphere.csv" -n 5000
+uvol isosurface "$root/sphere.csv" "$root/surface.ply" -iso 20
+uvol_viewer -version
+cmake -S tests/consumer -B "$root/consumer" -G Ninja -Dpcl_uvol_DIR="$libraries/cmake/pcl_uvol" >"$root/log"
+cmake --build "$root/consumer"
+"$root/consumer/consumer"
+man --warnings -l "$root/usr/share/man/man1/uvol_isosurface.1.gz" >/dev/null
+ls -l build/package/deb/*.deb

@@ -2,6 +2,7 @@
 // One name for all tools: uvol isosurface in.csv out.ply ... is uvol_isosurface with
 // the same arguments. The tools are those that lie beside it.
 #include "common/similar_words.h"
+#include "io/formats.h"
 #include "shared/options.h"
 
 #include <algorithm>
@@ -87,18 +88,29 @@ printTools()
               << readPurpose(findTool(name)) << '\n';
 }
 
+std::string
+joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 void
 printFormats()
 {
-  std::cout
-      << "Points, read:    .pcd .ply .csv .txt .xyz .dat .tsv .vtk .vtp .vtu .vts\n"
-         "Points, written: .pcd .ply .vtp .csv, by many processes .pvtp\n"
-         "Meshes, read:    .ply\n"
-         "Meshes, written: .ply .vtp .obj .off .stl\n"
-         "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
-         "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
-         "Scenes, read:    .scene .txt\n"
-         "Pictures:        .png\n";
+  using pcl_uvol::io::listLoadedEndings;
+  using pcl_uvol::io::listSavedEndings;
+  std::cout << "Points, read:    " << joined(listLoadedEndings())
+            << "\nPoints, written: " << joined(listSavedEndings())
+            << ", by many processes .pvtp\n"
+               "Meshes, read:    .ply\n"
+               "Meshes, written: .ply .vtp .obj .off .stl\n"
+               "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
+               "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
+               "Scenes, read:    .scene .txt\n"
+               "Pictures:        .png\n";
 }
 
 /** \throws UsageError unless the process becomes the tool */

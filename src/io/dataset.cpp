@@ -16,6 +16,12 @@ constexpr const char* saved_endings[] = {".pcd", ".ply", ".vtp", ".csv", ".npz"}
 
 namespace io {
 
+std::vector<std::string>
+listSavedEndings()
+{
+  return {std::begin(saved_endings), std::end(saved_endings)};
+}
+
 std::unique_ptr<RecordSource>
 openRecords(const std::string& path, FileFormat format, const LoadOptions& options)
 {

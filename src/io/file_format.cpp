@@ -83,10 +83,7 @@ throwUnknown(const std::string& path, const std::string& ending)
   for (const auto& known : converters)
     if (ending == known.ending)
       throwUnreadable(path, describeEnding(ending) + "; " + known.way);
-  std::vector<std::string> endings;
-  for (const auto& known : known_endings)
-    endings.emplace_back(known.ending);
-  const std::string nearest = findSimilar(endings, ending);
+  const std::string nearest = findSimilar(listLoadedEndings(), ending);
   throwUnreadable(path,
                   describeEnding(ending) +
                       (nearest.empty() ? "" : ", but " + nearest + " is") +
@@ -118,6 +115,15 @@ describeEnding(const std::string& ending)
 {
   return ending.empty() ? "its name has no ending"
                         : "the ending " + quoteText(ending) + " is not known";
+}
+
+std::vector<std::string>
+listLoadedEndings()
+{
+  std::vector<std::string> endings;
+  for (const auto& known : known_endings)
+    endings.emplace_back(known.ending);
+  return endings;
 }
 
 FileFormat

@@ -27,6 +27,13 @@ enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz };
 FileFormat
 findFormat(const std::string& path, const LoadOptions& options);
 
+/** \brief Endings of files that points are read from, and written to. @{ */
+PCL_UVOL_EXPORTS std::vector<std::string>
+listLoadedEndings();
+PCL_UVOL_EXPORTS std::vector<std::string>
+listSavedEndings();
+/** @} */
+
 /** \brief "the ending '.doc' is not known". */
 std::string
 describeEnding(const std::string& ending);

@@ -66,7 +66,8 @@ TEST(Uvol, ListsFormats)
 {
   const auto result = runCommand(tool_folder + "/uvol --list-formats");
   EXPECT_EQ(0, result.exit_code);
-  for (const char* const ending : {".pcd", ".csv", ".vts", ".stl", ".mhd", ".pvtp"})
+  for (const char* const ending :
+       {".pcd", ".csv", ".vts", ".stl", ".mhd", ".pvtp", ".las", ".npz"})
     EXPECT_THAT(result.out, HasSubstr(ending));
 }
 
