@@ -143,7 +143,8 @@ uvol_tools::MemoryGuard::Work
 forecastMemory(const Arguments& arguments, double fields, const QuerySize& queries)
 {
   return [&arguments, fields, queries](
-             double points, double, pcl_uvol::MemoryForecast& forecast) {
+             double points, double point_step, pcl_uvol::MemoryForecast& forecast) {
+    arguments.model.addFieldsNeed(points, point_step, forecast);
     using pcl_uvol::QueryShape;
     const Kind kind = arguments.queries.getKind();
     const QueryShape shape = kind == Kind::Line    ? QueryShape::Line
@@ -213,10 +214,11 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  const Dataset samples =
+  Dataset samples =
       uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
-  InterpolationParameters parameters = arguments.model.resolve(samples);
+  InterpolationParameters parameters =
+      arguments.model.resolve(options, samples, report);
   std::optional<Slice> lattice;
   if (kind != Kind::None && kind != Kind::Points)
     lattice = arguments.queries.makeLattice(findBounds(samples));

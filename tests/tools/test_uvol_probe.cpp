@@ -265,6 +265,31 @@ TEST_F(ProbeTool, AllFieldsAreThoseOfTheSamples)
   EXPECT_EQ(2, run("-field all -line 0,0,0,0,0,0 -n").exit_code);
 }
 
+TEST_F(ProbeTool, FieldsMayBeExpressions)
+{
+  // At a sample the model is the sample's own value, of the expression as well.
+  const std::string place = folder_ / "place.csv";
+  writeFile(place, "x,y,z\n0.5,0.5,0.5\n");
+  const std::string header =
+      bytesOf("-points " + place + " -field '2*cubic+1,|grad(cubic)|,cubic'");
+  std::istringstream lines(header);
+  std::string names, values;
+  std::getline(lines, names);
+  std::getline(lines, values);
+  EXPECT_EQ(0u, names.find("x,y,z,2*cubic+1,2*cubic+1_error,|grad(cubic)|"));
+  std::vector<double> numbers;
+  std::istringstream words(values);
+  for (std::string word; std::getline(words, word, ',');)
+    numbers.push_back(std::stod(word));
+  ASSERT_EQ(10u, numbers.size());
+  EXPECT_NEAR(2.0 * numbers[7] + 1.0, numbers[3], 1e-5);
+  EXPECT_NEAR(cubic(0.5, 0.5, 0.5), numbers[7], 1e-5);
+  const auto mistaken = run("-line 0,0,0,1,1,1 -n 5 -field '2*cubik'");
+  EXPECT_EQ(1, mistaken.exit_code);
+  EXPECT_NE(std::string::npos, mistaken.err.find("did you mean 'cubic'"))
+      << mistaken.err;
+}
+
 TEST_F(ProbeTool, RefusesNonsense)
 {
   const std::string line = "-field wave -line 0,0,0,1,1,1 ";

@@ -3,6 +3,8 @@
 
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
+#include "expressions/memory_need.h"
+#include "shared/point_files.h"
 #include "shared/scale_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 
@@ -21,11 +23,12 @@ void
 InterpolationOptions::declare(Options& options)
 {
   constexpr double most = std::numeric_limits<double>::max();
-  options.text("field",
-               "a,b,...|all",
-               fields_,
-               "scalar fields: density, vel[1], |vel|, |vx,vy,vz| (default: intensity, "
-               "else the only candidate)");
+  options.text(
+      "field",
+      "a,b,...|all",
+      fields_,
+      "scalar fields: density, vel[1], |vel|, |vx,vy,vz|, or expressions: log10(rho), "
+      "|grad(rho)|, Q(vel) (default: intensity, else the only candidate)");
   options.choice(
       "model",
       parameters_.model,
@@ -144,7 +147,9 @@ InterpolationOptions::parseVariogram()
 }
 
 InterpolationParameters
-InterpolationOptions::resolve(const pcl_uvol::Dataset& samples) const
+InterpolationOptions::resolve(const Options& options,
+                              pcl_uvol::Dataset& samples,
+                              pcl_uvol::Report& report) const
 {
   const auto& fields = samples.cloud.fields;
   InterpolationParameters parameters = parameters_;
@@ -155,9 +160,18 @@ InterpolationOptions::resolve(const pcl_uvol::Dataset& samples) const
     parameters.fields = pcl_uvol::listScalars(fields);
   else
     parameters.fields = parseNames("field", fields_);
-  for (const std::string& field : parameters.fields)
-    const pcl_uvol::ScalarField exists(fields, field);
+  for (std::string& field : parameters.fields)
+    addField(samples, field, options, report);
   return parameters;
+}
+
+void
+InterpolationOptions::addFieldsNeed(double points,
+                                    double& point_step,
+                                    pcl_uvol::MemoryForecast& forecast) const
+{
+  for (const std::string& name : parseNames("field", fields_))
+    forecast.run(pcl_uvol::derivedFieldNeed(name, points, point_step));
 }
 
 Folds

@@ -2,6 +2,7 @@
 // The model of a field between its samples, on the command line.
 #pragma once
 
+#include "common/memory.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
@@ -25,10 +26,20 @@ public:
   void
   finish(const Options& options);
 
-  /** \brief The parameters for samples, with fields and scale.
-   * \throws InvalidArgument for a field that is not there */
+  /** \brief The parameters for samples, with fields and scale. Expressions become
+   * fields of the samples, see addDerivedField.
+   * \throws InvalidArgument for a field that is not there, or no expression */
   pcl_uvol::InterpolationParameters
-  resolve(const pcl_uvol::Dataset& samples) const;
+  resolve(const Options& options,
+          pcl_uvol::Dataset& samples,
+          pcl_uvol::Report& report) const;
+
+  /** \brief Add the memory of these expressions to a forecast.
+   * \param point_step of the samples; becomes that with the fields */
+  void
+  addFieldsNeed(double points,
+                double& point_step,
+                pcl_uvol::MemoryForecast& forecast) const;
 
   /** \brief After finish(), without fields and scale. */
   const pcl_uvol::InterpolationParameters&
