@@ -235,6 +235,26 @@ TEST(SurfaceMeasures, ThingsThatTouchInAVertexOrAnEdgeAreTwo)
   }
 }
 
+TEST(SurfaceMeasures, FoldsAreErrorsOfTheArea)
+{
+  MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  // A vertex drawn across one of its triangles, on the sphere.
+  const auto& [a, b, c] = sphere.triangles[100];
+  sphere.places[a] =
+      2.0 * (0.8 * (sphere.places[b] + sphere.places[c]) - 0.6 * sphere.places[a])
+                .normalized();
+  sphere.normals[a] = sphere.places[a].normalized();
+  const PieceMeasures folded = measure(sphere).isovalues[0];
+  expectWithin(folded.area, 16.0 * M_PI, 0.01);
+  EXPECT_GT(folded.area.value, 16.0 * M_PI * (1.0 + 1e-4));
+  // Normals that all look inwards are no folds.
+  MeasuredShape turned = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  const double error = measure(turned).isovalues[0].area.error;
+  for (Eigen::Vector3d& normal : turned.normals)
+    normal = -normal;
+  EXPECT_EQ(error, measure(turned).isovalues[0].area.error);
+}
+
 TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)
 {
   SurfaceMeasuresParameters parameters;
