@@ -187,6 +187,18 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
   EXPECT_NEAR(4.0 / 3.0 * M_PI * (std::pow(2.01, 3) - 8.0), piece.volume.error, 0.01);
   EXPECT_NEAR(4.0 * M_PI * (std::pow(2.01, 2) - 4.0), piece.area.error, 0.5);
   EXPECT_GT(piece.area.error, 4.0 * M_PI * (std::pow(2.01, 2) - 4.0));
+  EXPECT_TRUE(measures.getReport().warnings.empty());
+  // What has no estimate counts for nothing, and is told.
+  std::vector<float> errors;
+  for (const Eigen::Vector3d& place : sphere.places)
+    errors.push_back(place[0] > 0.0 ? 0.01f : std::numeric_limits<float>::quiet_NaN());
+  setField(*vertices, "error", errors);
+  measures.setInputSurface(vertices, sphere.triangles);
+  EXPECT_NEAR(
+      0.5 * piece.volume.error, measures.compute().isovalues[0].volume.error, 0.02);
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_NE(std::string::npos,
+            measures.getReport().warnings[0].find("% of the area has vertices"));
 }
 
 TEST(SurfaceMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
