@@ -206,9 +206,9 @@ runInMemory(const Options& options,
         pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
       };
   if (arguments.where.empty())
-    memory.checkFile(arguments.input, work);
+    memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
   else
-    memory.checkFile(arguments.input, nullptr);
+    memory.checkFile(arguments.input, nullptr, arguments.makeLoadOptions());
   const auto samples = loadSamples(options, arguments, memory, report);
   const IsosurfacePipelineParameters& parameters = arguments.parameters;
   pcl_uvol::IsosurfacePipeline pipeline;
@@ -286,7 +286,8 @@ run(int argc, char** argv)
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
-      "ply csv txt vtk vtp vtu vts, writes pcd ply vtp csv, meshes as ply vtp obj off "
+      "ply csv txt vtk vtp vtu vts h5 and snapshots of Gadget, writes pcd ply vtp csv, "
+      "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);
   if (!options.parse(argc, argv))

@@ -1,67 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/isosurface_options.h"
 
-#include "shared/point_files.h"
 #include "shared/scale_option.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace uvol_tools {
-
-namespace {
-
-/** The numbers of lo:hi:n, evenly spaced, or of lo:hi:nlog, of even ratios.
- * \throws UsageError */
-std::vector<double>
-parseSeries(const std::string& text)
-{
-  constexpr double most = 10000.0;
-  std::string numbers = text;
-  const std::string ending = "log";
-  const bool is_log =
-      numbers.size() > ending.size() &&
-      numbers.compare(numbers.size() - ending.size(), ending.size(), ending) == 0;
-  if (is_log)
-    numbers.resize(numbers.size() - ending.size());
-  std::replace(numbers.begin(), numbers.end(), ':', ',');
-  const std::vector<double> parts = parseNumbers("iso", numbers, 0);
-  if (parts.size() != 3 || parts[2] != std::floor(parts[2]) || parts[2] < 2.0 ||
-      parts[2] > most)
-    throw UsageError("-iso " + text +
-                     " is no series: give the first and the last isovalue and how many "
-                     "there are, from 2 to 10000, as in 0.1:0.9:17.");
-  if (is_log && !(parts[0] * parts[1] > 0.0))
-    throw UsageError("-iso " + text +
-                     " is no series: even ratios need numbers of one sign, not 0.");
-  std::vector<double> series;
-  for (double i = 0.0; i < parts[2]; ++i) {
-    const double t = i / (parts[2] - 1.0);
-    series.push_back(is_log ? parts[0] * std::pow(parts[1] / parts[0], t)
-                            : parts[0] + t * (parts[1] - parts[0]));
-  }
-  series.back() = parts[1];
-  return series;
-}
-
-/** Numbers and series joined by commas. \throws UsageError */
-std::vector<double>
-parseIsovalues(const std::string& text)
-{
-  std::vector<double> isovalues;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    const std::string part = text.substr(start, end - start);
-    const std::vector<double> more = part.find(':') == std::string::npos
-                                         ? parseNumbers("iso", part, 1)
-                                         : parseSeries(part);
-    isovalues.insert(isovalues.end(), more.begin(), more.end());
-    start = end + 1;
-  }
-  return isovalues;
-}
-
-} // namespace
 
 IsosurfaceOptions::IsosurfaceOptions()
 {
@@ -71,10 +16,7 @@ IsosurfaceOptions::IsosurfaceOptions()
 void
 IsosurfaceOptions::declareSamples(Options& options, bool automatic)
 {
-  options.text("iso",
-               "v,...|lo:hi:n[log]",
-               isovalues_,
-               "isovalues, or a series of them: 0.1:0.9:17, 0.01:1:50log");
+  options.group("Input");
   options.text("field",
                "name",
                parameters.isosurface.field,
@@ -90,7 +32,15 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
                scale_,
                std::string("measure distances in a stretched space") +
                    (automatic ? "; auto: equal spread per axis" : ""));
-  declareColumns(options, xyz_);
+  input_files_.declare(options);
+  options.group("Surface");
+  options.numbers(
+      "iso",
+      "v,...",
+      0,
+      parameters.isosurface.isovalues,
+      "isovalues (required), ranges as well: 0.1:0.1:0.6 from first to last "
+      "by a step, 0.01:1:5log five of them from 0.01 to 1");
   options.choice("outside",
                  parameters.isosurface.outside,
                  "the side normals point to: where values are lower or higher");
@@ -99,6 +49,7 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
 void
 IsosurfaceOptions::declareMethod(Options& options)
 {
+  options.group("Surface");
   options.choice("criterion",
                  parameters.isosurface.criterion,
                  "angle criterion against kept or against all closer candidates");
@@ -112,10 +63,9 @@ IsosurfaceOptions::declareMethod(Options& options)
 void
 IsosurfaceOptions::finish()
 {
-  if (isovalues_.empty())
+  if (parameters.isosurface.isovalues.empty())
     throw UsageError(
         "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
-  parameters.isosurface.isovalues = parseIsovalues(isovalues_);
   const ScaleOption scale(scale_);
   parameters.automatic_scale = scale.isAutomatic();
   parameters.isosurface.scale = scale.getFactors();
@@ -124,9 +74,7 @@ IsosurfaceOptions::finish()
 pcl_uvol::LoadOptions
 IsosurfaceOptions::makeLoadOptions() const
 {
-  pcl_uvol::LoadOptions options;
-  options.xyz_columns = parseColumns(xyz_);
-  return options;
+  return input_files_.makeLoadOptions();
 }
 
 } // namespace uvol_tools

@@ -12,6 +12,7 @@ namespace uvol_tools {
 void
 MeshOptions::declare(Options& options)
 {
+  options.group("Mesh");
   options.flag("mesh",
                is_asked_for_,
                "make a closed triangle mesh whose vertices are isopoints; .obj, .off "
