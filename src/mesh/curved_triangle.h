@@ -89,8 +89,13 @@ private:
   static SurfaceIntegrals
   integrate(const Nodes& nodes, std::array<double, 3>& shares);
 
+  /** Add the corner that is cut to the errors. */
+  void
+  addCutCorner(SurfaceIntegrals& sum) const;
+
   Nodes flat_, bent_;
-  double sq_turn_ = 0.0; // of normals along an edge that is bent, squared, at most
+  bool cuts_corner_ = false; // between a cap and the surface, or another cap
+  double sq_turn_ = 0.0;     // of normals along an edge that is bent, squared, at most
 };
 
 } // namespace pcl_uvol::detail

@@ -149,6 +149,7 @@ std::vector<SurfaceIntegrals>
 MeasuredMesh::integrate(bool curved, std::vector<double>& shares) const
 {
   std::vector<SurfaceIntegrals> integrals(list_.pieces.size());
+  std::vector<double> against(list_.pieces.size()); // areas
   shares.assign(corners_.size(), 0.0);
   for (const Triangle& triangle : triangles_) {
     const auto piece = static_cast<std::size_t>(list_.of_vertex[triangle[0]]);
@@ -156,11 +157,29 @@ MeasuredMesh::integrate(bool curved, std::vector<double>& shares) const
         {corners_[triangle[0]], corners_[triangle[1]], corners_[triangle[2]]},
         bounds_[piece].center());
     std::array<double, 3> own;
-    integrals[piece].add(curved ? bent.integrate(own) : bent.integrateFlat(own));
+    const SurfaceIntegrals added =
+        curved ? bent.integrate(own) : bent.integrateFlat(own);
+    integrals[piece].add(added);
+    if (isAgainstNormals(triangle))
+      against[piece] += added.area;
     for (std::size_t i = 0; i < 3; ++i)
       shares[triangle[i]] += own[i];
   }
+  // Where some triangles are folded over others, the surface is counted three times.
+  for (std::size_t i = 0; i < integrals.size(); ++i)
+    integrals[i].area_error +=
+        2.0 * std::min(against[i], integrals[i].area - against[i]);
   return integrals;
+}
+
+bool
+MeasuredMesh::isAgainstNormals(const Triangle& triangle) const
+{
+  const SurfaceCorner &a = corners_[triangle[0]], &b = corners_[triangle[1]],
+                      &c = corners_[triangle[2]];
+  return (b.place - a.place)
+             .cross(c.place - a.place)
+             .dot(a.normal + b.normal + c.normal) < 0.0;
 }
 
 } // namespace pcl_uvol::detail

@@ -85,6 +85,9 @@ public:
   integrate(bool curved, std::vector<double>& shares) const;
 
 private:
+  bool
+  isAgainstNormals(const Triangle& triangle) const;
+
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> sources_;
   PieceList list_;

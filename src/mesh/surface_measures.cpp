@@ -37,6 +37,10 @@ using detail::SurfaceIntegrals;
 /** Of a figure: one that is known no better is hardly one. */
 constexpr double large_error = 1.0 / 3.0;
 
+/** Of the area: less without an estimated error changes figures by less than they say.
+ */
+constexpr double much_without_error = 0.05;
+
 /** What the vertices' estimated distances to the surface make of area and volume. */
 class VertexErrors {
 public:
@@ -47,19 +51,21 @@ public:
   {
   }
 
-  void
+  /** False without an estimate, where the vertices have a field of them. */
+  bool
   add(std::uint32_t vertex, double share, SurfaceIntegrals& integrals) const
   {
     const double error = error_ ? error_->read(vertices_.point(vertex)) : 0.0;
     if (!std::isfinite(error))
-      return;
+      return false;
     integrals.volume_error += share * error;
     const double curvature =
         curvature_ ? std::abs(curvature_->read(vertices_.point(vertex))) : 0.0;
     if (!std::isfinite(curvature))
-      return;
+      return true;
     // First variation of the area, and the area of ripples as long as the edges.
     integrals.area_error += share * 2.0 * curvature * error + error * error;
+    return true;
   }
 
 private:
@@ -117,11 +123,13 @@ public:
   {
     integrals_ = mesh.integrate(curved && mesh.hasNormals(), shares_);
     const VertexErrors errors(vertices);
-    for (std::size_t i = 0; i < shares_.size(); ++i)
-      if (mesh.getPieces().of_vertex[i] >= 0)
-        errors.add(mesh.getSources()[i],
-                   shares_[i],
-                   integrals_[static_cast<std::size_t>(mesh.getPieces().of_vertex[i])]);
+    forVertices([&](std::size_t piece, std::size_t vertex) {
+      const double share = shares_[vertex];
+      area_ += share;
+      if (!errors.add(mesh.getSources()[vertex], share, integrals_[piece]) &&
+          !mesh.getCorners()[vertex].is_on_cap)
+        without_error_ += share;
+    });
     for (std::size_t i = 0; i < integrals_.size(); ++i)
       figures.pieces.push_back(describePiece(i));
     describeFields();
@@ -179,6 +187,11 @@ public:
           std::to_string(open) +
           " are open, or disagree with others about the outside: they enclose no "
           "volume, and only their area is measured.");
+    if (without_error_ > much_without_error * area_)
+      report.warnings.push_back(
+          std::to_string(std::lround(100.0 * without_error_ / area_)) +
+          " % of the area has vertices without an estimated error: the errors of the "
+          "figures are those of the rest.");
     const auto vague = std::count_if(
         figures.isovalues.begin(),
         figures.isovalues.end(),
@@ -356,6 +369,7 @@ private:
   const MeasuredMesh& mesh_;
   const CloudView& vertices_;
   Eigen::Vector3d origin_;
+  double area_ = 0.0, without_error_ = 0.0; // of it, where no vertex tells its error
   std::vector<double> shares_;              // by vertex
   std::vector<SurfaceIntegrals> integrals_; // by piece
   std::vector<Eigen::Vector3d> centers_;    // by piece, that these are relative to

@@ -29,6 +29,8 @@ TEST(ExactSigns, HoldWhereRoundingDoesNot)
       const int side = y > x ? 1 : y < x ? -1 : 0;
       ASSERT_EQ(side, signOfArea(a, b, c, 2)) << i << ' ' << k;
       ASSERT_EQ(-side, signOfArea(b, a, c, 2)) << i << ' ' << k;
+      ASSERT_EQ(side, signOfArea(b, c, a, 2)) << i << ' ' << k;
+      ASSERT_EQ(side, signOfArea(c, a, b, 2)) << i << ' ' << k;
       // The same as a plane that holds the z axis.
       ASSERT_EQ(-side, signOfVolume(a, b, Place(0.0, 0.0, 5.0), c)) << i << ' ' << k;
     }

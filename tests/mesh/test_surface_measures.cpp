@@ -5,10 +5,12 @@
 #include "mesh/curved_triangle.h"
 #include "mesh/mesh_columns.h"
 #include "mesh/surface_pieces.h"
+#include "mesh_fields.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
 #include <gtest/gtest.h>
+#include <pcl/conversions.h>
 
 #include <cmath>
 #include <limits>
@@ -105,6 +107,34 @@ TEST(SurfaceMeasures, CapsStayFlat)
   EXPECT_NEAR(3.0 / 8.0 * 2.0, solid.centroid[2], 1e-3);
 }
 
+TEST(SurfaceMeasures, CutCornersOfCapsAreWithinTheErrors)
+{
+  const auto cloud = sampleField(
+      {"slab", [](const Eigen::Vector3d& x) { return 10.0 - x[2]; }, 20.0, 1, 0}, 2);
+  Eigen::AlignedBox3d box;
+  for (const pcl::PointXYZI& point : *cloud)
+    box.extend(point.getVector3fMap().cast<double>());
+  const Eigen::Vector3d sides(box.sizes()[0], box.sizes()[1], 10.0 - box.min()[2]);
+  const SurfaceTriangles mesh = runMesh(cloud).mesh;
+  auto vertices = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(mesh.vertices, vertices->cloud);
+  setField(*vertices,
+           "cap",
+           std::vector<std::int32_t>(mesh.is_on_cap.begin(), mesh.is_on_cap.end()));
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, mesh.triangles);
+  for (const bool curved : {true, false}) {
+    measures.setParameters({curved, false});
+    const PieceMeasures slab = measures.compute().isovalues[0];
+    expectWithin(slab.volume, sides.prod(), 0.03);
+    expectWithin(slab.area,
+                 2.0 *
+                     (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]),
+                 0.08);
+    EXPECT_LT(slab.volume.error, 0.1 * slab.volume.value);
+  }
+}
+
 TEST(SurfaceMeasures, WallsOfCavitiesCountNegative)
 {
   MeasuredShape shell = makeEllipsoid({3.0, 3.0, 3.0}, 4);
@@ -187,6 +217,18 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
   EXPECT_NEAR(4.0 / 3.0 * M_PI * (std::pow(2.01, 3) - 8.0), piece.volume.error, 0.01);
   EXPECT_NEAR(4.0 * M_PI * (std::pow(2.01, 2) - 4.0), piece.area.error, 0.5);
   EXPECT_GT(piece.area.error, 4.0 * M_PI * (std::pow(2.01, 2) - 4.0));
+  EXPECT_TRUE(measures.getReport().warnings.empty());
+  // What has no estimate counts for nothing, and is told.
+  std::vector<float> errors;
+  for (const Eigen::Vector3d& place : sphere.places)
+    errors.push_back(place[0] > 0.0 ? 0.01f : std::numeric_limits<float>::quiet_NaN());
+  setField(*vertices, "error", errors);
+  measures.setInputSurface(vertices, sphere.triangles);
+  EXPECT_NEAR(
+      0.5 * piece.volume.error, measures.compute().isovalues[0].volume.error, 0.02);
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_NE(std::string::npos,
+            measures.getReport().warnings[0].find("% of the area has vertices"));
 }
 
 TEST(SurfaceMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
@@ -233,6 +275,26 @@ TEST(SurfaceMeasures, ThingsThatTouchInAVertexOrAnEdgeAreTwo)
     EXPECT_EQ(boxes.places.size(), figures.vertex_areas.size());
     EXPECT_EQ(boxes.places.size(), figures.piece_of.size());
   }
+}
+
+TEST(SurfaceMeasures, FoldsAreErrorsOfTheArea)
+{
+  MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  // A vertex drawn across one of its triangles, on the sphere.
+  const auto& [a, b, c] = sphere.triangles[100];
+  sphere.places[a] =
+      2.0 * (0.8 * (sphere.places[b] + sphere.places[c]) - 0.6 * sphere.places[a])
+                .normalized();
+  sphere.normals[a] = sphere.places[a].normalized();
+  const PieceMeasures folded = measure(sphere).isovalues[0];
+  expectWithin(folded.area, 16.0 * M_PI, 0.01);
+  EXPECT_GT(folded.area.value, 16.0 * M_PI * (1.0 + 1e-4));
+  // Normals that all look inwards are no folds.
+  MeasuredShape turned = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  const double error = measure(turned).isovalues[0].area.error;
+  for (Eigen::Vector3d& normal : turned.normals)
+    normal = -normal;
+  EXPECT_EQ(error, measure(turned).isovalues[0].area.error);
 }
 
 TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)

@@ -125,6 +125,8 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * theorem. The error of a figure adds up what all vertices may be off by, as though all
  * were off to one side, and what the bent triangles leave out; that is the larger part
  * without normals.
+ * Where caps meet the surface, or one another, triangles cut the corner, which counts
+ * as an error as well.
  *
  * A field of the samples is integrated over the space inside as the sum over the
  * samples there of value times volume of the kd-tree's cell (thesis 2.2.1); where cells
