@@ -4,7 +4,7 @@
 # usage: package.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
-bash tools/build.sh help lintian fakeroot dpkg-dev file
+bash tools/build.sh help lintian fakeroot dpkg-dev file man-db python3-numpy
 
 cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON \
   -DPCL_UVOL_BUILD_TESTS=OFF
@@ -22,8 +22,11 @@ done
 libraries=$(dirname "$(find "$root/usr/lib" -name 'libpcl_uvol_core.so.?.?')")
 export LD_LIBRARY_PATH=$libraries PATH="$root/usr/bin:$PATH"
 uvol generate "$root/sphere.csv" -n 5000
-uvol isosurface "$root/sphere.csv" "$root/surface.ply" -iso 20
+uvol isosurface "$root/sphere.csv" "$root/surface.ply" -iso 8
 uvol_viewer -version
+if [ -d "$root/usr/lib/python3" ]; then
+  PYTHONPATH=$root/usr/lib/python3/dist-packages /usr/bin/python3 -c 'import pcl_uvol'
+fi
 cmake -S tests/consumer -B "$root/consumer" -G Ninja -Dpcl_uvol_DIR="$libraries/cmake/pcl_uvol" >"$root/log"
 cmake --build "$root/consumer"
 "$root/consumer/consumer"
