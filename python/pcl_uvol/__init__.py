@@ -10,6 +10,7 @@ from ._errors import DivergedError, FieldError, ResultWarning
 from ._files import read, read_volume, write
 from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
+from ._measures import FieldFigures, Figure, Measures, PieceFigures
 from ._pictures import Picture
 from ._samples import Samples
 from ._stages import (Clusters, Projection, VoronoiGrid, cluster, info, level_set, normals, project,
@@ -22,10 +23,14 @@ __all__ = [
     "DivergedError",
     "Extractor",
     "FieldError",
+    "FieldFigures",
+    "Figure",
     "Interpolator",
     "Lattice",
+    "Measures",
     "Mesh",
     "Picture",
+    "PieceFigures",
     "Projection",
     "ResultWarning",
     "Samples",

@@ -2,7 +2,7 @@
 # Types of the public names; tests/python/test_module.py holds them against the code.
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -56,6 +56,15 @@ class Extractor:
 class FieldError(KeyError):
     ...
 
+class FieldFigures(NamedTuple):
+    mean: float
+    integral: Figure
+    sum: float
+
+class Figure(NamedTuple):
+    value: float
+    error: float
+
 class Interpolator:
     samples: Samples
     fields: list[str]
@@ -77,9 +86,17 @@ class Lattice:
     def __getitem__(self, name: str) -> np.ndarray: ...
     def __iter__(self) -> Iterator[str]: ...
 
+class Measures(PieceFigures):
+    isovalues: list[PieceFigures]
+    pieces: list[PieceFigures]
+    vertex_areas: np.ndarray
+    piece_of: np.ndarray
+    report: dict[str, Any]
+
 class Mesh(Surface):
     triangles: np.ndarray
     vertices: np.ndarray
+    def measure(self, curved: bool = ..., find_intersections: bool = ..., threads: int = ..., progress: Progress = ...) -> Measures: ...
     def save(self, path: str | os.PathLike[str], ascii: bool = ...) -> Any: ...
 
 class Picture:
@@ -88,6 +105,23 @@ class Picture:
     range: tuple[float, float]
     report: dict[str, Any]
     def save(self, path: str | os.PathLike[str]) -> None: ...
+
+class PieceFigures:
+    isovalue: float
+    vertices: int
+    triangles: int
+    rims: int
+    genus: int
+    samples: int
+    area: Figure
+    volume: Figure
+    centroid: np.ndarray
+    axes: np.ndarray
+    half_axes: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    on_surface: dict[str, FieldFigures]
+    inside: dict[str, FieldFigures]
 
 class Projection:
     places: np.ndarray
@@ -115,6 +149,7 @@ class Surface(_Drawable, _Points):
     parameters: dict[str, Any]
     normals: np.ndarray
     def mesh(self, remesh: str = ..., edge_length: float = ..., open: bool = ..., drop_pieces: int = ..., threads: int = ..., progress: Progress = ...) -> Mesh: ...
+    def measure(self, curved: bool = ..., find_intersections: bool = ..., threads: int = ..., progress: Progress = ...) -> Measures: ...
 
 class VoronoiGrid:
     site: np.ndarray

@@ -6,7 +6,7 @@ import html
 import inspect
 import os
 
-from . import _arrays, _core, _parameters, _report
+from . import _arrays, _core, _measures, _parameters, _report
 from ._pictures import Drawable
 from ._points import Points
 from ._progress import listening
@@ -62,6 +62,33 @@ class Surface(Drawable, Points):
                           validation={"folds": 0})
         return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
 
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
+        """Area, volume, axes, genus and integrals of fields, each with its error: those
+        of `mesh()` with its usual parameters.
+
+        Parameters
+        ----------
+        curved : bool
+            Bend triangles as the normals of their vertices tell.
+        find_intersections : bool
+            Look for triangles that go through one another.
+
+        Returns
+        -------
+        Measures
+            Those of the first isovalue, with all others in `isovalues`.
+
+        Examples
+        --------
+        >>> import numpy as np, pcl_uvol as uvol
+        >>> points = np.random.default_rng(1).random((20000, 3))
+        >>> r = np.linalg.norm(points - 0.5, axis=1)
+        >>> figures = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher").measure()
+        >>> bool(abs(figures.volume.value - 4 / 3 * np.pi * 0.3**3) < 1e-4), figures.genus
+        (True, 0)
+        """
+        return self.mesh(threads=threads, progress=progress).measure(curved, find_intersections, threads, progress)
+
     def _comments(self):
         isovalues = ",".join(f"{value:g}" for value in self.report["isovalues"])
         return [f"isosurface of {self.report['field']} at {isovalues}"]
@@ -111,6 +138,10 @@ class Mesh(Surface):
     def vertices(self):
         """numpy.ndarray, shape (n, 3): the points."""
         return self.points
+
+    def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
+        """Figures of this mesh: see `Surface.measure`."""
+        return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
 
     def save(self, path, ascii=False):
         """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""

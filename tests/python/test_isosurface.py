@@ -209,6 +209,29 @@ def test_eight_threads_at_once(ball):
     assert found == [expected] * 8
 
 
+def test_measures_of_a_sphere(sphere):
+    figures = sphere.measure(find_intersections=True)
+    area, volume = 4 * np.pi * 0.3**2, 4 / 3 * np.pi * 0.3**3
+    assert abs(figures.area.value - area) < max(1e-3 * area, figures.area.error)
+    assert abs(figures.volume.value - volume) < max(1e-3 * volume, figures.volume.error)
+    assert figures.genus == 0 and figures.rims == 0 and len(figures.pieces) == 1
+    assert np.allclose(figures.centroid, 0.5, atol=1e-3)
+    assert figures.report["intersections"] == 0
+    assert np.isclose(figures.vertex_areas.sum(), figures.area.value)
+    r = figures.inside["r"]  # of the distance to the centre: 3/4 of the radius
+    assert abs(r.mean - 0.75 * 0.3) < 0.01
+    assert "area" in repr(figures)
+
+
+def test_flat_figures_are_those_of_the_triangles(sphere):
+    mesh = sphere.mesh()
+    assert float(mesh.measure().area) == float(sphere.measure().area)
+    flat = mesh.measure(curved=False)
+    corners = mesh.vertices[mesh.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.isclose(flat.area.value, np.linalg.norm(normals, axis=1).sum() / 2, rtol=1e-5)
+
+
 def test_other_threads_run_meanwhile():
     points = np.random.default_rng(3).random((100000, 3))
     samples = uvol.Samples(points, {"r": points[:, 0]})

@@ -29,6 +29,9 @@ void
 bindSamplingStages(pybind11::module_& module);
 
 void
+bindMeasures(pybind11::module_& module);
+
+void
 bindPictures(pybind11::module_& module);
 
 } // namespace pcl_uvol::python

@@ -13,5 +13,6 @@ PYBIND11_MODULE(_core, module)
   bindSurfaceStages(module);
   bindClusterStages(module);
   bindSamplingStages(module);
+  bindMeasures(module);
   bindPictures(module);
 }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures of meshes.
+#include "core/bindings.h"
+#include "core/interruptible.h"
+#include "shared/convert.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/mesh/surface_measures.h>
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::tuple
+toPair(const Measure& measure)
+{
+  return py::make_tuple(measure.value, measure.error);
+}
+
+py::dict
+describe(const PieceMeasures& piece)
+{
+  py::dict on_surface, inside;
+  for (const SurfaceFieldMeasures& field : piece.on_surface) {
+    py::dict figures;
+    figures["mean"] = field.mean;
+    figures["integral"] = toPair(field.integral);
+    on_surface[toText(field.name)] = figures;
+  }
+  for (const InnerFieldMeasures& field : piece.inside) {
+    py::dict figures;
+    figures["mean"] = field.mean;
+    figures["integral"] = toPair(field.integral);
+    figures["sum"] = field.sum;
+    inside[toText(field.name)] = figures;
+  }
+  py::dict dict;
+  dict["isovalue"] = piece.isovalue;
+  dict["vertices"] = piece.vertices;
+  dict["triangles"] = piece.triangles;
+  dict["rims"] = piece.rims;
+  dict["genus"] = piece.genus;
+  dict["area"] = toPair(piece.area);
+  dict["volume"] = toPair(piece.volume);
+  dict["centroid"] = piece.centroid;
+  dict["axes"] = Eigen::Matrix3d(piece.axes.transpose());
+  dict["half_axes"] = piece.half_axes;
+  dict["low"] = piece.low;
+  dict["high"] = piece.high;
+  dict["on_surface"] = on_surface;
+  dict["samples"] = piece.samples;
+  dict["inside"] = inside;
+  return dict;
+}
+
+py::list
+toList(const std::vector<PieceMeasures>& pieces)
+{
+  py::list list;
+  for (const PieceMeasures& piece : pieces)
+    list.append(describe(piece));
+  return list;
+}
+
+using TriangleArray = py::array_t<std::uint32_t, py::array::c_style>;
+
+std::vector<Triangle>
+readTriangles(const TriangleArray& indices)
+{
+  std::vector<Triangle> triangles(static_cast<std::size_t>(indices.shape(0)));
+  const auto rows = indices.unchecked<2>();
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      triangles[i][corner] =
+          rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
+  return triangles;
+}
+
+/** \param samples null: none
+ * \return figures of isovalues and of pieces, shares of the vertices in the area, the
+ * piece of each, and the report */
+py::tuple
+measure(const DatasetPtr& vertices,
+        const TriangleArray& triangles,
+        const DatasetPtr& samples,
+        const std::string& parameters,
+        unsigned threads,
+        const py::object& progress)
+{
+  SurfaceMeasures measures;
+  measures.setParameters(SurfaceMeasuresParameters::fromJson(parameters));
+  measures.setInputSurface(vertices, readTriangles(triangles));
+  measures.setInputSamples(samples);
+  measures.setNumberOfThreads(threads);
+  SurfaceFigures figures;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    measures.setProgressCallback(callback);
+    figures = measures.compute();
+  });
+  py::dict report = toDict(measures.getReport());
+  report["intersections"] = figures.intersections.size();
+  const auto count = static_cast<py::ssize_t>(figures.vertex_areas.size());
+  return py::make_tuple(toList(figures.isovalues),
+                        toList(figures.pieces),
+                        toArray(std::move(figures.vertex_areas), {count}),
+                        toArray(std::move(figures.piece_of), {count}),
+                        report);
+}
+
+} // namespace
+
+void
+bindMeasures(py::module_& module)
+{
+  module.def("measure", &measure);
+}
+
+} // namespace pcl_uvol::python
