@@ -110,7 +110,7 @@ TEST(LevelSetErrors, AreLengthsOfTheSamplesWhateverTheirScale)
   const auto noisy = makeSphere();
   const auto parameters = makeParameters(std::nullopt);
   const Surface plain = smooth(noisy, parameters);
-  expectErrorsOfTheSurface(noisy, smooth(noisy, parameters, 1.0f, 8.0f), 8.0f);
+  expectErrorsOfTheSurface(noisy, smooth(noisy, parameters, 1.0f, 0.125f), 0.125f);
   const Surface larger = smooth(noisy, parameters, 0x1p30f, 1.0f, 1);
   ASSERT_EQ(plain.size(), larger.size());
   for (std::size_t i = 0; i < plain.size(); ++i)
