@@ -98,10 +98,13 @@ void
 makeWords(std::vector<std::string>& names, std::vector<std::string>& comments)
 {
   const std::vector<std::string> originals = names;
-  for (auto& name : names)
+  for (auto& name : names) {
     for (char& c : name)
       if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f')
         c = '_';
+    if (name == "_") // which PCL takes for bytes without meaning
+      name = "field";
+  }
   makeUnique(names);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] != originals[i])
@@ -122,6 +125,21 @@ appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
   std::uint8_t wide[sizeof(value)];
   std::memcpy(wide, &value, sizeof(value));
   pcl_uvol::appendNumber(text, column.datatype, wide);
+}
+
+std::string
+packRecords(const Dataset& dataset,
+            const std::vector<Column>& columns,
+            std::size_t first,
+            std::size_t count)
+{
+  const RecordPacker packer(columns);
+  const std::size_t step = dataset.cloud.point_step;
+  std::string records(count * packer.size(), '\0');
+  auto* to = reinterpret_cast<std::uint8_t*>(records.data());
+  for (std::size_t i = first; i < first + count; ++i, to += packer.size())
+    packer.pack(dataset.cloud.data.data() + i * step, to);
+  return records;
 }
 
 void

@@ -69,8 +69,8 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
       std::to_string(100 * guesses / known) +
       " % of the isopoints lie between lines of samples or beside gaps: where the "
       "surface crosses a line is known, how it runs from there is a guess. A hold-out "
-      "test tells how good it is, a scale that fits the samples may help, and bridged "
-      "isopoints can be left out (-validate, -scale, -drop-bridged).");
+      "test tells how good it is, a scale that fits the samples may help, bridged "
+      "isopoints can go (-validate, -scale, -drop-bridged).");
 }
 
 /** Isopoints follow one another by isovalue. */
