@@ -64,6 +64,8 @@ TEST(Deviation, IsWhatIsLeftOfTheNoiseAroundIt)
   // Part of the shift that the mean of 27 residuals shows by chance is added.
   EXPECT_NEAR(0.02 * std::sqrt(2.0), meanOf(deviations, -1.0), 0.004);
   EXPECT_NEAR(0.08 * std::sqrt(2.0), meanOf(deviations, 1.0), 0.016);
+  const auto half = findDeviations(band().band, setup.phi, setup.term, {0.5, 1.0}, 1);
+  EXPECT_NEAR(0.05 * std::sqrt(2.0), meanOf(half, -1.0), 0.006);
   const auto more = findDeviations(band().band, setup.phi, setup.term, {0.2, 0.5}, 1);
   EXPECT_GT(meanOf(more, 1.0), 1.8 * meanOf(deviations, 1.0));
 }
