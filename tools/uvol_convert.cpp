@@ -3,6 +3,7 @@
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include "shared/series.h"
 #include <pcl_uvol/io/dataset.h>
 
 namespace {
@@ -24,6 +25,7 @@ run(int argc, char** argv)
   options.text("where", "expr", where, "only the points for which it holds");
   reading.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
@@ -46,5 +48,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_convert", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_convert", argc, argv, run);
 }

@@ -15,6 +15,7 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/sampling_fact.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
@@ -256,6 +257,7 @@ run(int argc, char** argv)
       "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   arguments.finish(options);
@@ -320,5 +322,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_isosurface", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_isosurface", argc, argv, run);
 }

@@ -12,6 +12,7 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/scale_option.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
@@ -281,6 +282,7 @@ run(int argc, char** argv)
       "by a level set on the samples, and writes it as the field phi: about "
       "the distance to the surface, positive where values are higher.");
   declare(options, arguments);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   LevelSetParameters parameters = makeParameters(options, arguments);
@@ -366,5 +368,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_levelset", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_levelset", argc, argv, run);
 }

@@ -9,13 +9,15 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace uvol_tools {
 
 namespace {
 
-std::string named_file; // a tool has one command line
+std::optional<std::vector<std::string>> expected_outputs; // of a series
+std::string named_file, named_output; // a tool has one command line at a time
 
 /** The whole text as a number; false for anything else, such as 1.5m or nothing. */
 template <typename T>
@@ -280,6 +282,18 @@ Options::given(const std::string& name) const
   });
 }
 
+void
+Options::series(const std::string& name,
+                const std::string& placeholder,
+                const std::string& help)
+{
+  Option option; // without a target: it is taken before
+  option.name = name;
+  option.placeholder = placeholder;
+  option.help = help;
+  options_.push_back(option);
+}
+
 Options::Option&
 Options::find(const std::string& argument)
 {
@@ -340,6 +354,10 @@ Options::parse(int argc, const char* const* argv)
   }
   assignFiles(files);
   named_file = files.empty() ? std::string() : files.front();
+  named_output.clear();
+  if (!files.empty() && files.size() <= positionals_.size() &&
+      positionals_[files.size() - 1].name == "out")
+    named_output = files.back();
   checkFiles(files);
   return true;
 }
@@ -360,6 +378,14 @@ Options::checkFiles(const std::vector<std::string>& files) const
     if (option.given && option.written)
       outputs.push_back(*option.written);
   checkDistinct(inputs, outputs);
+  if (!expected_outputs)
+    return;
+  for (const std::string& output : outputs)
+    if (std::find(expected_outputs->begin(), expected_outputs->end(), output) ==
+        expected_outputs->end())
+      throw UsageError("'" + output +
+                       "' would be written anew by every file of the series: its name "
+                       "needs a place for a number, as in out_{:04d}.vtp.");
 }
 
 void
@@ -407,6 +433,18 @@ const std::string&
 namedFile()
 {
   return named_file;
+}
+
+void
+expectOutputs(const std::vector<std::string>& names)
+{
+  expected_outputs = names;
+}
+
+const std::string&
+namedOutput()
+{
+  return named_output;
 }
 
 std::uint64_t
