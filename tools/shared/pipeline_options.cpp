@@ -7,6 +7,7 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace uvol_tools {
@@ -77,6 +78,13 @@ PipelineOptions::declare(Options& options)
                scratch_,
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
+  density.declare(options);
+  options.number("outside-value",
+                 outside_value,
+                 std::numeric_limits<double>::lowest(),
+                 std::numeric_limits<double>::max(),
+                 "add samples of that value one spacing outside of the data, where the "
+                 "field is known to end");
   mesh_.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
@@ -85,7 +93,8 @@ PipelineOptions::declare(Options& options)
 bool
 PipelineOptions::needsAllSamples() const
 {
-  return parameters.smooth || parameters.automatic_scale || !where.empty() ||
+  return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
+         parameters.automatic_scale || !where.empty() ||
          parameters.validation.folds > 0 || parameters.mesh ||
          parameters.isosurface.neighbors == NeighborSource::Voronoi ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
@@ -112,7 +121,8 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -smooth, -where, -scale auto, -validate, -mesh, "
+        "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
+        "auto, -validate, -mesh, "
         "-neighbors voronoi and derivatives as fields, which need all samples in "
         "memory.");
   if (!parameters.mesh)
