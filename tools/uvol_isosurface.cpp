@@ -148,6 +148,11 @@ addOuterLayer(const Options& options,
               Report& report)
 {
   const StepTimer timer(report, "outer layer");
+  if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
+    report.warnings.push_back(
+        "Fits swing where the field steps to the value outside: pieces beside the "
+        "surface "
+        "may be theirs, and -interpolation linear, for points, has none.");
   const std::string& field = arguments.parameters.isosurface.field;
   pcl_uvol::addOuterLayer(
       samples,

@@ -84,7 +84,8 @@ PipelineOptions::declare(Options& options)
                  std::numeric_limits<double>::lowest(),
                  std::numeric_limits<double>::max(),
                  "add samples of that value one spacing outside of the data, where the "
-                 "field is known to end");
+                 "field is known to end; isopoints lie on their edges then, as by "
+                 "-interpolation linear");
   mesh_.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
@@ -153,6 +154,10 @@ PipelineOptions::finish(const Options& options)
   if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
     parameters.validation.field = validate_by_;
   parameters.mesh = mesh_.finish(options, output);
+  // Fits swing where the field steps to the value outside.
+  if (std::isfinite(outside_value) && !options.given("interpolation") &&
+      !parameters.mesh)
+    parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
   checkCombinations(options);
   if (!parameters.mesh)
     pcl_uvol::checkSavePath(output);
