@@ -12,7 +12,6 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/scale_option.h"
-#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
@@ -56,19 +55,23 @@ declare(Options& options, Arguments& arguments)
   constexpr std::uint64_t many = 1000000;
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Level set");
   options.numbers("iso", "v", 1, arguments.iso, "isovalue (required)");
+  options.group("Input");
   options.text("field",
                "name",
                arguments.parameters.field,
                "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
                "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
                "only candidate)");
+  options.group("Level set");
   options.text(
       "mu",
       "m|auto",
       arguments.mu,
       "weight of the data against smoothness, 0 to 1; auto: smooth as far as the "
       "expected deviation falls");
+  options.group("Schemes", true);
   options.choice("scheme",
                  arguments.parameters.scheme,
                  "local fits; linear: the thesis's, unstable on noise");
@@ -86,6 +89,7 @@ declare(Options& options, Arguments& arguments)
                  arguments.parameters.reinitialization,
                  "what keeps the slope at 1: distance to the isopoints, the Eikonal "
                  "equation, or a diffusion term");
+  options.group("Level set");
   options.number("band",
                  arguments.parameters.band_width,
                  0.0,
@@ -112,10 +116,12 @@ declare(Options& options, Arguments& arguments)
   options.choice("outside",
                  arguments.parameters.outside,
                  "the outside of -sphere, -box and -plane is where values are so");
+  options.group("Input");
   options.text("scale",
                "sx,sy,sz|auto",
                arguments.scale,
                "measure distances in a stretched space; auto: equal spread per axis");
+  options.group("Output");
   options.integer("snapshots",
                   arguments.snapshots,
                   1,
@@ -222,6 +228,7 @@ makeZeroLevel(const pcl_uvol::Dataset& samples,
   Report report;
   pcl_uvol::extractZeroLevel(pcl_uvol::viewOf(samples.cloud),
                              phi,
+                             {}, // on its way, it is not where it will be
                              how.isosurface,
                              threads,
                              isopoints,
@@ -282,7 +289,6 @@ run(int argc, char** argv)
       "by a level set on the samples, and writes it as the field phi: about "
       "the distance to the surface, positive where values are higher.");
   declare(options, arguments);
-  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   LevelSetParameters parameters = makeParameters(options, arguments);
@@ -368,5 +374,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runSeries("uvol_levelset", argc, argv, run);
+  return uvol_tools::runTool("uvol_levelset", [&] { return run(argc, argv); });
 }

@@ -53,13 +53,17 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output, false);
+  options.group("Where");
   arguments.queries.declare(options);
+  options.group("Model");
   arguments.model.declare(options);
+  options.group("Input");
   options.text("where",
                "expr",
                arguments.where,
                "use only the samples for which it holds: \"experiment=1 && T>4\"");
   arguments.reading.declare(options);
+  options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   arguments.picture.declare(options);
 }

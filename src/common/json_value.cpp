@@ -176,7 +176,8 @@ JsonValue::append(const JsonValue& value)
 std::string
 JsonValue::dump(int indent) const
 {
-  return content_->json.dump(indent);
+  // Names of fields need not be UTF-8.
+  return content_->json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 } // namespace pcl_uvol::detail

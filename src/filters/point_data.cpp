@@ -196,12 +196,9 @@ PointCollector::collect()
     const std::size_t bytes = static_cast<std::size_t>(array->GetDataTypeSize()) *
                               static_cast<std::size_t>(array->GetNumberOfComponents());
     const auto* from = static_cast<const std::uint8_t*>(array->GetVoidPointer(0));
-    std::uint8_t* to = records.data.data() + offset;
-    for (std::size_t i = 0; i < records.width; ++i) {
-      std::memcpy(to, from, bytes);
-      from += bytes;
-      to += records.point_step;
-    }
+    for (std::size_t i = 0; i < records.width; ++i)
+      std::memcpy(
+          &records.data[i * records.point_step + offset], from + i * bytes, bytes);
     offset += bytes;
   }
   result_.dataset = makeDataset(std::move(records), info_);

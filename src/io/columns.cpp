@@ -98,10 +98,13 @@ void
 makeWords(std::vector<std::string>& names, std::vector<std::string>& comments)
 {
   const std::vector<std::string> originals = names;
-  for (auto& name : names)
+  for (auto& name : names) {
     for (char& c : name)
       if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f')
         c = '_';
+    if (name == "_") // which PCL takes for bytes without meaning
+      name = "field";
+  }
   makeUnique(names);
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] != originals[i])

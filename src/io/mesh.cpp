@@ -20,14 +20,15 @@ loadMesh(const std::string& path)
   const io::InputFile file(path);
   if (file.head(3) != "ply")
     io::throwUnreadable(path, "meshes are read from PLY files, and this is none");
-  io::PlyMesh read = io::readPlyMesh(path);
-  const CloudView cloud = viewOf(read.vertices.cloud);
+  std::vector<Triangle> triangles;
+  const Dataset vertices = loadMesh(path, triangles);
+  const CloudView cloud = io::reading(path, [&] { return viewOf(vertices.cloud); });
   Mesh mesh;
-  mesh.origin = read.vertices.origin;
+  mesh.origin = vertices.origin;
   mesh.vertices.resize(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i)
     std::copy_n(cloud.xyz(i), 3, mesh.vertices[i].begin());
-  mesh.triangles = std::move(read.triangles);
+  mesh.triangles = std::move(triangles);
   if (mesh.triangles.empty())
     io::throwUnreadable(path, "it has no faces");
   return mesh;

@@ -448,10 +448,10 @@ TextTable::collect(const RecordInfo& info) const
 {
   auto records = makeRecords(info.fields, info.count);
   for (std::size_t i = 0; i < info.fields.size(); ++i) {
-    std::uint8_t* to = records.data.data() + info.fields[i].offset;
+    std::size_t at = info.fields[i].offset;
     for (const double value : columns_[i].values) {
-      putNumber(value, info.fields[i].datatype, to);
-      to += records.point_step;
+      putNumber(value, info.fields[i].datatype, &records.data[at]);
+      at += records.point_step;
     }
   }
   return records;

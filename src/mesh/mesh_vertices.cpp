@@ -188,7 +188,7 @@ finishMesh(const IsopointInput& input,
   VertexFits fits(input, isovalue, mesh);
   fits.run(report);
   SurfaceTriangles surface;
-  surface.vertices.assign(fits.points.begin(), fits.points.end(), fits.points.size());
+  surface.vertices.assign(fits.points.begin(), fits.points.end());
   for (const IsoEdge& edge : fits.edges)
     surface.edges.push_back({sources[edge.first], sources[edge.second], edge.t});
   for (const WorkingVertex& vertex : mesh.vertices)

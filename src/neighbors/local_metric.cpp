@@ -14,6 +14,8 @@ namespace pcl_uvol {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 /** Samples whose neighbours are averaged: fewer scatter on random samples, more have
@@ -224,6 +226,11 @@ LocalMetricFinder::setMetric(const LineMoments& lines)
   for (int i = 0; i < 3; ++i)
     squares[i] =
         eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
+  // Lines whose squares are beyond float tell nothing.
+  if (!(squares.minCoeff() > 0.0) || !squares.allFinite()) {
+    metric_.setIdentity();
+    return infinity;
+  }
   spacings_ = axes * squares.asDiagonal() * axes.transpose();
   ratio_ = computeRatio(squares);
   const Solver seen(metric_ * spacings_ * metric_.transpose());
@@ -256,7 +263,7 @@ LocalMetricFinder::lookAround(std::uint32_t sample)
 {
   metric_.setIdentity();
   spacings_.setIdentity();
-  ratio_ = std::numeric_limits<double>::infinity();
+  ratio_ = infinity;
   reach_ = 0.0;
   if (is_flat_)
     return false;
@@ -267,10 +274,7 @@ LocalMetricFinder::lookAround(std::uint32_t sample)
   if (stretchAcrossLayer())
     return false;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-  if (stretchAcross(lines))
-    return false;
-  setMetric(lines);
-  return true;
+  return !stretchAcross(lines) && setMetric(lines) < infinity;
 }
 
 bool
@@ -279,7 +283,7 @@ LocalMetricFinder::hasLayers() const
   const Solver eigen(spacings_);
   const Eigen::Vector3d across =
       eigen.eigenvectors().col(2) / std::sqrt(eigen.eigenvalues()[2]);
-  double first = std::numeric_limits<double>::infinity(), lowest = 0.0, highest = 0.0;
+  double first = infinity, lowest = 0.0, highest = 0.0;
   for (const auto& neighbor : nearest_) {
     const double height = across.dot(neighbor.second);
     if (std::abs(height) > half_layer)
@@ -304,14 +308,17 @@ LocalMetricFinder::sqFarthest() const
 double
 LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_stretch)
 {
+  // Lines between samples that are both very near and very far have no lengths in
+  // float.
+  if (!metric_.allFinite())
+    return std::numeric_limits<double>::infinity();
   const auto& row = finder_.find(samples_.getPositions()[sample], metric_, sq_limit);
   gather(sample, row.data(), row.size());
   reach_ = std::max(reach_, finder_.getReach());
   if (may_stretch && stretchAcrossLayer())
-    return std::numeric_limits<double>::infinity();
+    return infinity;
   const LineMoments lines(offsets_, std::min(central_samples, nearest_.size()));
-  return stretchAcross(lines) ? std::numeric_limits<double>::infinity()
-                              : setMetric(lines);
+  return stretchAcross(lines) ? infinity : setMetric(lines);
 }
 
 bool
@@ -327,7 +334,7 @@ LocalMetricFinder::search(std::uint32_t sample)
     if (ratio < even_ratio)
       return is_seen_ || hasLayers();
   }
-  ratio_ = std::numeric_limits<double>::infinity();
+  ratio_ = infinity;
   return false;
 }
 

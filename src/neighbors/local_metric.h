@@ -156,7 +156,8 @@ private:
   hasLayers() const;
 
   /** From the lines between samples, the spacings and the metric that evens them out.
-   * \return the ratio of the longest to the shortest spacing in the metric before */
+   * \return the ratio of the longest to the shortest spacing in the metric before;
+   * infinity, and no metric but the identity, where the lines tell no spacings */
   double
   setMetric(const LineMoments& lines);
 

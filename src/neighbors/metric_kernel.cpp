@@ -42,14 +42,11 @@ measureFour(const float* positions, const Doubles (&point)[3], const MetricRows&
 {
   const auto a = load<Floats>(positions), b = load<Floats>(positions + 4),
              c = load<Floats>(positions + 8);
-  using Order = int __attribute__((vector_size(16)));
   const Floats xs[3] = {
-      __builtin_shuffle(
-          __builtin_shuffle(a, b, Order{0, 3, 6, 6}), c, Order{0, 1, 2, 5}),
-      __builtin_shuffle(
-          __builtin_shuffle(a, b, Order{1, 4, 7, 7}), c, Order{0, 1, 2, 6}),
-      __builtin_shuffle(
-          __builtin_shuffle(a, b, Order{2, 5, 5, 5}), c, Order{0, 1, 4, 7})};
+      __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 6), c, 0, 1, 2, 5),
+      __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 7), c, 0, 1, 2, 6),
+      __builtin_shufflevector(
+          __builtin_shufflevector(a, b, 2, 5, 5, 5), c, 0, 1, 4, 7)};
   Doubles offset[3];
   for (int axis = 0; axis < 3; ++axis)
     offset[axis] = __builtin_convertvector(xs[axis], Doubles) - point[axis];

@@ -220,6 +220,37 @@ constexpr std::array<const char*, 15> splat_fields = {"x",
                                                       "slope_u",
                                                       "slope_v"};
 
+/** \param count splats that there were before some were left out */
+void
+warnOfBadSplats(std::size_t count, const Splats& splats, Report& report)
+{
+  const std::size_t bad = count - splats.cloud.size();
+  if (bad == 0)
+    return;
+  report.setCount("bad_splats", bad);
+  std::ostringstream warning;
+  warning << bad << " of " << count
+          << " splats are left out: they are not finite, have no normal, tangent or "
+             "radius, or are larger or farther away than "
+          << most_splat_reach << '.';
+  report.warnings.push_back(warning.str());
+}
+
+/** Those that rays can meet: splats are generated in any unit, and drawn in that of the
+ * input. */
+Splats
+takeDrawable(Splats&& splats, Report& report)
+{
+  Splats drawable;
+  for (std::size_t i = 0; i < splats.cloud.size(); ++i)
+    if (isDrawable(splats.cloud[i])) {
+      drawable.cloud.push_back(splats.cloud[i]);
+      drawable.sources.push_back(splats.sources[i]);
+    }
+  warnOfBadSplats(splats.cloud.size(), drawable, report);
+  return drawable;
+}
+
 } // namespace
 
 Splats
@@ -253,11 +284,16 @@ detail::generateSplats(const CloudView& cloud,
     splat_of[accepted[i].sample] = i;
   Splats splats;
   splats.cloud.reserve(accepted.size());
-  for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample)
-    if (splat_of[sample] != none) {
-      splats.cloud.push_back(toInput(accepted[splat_of[sample]].splat, unit));
-      splats.sources.push_back(points.samples->getInputIndex(sample));
-    }
+  for (std::uint32_t sample = 0; sample < splat_of.size(); ++sample) {
+    if (splat_of[sample] == none)
+      continue;
+    const PointSplat splat = toInput(accepted[splat_of[sample]].splat, unit);
+    if (!std::isfinite(splat.radius)) // beyond float in the unit of the input
+      continue;
+    splats.cloud.push_back(splat);
+    splats.sources.push_back(points.samples->getInputIndex(sample));
+  }
+  warnOfBadSplats(accepted.size(), splats, report);
   return splats;
 }
 
@@ -318,16 +354,8 @@ readSplats(const CloudView& cloud, Report& report)
     splats.sources.push_back(i);
   }
   report.count("splats", splats.cloud.size());
-  const std::size_t bad = cloud.count - splats.cloud.size();
-  report.count("bad_splats", bad);
-  if (bad > 0) {
-    std::ostringstream warning;
-    warning << bad << " of " << cloud.count
-            << " splats are left out: they are not finite, have no normal, tangent or "
-               "radius, or are larger or farther away than "
-            << most_splat_reach << '.';
-    report.warnings.push_back(warning.str());
-  }
+  report.count("bad_splats", 0);
+  warnOfBadSplats(cloud.count, splats, report);
   return splats;
 }
 
@@ -341,7 +369,8 @@ findSplats(const CloudView& cloud,
   if (!hasSplats(cloud)) {
     std::vector<std::uint32_t> all(cloud.count);
     std::iota(all.begin(), all.end(), 0u);
-    return detail::generateSplats(cloud, all, parameters, threads, report);
+    return takeDrawable(detail::generateSplats(cloud, all, parameters, threads, report),
+                        report);
   }
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "

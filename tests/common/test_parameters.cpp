@@ -151,6 +151,13 @@ TEST(Parameters, NameWhatIsWrongInJson)
             std::string::npos);
 }
 
+TEST(Parameters, ReplaceWhatJsonCannotHold)
+{
+  IsosurfaceParameters latin1;
+  latin1.field = "T \xb0";
+  EXPECT_EQ("T \xef\xbf\xbd", IsosurfaceParameters::fromJson(latin1.toJson()).field);
+}
+
 TEST(Parameters, UnderstandTheOldWordForFits)
 {
   EXPECT_EQ(IsosurfaceParameters(),

@@ -66,6 +66,7 @@ TEST(Names, BytesThatAFormatCannotHoldAreReplaced)
     EXPECT_EQ(latin, nameThrough(ending, latin));
     EXPECT_EQ("a_b_c", nameThrough(ending, lines));
     EXPECT_EQ("a_b", nameThrough(ending, blanks));
+    EXPECT_EQ("field", nameThrough(ending, "\x11")) << "_ would be left out";
   }
   EXPECT_EQ("a_[31m_b", nameThrough(".vtp", control));
   EXPECT_EQ("T_\xc2\xb0"

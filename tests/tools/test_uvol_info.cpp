@@ -84,6 +84,15 @@ TEST_F(UvolInfo, JsonIsOneObject)
   EXPECT_TRUE(nlohmann::json::parse(unknown.out)["ranges"]["f"]["min"].is_null());
 }
 
+TEST_F(UvolInfo, NamesNeedNotBeUtf8)
+{
+  const std::string latin1 = "x,y,z,T \xb0\n0,0,0,1\n1,0,0,2\n0,1,0,3\n";
+  const auto result = runOn(latin1, "-json");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_TRUE(nlohmann::json::parse(result.out)["ranges"].contains("T_\xef\xbf\xbd"));
+  expectTold(runOn(latin1), {"T \\xb0"});
+}
+
 TEST_F(UvolInfo, RefusesWhatIsWrong)
 {
   const std::tuple<const char*, int, const char*> cases[] = {

@@ -19,6 +19,13 @@ makeKey(std::string name)
   return name;
 }
 
+/** As text; names of fields and files need not be UTF-8. */
+std::string
+write(const Json& json)
+{
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 Json
 toJson(double number)
 {
@@ -65,8 +72,7 @@ Fact::Fact(std::string name, std::string text)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    // File names need not be UTF-8.
-    , json_(Json(text_).dump(-1, ' ', false, Json::error_handler_t::replace))
+    , json_(write(text_))
 {
 }
 
@@ -79,7 +85,7 @@ Fact::Fact(std::string name, std::string text, double number)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(toJson(number).dump())
+    , json_(write(toJson(number)))
 {
 }
 
@@ -92,7 +98,7 @@ Fact::Fact(std::string name, std::string text, const Numbers& numbers)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(toJson(numbers).dump())
+    , json_(write(toJson(numbers)))
 {
 }
 
@@ -100,7 +106,7 @@ Fact::Fact(std::string name, std::string text, const Members& members)
     : name_(std::move(name))
     , key_(makeKey(name_))
     , text_(std::move(text))
-    , json_(toJson(members).dump())
+    , json_(write(toJson(members)))
 {
 }
 
@@ -111,7 +117,7 @@ Fact::Fact(std::string name, const std::vector<Fact>& facts)
   Json object = Json::object();
   for (const Fact& fact : facts)
     object[fact.key_] = Json::parse(fact.json_);
-  json_ = object.dump();
+  json_ = write(object);
 }
 
 Fact

@@ -68,6 +68,7 @@ PipelineOptions::declare(Options& options)
                validate_by_,
                "with -validate: samples in one part are random, lie in compact blocks, "
                "or share a value of a field, as those of a dive do (default random)");
+  options.group("Run");
   options.text("max-memory",
                "bytes",
                max_memory_,
@@ -87,6 +88,7 @@ PipelineOptions::declare(Options& options)
                  "field is known to end; isopoints lie on their edges then, as by "
                  "-interpolation linear");
   mesh_.declare(options);
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
 }

@@ -86,13 +86,14 @@ RayOptions::makeScene(const Options& options,
                                                  options.threads(),
                                                  report);
   if (splats.cloud.empty())
-    throw pcl_uvol::InvalidArgument("None of the input's splats is usable.");
+    throw pcl_uvol::InvalidArgument("None of the splats can be drawn: the coordinates "
+                                    "are too large or too small for "
+                                    "them; scaling them helps.");
   pcl_uvol::SplatObject object;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
-    const auto colored =
-        pcl_uvol::colorPoints(cloud, field, view.colorMap(), view.getRange());
-    range = colored.range;
+    const auto colored = pcl_uvol::colorPoints(cloud, field, view.colorMapping(cloud));
+    range = {colored.scale.low, colored.scale.high};
     for (const std::uint32_t source : splats.sources)
       object.colors.push_back(colored.colors[source]);
   }

@@ -184,7 +184,7 @@ private:
   }
 
   // What the interpolator was made of.
-  typename pcl::PCLBase<PointT>::PointCloudConstPtr cloud_;
+  typename CloudStage<PointT>::Cloud::ConstPtr cloud_;
   pcl::Indices used_;
   Parameters made_for_;
   std::unique_ptr<detail::FieldInterpolator> interpolator_;

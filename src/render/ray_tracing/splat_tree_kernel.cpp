@@ -27,6 +27,8 @@ public:
       const float d = ray.direction[axis];
       const bool is_tiny = d < least_direction && d > -least_direction;
       inverse_[axis] = 1.0f / (is_tiny ? least_direction : d);
+      is_finite_ =
+          is_finite_ && (ray.origin[axis] - ray.origin[axis]) + (d - d) == 0.0f;
     }
   }
 
@@ -48,6 +50,8 @@ public:
   void
   run(const Visit& visit)
   {
+    if (!is_finite_) // it would meet children that are not there
+      return;
     aside_[0] = {0, ray_.near};
     std::size_t count = 1;
     while (count > 0) {
@@ -131,6 +135,7 @@ private:
   const TreeArrays& tree_;
   const TreeRay& ray_;
   float inverse_[3];
+  bool is_finite_ = true;
   float far_;
   Aside aside_[traversal_room];
 };

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bytes as files. A reader either gives what its own writers and the stream of points
+// give again, or refuses in one sentence.
+#include "common/scalar_field.h"
+#include "io/memory_need.h"
+#include "io/point_stream.h"
+#include "io/scene_file.h"
+#include "promises.h"
+#include "targets.h"
+#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/volume.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace uvol_fuzz {
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::IOError;
+namespace fs = std::filesystem;
+
+/** A folder of this process, in memory where the system has such a place. */
+class Folder {
+public:
+  Folder()
+      : path_((fs::exists("/dev/shm") ? fs::path("/dev/shm")
+                                      : fs::temp_directory_path()) /
+              ("uvol_fuzz." + std::to_string(::getpid())))
+  {
+    fs::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder&
+  operator=(const Folder&) = delete;
+  ~Folder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  std::string
+  operator/(const std::string& name) const
+  {
+    return path_ / name;
+  }
+
+private:
+  fs::path path_;
+};
+
+const Folder&
+folder()
+{
+  static const Folder made;
+  return made;
+}
+
+std::string
+writeBytes(const std::string& name, const std::uint8_t* bytes, std::size_t size)
+{
+  const std::string path = folder() / name;
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  return path;
+}
+
+void
+requireWhole(const Dataset& dataset)
+{
+  const auto& cloud = dataset.cloud;
+  require(cloud.height == 1, "height is 1");
+  require(cloud.data.size() == std::size_t(cloud.width) * cloud.point_step,
+          "the bytes are those of the points");
+  std::size_t end = 0;
+  for (const auto& field : cloud.fields) {
+    require(field.offset == end, "fields follow one another without gaps");
+    end += pcl_uvol::datatypeSize(field.datatype) * field.count;
+  }
+  require(end <= cloud.point_step && cloud.point_step % 4 == 0,
+          "a point holds its fields");
+}
+
+/** The points are those that blocks of a stream hold. */
+void
+requireSameStream(const std::string& path,
+                  const std::string& refusal,
+                  const Dataset* whole)
+{
+  constexpr std::size_t block_points = 7;
+  std::vector<std::uint8_t> bytes;
+  const std::string stream_refusal = refusalOf<IOError>(
+      [&] {
+        pcl_uvol::PointStream stream(path);
+        pcl::PCLPointCloud2 block;
+        while (stream.read(block_points, block) > 0)
+          bytes.insert(bytes.end(), block.data.begin(), block.data.end());
+      },
+      path);
+  if (stream_refusal.find("have to be read whole") != std::string::npos)
+    return;
+  require(refusal.empty() == stream_refusal.empty(),
+          "stream and whole file are refused alike: '" + refusal + "', '" +
+              stream_refusal + "'");
+  if (whole != nullptr)
+    require(bytes == whole->cloud.data, "a stream gives the points of the whole file");
+}
+
+/** Points come back as they are from the format that holds everything. */
+void
+requireRoundTrip(const Dataset& dataset)
+{
+  const std::string path = folder() / "again.pcd";
+  pcl_uvol::saveDataset(path, dataset);
+  const Dataset again = pcl_uvol::loadDataset(path);
+  require(again.cloud.data == dataset.cloud.data ||
+              dataset.double_coordinates, // whose origin may become another one
+          "points survive PCD");
+  require(again.cloud.fields.size() == dataset.cloud.fields.size(),
+          "fields survive PCD");
+}
+
+/** What the header forecasts is what was loaded. */
+void
+requireForecast(const std::string& path, const Dataset& dataset)
+{
+  const auto promised = pcl_uvol::peekHeader(path);
+  if (!promised)
+    return;
+  require(promised->points == dataset.cloud.width, "the header tells the points");
+  require(promised->point_step == dataset.cloud.point_step,
+          "the header tells the bytes of a point");
+}
+
+void
+readPoints(const std::string& path, bool has_stream)
+{
+  Dataset dataset;
+  const std::string refusal =
+      refusalOf<IOError>([&] { dataset = pcl_uvol::loadDataset(path); }, path);
+  if (has_stream)
+    requireSameStream(path, refusal, refusal.empty() ? &dataset : nullptr);
+  if (!refusal.empty())
+    return;
+  requireWhole(dataset);
+  requireForecast(path, dataset);
+  constexpr std::size_t most_bytes = 1 << 16, most_fields = 100; // for speed
+  if (dataset.cloud.data.size() < most_bytes &&
+      dataset.cloud.fields.size() < most_fields)
+    requireRoundTrip(dataset);
+}
+
+void
+readVolume(const std::string& path)
+{
+  refusalOf<IOError>(
+      [&] {
+        const auto volume = pcl_uvol::loadVolume(path);
+        require(volume.values.size() ==
+                    volume.dims[0] * volume.dims[1] * volume.dims[2],
+                "a volume has a value per point");
+        for (const double spacing : volume.spacing)
+          require(spacing > 0.0, "distances are positive");
+      },
+      path);
+}
+
+} // namespace
+
+void
+readPcd(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.pcd", bytes, size), true);
+}
+
+void
+readPly(const std::uint8_t* bytes, std::size_t size)
+{
+  const std::string path = writeBytes("a.ply", bytes, size);
+  readPoints(path, true);
+  refusalOf<IOError>(
+      [&] {
+        const auto mesh = pcl_uvol::loadMesh(path);
+        for (const auto& triangle : mesh.triangles)
+          for (const auto vertex : triangle)
+            require(vertex < mesh.vertices.size(), "triangles have vertices");
+      },
+      path);
+}
+
+void
+readText(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.csv", bytes, size), true);
+}
+
+void
+readLegacyVtk(const std::uint8_t* bytes, std::size_t size)
+{
+  const std::string path = writeBytes("a.vtk", bytes, size);
+  readPoints(path, false);
+  readVolume(path);
+}
+
+void
+readXmlVtk(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.vtp", bytes, size), false);
+  readVolume(writeBytes("a.vti", bytes, size));
+}
+
+void
+readNrrd(const std::uint8_t* bytes, std::size_t size)
+{
+  readVolume(writeBytes("a.nrrd", bytes, size));
+}
+
+void
+readMetaImage(const std::uint8_t* bytes, std::size_t size)
+{
+  readVolume(writeBytes("a.mha", bytes, size));
+}
+
+void
+readScene(const std::uint8_t* bytes, std::size_t size)
+{
+  const std::string path = writeBytes("a.scene", bytes, size);
+  refusalOf<IOError>(
+      [&] {
+        pcl_uvol::Report report;
+        pcl_uvol::loadScene(path, folder() / "", 1, report);
+      },
+      path);
+}
+
+} // namespace uvol_fuzz

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is fed with random bytes: the readers and the stages. Each target takes any
+// bytes, and throws where the library breaks a promise.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace uvol_fuzz {
+
+struct Target {
+  const char* name; ///< also of its folder of files to start with
+  void (*run)(const std::uint8_t* bytes, std::size_t size);
+};
+
+const std::vector<Target>&
+listTargets();
+
+/** Targets that read bytes as a file of some ending. @{ */
+void
+readPcd(const std::uint8_t* bytes, std::size_t size);
+void
+readPly(const std::uint8_t* bytes, std::size_t size);
+void
+readText(const std::uint8_t* bytes, std::size_t size);
+void
+readLegacyVtk(const std::uint8_t* bytes, std::size_t size);
+void
+readXmlVtk(const std::uint8_t* bytes, std::size_t size);
+void
+readNrrd(const std::uint8_t* bytes, std::size_t size);
+void
+readMetaImage(const std::uint8_t* bytes, std::size_t size);
+void
+readScene(const std::uint8_t* bytes, std::size_t size);
+/** @} */
+
+/** Targets that make texts of bytes. @{ */
+void
+readParameters(const std::uint8_t* bytes, std::size_t size);
+void
+readExpression(const std::uint8_t* bytes, std::size_t size);
+/** @} */
+
+/** Targets that make points, values and parameters of bytes. @{ */
+void
+extractIsosurface(const std::uint8_t* bytes, std::size_t size);
+void
+meshSurface(const std::uint8_t* bytes, std::size_t size);
+void
+evolveLevelSet(const std::uint8_t* bytes, std::size_t size);
+void
+interpolateFields(const std::uint8_t* bytes, std::size_t size);
+void
+clusterAttributes(const std::uint8_t* bytes, std::size_t size);
+void
+makeSplats(const std::uint8_t* bytes, std::size_t size);
+void
+traceRays(const std::uint8_t* bytes, std::size_t size);
+void
+renderPoints(const std::uint8_t* bytes, std::size_t size);
+/** @} */
+
+} // namespace uvol_fuzz

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# Feeds every reader and every stage with random bytes (libFuzzer with AddressSanitizer and
+# UndefinedBehaviorSanitizer), on Debian 12. Prints per target how many inputs were tried, how many edges of
+# the code they reach, and what was found; each finding is a file in build/fuzz/findings/TARGET.
+# usage: fuzz.sh SECONDS [TARGET...]: seconds in all, and targets of tests/fuzz/targets.cpp, by default all.
+# What reaches new code is kept in build/fuzz/corpus and built upon by the next call. Exit code 1 if
+# something was found; such a file goes into tests/fuzz/corpus/TARGET once the fault is mended.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+seconds=${1:?usage: fuzz.sh SECONDS [TARGET...]}
+shift
+PRESET=fuzz bash tools/build.sh fuzzers clang llvm >/dev/null
+targets=("$@")
+[ $# -gt 0 ] || mapfile -t targets < <(sed -n 's/.*{"\([a-z_]*\)", .*/\1/p' tests/fuzz/targets.cpp)
+each=$((seconds / ${#targets[@]}))
+[ "$each" -gt 0 ] || { echo "fuzz.sh: $seconds s for ${#targets[@]} targets are too few." >&2; exit 2; }
+
+found=0
+for target in "${targets[@]}"; do
+  corpus=build/fuzz/corpus/$target findings=build/fuzz/findings/$target
+  log=build/fuzz/$target.log
+  mkdir -p "$corpus" "$findings"
+  options=(-max_total_time="$each" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 "-artifact_prefix=$findings/")
+  [ ! -f "tests/fuzz/dictionaries/$target.dict" ] || options+=("-dict=tests/fuzz/dictionaries/$target.dict")
+  # Stages make their points of these bytes; a kilobyte is 250 of them.
+  grep -q "$target" <<<"pcd ply text legacy_vtk xml_vtk nrrd meta_image scene" || options+=(-max_len=1024)
+  status=0
+  OMP_NUM_THREADS=1 "build/fuzz/bin/fuzz_$target" "${options[@]}" "$corpus" "tests/fuzz/corpus/$target" \
+    >"$log" 2>&1 || status=$?
+  executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  edges=$(grep -ao 'cov: [0-9]*' "$log" | tail -1 | cut -d ' ' -f 2)
+  echo "$target: ${executions:-0} executions, ${edges:-0} edges, $([ $status -eq 0 ] && echo nothing found || echo "see $log")"
+  [ $status -eq 0 ] || found=1
+done
+exit $found
