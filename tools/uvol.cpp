@@ -90,15 +90,19 @@ printTools()
 void
 printFormats()
 {
-  std::cout
-      << "Points, read:    .pcd .ply .csv .txt .xyz .dat .tsv .vtk .vtp .vtu .vts\n"
-         "Points, written: .pcd .ply .vtp .csv, by many processes .pvtp\n"
-         "Meshes, read:    .ply\n"
-         "Meshes, written: .ply .vtp .obj .off .stl\n"
-         "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
-         "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
-         "Scenes, read:    .scene .txt\n"
-         "Pictures:        .png\n";
+  std::cout << "Points, read:    .pcd .ply .csv .txt .xyz .dat .tsv .vtk .vtp .vtu "
+               ".vts .las .npy\n"
+               "                 .npz .h5 .hdf5 .h5part .vtkhdf, snapshots of Gadget; "
+               "packed: .gz\n"
+               "                 .bz2 .zst; - is standard input\n"
+               "Points, written: .pcd .ply .vtp .csv .npz, - is standard output; by "
+               "many processes .pvtp\n"
+               "Meshes, read:    .ply\n"
+               "Meshes, written: .ply .vtp .obj .off .stl\n"
+               "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
+               "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
+               "Scenes, read:    .scene .txt\n"
+               "Pictures:        .png\n";
 }
 
 /** \throws UsageError unless the process becomes the tool */
