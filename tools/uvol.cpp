@@ -103,6 +103,8 @@ printFormats()
   using pcl_uvol::io::listLoadedEndings;
   using pcl_uvol::io::listSavedEndings;
   std::cout << "Points, read:    " << joined(listLoadedEndings())
+            << ", snapshots of Gadget;\n                 packed .gz .bz2 .zst; - is "
+               "standard input"
             << "\nPoints, written: " << joined(listSavedEndings())
             << ", by many processes .pvtp\n"
                "Meshes, read:    .ply\n"

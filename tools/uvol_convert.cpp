@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points from one format into another, as they are.
+#include "shared/density_options.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include "shared/series.h"
 #include <pcl_uvol/io/dataset.h>
 
 namespace {
@@ -13,6 +15,7 @@ run(int argc, char** argv)
   std::string input, output, where;
   bool ascii = false;
   uvol_tools::InputOptions reading;
+  uvol_tools::DensityOptions density;
   uvol_tools::Options options(
       "uvol_convert",
       "in.hdf5 out.ply [options]",
@@ -23,7 +26,9 @@ run(int argc, char** argv)
   options.file("out", output);
   options.text("where", "expr", where, "only the points for which it holds");
   reading.declare(options);
+  density.declare(options);
   options.flag("ascii", ascii, "write PCD and PLY as text");
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
@@ -31,8 +36,9 @@ run(int argc, char** argv)
   uvol_tools::MemoryGuard memory("Converting");
   memory.checkFile(input, nullptr, load);
   pcl_uvol::Report report;
-  const pcl_uvol::Dataset dataset =
+  pcl_uvol::Dataset dataset =
       uvol_tools::loadPoints(input, report, load, where, options.threads());
+  density.addField(dataset, options.threads(), report);
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, dataset, save, report);
@@ -46,5 +52,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_convert", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_convert", argc, argv, run);
 }

@@ -6,6 +6,7 @@
 #include "shared/point_files.h"
 #include "shared/sampling_fact.h"
 #include "shared/scale_option.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
@@ -275,6 +276,7 @@ run(int argc, char** argv)
                arguments.scale,
                "measure spacings in a stretched space; auto: equal spread per axis");
   arguments.reading.declare(options);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   Report report;
@@ -290,5 +292,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_info", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_info", argc, argv, run);
 }

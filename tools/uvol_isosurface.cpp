@@ -3,8 +3,10 @@
 #include "common/memory.h"
 #include "common/number_range.h"
 #include "common/numbers.h"
+#include "common/scalar_field.h"
 #include "expressions/derived_source.h"
 #include "expressions/memory_need.h"
+#include "interpolation/outer_layer.h"
 #include "io/point_stream.h"
 #include "pipeline/extract_out_of_core.h"
 #include "pipeline/memory_need.h"
@@ -16,12 +18,14 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/sampling_fact.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -138,6 +142,27 @@ checkOutput(const Arguments& arguments, const pcl_uvol::Dataset& samples)
     pcl_uvol::checkSavePath(arguments.output, samples.cloud.fields);
 }
 
+void
+addOuterLayer(const Options& options,
+              const Arguments& arguments,
+              pcl_uvol::Dataset& samples,
+              Report& report)
+{
+  const StepTimer timer(report, "outer layer");
+  if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
+    report.warnings.push_back(
+        "Fits swing where the field steps to the value outside: pieces beside the "
+        "surface "
+        "may be theirs, and -interpolation linear, for points, has none.");
+  const std::string& field = arguments.parameters.isosurface.field;
+  pcl_uvol::addOuterLayer(
+      samples,
+      field.empty() ? pcl_uvol::ScalarField::defaultName(samples.cloud.fields) : field,
+      arguments.outside_value,
+      options.threads(),
+      report);
+}
+
 /** The samples with all fields that are asked for. */
 std::shared_ptr<pcl_uvol::Dataset>
 loadSamples(const Options& options,
@@ -154,10 +179,17 @@ loadSamples(const Options& options,
   report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        if (arguments.density.isAskedFor())
+          forecast.run(uvol_tools::DensityOptions::getMemoryNeed(points, step));
         addFieldsNeed(arguments, points, step, forecast);
       });
+  arguments.density.addField(*samples, options.threads(), report);
+  if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
+    arguments.parameters.isosurface.field = "sph_density";
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
+  if (std::isfinite(arguments.outside_value))
+    addOuterLayer(options, arguments, *samples, report);
   arguments.picture.addColorOfSamples(options, *samples, report);
   checkOutput(arguments, *samples);
   return samples;
@@ -290,6 +322,7 @@ run(int argc, char** argv)
       "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   arguments.finish(options);
@@ -356,5 +389,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_isosurface", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_isosurface", argc, argv, run);
 }

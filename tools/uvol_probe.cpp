@@ -12,6 +12,7 @@
 #include "shared/probe_run.h"
 #include "shared/progress_bar.h"
 #include "shared/query_options.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/io/dataset.h>
@@ -197,6 +198,7 @@ run(int argc, char** argv)
       "that do not determine the model, 6 no finite place.\nWrites pcd ply vtp csv, "
       "planes and grids also as vti vts nrrd mha.");
   declare(options, arguments);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   check(options, arguments);
@@ -281,5 +283,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_probe", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_probe", argc, argv, run);
 }

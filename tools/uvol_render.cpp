@@ -2,6 +2,7 @@
 // A picture of a surface given as points (thesis 4.3).
 #include "shared/point_files.h"
 #include "shared/render_options.h"
+#include "shared/series.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 
@@ -39,6 +40,7 @@ run(int argc, char** argv)
   look.declareExaggeration(options);
   look.declareOrbit(options);
   look.declarePasses(options);
+  uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))
     return 0;
   look.check(options);
@@ -67,5 +69,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_render", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_render", argc, argv, run);
 }

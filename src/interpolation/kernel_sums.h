@@ -54,6 +54,13 @@ public:
            std::size_t count,
            const Estimates& estimates) const override;
 
+  /** \brief V of every particle, in the samples' unit. */
+  const std::vector<double>&
+  getVolumes() const
+  {
+    return volumes_;
+  }
+
 private:
   void
   completeLengths(unsigned threads);

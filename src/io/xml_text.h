@@ -2,6 +2,8 @@
 // Texts in files of XML.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <string>
 
 namespace pcl_uvol {
@@ -9,7 +11,7 @@ namespace io {
 
 /** \brief A text as the value of an attribute. Bytes that are no UTF-8 are taken for
  * Latin-1; control characters, which XML cannot hold, become '_'. */
-std::string
+PCL_UVOL_EXPORTS std::string
 escapeAttribute(const std::string& text);
 
 } // namespace io

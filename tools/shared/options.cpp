@@ -10,13 +10,15 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace uvol_tools {
 
 namespace {
 
-std::string named_file; // a tool has one command line
+std::optional<std::vector<std::string>> expected_outputs; // of a series
+std::string named_file, named_output; // a tool has one command line at a time
 
 /** True for a value that may start with a minus sign: -0.5, -1,0,2 or -1:0.5:1. */
 bool
@@ -285,6 +287,18 @@ Options::given(const std::string& name) const
   });
 }
 
+void
+Options::series(const std::string& name,
+                const std::string& placeholder,
+                const std::string& help)
+{
+  Option option; // without a target: it is taken before
+  option.name = name;
+  option.placeholder = placeholder;
+  option.help = help;
+  options_.push_back(option);
+}
+
 Options::Option&
 Options::find(const std::string& argument)
 {
@@ -348,6 +362,10 @@ Options::parse(int argc, const char* const* argv)
   }
   assignFiles(files);
   named_file = files.empty() ? std::string() : files.front();
+  named_output.clear();
+  if (!files.empty() && files.size() <= positionals_.size() &&
+      positionals_[files.size() - 1].name == "out")
+    named_output = files.back();
   checkFiles(files);
   return true;
 }
@@ -368,6 +386,14 @@ Options::checkFiles(const std::vector<std::string>& files) const
     if (option.given && option.written)
       outputs.push_back(*option.written);
   checkDistinct(inputs, outputs);
+  if (!expected_outputs)
+    return;
+  for (const std::string& output : outputs)
+    if (std::find(expected_outputs->begin(), expected_outputs->end(), output) ==
+        expected_outputs->end())
+      throw UsageError("'" + output +
+                       "' would be written anew by every file of the series: its name "
+                       "needs a place for a number, as in out_{:04d}.vtp.");
 }
 
 void
@@ -392,6 +418,18 @@ const std::string&
 namedFile()
 {
   return named_file;
+}
+
+void
+expectOutputs(const std::vector<std::string>& names)
+{
+  expected_outputs = names;
+}
+
+const std::string&
+namedOutput()
+{
+  return named_output;
 }
 
 } // namespace uvol_tools

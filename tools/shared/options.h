@@ -61,6 +61,12 @@ public:
          const std::string& placeholder,
          std::string& target,
          const std::string& help);
+  /** \brief An option of series, see runSeries(), which takes it from the command line.
+   */
+  void
+  series(const std::string& name,
+         const std::string& placeholder,
+         const std::string& help);
   /** \brief One of several words. */
   void
   choice(const std::string& name,
@@ -243,6 +249,15 @@ printReport(const Options& options,
  * none. */
 const std::string&
 namedFile();
+
+/** \brief From now on a command line may write these files only: those of a series,
+ * whose names differ. */
+void
+expectOutputs(const std::vector<std::string>& names);
+
+/** \brief The file that it says is written; "" if there is none. */
+const std::string&
+namedOutput();
 
 /** \brief How a tool's body ended. */
 struct Outcome {

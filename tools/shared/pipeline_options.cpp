@@ -7,6 +7,7 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace uvol_tools {
@@ -78,6 +79,14 @@ PipelineOptions::declare(Options& options)
                scratch_,
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
+  density.declare(options);
+  options.number("outside-value",
+                 outside_value,
+                 std::numeric_limits<double>::lowest(),
+                 std::numeric_limits<double>::max(),
+                 "add samples of that value one spacing outside of the data, where the "
+                 "field is known to end; isopoints lie on their edges then, as by "
+                 "-interpolation linear");
   mesh_.declare(options);
   options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
@@ -87,7 +96,8 @@ PipelineOptions::declare(Options& options)
 bool
 PipelineOptions::needsAllSamples() const
 {
-  return parameters.smooth || parameters.automatic_scale || !where.empty() ||
+  return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
+         parameters.automatic_scale || !where.empty() ||
          parameters.validation.folds > 0 || parameters.mesh ||
          parameters.isosurface.neighbors == NeighborSource::Voronoi ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
@@ -114,7 +124,8 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -smooth, -where, -scale auto, -validate, -mesh, "
+        "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
+        "auto, -validate, -mesh, "
         "-neighbors voronoi and derivatives as fields, which need all samples in "
         "memory.");
   if (!parameters.mesh)
@@ -145,6 +156,10 @@ PipelineOptions::finish(const Options& options)
   if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
     parameters.validation.field = validate_by_;
   parameters.mesh = mesh_.finish(options, output);
+  // Fits swing where the field steps to the value outside.
+  if (std::isfinite(outside_value) && !options.given("interpolation") &&
+      !parameters.mesh)
+    parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
   checkCombinations(options);
   if (!parameters.mesh)
     pcl_uvol::checkSavePath(output);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "distributed/run_stage.h"
+#include "shared/density_options.h"
 #include "shared/isosurface_options.h"
 #include "shared/mesh_options.h"
 #include "shared/surface_picture.h"
@@ -18,6 +19,8 @@ struct PipelineOptions : IsosurfaceOptions {
   std::string input, output;
   bool ascii = false;
   SurfacePicture picture;
+  DensityOptions density;
+  double outside_value = std::numeric_limits<double>::quiet_NaN(); ///< unset
 
   void
   declare(Options& options);

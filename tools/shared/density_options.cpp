@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/density_options.h"
+
+#include "common/scalar_field.h"
+#include "interpolation/sph_density.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace uvol_tools {
+
+void
+DensityOptions::declare(Options& options)
+{
+  options.flag("density",
+               is_asked_for_,
+               "add the field sph_density, of particles with a mass and a smoothing "
+               "length (fields with usual names; else all masses are 1, and lengths by "
+               "48 neighbours)");
+  options.number("density-length",
+                 length_,
+                 std::numeric_limits<double>::min(),
+                 std::numeric_limits<double>::max(),
+                 "one smoothing length h for -density, whose kernel ends at 2 h");
+}
+
+pcl_uvol::MemoryNeed
+DensityOptions::getMemoryNeed(double points, double step)
+{
+  // Samples with their tree, kernels, masses twice, densities; then the points anew.
+  constexpr double sums = 36.0 + 40.0 + 3 * 8.0 + 24.0;
+  constexpr double field = 8.0;
+  pcl_uvol::MemoryNeed need;
+  need.kept = field * points;
+  need.peak = std::max(sums, field + step + field) * points;
+  return need;
+}
+
+void
+DensityOptions::addField(pcl_uvol::Dataset& dataset,
+                         unsigned threads,
+                         pcl_uvol::Report& report) const
+{
+  if (length_ > 0.0 && !is_asked_for_)
+    throw UsageError("-density-length goes with -density.");
+  if (!is_asked_for_)
+    return;
+  if (pcl_uvol::findField(dataset.cloud.fields, "sph_density") != nullptr)
+    throw pcl_uvol::InvalidArgument("There is a field sph_density already.");
+  const pcl_uvol::StepTimer timer(report, "density");
+  const auto fields = pcl_uvol::findSphFields(dataset.cloud.fields);
+  pcl_uvol::Report own; // the samples are counted by whoever uses them
+  const auto densities = pcl_uvol::computeSphDensity(
+      pcl_uvol::viewOf(dataset.cloud),
+      fields,
+      {length_, pcl_uvol::lengthFactorOf(fields.length_field)},
+      threads,
+      own);
+  pcl_uvol::setField(dataset, "sph_density", densities);
+  if (fields.mass_field.empty())
+    report.warnings.push_back(
+        "There is no field of masses: sph_density counts particles per volume.");
+}
+
+} // namespace uvol_tools

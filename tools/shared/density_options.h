@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Densities of particles that come without one, as an option.
+#pragma once
+
+#include "common/memory.h"
+#include "shared/options.h"
+#include <pcl_uvol/common/dataset.h>
+
+namespace uvol_tools {
+
+/** \brief -density and -density-length. */
+class DensityOptions {
+public:
+  void
+  declare(Options& options);
+
+  bool
+  isAskedFor() const
+  {
+    return is_asked_for_;
+  }
+
+  /** \brief Add the field sph_density, if it is asked for.
+   *
+   * \throws UsageError for a length without -density */
+  void
+  addField(pcl_uvol::Dataset& dataset,
+           unsigned threads,
+           pcl_uvol::Report& report) const;
+
+  /** \brief Bytes of adding it to so many points of such a step, on top of them. */
+  static pcl_uvol::MemoryNeed
+  getMemoryNeed(double points, double step);
+
+private:
+  bool is_asked_for_ = false;
+  double length_ = 0.0;
+};
+
+} // namespace uvol_tools

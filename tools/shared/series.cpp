@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/series.h"
+
+#include "common/numbers.h"
+#include "io/xml_text.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <algorithm>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <regex>
+#include <unistd.h>
+#include <utility>
+
+namespace uvol_tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::regex&
+placeOfNumber()
+{
+  static const std::regex place(R"(\{(?::(0?)(\d?)d)?\})");
+  return place;
+}
+
+/** The command line of a series. */
+struct Series {
+  std::vector<std::string> arguments; ///< without those of the series
+  std::optional<std::string> snapshots;
+  bool keeps_going = false;
+  std::optional<NumberedName> input; ///< the first name with a place for a number
+};
+
+Series
+parseSeries(int argc, char** argv)
+{
+  Series series;
+  for (int i = 0; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (i > 0 && !series.input && NumberedName::isOne(argument))
+      series.input.emplace(argument);
+    if (argument == "-keep-going")
+      series.keeps_going = true;
+    else if (argument == "-snapshots" && i + 1 < argc)
+      series.snapshots = argv[++i];
+    else
+      series.arguments.push_back(argument);
+  }
+  return series;
+}
+
+/** "first:last" or "first:last:step". */
+std::vector<std::size_t>
+parseSnapshots(const std::string& text)
+{
+  std::vector<std::uint64_t> parts;
+  std::string_view rest = text;
+  for (bool more = true; more;) {
+    const std::size_t colon = rest.find(':');
+    std::uint64_t number = 0;
+    if (!pcl_uvol::parseCount(rest.substr(0, colon), number))
+      throw UsageError("-snapshots takes first:last or first:last:step, not " + text +
+                       ".");
+    parts.push_back(number);
+    more = colon != std::string_view::npos;
+    rest.remove_prefix(more ? colon + 1 : rest.size());
+  }
+  const std::uint64_t step = parts.size() == 3 ? parts[2] : 1;
+  constexpr std::uint64_t most = 1000000;
+  if (parts.size() < 2 || parts.size() > 3 || step == 0 || parts[1] < parts[0] ||
+      (parts[1] - parts[0]) / step >= most)
+    throw UsageError("-snapshots takes first:last or first:last:step, not " + text +
+                     ".");
+  std::vector<std::size_t> numbers;
+  for (std::uint64_t number = parts[0]; number <= parts[1]; number += step)
+    numbers.push_back(number);
+  return numbers;
+}
+
+/** The system reads a file while the one before is worked on. */
+void
+prefetch(const std::string& path)
+{
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0)
+    return; // whoever reads it will say why
+  ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_WILLNEED);
+  ::close(descriptor);
+}
+
+int
+runOne(int (*run)(int, char**), const std::vector<std::string>& arguments)
+{
+  std::vector<std::string> copies = arguments;
+  std::vector<char*> pointers;
+  for (std::string& copy : copies)
+    pointers.push_back(copy.data());
+  pointers.push_back(nullptr);
+  return run(static_cast<int>(arguments.size()), pointers.data());
+}
+
+/** A list of files over time, which ParaView opens as one. */
+void
+writeList(const std::vector<std::pair<std::size_t, std::string>>& written)
+{
+  const fs::path first = written[0].second;
+  std::string stem = first.stem().string();
+  while (!stem.empty() && (std::isdigit(static_cast<unsigned char>(stem.back())) != 0 ||
+                           std::string("_-. ").find(stem.back()) != std::string::npos))
+    stem.pop_back();
+  const fs::path list =
+      first.parent_path() / ((stem.empty() ? "series" : stem) + ".pvd");
+  pcl_uvol::checkSavePath(first); // its folder is that of the list
+  pcl_uvol::writeAtomically(list, [&](const std::string& file) {
+    std::ofstream out(file);
+    out << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto& [number, path] : written)
+      out << "<DataSet timestep=\"" << number << "\" file=\""
+          << pcl_uvol::io::escapeAttribute(fs::path(path).filename().string())
+          << "\"/>\n";
+    out << "</Collection>\n</VTKFile>\n";
+    if (!out.flush())
+      throw std::runtime_error("Cannot write '" + list.string() + "'.");
+  });
+  std::cerr << "ParaView opens all of them as " << list.string() << '\n';
+}
+
+int
+runAll(const char* tool, const Series& series, int (*run)(int, char**))
+{
+  const std::vector<std::size_t> numbers = series.snapshots
+                                               ? parseSnapshots(*series.snapshots)
+                                               : series.input->findNumbers();
+  if (numbers.empty())
+    throw UsageError("There is no file " + series.input->insert(0) +
+                     ", nor one with another number.");
+  int exit_code = 0;
+  std::size_t failed = 0;
+  std::vector<std::pair<std::size_t, std::string>> written;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::vector<std::string> arguments = series.arguments, numbered;
+    for (std::string& argument : arguments)
+      if (NumberedName::isOne(argument)) {
+        argument = NumberedName(argument).insert(numbers[i]);
+        numbered.push_back(argument);
+      }
+    expectOutputs(numbered);
+    if (i + 1 < numbers.size())
+      prefetch(series.input->insert(numbers[i + 1]));
+    const int outcome = runTool(tool, [&] { return runOne(run, arguments); });
+    if (outcome == 0) {
+      const fs::path output = namedOutput();
+      if (output.extension() == ".vtp")
+        written.emplace_back(numbers[i], output.string());
+      continue;
+    }
+    ++failed;
+    exit_code = exit_code == 0 ? outcome : exit_code;
+    if (!series.keeps_going) {
+      std::cerr << tool << ": " << i << " of " << numbers.size()
+                << " files are done; -keep-going passes over failures.\n";
+      break;
+    }
+  }
+  if (written.size() > 1)
+    writeList(written);
+  if (failed == 0 || series.keeps_going)
+    std::cerr << tool << ": " << numbers.size() - failed << " of " << numbers.size()
+              << " files are done.\n";
+  return exit_code;
+}
+
+} // namespace
+
+bool
+NumberedName::isOne(const std::string& text)
+{
+  return std::regex_search(text, placeOfNumber());
+}
+
+NumberedName::NumberedName(const std::string& text)
+{
+  std::smatch match;
+  std::regex_search(text, match, placeOfNumber());
+  before_ = match.prefix();
+  after_ = match.suffix();
+  if (match[1].length() > 0)
+    fill_ = '0';
+  if (match[2].length() > 0)
+    digits_ = static_cast<std::size_t>(match[2].str()[0] - '0');
+}
+
+std::string
+NumberedName::insert(std::size_t number) const
+{
+  std::string digits = std::to_string(number);
+  if (digits.size() < digits_)
+    digits.insert(0, digits_ - digits.size(), fill_);
+  return before_ + digits + after_;
+}
+
+std::vector<std::size_t>
+NumberedName::findNumbers() const
+{
+  // The place may be in the name of a file only: folders are not searched.
+  const std::size_t slash = before_.rfind('/');
+  const std::string folder =
+      slash == std::string::npos ? "." : before_.substr(0, slash + 1);
+  const std::string start =
+      slash == std::string::npos ? before_ : before_.substr(slash + 1);
+  std::vector<std::size_t> numbers;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    std::uint64_t number = 0;
+    if (name.size() <= start.size() + after_.size() || name.rfind(start, 0) != 0)
+      continue;
+    const std::string digits =
+        name.substr(start.size(), name.size() - start.size() - after_.size());
+    if (pcl_uvol::parseCount(std::string(pcl_uvol::trimmed(digits)), number) &&
+        insert(number) == (slash == std::string::npos ? name : folder + name))
+      numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+void
+declareSeries(Options& options)
+{
+  options.series(
+      "snapshots",
+      "first:last:step",
+      "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp "
+      "(default: all files there are)");
+  options.series("keep-going", "", "pass over files that fail");
+}
+
+int
+runSeries(const char* tool, int argc, char** argv, int (*run)(int argc, char** argv))
+{
+  int exit_code = 0;
+  const auto body = [&] {
+    const Series series = parseSeries(argc, argv);
+    if (!series.input && (series.snapshots || series.keeps_going))
+      throw UsageError(
+          "-snapshots and -keep-going need names with a place for a number, "
+          "as in snap_{:04d}.h5.");
+    if (!series.input)
+      return run(argc, argv);
+    exit_code = runAll(tool, series, run);
+    return exit_code;
+  };
+  return runTool(tool, body);
+}
+
+} // namespace uvol_tools
