@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -180,6 +181,32 @@ expectSentences(const std::string& tool, const uvol_test::CommandResult& result)
   EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors);
 }
 
+/** What README says of reports: counts and times are numbers, warnings are sentences,
+ * and no number stands in quotes. */
+void
+expectReport(const std::string& text)
+{
+  const auto report = nlohmann::json::parse(text, nullptr, false);
+  ASSERT_TRUE(report.is_object()) << text;
+  ASSERT_TRUE(report.value("warnings", nlohmann::json()).is_array()) << text;
+  ASSERT_TRUE(report.value("counts", nlohmann::json()).is_object()) << text;
+  for (const auto& warning : report["warnings"])
+    EXPECT_TRUE(warning.is_string()) << warning;
+  for (const auto& [name, count] : report["counts"].items())
+    EXPECT_TRUE(count.is_number_unsigned()) << name << count;
+  for (const auto& [name, time] : report["milliseconds"].items())
+    EXPECT_TRUE(time.is_number() && time >= 0.0) << name << time;
+  for (const auto& [name, fact] : report.items()) {
+    EXPECT_EQ(std::string::npos, name.find_first_of(" -")) << name;
+    if (fact.is_string()) {
+      char* end = nullptr;
+      const std::string word = fact;
+      std::strtod(word.c_str(), &end);
+      EXPECT_TRUE(word.empty() || *end != '\0') << name << " is a number in quotes";
+    }
+  }
+}
+
 class RandomOptions : public testing::TestWithParam<Tool> {
 protected:
   void
@@ -226,9 +253,8 @@ private:
     EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 2)
         << result.exit_code << result.err;
     expectSentences(tool, result);
-    if (result.exit_code == 0) {
-      EXPECT_TRUE(nlohmann::json::accept(result.out)) << result.out;
-    }
+    if (result.exit_code == 0)
+      expectReport(result.out);
     for (const std::string& name : folder_.list()) {
       const bool is_input =
           std::find(clouds_.begin(), clouds_.end(), name) != clouds_.end();
