@@ -27,6 +27,7 @@ pcl_uvol_part(VTK "Build pcl_uvol::vtk (VTK)" ${PROJECT_IS_TOP_LEVEL} FILTERS GL
 pcl_uvol_part(MPI "Build pcl_uvol::mpi and the tools that use it (VTK with MPI)" ${PROJECT_IS_TOP_LEVEL})
 pcl_uvol_part(TOOLS "Build the uvol_* tools; uvol_cluster and uvol_viewer only with PCL_UVOL_BUILD_VTK"
   ${PROJECT_IS_TOP_LEVEL} EXPRESSIONS IO GL)
+pcl_uvol_part(PYTHON "Build the Python module (pybind11)" ${PROJECT_IS_TOP_LEVEL} EXPRESSIONS IO)
 pcl_uvol_part(TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL} TOOLS VTK)
 pcl_uvol_part(BENCHMARKS "Build the benchmarks (Google Benchmark, CGAL with TBB, Embree)" OFF TESTS)
 pcl_uvol_part(FUZZERS "Build the fuzzers (clang): tools/fuzz.sh" OFF TESTS)

@@ -6,8 +6,9 @@ configure_package_config_file(src/pcl_uvolConfig.cmake.in ${PROJECT_BINARY_DIR}/
   INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/pcl_uvolConfigVersion.cmake
   COMPATIBILITY SameMinorVersion) # until 1.0
-install(DIRECTORY include/pcl_uvol DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT pcl_uvol_targets NAMESPACE pcl_uvol:: FILE pcl_uvolTargets.cmake DESTINATION ${config_dir})
+install(DIRECTORY include/pcl_uvol DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(EXPORT pcl_uvol_targets NAMESPACE pcl_uvol:: FILE pcl_uvolTargets.cmake DESTINATION ${config_dir}
+  COMPONENT development)
 install(FILES ${PROJECT_BINARY_DIR}/pcl_uvolConfig.cmake ${PROJECT_BINARY_DIR}/pcl_uvolConfigVersion.cmake
-  DESTINATION ${config_dir})
+  DESTINATION ${config_dir} COMPONENT development)
 export(EXPORT pcl_uvol_targets NAMESPACE pcl_uvol:: FILE ${PROJECT_BINARY_DIR}/pcl_uvolTargets.cmake)

@@ -14,6 +14,11 @@ set(pcl_uvol_simd_levels baseline avx2 avx512)
 list(TRANSFORM pcl_uvol_simd_levels REPLACE "(.+)" "$<TARGET_OBJECTS:pcl_uvol_kernels_\\1>"
   OUTPUT_VARIABLE pcl_uvol_kernel_objects)
 
+# The part of the installation, a Debian package of its own, that a library belongs to: core needs no VTK, mpi
+# is apart from the others, which need VTK.
+set(pcl_uvol_component_of_core core)
+set(pcl_uvol_component_of_mpi mpi)
+
 # A library target pcl_uvol::<name> from the sources of some modules.
 function(pcl_uvol_add_library name)
   set(sources)
@@ -25,7 +30,9 @@ function(pcl_uvol_add_library name)
   add_library(pcl_uvol_${name} SHARED ${sources})
   add_library(pcl_uvol::${name} ALIAS pcl_uvol_${name})
   set_target_properties(pcl_uvol_${name} PROPERTIES
-    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+    EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} # until 1.0
+    INSTALL_RPATH "$ORIGIN")
   target_compile_features(pcl_uvol_${name} PUBLIC cxx_std_17)
   target_include_directories(pcl_uvol_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
@@ -34,6 +41,11 @@ function(pcl_uvol_add_library name)
     $<BUILD_INTERFACE:pcl_uvol_warnings> $<BUILD_INTERFACE:pcl_uvol_determinism>)
   set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
   if(PCL_UVOL_INSTALL)
-    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets)
+    set(component libraries)
+    if(DEFINED pcl_uvol_component_of_${name})
+      set(component ${pcl_uvol_component_of_${name}})
+    endif()
+    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets
+      LIBRARY COMPONENT ${component} NAMELINK_COMPONENT development)
   endif()
 endfunction()

@@ -51,11 +51,13 @@ declare(Options& options, Arguments& arguments)
   constexpr double huge = std::numeric_limits<double>::max();
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Input");
   arguments.attributes.declare(options);
   options.text("where",
                "expr",
                arguments.where,
                "use only the points for which it holds: \"cu>=0.6 && ni>0.1\"");
+  options.group("Clusters");
   options.integer(
       "k", arguments.k, 0, 1000, "nearest neighbours that tell the density");
   options.integer("min-size",
@@ -71,12 +73,15 @@ declare(Options& options, Arguments& arguments)
                  "choose the clusters at that distance of attributes (default: by "
                  "persistence)");
   options.flag("single", arguments.single, "all points may be one cluster");
+  options.group("Output");
   options.output("tree", "out.csv", arguments.tree, "write the tree of clusters");
+  options.group("Input");
   options.text("label",
                "name",
                arguments.label,
                "field of the input that tells the clusters, instead of -attributes "
                "(default: label)");
+  options.group("Surface of a cluster");
   options.numbers(
       "cluster", "n", 1, arguments.cluster, "choose the points of a cluster");
   options.choice(
@@ -111,6 +116,7 @@ declare(Options& options, Arguments& arguments)
                arguments.scale,
                "measure distances of -surface in a stretched space; auto: equal spread "
                "per axis");
+  options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 

@@ -24,7 +24,8 @@ using uvol_tools::Options;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where, xyz, scale;
+  std::string input, field, where, scale;
+  uvol_tools::InputOptions reading;
 };
 
 template <typename Numbers>
@@ -212,8 +213,7 @@ Facts
 describeCloud(const Options& options, const Arguments& arguments, Report& report)
 {
   const unsigned threads = options.threads();
-  pcl_uvol::LoadOptions load;
-  load.xyz_columns = uvol_tools::parseColumns(arguments.xyz);
+  pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   load.needs_coordinates = false;
   pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
   report.warnings = dataset.notes;
@@ -260,7 +260,7 @@ run(int argc, char** argv)
   Options options("uvol_info",
                   "in.pcd [options]",
                   "Tells what a file of samples (pcd ply csv txt vtk vtp "
-                  "vtu vts) or a volume (nrrd "
+                  "vtu vts h5, Gadget) or a volume (nrrd "
                   "nhdr vti mha mhd) holds.");
   options.file("in", arguments.input);
   options.text(
@@ -274,7 +274,7 @@ run(int argc, char** argv)
                "sx,sy,sz|auto",
                arguments.scale,
                "measure spacings in a stretched space; auto: equal spread per axis");
-  uvol_tools::declareColumns(options, arguments.xyz);
+  arguments.reading.declare(options);
   if (!options.parse(argc, argv))
     return 0;
   Report report;

@@ -9,6 +9,7 @@
 #include "pipeline/extract_out_of_core.h"
 #include "pipeline/memory_need.h"
 #include "shared/level_set.h"
+#include "shared/measure_table.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/pipeline_options.h"
@@ -162,11 +163,42 @@ loadSamples(const Options& options,
   return samples;
 }
 
+/** Measure a mesh and look for intersections, as asked for, and give its vertices their
+ * share of the area. */
+Facts
+measureMesh(const Options& options,
+            const Arguments& arguments,
+            const std::shared_ptr<const pcl_uvol::Dataset>& samples,
+            IsosurfaceResult& result)
+{
+  const bool is_measured = arguments.getMesh().isMeasured();
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.find_intersections = arguments.getMesh().isChecked();
+  if (result.triangles.empty() || (!is_measured && !parameters.find_intersections))
+    return {};
+  const auto vertices = std::make_shared<pcl_uvol::Dataset>(std::move(result.surface));
+  const pcl_uvol::SurfaceFigures figures =
+      uvol_tools::measureSurface(vertices,
+                                 result.triangles,
+                                 is_measured ? samples : nullptr,
+                                 arguments.parameters.isosurface.isovalues,
+                                 parameters,
+                                 options.threads(),
+                                 result.report);
+  result.surface = std::move(*vertices);
+  if (!is_measured)
+    return {};
+  setField(result.surface, "area", figures.vertex_areas);
+  return uvol_tools::describeMeasures(figures);
+}
+
+/** \param[out] figures of the mesh, where it is measured */
 IsosurfaceResult
 runInMemory(const Options& options,
             Arguments& arguments,
             uvol_tools::MemoryGuard& memory,
-            Report& report)
+            Report& report,
+            Facts& figures)
 {
   const auto work =
       [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
@@ -174,9 +206,9 @@ runInMemory(const Options& options,
         pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
       };
   if (arguments.where.empty())
-    memory.checkFile(arguments.input, work);
+    memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
   else
-    memory.checkFile(arguments.input, nullptr);
+    memory.checkFile(arguments.input, nullptr, arguments.makeLoadOptions());
   const auto samples = loadSamples(options, arguments, memory, report);
   const IsosurfacePipelineParameters& parameters = arguments.parameters;
   pcl_uvol::IsosurfacePipeline pipeline;
@@ -201,7 +233,9 @@ runInMemory(const Options& options,
           isopoints += size.isopoints;
         arguments.picture.addMemoryNeed(isopoints, forecast);
       });
-  return pipeline.run();
+  IsosurfaceResult result = pipeline.run();
+  figures = measureMesh(options, arguments, samples, result);
+  return result;
 }
 
 IsosurfaceResult
@@ -252,7 +286,8 @@ run(int argc, char** argv)
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
-      "ply csv txt vtk vtp vtu vts, writes pcd ply vtp csv, meshes as ply vtp obj off "
+      "ply csv txt vtk vtp vtu vts h5 and snapshots of Gadget, writes pcd ply vtp csv, "
+      "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);
   if (!options.parse(argc, argv))
@@ -266,9 +301,10 @@ run(int argc, char** argv)
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  IsosurfaceResult result = is_bounded
-                                ? runFromDisk(options, arguments, report)
-                                : runInMemory(options, arguments, memory, report);
+  uvol_tools::Facts figures;
+  IsosurfaceResult result =
+      is_bounded ? runFromDisk(options, arguments, report)
+                 : runInMemory(options, arguments, memory, report, figures);
   report.merge(result.report);
   arguments.picture.addColor(options, result.surface, report);
 
@@ -300,6 +336,7 @@ run(int argc, char** argv)
   };
   if (arguments.parameters.mesh)
     append(uvol_tools::describeMesh(result));
+  append(figures);
   for (std::size_t i = 0; i < result.level_sets.size(); ++i)
     append(uvol_tools::describe(
         result.level_sets[i], !arguments.parameters.level_set.mu, of_isovalue(i)));

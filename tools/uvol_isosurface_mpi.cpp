@@ -55,9 +55,11 @@ declare(Options& options, Arguments& arguments)
   options.file("out", arguments.output);
   arguments.declareSamples(options, false);
   arguments.declareMethod(options);
+  options.group("Run");
   options.flag("progress",
                arguments.progress,
                "draw the progress of the first process, whatever its stderr is");
+  options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 

@@ -55,19 +55,23 @@ declare(Options& options, Arguments& arguments)
   constexpr std::uint64_t many = 1000000;
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Level set");
   options.numbers("iso", "v", 1, arguments.iso, "isovalue (required)");
+  options.group("Input");
   options.text("field",
                "name",
                arguments.parameters.field,
                "scalar field: density, vel[1], |vel|, |vx,vy,vz|, or an expression: "
                "log10(rho), rho*u, |grad(rho)|, Q(vel) (default: intensity, else the "
                "only candidate)");
+  options.group("Level set");
   options.text(
       "mu",
       "m|auto",
       arguments.mu,
       "weight of the data against smoothness, 0 to 1; auto: smooth as far as the "
       "expected deviation falls");
+  options.group("Schemes", true);
   options.choice("scheme",
                  arguments.parameters.scheme,
                  "local fits; linear: the thesis's, unstable on noise");
@@ -85,6 +89,7 @@ declare(Options& options, Arguments& arguments)
                  arguments.parameters.reinitialization,
                  "what keeps the slope at 1: distance to the isopoints, the Eikonal "
                  "equation, or a diffusion term");
+  options.group("Level set");
   options.number("band",
                  arguments.parameters.band_width,
                  0.0,
@@ -111,10 +116,12 @@ declare(Options& options, Arguments& arguments)
   options.choice("outside",
                  arguments.parameters.outside,
                  "the outside of -sphere, -box and -plane is where values are so");
+  options.group("Input");
   options.text("scale",
                "sx,sy,sz|auto",
                arguments.scale,
                "measure distances in a stretched space; auto: equal spread per axis");
+  options.group("Output");
   options.integer("snapshots",
                   arguments.snapshots,
                   1,
@@ -221,6 +228,7 @@ makeZeroLevel(const pcl_uvol::Dataset& samples,
   Report report;
   pcl_uvol::extractZeroLevel(pcl_uvol::viewOf(samples.cloud),
                              phi,
+                             {}, // on its way, it is not where it will be
                              how.isosurface,
                              threads,
                              isopoints,

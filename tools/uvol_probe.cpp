@@ -39,7 +39,8 @@ using uvol_tools::UsageError;
 using Kind = uvol_tools::QueryOptions::Kind;
 
 struct Arguments {
-  std::string input, output, where, xyz;
+  std::string input, output, where;
+  uvol_tools::InputOptions reading;
   uvol_tools::QueryOptions queries;
   uvol_tools::InterpolationOptions model;
   uvol_tools::ProbePicture picture;
@@ -51,13 +52,17 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output, false);
+  options.group("Where");
   arguments.queries.declare(options);
+  options.group("Model");
   arguments.model.declare(options);
+  options.group("Input");
   options.text("where",
                "expr",
                arguments.where,
                "use only the samples for which it holds: \"experiment=1 && T>4\"");
-  uvol_tools::declareColumns(options, arguments.xyz);
+  arguments.reading.declare(options);
+  options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   arguments.picture.declare(options);
 }
@@ -67,7 +72,7 @@ check(const Options& options, Arguments& arguments)
 {
   arguments.queries.finish(options);
   arguments.model.finish(options);
-  uvol_tools::parseColumns(arguments.xyz);
+  arguments.reading.makeLoadOptions(); // what is wrong is told before files are read
   const Kind kind = arguments.queries.getKind();
   arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line);
   if (kind == Kind::None) {
@@ -195,19 +200,19 @@ run(int argc, char** argv)
     return 0;
   check(options, arguments);
   const Kind kind = arguments.queries.getKind();
+  const pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   uvol_tools::MemoryGuard memory("Interpolation");
   if (arguments.where.empty())
     memory.checkFile(arguments.input,
-                     forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)));
+                     forecastMemory(arguments, 1.0, findQuerySize(arguments, nullptr)),
+                     load);
   else
-    memory.checkFile(arguments.input, nullptr);
+    memory.checkFile(arguments.input, nullptr, load);
 
   Report report;
   uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
-  pcl_uvol::LoadOptions load;
-  load.xyz_columns = uvol_tools::parseColumns(arguments.xyz);
   const Dataset samples =
       uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
@@ -252,7 +257,7 @@ run(int argc, char** argv)
                                               arguments.picture,
                                               arguments.input,
                                               arguments.output,
-                                              arguments.xyz,
+                                              load,
                                               arguments.ascii,
                                               samples,
                                               parameters,

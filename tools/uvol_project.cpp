@@ -35,7 +35,9 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Input");
   arguments.attributes.declare(options);
+  options.group("Projection");
   options.choice("method",
                  arguments.method,
                  "keep the clusters apart as well as can be; or principal components");
@@ -45,6 +47,7 @@ declare(Options& options, Arguments& arguments)
       arguments.label,
       "field that tells the clusters, negative for noise (default: label, else "
       "they are found by density)");
+  options.group("Output");
   options.output(
       "axes", "out.csv", arguments.axes, "write the axis of every attribute");
   options.output(

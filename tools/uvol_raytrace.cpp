@@ -52,6 +52,8 @@ checkInput(const Options& options, const Arguments& arguments)
   for (const char* name : {"color",
                            "colormap",
                            "range",
+                           "log",
+                           "exaggerate",
                            "no-bar",
                            "surface-color",
                            "ambient",
@@ -104,6 +106,7 @@ traceCloud(const Options& options, Arguments& arguments, Report& report)
 {
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   arguments.view.addColor(options, dataset, report);
+  arguments.view.exaggerate(dataset);
   arguments.rays.traceCloud(options,
                             arguments.view,
                             pcl_uvol::viewOf(dataset.cloud),
@@ -125,8 +128,10 @@ run(int argc, char** argv)
   options.file("out", arguments.output);
   options.text("folder", "path", arguments.folder, "where the clouds of a scene lie");
   arguments.view.declareScene(options);
+  arguments.view.declareExaggeration(options);
   arguments.view.declareSupersampling(options);
   arguments.view.declareOrbit(options);
+  options.group("Ray tracing");
   arguments.rays.declareRays(options);
   arguments.rays.declareSurface(options);
   arguments.view.declareLighting(options);

@@ -5,9 +5,22 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 
+#include <filesystem>
+
 namespace {
 
 using pcl_uvol::Report;
+
+/** What a page cannot show. */
+void
+checkPage(const uvol_tools::Options& options)
+{
+  for (const char* const name :
+       {"size", "supersample", "backend", "orbit", "silhouettes", "features"})
+    if (options.given(name))
+      throw uvol_tools::UsageError(std::string("-") + name +
+                                   " is for pictures, not for web pages.");
+}
 
 int
 run(int argc, char** argv)
@@ -16,22 +29,34 @@ run(int argc, char** argv)
   uvol_tools::RenderOptions look;
   uvol_tools::Options options(
       "uvol_render",
-      "in.ply out.png [options]",
-      "Draws a surface given as points with normals: lit, smooth and without holes.");
+      "in.ply out.png|out.html [options]",
+      "Draws a surface given as points with normals: lit, smooth and without holes; as "
+      "a\n"
+      "picture, or as a web page in one file that turns in any browser.");
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
+  look.declareExaggeration(options);
   look.declareOrbit(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))
     return 0;
   look.check(options);
-  pcl_uvol::checkPngPath(output);
+  const bool is_page = std::filesystem::path(output).extension() == ".html";
+  if (is_page)
+    checkPage(options);
+  else
+    pcl_uvol::checkPngPath(output);
 
   Report report;
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);
-  const std::string backend = look.drawCloud(options, dataset, output, report);
+  look.exaggerate(dataset);
+  std::string backend = "web page";
+  if (is_page)
+    look.writePage(options, dataset, output, report);
+  else
+    backend = look.drawCloud(options, dataset, output, report);
   uvol_tools::printReport(
       options, report, {{"input", input}, {"output", output}, {"backend", backend}});
   return 0;

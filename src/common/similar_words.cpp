@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/similar_words.h"
 
+#include "common/numbers.h"
+
 #include <algorithm>
 
 namespace pcl_uvol {
@@ -29,12 +31,28 @@ editDistance(const std::string& a, const std::string& b)
   return row[b.size()];
 }
 
+/** The shortest word that begins with these letters, small or capital; "" if none does.
+ */
+std::string
+findContinuation(const std::vector<std::string>& words, const std::string& letters)
+{
+  const std::string begin = lowerCase(letters);
+  std::string shortest;
+  for (const std::string& word : words)
+    if (!begin.empty() && lowerCase(word).compare(0, begin.size(), begin) == 0 &&
+        (shortest.empty() || word.size() < shortest.size()))
+      shortest = word;
+  return shortest;
+}
+
 } // namespace
 
 std::string
 findSimilar(const std::vector<std::string>& words, const std::string& word)
 {
-  std::string nearest;
+  std::string nearest = findContinuation(words, word);
+  if (!nearest.empty())
+    return nearest;
   std::size_t least = std::min(2 + word.size() / 4, word.size());
   for (const std::string& other : words)
     if (const std::size_t distance = editDistance(other, word); distance < least) {

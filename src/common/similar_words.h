@@ -9,7 +9,8 @@
 
 namespace pcl_uvol {
 
-/** \brief The word with the fewest letters to insert, remove, replace or exchange, the
+/** \brief The shortest word that begins so, small letters or capital ones; else the
+ * word with the fewest letters to insert, remove, replace or exchange, the
  * first of several; "" if these are all letters, or more than one and a quarter of
  * them.
  */

@@ -80,11 +80,18 @@ fitRegister(const FitSample* samples,
   const Mask found = (rest < converged_step) & (rest > -converged_step) &
                      (x * x + y * y + z * z < one) & determined;
 
+  // Leverage at the zero level, of the value and of its derivative across.
+  const Lanes direction[3] = {
+      gradient[0] / slope, gradient[1] / slope, gradient[2] / slope};
+  Lanes slope_influence[cubic_terms];
   evaluateTerms(x, y, z, influence);
+  differentiateTerms(influence, x, y, z, direction, slope_influence);
   equations.forward(influence);
-  const Lanes leverage =
-      sumOfSquares(influence, 0, quadratic_terms) +
-      (is_cubic ? sumOfSquares(influence, quadratic_terms, cubic_terms) : zero);
+  equations.forward(slope_influence);
+  const auto leverageOf = [&](const Lanes* of) {
+    return sumOfSquares(of, 0, quadratic_terms) +
+           (is_cubic ? sumOfSquares(of, quadratic_terms, cubic_terms) : zero);
+  };
   const Lanes variance = is_cubic ? cubic_variance : quadratic_variance;
   store(determined ? coefficient[0] : zero / zero, result.value + first);
   store(x, result.offset[0] + first);
@@ -95,7 +102,9 @@ fitRegister(const FitSample* samples,
   for (int i = 0; i < 6; ++i)
     store(hessian[i], result.hessian[i] + first);
   store(equations.least_pivot, result.pivot + first);
-  store(squareRoot(leverage * variance) / slope, result.error + first);
+  store(squareRoot(leverageOf(influence) * variance) / slope, result.error + first);
+  store(squareRoot(leverageOf(slope_influence) * variance) / slope,
+        result.slope_error + first);
   store(squareRoot((is_cubic ? cubic_residuals : quadratic_residuals) /
                    equations.moment[0]),
         result.residual + first);

@@ -31,6 +31,7 @@ struct alignas(64) FitResult {
   double gradient[3][fit_lanes]; ///< there; value per radius
   double hessian[6][fit_lanes];  ///< there: xx xy xz yy yz zz
   double error[fit_lanes];       ///< standard error of the zero level's place
+  double slope_error[fit_lanes]; ///< standard error of the slope there, over the slope
   double residual[fit_lanes];    ///< weighted root mean square of the values' residuals
   double pivot[fit_lanes]; ///< least part of a term of the cubic that those before
                            ///< it do not give at the samples

@@ -110,6 +110,24 @@ evaluateTerms(const Lanes& x, const Lanes& y, const Lanes& z, Lanes* value)
                                                                       : z);
 }
 
+/** Their derivatives along a direction. \param value the terms */
+inline void
+differentiateTerms(const Lanes* value,
+                   const Lanes& x,
+                   const Lanes& y,
+                   const Lanes& z,
+                   const Lanes* direction,
+                   Lanes* derivative)
+{
+  const Lanes place[3] = {x, y, z};
+  derivative[0] = Lanes{};
+#pragma GCC unroll 20
+  for (int i = 1; i < cubic_terms; ++i) {
+    const int parent = monomials.parent[i], axis = monomials.axis[i];
+    derivative[i] = derivative[parent] * place[axis] + value[parent] * direction[axis];
+  }
+}
+
 /** A sample of every fit, and its weight. */
 struct Term {
   Lanes x, y, z, value{}, weight;

@@ -3,15 +3,30 @@
 #include <pcl_uvol/filters/vtkUvolIsosurface.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <vtkCellArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <algorithm>
 
 vtkStandardNewMacro(vtkUvolIsosurface);
+
+namespace {
+
+vtkSmartPointer<vtkCellArray>
+toCells(const std::vector<pcl_uvol::Triangle>& triangles)
+{
+  const auto cells = vtkSmartPointer<vtkCellArray>::New();
+  for (const auto& [a, b, c] : triangles)
+    cells->InsertNextCell({a, b, c});
+  return cells;
+}
+
+} // namespace
 
 /** The input as it was read last, and the pipeline that keeps its tree. */
 struct vtkUvolIsosurface::Samples {
@@ -41,6 +56,7 @@ vtkUvolIsosurface::PrintSelf(std::ostream& out, vtkIndent indent)
       << indent
       << "AngleCriterion: " << (this->AngleCriterion == CRITERION_KEPT ? "Kept" : "All")
       << '\n'
+      << indent << "Mesh: " << (this->Mesh ? "On" : "Off") << '\n'
       << indent << "Scale: " << this->Scale[0] << ' ' << this->Scale[1] << ' '
       << this->Scale[2] << '\n'
       << indent << "Values:\n";
@@ -92,6 +108,8 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
   isosurface.criterion = this->AngleCriterion == CRITERION_KEPT
                              ? pcl_uvol::AngleCriterion::Kept
                              : pcl_uvol::AngleCriterion::All;
+  if (this->Mesh)
+    parameters.mesh.emplace();
   pcl_uvol::IsosurfacePipeline& pipeline = this->Read->pipeline;
   pipeline.setParameters(parameters);
   pipeline.setNumberOfThreads(static_cast<unsigned>(this->NumberOfThreads));
@@ -99,4 +117,8 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
   const pcl_uvol::IsosurfaceResult result = pipeline.run();
   run.report.merge(result.report);
   pcl_uvol::fillOutput(result.surface, points, result.edges, run);
+  if (!this->Mesh)
+    return;
+  run.output.SetVerts(nullptr);
+  run.output.SetPolys(toCells(result.triangles));
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files that appear whole or not at all: written beside, flushed, renamed.
 #include "io/files.h"
+#include "io/unpacked_file.h"
 #include <pcl_uvol/io/dataset.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -16,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 namespace {
@@ -251,6 +254,29 @@ UnfinishedFile::finish()
   part_.clear();
 }
 
+/** What is read from a pipe comes only once it is complete. */
+void
+writeToStandardOutput(const std::function<void(const std::string&)>& writer)
+{
+  const std::string name = "standard output";
+  const io::Descriptor file(io::openTemporary(name));
+  writer("/proc/self/fd/" + std::to_string(file.get()));
+  std::vector<char> block(std::size_t(1) << 16);
+  off_t at = 0;
+  while (const ssize_t got = ::pread(file.get(), block.data(), block.size(), at)) {
+    for (ssize_t sent = 0; got > 0 && sent < got;) {
+      const ssize_t now = ::write(
+          STDOUT_FILENO, block.data() + sent, static_cast<std::size_t>(got - sent));
+      if (now < 0 && errno != EINTR)
+        io::throwUnwritable(name, std::strerror(errno));
+      sent += std::max<ssize_t>(now, 0);
+    }
+    if (got < 0)
+      io::throwUnwritable(name, std::strerror(errno));
+    at += got;
+  }
+}
+
 } // namespace
 
 std::string
@@ -277,6 +303,8 @@ void
 writeAtomically(const std::string& path,
                 const std::function<void(const std::string&)>& writer)
 {
+  if (io::isStandardStream(path))
+    return writeToStandardOutput(writer);
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     io::throwUnwritable(path,

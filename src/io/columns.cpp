@@ -127,6 +127,21 @@ appendNumber(std::string& text, const Column& column, const std::uint8_t* point)
   pcl_uvol::appendNumber(text, column.datatype, wide);
 }
 
+std::string
+packRecords(const Dataset& dataset,
+            const std::vector<Column>& columns,
+            std::size_t first,
+            std::size_t count)
+{
+  const RecordPacker packer(columns);
+  const std::size_t step = dataset.cloud.point_step;
+  std::string records(count * packer.size(), '\0');
+  auto* to = reinterpret_cast<std::uint8_t*>(records.data());
+  for (std::size_t i = first; i < first + count; ++i, to += packer.size())
+    packer.pack(dataset.cloud.data.data() + i * step, to);
+  return records;
+}
+
 void
 writeRecords(OutputFile& file,
              const Dataset& dataset,

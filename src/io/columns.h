@@ -31,6 +31,13 @@ makeWords(std::vector<std::string>& names, std::vector<std::string>& comments);
 void
 appendNumber(std::string& text, const Column& column, const std::uint8_t* point);
 
+/** \brief The bytes of the columns of some points, one behind the other. */
+std::string
+packRecords(const Dataset& dataset,
+            const std::vector<Column>& columns,
+            std::size_t first,
+            std::size_t count);
+
 /** \brief Write the columns of every point: a line of numbers between blanks, or
  * their bytes one behind the other. */
 void

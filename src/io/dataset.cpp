@@ -2,6 +2,7 @@
 // Loading and saving by the ending of the name.
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/record_source.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -9,48 +10,35 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr const char* text_endings[] = {".csv", ".txt", ".xyz", ".dat", ".tsv"};
-constexpr const char* vtk_endings[] = {".vtk", ".vtp", ".vtu", ".vts"};
-
-template <std::size_t N>
-bool
-isOneOf(const std::string& ending, const char* const (&endings)[N])
-{
-  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
-}
-
-std::string
-describeEnding(const std::string& ending)
-{
-  return ending.empty() ? "its name has no ending"
-                        : "the ending '" + ending + "' is not known";
-}
+constexpr const char* saved_endings[] = {".pcd", ".ply", ".vtp", ".csv", ".npz"};
 
 } // namespace
 
 namespace io {
 
-FileFormat
-findFormat(const std::string& path, const LoadOptions& options)
+std::unique_ptr<RecordSource>
+openRecords(const std::string& path, FileFormat format, const LoadOptions& options)
 {
-  const std::string ending = getEnding(path);
-  if (isOneOf(ending, text_endings))
-    return FileFormat::Text;
-  if (options.xyz_columns != LoadOptions().xyz_columns)
-    throw InvalidArgument(
-        "Columns of coordinates can be chosen in text files only, and '" + path +
-        "' is none.");
-  if (ending == ".pcd")
-    return FileFormat::Pcd;
-  if (ending == ".ply")
-    return FileFormat::Ply;
-  if (isOneOf(ending, vtk_endings))
-    return FileFormat::Vtk;
-  const InputFile exists(path); // a missing file matters more than its ending
-  throwUnreadable(path,
-                  describeEnding(ending) +
-                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                      ".tsv, .vtk, .vtp, .vtu and .vts");
+  switch (format) {
+  case FileFormat::Pcd:
+    return openPcd(path);
+  case FileFormat::Ply:
+    return openPly(path);
+  case FileFormat::Text:
+    return openText(path, options);
+  case FileFormat::Gadget:
+    return openGadget(path, options);
+  case FileFormat::Hdf5:
+    return openHdf5(path, options);
+  case FileFormat::Las:
+    return openLas(path);
+  case FileFormat::Npy:
+    return openNpy(path);
+  case FileFormat::Npz:
+    return openNpz(path);
+  default:
+    return nullptr;
+  }
 }
 
 } // namespace io
@@ -63,12 +51,12 @@ loadDataset(const std::string& path, const LoadOptions& options)
     switch (format) {
     case io::FileFormat::Pcd:
       return io::readPcd(path);
-    case io::FileFormat::Ply:
-      return io::readPly(path);
     case io::FileFormat::Text:
       return io::readText(path, options);
-    default:
+    case io::FileFormat::Vtk:
       return io::readVtk(path);
+    default:
+      return io::readWhole(io::openRecords(path, format, options));
     }
   });
 }
@@ -85,6 +73,8 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
       io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
       io::writeVtp(file, path, dataset, {});
+    else if (ending == ".npz")
+      io::writeNpz(file, path, dataset);
     else
       io::writeCsv(file, path, dataset);
   });
@@ -93,12 +83,12 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
 void
 checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
 {
-  constexpr const char* endings[] = {".pcd", ".ply", ".vtp", ".csv"};
   const std::string ending = io::getEnding(path);
-  if (!isOneOf(ending, endings))
+  if (std::find(std::begin(saved_endings), std::end(saved_endings), ending) ==
+      std::end(saved_endings))
     io::throwUnwritable(path,
-                        describeEnding(ending) +
-                            "; points are written as .pcd, .ply, .vtp or .csv");
+                        io::describeEnding(ending) +
+                            "; points are written as .pcd, .ply, .vtp, .csv or .npz");
   io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);

@@ -20,9 +20,11 @@ isBlank(char c)
 
 } // namespace
 
-FileCursor::FileCursor(const std::string& path, Content content)
+FileCursor::FileCursor(const std::string& path,
+                       Content content,
+                       InputFile::Packing packing)
     : path_(path)
-    , file_(path)
+    , file_(path, packing)
     , content_(content)
 {
 }

@@ -24,7 +24,9 @@ public:
   };
 
   /** \throws IOError as InputFile does */
-  explicit FileCursor(const std::string& path, Content content = Content::Any);
+  explicit FileCursor(const std::string& path,
+                      Content content = Content::Any,
+                      InputFile::Packing packing = InputFile::Packing::Unpack);
 
   const InputFile&
   getFile() const

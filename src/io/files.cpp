@@ -4,6 +4,7 @@
 
 #include "common/numbers.h"
 #include "common/printable.h"
+#include "io/unpacked_file.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
@@ -44,13 +45,22 @@ throwUnwritable(const std::string& path, const std::string& reason)
 std::string
 getEnding(const std::string& path)
 {
-  return lowerCase(std::filesystem::path(path).extension().string());
+  if (path == "-")
+    return ".ply";
+  const std::string ending =
+      std::filesystem::path(withoutPacking(path)).extension().string();
+  return lowerCase(ending.empty() ? std::filesystem::path(path).extension().string()
+                                  : ending);
 }
 
 void
 checkWritable(const std::string& path)
 {
   namespace fs = std::filesystem;
+  if (isStandardStream(path))
+    return;
+  if (isPacked(path))
+    throwUnwritable(path, "packed files are read, but not written");
   std::error_code ignored;
   if (fs::is_directory(path, ignored))
     throwUnwritable(path, "it is a directory");
@@ -66,11 +76,16 @@ checkWritable(const std::string& path)
     throwUnwritable(path, std::strerror(errno));
 }
 
-InputFile::InputFile(const std::string& path)
+InputFile::InputFile(const std::string& path, Packing packing)
     : path_(path)
     , descriptor_(-1)
     , size_(0)
 {
+  if (isStandardStream(path)) {
+    descriptor_ = openStandardInput();
+    takeSize();
+    return;
+  }
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     throwUnreadable(path,
@@ -79,12 +94,36 @@ InputFile::InputFile(const std::string& path)
     throwUnreadable(path, "it is a directory");
   if (!S_ISREG(status.st_mode))
     throwUnreadable(path, "it is not a regular file");
-  if (status.st_size == 0)
-    throwUnreadable(path, "the file is empty");
-  size_ = static_cast<std::uint64_t>(status.st_size);
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0)
     throwUnreadable(path, std::strerror(errno));
+  takeSize();
+  if (packing == Packing::Keep || !isPacked(path))
+    return;
+  const InputFile packed(path, descriptor_); // closes it
+  descriptor_ = -1;
+  descriptor_ = unpackFile(path, packed.descriptor_);
+  takeSize();
+}
+
+InputFile::InputFile(const std::string& path, int descriptor)
+    : path_(path)
+    , descriptor_(descriptor)
+    , size_(0)
+{
+  takeSize();
+}
+
+void
+InputFile::takeSize()
+{
+  struct stat status {};
+  const bool is_known = ::fstat(descriptor_, &status) == 0;
+  size_ = is_known ? static_cast<std::uint64_t>(status.st_size) : 0;
+  if (size_ > 0)
+    return;
+  ::close(descriptor_); // the constructor fails
+  throwUnreadable(path_, is_known ? "the file is empty" : std::strerror(errno));
 }
 
 InputFile::~InputFile()

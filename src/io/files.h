@@ -48,7 +48,9 @@ reading(const std::string& path, const Reader& read)
   }
 }
 
-/** \brief The ending of a file name in lower case, with its dot. */
+/** \brief The ending of a file name in lower case, with its dot; "-", standard output,
+ * counts as .ply, and what packs a file (.gz, .bz2, .zst) does not count where the name
+ * has another ending. */
 std::string
 getEnding(const std::string& path);
 
@@ -56,11 +58,19 @@ getEnding(const std::string& path);
 void
 checkWritable(const std::string& path);
 
-/** \brief A regular, non-empty file opened for reading. */
+/** \brief A regular, non-empty file opened for reading; "-" is standard input. */
 class InputFile {
 public:
-  /** \throws IOError for a file that is missing, empty, a directory, unreadable */
-  explicit InputFile(const std::string& path);
+  /** What is read of a file whose name ends in .gz, .bz2 or .zst. */
+  enum class Packing { Unpack, Keep };
+
+  /** \throws IOError for a file that is missing, empty, a directory, unreadable, and
+   * for one that cannot be unpacked */
+  explicit InputFile(const std::string& path, Packing packing = Packing::Unpack);
+
+  /** \param descriptor of a file, which is closed at the end
+   * \param path the name that errors give */
+  InputFile(const std::string& path, int descriptor);
   InputFile(const InputFile&) = delete;
   InputFile&
   operator=(const InputFile&) = delete;
@@ -77,11 +87,20 @@ public:
   void
   read(std::uint64_t offset, void* bytes, std::size_t count) const;
 
+  int
+  getDescriptor() const
+  {
+    return descriptor_;
+  }
+
   /** \brief The bytes from the start, at most that many. */
   std::string
   head(std::uint64_t count) const;
 
 private:
+  void
+  takeSize();
+
   std::string path_;
   int descriptor_;
   std::uint64_t size_;

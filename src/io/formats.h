@@ -16,14 +16,26 @@ namespace io {
 
 class RecordSource;
 
-enum class FileFormat { Pcd, Ply, Text, Vtk };
+enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz };
 
-/** \brief The format of the points in a file, by the ending of its name.
+/** \brief The format of the points in a file, by the ending of its name; snapshots of
+ * other endings are known by their first bytes.
  * \throws IOError for another ending
- * \throws InvalidArgument for columns of coordinates chosen in a file that is no text
+ * \throws InvalidArgument for columns of coordinates chosen in a file that is no text,
+ * and for particles chosen in one that is no snapshot
  */
 FileFormat
 findFormat(const std::string& path, const LoadOptions& options);
+
+/** \brief "the ending '.doc' is not known". */
+std::string
+describeEnding(const std::string& ending);
+
+/** \brief The points of a file as records.
+ * \return null for a file that has to be read whole
+ * \throws IOError */
+std::unique_ptr<RecordSource>
+openRecords(const std::string& path, FileFormat format, const LoadOptions& options);
 
 /** \throws IOError that says what has to be read whole, and what is read as a stream */
 [[noreturn]] void
@@ -32,9 +44,6 @@ throwNoStream(const std::string& path, const std::string& what);
 /** Readers of whole files. @{ */
 Dataset
 readPcd(const std::string& path);
-
-Dataset
-readPly(const std::string& path);
 
 /** \brief Vertices, and faces as fans of triangles. */
 struct PlyMesh {
@@ -81,7 +90,36 @@ openPly(const std::string& path);
 
 std::unique_ptr<RecordSource>
 openText(const std::string& path, const LoadOptions& options);
+
+std::unique_ptr<RecordSource>
+openGadget(const std::string& path, const LoadOptions& options);
+
+std::unique_ptr<RecordSource>
+openHdf5(const std::string& path, const LoadOptions& options);
+
+std::unique_ptr<RecordSource>
+openLas(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openNpy(const std::string& path);
+
+std::unique_ptr<RecordSource>
+openNpz(const std::string& path);
 /** @} */
+
+/** \brief True for a binary snapshot of Gadget.
+ * \throws IOError */
+bool
+isGadget(const std::string& path);
+
+/** \brief A file of HDF5 and what is named within it, as in file.h5:/group/x,y,z. */
+struct Hdf5Name {
+  std::string file;
+  std::string inside; ///< "": nothing
+};
+
+Hdf5Name
+splitHdf5Name(const std::string& path);
 
 /** Writers write to `file`, which exists; errors call it `path`. @{ */
 void
@@ -106,6 +144,10 @@ writePly(const std::string& file,
 
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset);
+
+/** \brief An array per field. */
+void
+writeNpz(const std::string& file, const std::string& path, const Dataset& dataset);
 
 /** \brief Points, or faces over them where there are triangles. */
 void

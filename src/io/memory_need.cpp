@@ -39,18 +39,21 @@ peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
 } // namespace
 
 std::optional<CloudHeader>
-peekHeader(const std::string& path)
+peekHeader(const std::string& path, const LoadOptions& options)
 {
   try {
-    const io::FileFormat format = io::findFormat(path, {});
-    if (format != io::FileFormat::Pcd && format != io::FileFormat::Ply)
+    const io::FileFormat format = io::findFormat(path, options);
+    if (format == io::FileFormat::Text)
       return std::nullopt;
     if (format == io::FileFormat::Pcd)
       if (const auto compressed = io::findCompressed(path))
         return peekRecords(compressed->info, compressed->packed_bytes);
-    const auto source =
-        format == io::FileFormat::Pcd ? io::openPcd(path) : io::openPly(path);
-    return peekRecords(source->getInfo(), 0);
+    const auto source = io::openRecords(path, format, options);
+    if (!source)
+      return std::nullopt;
+    CloudHeader cloud = peekRecords(source->getInfo(), 0);
+    cloud.reading.peak += static_cast<double>(source->heldBytes());
+    return cloud;
   }
   catch (const Exception&) {
     return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include "common/memory.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,10 @@ struct PCL_UVOL_EXPORTS CloudHeader {
   MemoryNeed reading;         ///< of loadDataset; the cloud is kept
 };
 
-/** \brief What the header of a .pcd or .ply file promises. Nothing for
- * other formats, whose size shows when they are read, and for files that cannot be
- * read or hold less than they promise: reading says what is wrong with them. */
+/** \brief What the header of a .pcd or .ply file or a snapshot promises. Nothing for
+ * text and VTK's files, whose size shows when they are read, and for files that cannot
+ * be read or hold less than they promise: reading says what is wrong with them. */
 PCL_UVOL_EXPORTS std::optional<CloudHeader>
-peekHeader(const std::string& path);
+peekHeader(const std::string& path, const LoadOptions& options = {});
 
 } // namespace pcl_uvol

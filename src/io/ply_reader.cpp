@@ -528,12 +528,6 @@ openPly(const std::string& path)
       path, std::move(info), cursor->tell().offset, swapped);
 }
 
-Dataset
-readPly(const std::string& path)
-{
-  return readWhole(openPly(path));
-}
-
 PlyMesh
 readPlyMesh(const std::string& path)
 {

@@ -17,21 +17,6 @@ constexpr std::uint64_t most_points = std::numeric_limits<pcl::uindex_t>::max();
 /** Points that one reading for some of them spans at most. */
 constexpr std::uint64_t row_span = 256;
 
-std::unique_ptr<io::RecordSource>
-openSource(const std::string& path, io::FileFormat format, const LoadOptions& options)
-{
-  switch (format) {
-  case io::FileFormat::Pcd:
-    return io::openPcd(path);
-  case io::FileFormat::Ply:
-    return io::openPly(path);
-  case io::FileFormat::Text:
-    return io::openText(path, options);
-  default:
-    io::throwNoStream(path, "VTK's files");
-  }
-}
-
 [[noreturn]] void
 throwNoPoint(std::uint64_t point, std::uint64_t size)
 {
@@ -45,7 +30,10 @@ PointStream::PointStream(const std::string& path, const LoadOptions& options)
 {
   const io::FileFormat format = io::findFormat(path, options);
   io::reading(path, [&] {
-    reader_ = std::make_unique<io::PointReader>(openSource(path, format, options));
+    auto source = io::openRecords(path, format, options);
+    if (!source)
+      io::throwNoStream(path, "VTK's files");
+    reader_ = std::make_unique<io::PointReader>(std::move(source));
     reader_->findOrigin();
   });
 }

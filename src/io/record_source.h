@@ -47,6 +47,13 @@ public:
   virtual void
   read(std::size_t count, std::uint8_t* records) = 0;
 
+  /** \brief Bytes that are held besides some blocks. */
+  virtual std::uint64_t
+  heldBytes() const
+  {
+    return 0;
+  }
+
 protected:
   RecordInfo info_;
   std::uint64_t next_ = 0;

@@ -31,7 +31,7 @@ class ByteSource {
 public:
   ByteSource(const std::string& path, std::uint64_t offset, bool zipped)
       : path_(path)
-      , file_(path)
+      , file_(path, InputFile::Packing::Keep)
       , offset_(offset)
   {
     // 32: a header of zlib or gzip tells which of both it is
@@ -106,7 +106,7 @@ public:
       , data_(data)
       , count_(count)
       , bytes_(datatypeSize(data.datatype))
-      , cursor_(path)
+      , cursor_(path, FileCursor::Content::Any, InputFile::Packing::Keep)
   {
     cursor_.seek({data.offset, 0});
     std::string_view line;

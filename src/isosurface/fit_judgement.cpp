@@ -16,6 +16,14 @@ namespace {
  * truncation errors have longer tails than noise. */
 constexpr double error_factor = 4.0;
 
+/** A slope whose standard error is a larger part of it may be as much less steep as so
+ * many of these parts beyond: noise that is as large as a spacing puts isopoints where
+ * it makes fits steep. It leaves at least that part of the slope. */
+constexpr double sure_slope = 0.05, slope_factor = 2.6, least_slope = 0.25;
+
+/** Of the radius of the support: farther from an edge no surface is expected. */
+constexpr double most_reach = 1.2;
+
 /** Of the range of values among the fitted samples: a larger residual is no noise on a
  * slope any more, but all there is. */
 constexpr double largest_residual = 0.15;
@@ -152,6 +160,33 @@ errorOnEdge(const IsoEdge& edge, const PointIso& point)
   return std::max(edge.t, 1.0f - edge.t) * point.edge_length;
 }
 
+/** Error of the zero level of a fit, in radii of the support. */
+double
+errorOfFit(const FitResult& result, std::size_t lane)
+{
+  const double doubt = std::max(0.0, result.slope_error[lane] - sure_slope);
+  return error_factor * result.error[lane] /
+         std::max(1.0 - slope_factor * doubt, least_slope);
+}
+
+/** How far from its edge a fit that does not serve would have an isopoint, at most, in
+ * radii of the support: where values scatter, the surface may lie beyond the edge.
+ * Across a step it does not, and samples that determine no fit do not tell. */
+double
+reachOfFit(const FitResult& result, std::size_t lane, const Surroundings& surroundings)
+{
+  if (surroundings.has_steps || surroundings.edge_span > step_span ||
+      std::isnan(result.value[lane]))
+    return 0.0;
+  if (result.order[lane] == fit_failed)
+    return most_reach;
+  return std::min(most_reach,
+                  std::hypot(result.offset[0][lane],
+                             result.offset[1][lane],
+                             result.offset[2][lane]) +
+                      errorOfFit(result, lane));
+}
+
 } // namespace
 
 void
@@ -172,7 +207,11 @@ setIsopoint(const IsopointInput& input,
 {
   point.support = static_cast<std::uint8_t>(surroundings.support);
   if (!is_smooth) {
-    point.error = errorOnEdge(edge, point);
+    const double per_radius =
+        surroundings.radius * point.edge_length / surroundings.edge_length;
+    point.error = std::max(
+        errorOnEdge(edge, point),
+        static_cast<float>(per_radius * reachOfFit(result, lane, surroundings)));
     return;
   }
   // Derivatives by original coordinates: the fit was made in the stretched space.
@@ -204,8 +243,8 @@ setIsopoint(const IsopointInput& input,
   const double rounding =
       std::sqrt(3.0) * 0x1p-24 *
       std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-  const double standard_error = result.error[lane] * std::sqrt(sq_fit_slope) / slope;
-  point.error = static_cast<float>(std::hypot(error_factor * standard_error, rounding));
+  const double error = errorOfFit(result, lane) * std::sqrt(sq_fit_slope) / slope;
+  point.error = static_cast<float>(std::hypot(error, rounding));
 }
 
 } // namespace pcl_uvol

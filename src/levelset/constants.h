@@ -72,6 +72,8 @@ struct LevelSetConstants {
    * 0.7 a cylinder of radius 3 with noise of 0.1 was left as it was, although smoothing
    * halves that mean square. */
   double worthwhile = 0.85;
+  /** Samples next to the surface that tell what a given weight leaves of the noise. */
+  std::size_t patch_samples = 1024;
   /** Noise that nobody sees: fits of isopoints leave less. */
   double invisible_noise = 0.005;
 

@@ -3,6 +3,7 @@
 #include "levelset/band.h"
 #include "levelset/constants.h"
 #include "levelset/data_term.h"
+#include "levelset/deviation.h"
 #include "levelset/evolver.h"
 #include "levelset/level_set_input.h"
 #include "levelset/mu_choice.h"
@@ -98,7 +99,9 @@ public:
     finish();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    return {phiOfCloud(phi_), std::move(input_.sources), summary_};
+    LevelSet level_set{phiOfCloud(phi_), deviationOfCloud(), {}, summary_};
+    level_set.sources = std::move(input_.sources);
+    return level_set;
   }
 
 private:
@@ -115,6 +118,18 @@ private:
       for (const std::uint32_t member : merged.members)
         phi[member] = values[merged.sample];
     return phi;
+  }
+
+  std::vector<float>
+  deviationOfCloud() const
+  {
+    std::vector<float> deviations(samples_.size(),
+                                  std::numeric_limits<float>::quiet_NaN());
+    const std::vector<float> of_band =
+        findDeviations(*band_, phiOfBand(), term_, shares_, threads_);
+    for (std::size_t i = 0; i < of_band.size(); ++i)
+      deviations[band_->centers[i]] = of_band[i];
+    return phiOfCloud(std::move(deviations));
   }
 
   /** The band, its data term, the weights and the values it starts with. */
@@ -161,8 +176,10 @@ private:
     }
     else {
       summary_.noise = term_.noise / spacing_;
-      stages_ =
+      MuChoice choice =
           chooseMu(*band_, samples_, term_, parameters_, spacing_, threads_, report_);
+      stages_ = std::move(choice.stages);
+      shares_ = choice.shares;
       if (has_own_start)
         stages_ = {{stages_.empty() ? 1.0 : stages_.back().mu, ever}};
     }
@@ -380,6 +397,9 @@ private:
   finish()
   {
     phi_ = current();
+    evolver_.reset(); // before others take as much
+    if (parameters_.mu)
+      shares_ = measureSharesOfPatch();
     if (parameters_.initial.kind == InitialKind::Values && !stages_.empty())
       reportLostFeatures();
     if (findCrossing(samples_, phi_, threads_).empty()) {
@@ -398,6 +418,27 @@ private:
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,
                  [&] { return scaleToDistance(*band_, phiOfBand(), threads_); });
+  }
+
+  /** What the weight that was given leaves of the noise, where some of the samples next
+   * to the surface are: consecutive ones, which lie side by side. */
+  NoiseShares
+  measureSharesOfPatch()
+  {
+    const std::size_t count = std::min(level_set.patch_samples, crossing_.size());
+    const auto first =
+        crossing_.begin() + static_cast<std::ptrdiff_t>((crossing_.size() - count) / 2);
+    Report ignored;
+    const Band patch = makeBandOf(parameters_.scheme,
+                                  {first, first + static_cast<std::ptrdiff_t>(count)},
+                                  ignored);
+    return measureShares(patch,
+                         samples_,
+                         makeDataTerm(patch, samples_, input_.f, threads_, ignored),
+                         parameters_,
+                         spacing_,
+                         summary_.mu,
+                         threads_);
   }
 
   /** Samples that the data put clearly on one side, and that are on the other one. */
@@ -453,6 +494,7 @@ private:
   std::vector<std::uint32_t> crossing_; ///< that the band was made around
   std::optional<Band> band_, relaxation_band_;
   DataTerm term_;
+  NoiseShares shares_;
   std::vector<MuStage> stages_;
   std::size_t stage_ = 0;
   double stage_time_ = 0.0;

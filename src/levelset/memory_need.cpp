@@ -2,6 +2,7 @@
 #include "levelset/memory_need.h"
 
 #include "levelset/band.h"
+#include "levelset/constants.h"
 #include "neighbors/memory_need.h"
 
 #include <cmath>
@@ -67,9 +68,14 @@ levelSetNeed(double samples,
   forecast.run({nodeRangesBytes(samples), 0.0});
   forecast.hold((stencilBytes(parameters) + centerBytes(parameters)) * centers +
                 other_bytes * others);
-  // phi of all samples, in leaf order and then as they came.
-  forecast.run({2.0 * float_bytes * samples, 0.0});
-  return {forecast.getPeak(), (float_bytes + index_bytes) * samples};
+  // A band around a patch tells what a given weight leaves of the noise, twice.
+  if (parameters.mu)
+    forecast.run({(stencilBytes(parameters) + 2.0 * centerBytes(parameters)) * centers *
+                      std::min(1.0, level_set.patch_samples / surface.crossing),
+                  0.0});
+  // phi and deviations of all samples, in leaf order and then as they came.
+  forecast.run({3.0 * float_bytes * samples, 0.0});
+  return {forecast.getPeak(), (2.0 * float_bytes + index_bytes) * samples};
 }
 
 } // namespace pcl_uvol

@@ -150,30 +150,39 @@ public:
     probed_ = probe_.target;
   }
 
-  std::vector<MuStage>
+  MuChoice
   run()
   {
     for (double mu = level_set.mu_ratio;
          mu > level_set.least_mu && stages_.size() - best_stages_ < level_set.patience;
          mu *= level_set.mu_ratio)
-      tryWeight(mu);
+      tryWeight(mu, level_set.patience);
     stages_.resize(best_stages_);
     if (!stages_.empty())
       stages_.back().time = best_time_;
-    return best_risk_ < level_set.worthwhile * direct_risk_ ? stages_
-                                                            : std::vector<MuStage>{};
+    if (!(best_risk_ < level_set.worthwhile * direct_risk_))
+      return {};
+    return {stages_, best_shares_};
+  }
+
+  NoiseShares
+  measure(double mu)
+  {
+    tryWeight(mu, level_set.steps_of_weight);
+    return measureShares(phi_, probed_);
   }
 
 private:
+  /** \param patience looks without a better one that end it */
   void
-  tryWeight(double mu)
+  tryWeight(double mu, std::size_t patience)
   {
     Evolver evolver(band_, parameters_, threads_, spacing_, mu, phi_, term_);
     Evolver other(band_, parameters_, threads_, spacing_, mu, probed_, probe_);
     stages_.push_back({mu, 0.0});
     bool is_calm = false;
     misses_ = 0;
-    for (std::size_t step = 1; !is_calm && misses_ < level_set.patience; ++step) {
+    for (std::size_t step = 1; !is_calm && misses_ < patience; ++step) {
       const double change = evolver.advance().change;
       other.advance();
       stages_.back().time += evolver.getStep();
@@ -209,6 +218,22 @@ private:
     best_risk_ = risk;
     best_stages_ = stages_.size();
     best_time_ = stages_.back().time;
+    best_shares_ = measureShares(phi, probed);
+  }
+
+  /** How the known noise shows. */
+  NoiseShares
+  measureShares(const std::vector<float>& phi, const std::vector<float>& probed) const
+  {
+    double left = 0.0, taken = 0.0;
+    for (const FitWeights& fit : fits_) {
+      left += std::pow((fit.apply(probed) - fit.apply(phi)) / shift_, 2);
+      const double moved =
+          (static_cast<double>(probed[fit.center]) - phi[fit.center]) / shift_;
+      taken += std::pow(drawSign(band_.centers[fit.center]) - moved, 2);
+    }
+    const auto count = static_cast<double>(fits_.size());
+    return {std::sqrt(left / count), std::sqrt(taken / count)};
   }
 
   /** Expected mean square deviation of fits, in squared lengths. */
@@ -239,13 +264,14 @@ private:
   std::vector<FitWeights> fits_;
   std::vector<MuStage> stages_; ///< all that were tried
   double direct_risk_ = 0.0, best_risk_, best_time_ = 0.0;
+  NoiseShares best_shares_;
   std::size_t best_stages_ = 0;
   std::size_t misses_ = 0; ///< looks at this weight since the best one
 };
 
 } // namespace
 
-std::vector<MuStage>
+MuChoice
 chooseMu(const Band& band,
          const SampleSet& samples,
          const DataTerm& term,
@@ -258,6 +284,20 @@ chooseMu(const Band& band,
   if (term.noise < level_set.invisible_noise * spacing)
     return {};
   return Search(band, samples, term, parameters, spacing, threads).run();
+}
+
+NoiseShares
+measureShares(const Band& band,
+              const SampleSet& samples,
+              const DataTerm& term,
+              const LevelSetParameters& parameters,
+              double spacing,
+              double mu,
+              unsigned threads)
+{
+  if (term.noise < level_set.invisible_noise * spacing)
+    return {};
+  return Search(band, samples, term, parameters, spacing, threads).measure(mu);
 }
 
 } // namespace pcl_uvol

@@ -5,6 +5,7 @@
 
 #include "levelset/band.h"
 #include "levelset/data_term.h"
+#include "levelset/deviation.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <vector>
@@ -17,9 +18,14 @@ struct MuStage {
   double time; ///< in squared spacings
 };
 
+/** \brief What smoothing a field as well as possible takes. */
+struct MuChoice {
+  std::vector<MuStage> stages; ///< none where the data are best as they are
+  NoiseShares shares;          ///< after the last one
+};
+
 /** \brief Weights from large to small, one after another, that lead from the data to
- * the function with the least expected deviation; none where the data are best as they
- * are.
+ * the function with the least expected deviation.
  *
  * The deviation is that of fits at samples near the surface, as isopoints are made from
  * fits, by Stein's unbiased risk estimate: the mean square of what was taken away, less
@@ -31,7 +37,7 @@ struct MuStage {
  * where the estimate rises keeps what would shrink if it went on. Steps are
  * asynchronous whatever the parameters say, so that the choice does not depend on them.
  * \param term of a band around the surface of the data */
-std::vector<MuStage>
+MuChoice
 chooseMu(const Band& band,
          const SampleSet& samples,
          const DataTerm& term,
@@ -39,5 +45,16 @@ chooseMu(const Band& band,
          double spacing,
          unsigned threads,
          Report& report);
+
+/** \brief What a given weight leaves of the noise, once the surface is nearly at rest.
+ * \param term of a band around the surface of the data, or around a part of it */
+NoiseShares
+measureShares(const Band& band,
+              const SampleSet& samples,
+              const DataTerm& term,
+              const LevelSetParameters& parameters,
+              double spacing,
+              double mu,
+              unsigned threads);
 
 } // namespace pcl_uvol

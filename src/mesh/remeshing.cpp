@@ -34,7 +34,7 @@ constexpr double least_agreement = 0.5;
 /** A vertex of fewer neighbours would fold. */
 constexpr std::size_t least_neighbors = 4;
 
-constexpr int first_rounds = 5, later_rounds = 3, flip_passes = 5;
+constexpr int first_rounds = 5, later_rounds = 3, last_turns = 2, flip_passes = 5;
 
 /** Passes over all edges, each of which leaves those that others nearby have spoilt; a
  * pass that removes a smaller part of the vertices is the last one. */
@@ -47,11 +47,12 @@ constexpr double size_per_edge = 1.56;
 
 class Remesher {
 public:
-  Remesher(WorkingMesh& mesh, double edge_length, unsigned threads)
+  Remesher(WorkingMesh& mesh, double edge_length, unsigned threads, StepTimer& step)
       : mesh_(mesh)
       , edges_(mesh.triangles, mesh.vertices.size())
       , is_gone_(mesh.triangles.size(), false)
       , threads_(threads)
+      , step_(step)
   {
     for (WorkingVertex& vertex : mesh.vertices) {
       feet_.push_back(vertex.foot);
@@ -76,6 +77,7 @@ public:
       });
       for (std::size_t i = 0; i < moved.size(); ++i)
         mesh_.vertices[i].foot = moved[i];
+      step_.advance(1);
     }
   }
 
@@ -83,13 +85,18 @@ public:
   collapseShort()
   {
     std::size_t left = mesh_.vertices.size();
-    for (int pass = 0; pass < collapse_passes; ++pass) {
+    int pass = 0;
+    bool is_done = false;
+    while (!is_done && pass < collapse_passes) {
       const std::size_t collapsed = collapseOnce();
       flipToDelaunay();
       left -= collapsed;
-      if (static_cast<double>(collapsed) < least_collapsed * static_cast<double>(left))
-        break;
+      is_done =
+          static_cast<double>(collapsed) < least_collapsed * static_cast<double>(left);
+      ++pass;
+      step_.advance(1);
     }
+    step_.advance(static_cast<std::uint64_t>(collapse_passes - pass));
   }
 
   void
@@ -332,6 +339,7 @@ private:
   std::vector<Foot> feet_; // by vertex, where the surface is known
   std::vector<bool> is_gone_;
   unsigned threads_;
+  StepTimer& step_;
   std::vector<std::uint32_t> around_, other_around_, tip_around_;
   std::vector<Foot> nearby_feet_;
 };
@@ -339,12 +347,14 @@ private:
 } // namespace
 
 void
-remesh(WorkingMesh& mesh, double edge_length, unsigned threads)
+remesh(WorkingMesh& mesh, double edge_length, unsigned threads, Report& report)
 {
-  Remesher remesher(mesh, edge_length, threads);
+  StepTimer step(
+      report, "remeshing", first_rounds + collapse_passes + last_turns * later_rounds);
+  Remesher remesher(mesh, edge_length, threads, step);
   remesher.smooth(first_rounds);
   remesher.collapseShort();
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < last_turns; ++i) {
     remesher.smooth(later_rounds);
     remesher.flipToDelaunay();
   }

@@ -221,10 +221,8 @@ makeSurfaceMesh(const CloudView& cloud,
     WorkingMesh mesh = makeBandSurface(input, rounded, report);
     if (parameters.meshing.open)
       openCaps(mesh);
-    if (parameters.meshing.remesh == Remeshing::Even) {
-      const StepTimer step(report, "remeshing");
-      remesh(mesh, parameters.meshing.edge_length, threads);
-    }
+    if (parameters.meshing.remesh == Remeshing::Even)
+      remesh(mesh, parameters.meshing.edge_length, threads, report);
     dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
     SurfaceTriangles surface =
         finishMesh(input, rounded, std::move(mesh), read.values.sources, report);

@@ -136,19 +136,28 @@ splitPinchedVertices(std::vector<Triangle>& triangles,
   const HalfEdges edges(triangles, vertices);
   if (edges.getDefects().vertices == 0)
     return 0;
-  // Fans begin at half edges without a twin, and only one of a vertex is its first.
+  std::vector<bool> is_met(3 * triangles.size());
+  for (std::uint32_t vertex = 0; vertex < vertices; ++vertex)
+    if (edges.firstOf(vertex) != HalfEdges::none)
+      edges.forEachAround(vertex, [&](HalfEdge edge) { is_met[edge] = true; });
   std::vector<std::pair<HalfEdge, std::uint32_t>> renamed;
   std::size_t copies = 0;
-  for (HalfEdge start = 0; start < 3 * triangles.size(); ++start) {
-    const std::uint32_t vertex = edges.originOf(start);
-    if (edges.twinOf(start) != HalfEdges::none || edges.firstOf(vertex) == start)
-      continue;
+  const auto rename = [&](HalfEdge start) {
     const auto copy = static_cast<std::uint32_t>(vertices + copies++);
-    source_of.push_back(vertex);
-    for (HalfEdge edge = start; edge != HalfEdges::none;
-         edge = edges.twinOf(previousOf(edge)))
+    source_of.push_back(edges.originOf(start));
+    for (HalfEdge edge = start; edge != HalfEdges::none && !is_met[edge];
+         edge = edges.twinOf(previousOf(edge))) {
+      is_met[edge] = true;
       renamed.emplace_back(edge, copy);
-  }
+    }
+  };
+  // Fans begin at half edges without a twin; what is left then are rounds.
+  for (HalfEdge start = 0; start < is_met.size(); ++start)
+    if (!is_met[start] && edges.twinOf(start) == HalfEdges::none)
+      rename(start);
+  for (HalfEdge start = 0; start < is_met.size(); ++start)
+    if (!is_met[start])
+      rename(start);
   for (const auto& [edge, copy] : renamed)
     triangles[edge / 3][edge % 3] = copy;
   return copies;

@@ -21,10 +21,9 @@ struct PieceList {
 PCL_UVOL_EXPORTS PieceList
 findPieces(std::vector<Triangle>& triangles, std::size_t vertices);
 
-/** \brief Give every vertex whose triangles are several fans a copy for each further
- * one, as rims that touch in a point have. \param source_of gets, behind the other
- * vertices, the one that each copy is of
- * \return the vertices with copies */
+/** \brief Give every vertex whose triangles are several rounds or fans a copy for each
+ * further one, as rims that touch in a point have. \param source_of gets, behind the
+ * other vertices, the one that each copy is of \return how many copies */
 PCL_UVOL_EXPORTS std::size_t
 splitPinchedVertices(std::vector<Triangle>& triangles,
                      std::size_t vertices,

@@ -308,6 +308,10 @@ LocalMetricFinder::sqFarthest() const
 double
 LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_stretch)
 {
+  // Lines between samples that are both very near and very far have no lengths in
+  // float.
+  if (!metric_.allFinite())
+    return std::numeric_limits<double>::infinity();
   const auto& row = finder_.find(samples_.getPositions()[sample], metric_, sq_limit);
   gather(sample, row.data(), row.size());
   reach_ = std::max(reach_, finder_.getReach());

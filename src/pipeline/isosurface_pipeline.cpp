@@ -5,6 +5,7 @@
 #include "neighbors/sampling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -221,26 +222,6 @@ IsosurfacePipeline::run()
 
 namespace {
 
-/** As extractZeroLevel(), a mesh. */
-SurfaceTriangles
-meshZeroLevel(const CloudView& samples,
-              const std::vector<float>& phi,
-              const IsosurfaceParameters& parameters,
-              const MeshingParameters& meshing,
-              unsigned threads,
-              Report& report)
-{
-  const auto cloud = cloudOfPhi(samples, phi);
-  const CloudView view = viewOf(cloud);
-  pcl::Indices all(view.count);
-  std::iota(all.begin(), all.end(), 0);
-  SurfaceMeshParameters of_phi{parameters, meshing};
-  of_phi.isosurface.field = "phi";
-  of_phi.isosurface.isovalues = {0.0};
-  return detail::makeSurfaceMesh(
-      view, all, of_phi, parameters.isovalues, threads, report);
-}
-
 /** Merge the report of a stage on samples that an earlier stage has told of. */
 void
 mergeLater(Report& report, Report stage)
@@ -332,11 +313,17 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
         of_sources[source] = phi[source];
       const CloudView view = viewOf(samples_->cloud);
       if (parameters_.mesh)
-        found = meshZeroLevel(
-            view, of_sources, of_isovalue, *parameters_.mesh, threads_, zero_level);
+        found = meshZeroLevel(view,
+                              of_sources,
+                              evolution.getDeviations(),
+                              of_isovalue,
+                              *parameters_.mesh,
+                              threads_,
+                              zero_level);
       else
         extractZeroLevel(view,
                          of_sources,
+                         evolution.getDeviations(),
                          of_isovalue,
                          threads_,
                          found.vertices,
@@ -375,30 +362,6 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
         "by "
         "the surface than by always saying the same: it does not follow the field.");
   return scores;
-}
-
-void
-extractZeroLevel(const CloudView& samples,
-                 const std::vector<float>& phi,
-                 const IsosurfaceParameters& parameters,
-                 unsigned threads,
-                 pcl::PointCloud<PointIso>& isopoints,
-                 IsoEdges& edges,
-                 Report& report)
-{
-  const auto cloud = cloudOfPhi(samples, phi);
-  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
-  extraction.setParameters(parameters);
-  extraction.setScalarField("phi");
-  extraction.setIsoValue(0.0);
-  extraction.setNumberOfThreads(threads);
-  extraction.setProgressCallback(report.progress);
-  extraction.extract(isopoints);
-  report.merge(extraction.getReport());
-  edges = extraction.getEdges();
-  for (PointIso& point : isopoints)
-    point.isovalue = static_cast<float>(parameters.isovalues.front());
 }
 
 namespace {

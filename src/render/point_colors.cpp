@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <set>
 
 namespace pcl_uvol {
 
@@ -55,6 +55,17 @@ readColors(const CloudView& cloud)
   return colors;
 }
 
+bool
+holdsWholeNumbers(const CloudView& cloud, const ScalarField& field)
+{
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = field.read(cloud.point(i));
+    if (std::isfinite(value) && value != std::floor(value))
+      return false;
+  }
+  return true;
+}
+
 } // namespace
 
 bool
@@ -76,36 +87,83 @@ hasIsovalues(const CloudView& cloud)
   return false;
 }
 
+std::string
+usualColorField(const CloudView& cloud)
+{
+  if (hasColors(cloud))
+    return "rgb";
+  return hasIsovalues(cloud) ? "isovalue" : "";
+}
+
+std::vector<double>
+listCategories(const CloudView& cloud, const std::string& field, std::size_t most)
+{
+  const ScalarField scalar(cloud.fields, field);
+  std::set<double> values;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = scalar.read(cloud.point(i));
+    if (!std::isfinite(value))
+      continue;
+    if (value != std::floor(value))
+      return {};
+    values.insert(value);
+    if (values.size() > most)
+      return {};
+  }
+  return {values.begin(), values.end()};
+}
+
+ColorScale
+findColorScale(const CloudView& cloud,
+               const std::string& field,
+               const ColorMapping& mapping)
+{
+  const ScalarField scalar(cloud.fields, field);
+  ColorScaleFinder finder(mapping.is_logarithmic);
+  bool has_numbers = false;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = scalar.read(cloud.point(i));
+    has_numbers = has_numbers || std::isfinite(value);
+    finder.add(value);
+  }
+  if (!has_numbers)
+    throw InvalidArgument("All values of " + field + " are without a number.");
+  const std::optional<ColorScale> found = finder.find();
+  if (!found)
+    throw InvalidArgument("No value of " + field +
+                          " is above 0, which its logarithm "
+                          "needs.");
+  if (!mapping.range)
+    return *found;
+  const auto [low, high] = *mapping.range;
+  if (!std::isfinite(low) || !std::isfinite(high) || low > high ||
+      (mapping.is_logarithmic && !(low > 0.0)))
+    throw InvalidArgument("A colour range is two finite numbers, the lower one first, "
+                          "and both above 0 on a logarithmic scale.");
+  return {low, high, mapping.is_logarithmic};
+}
+
 PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,
-            const ColorMap& map,
-            const std::optional<std::array<double, 2>>& range)
+            const ColorMapping& mapping)
 {
   if (field == "rgb" || field == "rgba")
-    return {readColors(cloud)};
+    return {readColors(cloud), {}};
   const ScalarField scalar(cloud.fields, field);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const double value = scalar.read(cloud.point(i));
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  if (low > high)
-    throw InvalidArgument("All values of " + field + " are without a number.");
   PointColors colored;
-  colored.range = range.value_or(std::array<double, 2>{low, high});
-  std::tie(low, high) = std::tie(colored.range[0], colored.range[1]);
+  colored.scale = findColorScale(cloud, field, mapping);
+  if (mapping.map.isCategorical() && holdsWholeNumbers(cloud, scalar)) {
+    colored.colors.resize(cloud.count);
+    for (std::size_t i = 0; i < cloud.count; ++i)
+      colored.colors[i] = toRgba(mapping.map.ofCategory(scalar.read(cloud.point(i))));
+    return colored;
+  }
   // In parts of the range: floats do not hold the digits of time stamps.
-  const double reference = std::isfinite(low) ? low : 0.0;
-  const double extent = high > low && std::isfinite(high - low) ? high - low : 1.0;
   std::vector<float> parts(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i)
-    parts[i] = static_cast<float>((scalar.read(cloud.point(i)) - reference) / extent);
-  const auto part = [&](double value) { return (value - reference) / extent; };
-  colored.colors = map.apply(parts, part(low), part(high));
+    parts[i] = static_cast<float>(colored.scale.placeOf(scalar.read(cloud.point(i))));
+  colored.colors = mapping.map.apply(parts, 0.0, 1.0);
   return colored;
 }
 

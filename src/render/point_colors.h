@@ -2,6 +2,7 @@
 // Colours of the points of a cloud: its own, or those of a scalar field.
 #pragma once
 
+#include "render/color_scale.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/color_map.h>
@@ -13,10 +14,10 @@
 
 namespace pcl_uvol {
 
-/** \brief One colour per input point, and the values at the ends of the colours. */
+/** \brief One colour per input point, and what the colours stand for. */
 struct PointColors {
   std::vector<Rgba> colors;
-  std::array<double, 2> range{{0.0, 1.0}};
+  ColorScale scale;
 };
 
 /** \brief True for a cloud with colours of its own: rgb or rgba, as PCL packs them into
@@ -28,14 +29,40 @@ hasColors(const CloudView& cloud);
 PCL_UVOL_EXPORTS bool
 hasIsovalues(const CloudView& cloud);
 
-/** \brief Colour a cloud.
+/** \brief What a cloud is coloured by where nobody says: "rgb" if it has colours, else
+ * "isovalue" if it has several, else "", the material's colour. */
+PCL_UVOL_EXPORTS std::string
+usualColorField(const CloudView& cloud);
+
+/** \brief Values of a field of whole numbers that stand for categories, ascending.
+ * \return none if the field holds a fraction, or more than that many values */
+PCL_UVOL_EXPORTS std::vector<double>
+listCategories(const CloudView& cloud, const std::string& field, std::size_t most);
+
+/** \brief How values become colours. */
+struct ColorMapping {
+  ColorMap map;
+  /** Values at the ends of the colours; none: those of the field, of which a
+   * logarithmic scale takes those above 0 in the upper most_decades. */
+  std::optional<std::array<double, 2>> range;
+  bool is_logarithmic = false;
+};
+
+/** \brief The scale that is asked for, else that of the values.
+ * \throws InvalidArgument for an unknown field, one without a number, or a logarithmic
+ * scale that is not above 0 */
+PCL_UVOL_EXPORTS ColorScale
+findColorScale(const CloudView& cloud,
+               const std::string& field,
+               const ColorMapping& mapping);
+
+/** \brief Colour a cloud. A map of categories colours whole numbers by themselves,
+ * whatever the range.
  * \param field a scalar field, as in ScalarField, or "rgb" for the cloud's own colours
- * \param range values at the ends of the colours; none: those of the field
- * \throws InvalidArgument for an unknown field, or one without a number */
+ * \throws InvalidArgument as findColorScale */
 PCL_UVOL_EXPORTS PointColors
 colorPoints(const CloudView& cloud,
             const std::string& field,
-            const ColorMap& map,
-            const std::optional<std::array<double, 2>>& range);
+            const ColorMapping& mapping);
 
 } // namespace pcl_uvol

@@ -236,6 +236,21 @@ warnOfBadSplats(std::size_t count, const Splats& splats, Report& report)
   report.warnings.push_back(warning.str());
 }
 
+/** Those that rays can meet: splats are generated in any unit, and drawn in that of the
+ * input. */
+Splats
+takeDrawable(Splats&& splats, Report& report)
+{
+  Splats drawable;
+  for (std::size_t i = 0; i < splats.cloud.size(); ++i)
+    if (isDrawable(splats.cloud[i])) {
+      drawable.cloud.push_back(splats.cloud[i]);
+      drawable.sources.push_back(splats.sources[i]);
+    }
+  warnOfBadSplats(splats.cloud.size(), drawable, report);
+  return drawable;
+}
+
 } // namespace
 
 Splats
@@ -273,7 +288,7 @@ detail::generateSplats(const CloudView& cloud,
     if (splat_of[sample] == none)
       continue;
     const PointSplat splat = toInput(accepted[splat_of[sample]].splat, unit);
-    if (!isDrawable(splat))
+    if (!std::isfinite(splat.radius)) // beyond float in the unit of the input
       continue;
     splats.cloud.push_back(splat);
     splats.sources.push_back(points.samples->getInputIndex(sample));
@@ -354,7 +369,8 @@ findSplats(const CloudView& cloud,
   if (!hasSplats(cloud)) {
     std::vector<std::uint32_t> all(cloud.count);
     std::iota(all.begin(), all.end(), 0u);
-    return detail::generateSplats(cloud, all, parameters, threads, report);
+    return takeDrawable(detail::generateSplats(cloud, all, parameters, threads, report),
+                        report);
   }
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "

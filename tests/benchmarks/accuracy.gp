@@ -1,4 +1,4 @@
-# gnuplot -e "data='accuracy.txt'" tests/benchmarks/accuracy.gp > tools/pictures/accuracy.png
+# gnuplot -e "data='accuracy.txt'" tests/benchmarks/accuracy.gp > docs/pictures/accuracy.png
 set terminal pngcairo size 640,440 font "Sans,11"
 set logscale xy
 set xlabel "samples"

@@ -4,14 +4,19 @@
 #include "support/noisy_shapes.h"
 #include "support/stretched_samples.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
-#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <pcl/conversions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -132,11 +137,27 @@ printHoles(std::size_t n, std::uint64_t seed)
   }
 }
 
-void
-printNoise(double noise, std::uint64_t seed)
+/** \param mu of the level set; none: automatic */
+Surface
+smoothAndExtract(const Cloud& cloud, const std::optional<double>& mu)
 {
-  const auto noisy =
-      uvol_test::makeNoisyCloud(uvol_test::makeShape("sphere"), noise, seed);
+  const auto samples = std::make_shared<pcl_uvol::Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {0.0};
+  parameters.smooth = true;
+  parameters.level_set.mu = mu;
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  Surface surface;
+  pcl::fromPCLPointCloud2(pipeline.run().surface.cloud, surface);
+  return surface;
+}
+
+void
+printNoise(const std::string& name, const uvol_test::NoisyCloud& noisy)
+{
   const auto distances = [&](const Surface& surface) {
     std::vector<double> found;
     for (const auto& point : surface)
@@ -145,22 +166,30 @@ printNoise(double noise, std::uint64_t seed)
     return found;
   };
   const auto isInside = [&](const pcl_uvol::PointIso& point) {
-    return point.getVector3fMap().cwiseAbs().maxCoeff() < noisy.shape.extent - 2.0;
+    return point.getVector3fMap().cwiseAbs().maxCoeff() < noisy.shape.extent - 3.0;
   };
-  char name[80];
-  std::snprintf(name, sizeof name, "noise of %g spacings, ", noise);
   const Surface direct = extract(noisy.cloud, 0.0);
-  printRow(std::string(name) + "direct", direct, distances(direct), isInside);
-  pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
-  evolution.setInputCloud(noisy.cloud);
-  evolution.setIsoValue(0.0);
-  std::vector<float> phi;
-  evolution.evolve(phi);
-  const Cloud::Ptr level(new Cloud(*noisy.cloud));
-  for (std::size_t i = 0; i < phi.size(); ++i)
-    (*level)[i].intensity = phi[i];
-  const Surface smoothed = extract(level, 0.0);
-  printRow(std::string(name) + "smoothed", smoothed, distances(smoothed), isInside);
+  printRow(name + ", direct", direct, distances(direct), isInside);
+  const Surface smoothed = smoothAndExtract(*noisy.cloud, std::nullopt);
+  printRow(name + ", smoothed", smoothed, distances(smoothed), isInside);
+  const Surface by_weight = smoothAndExtract(*noisy.cloud, 0.1);
+  printRow(name + ", mu 0.1", by_weight, distances(by_weight), isInside);
+}
+
+void
+printNoise(double noise, std::uint64_t seed)
+{
+  char text[40];
+  std::snprintf(text, sizeof text, ", noise %g", noise);
+  const auto row = [&](const std::string& name, const uvol_test::NoisyCloud& noisy) {
+    printNoise(name + text, noisy);
+  };
+  row("sphere", uvol_test::makeNoisyCloud(uvol_test::makeShape("sphere"), noise, seed));
+  row("sphere, clustered",
+      uvol_test::makeNoisyCloud("sphere", true, noise / 22.0, seed));
+  for (const auto& [name, size] : {std::pair("sphere", 4.0), std::pair("waves", 10.0)})
+    row(std::string("small ") + name,
+        uvol_test::makeNoisyCloud(uvol_test::makeSmallShape(name, size), noise, seed));
 }
 
 } // namespace

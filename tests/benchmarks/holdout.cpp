@@ -4,6 +4,7 @@
 #include "pipeline/dataset_info.h"
 #include "pipeline/hold_out.h"
 #include "support/environment.h"
+#include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
 

@@ -38,7 +38,7 @@ TEST(ColorBar, ShowsTheMapWithItsLowEndBelow)
 {
   Image image = makePlain(400, 300, 255);
   const ColorMap map;
-  uvol_tools::drawColorBar(image, map, -1.0, 3.0, "density");
+  uvol_tools::drawColorBar(image, map, {-1.0, 3.0}, "density");
   // The bar: the only colourful column beside the right border.
   std::uint32_t first = image.height, last = 0, column = image.width - 12;
   for (std::uint32_t row = 0; row < image.height; ++row) {
@@ -65,7 +65,7 @@ TEST(ColorBar, WritesReadableLettersOnAnyGround)
   for (const std::uint8_t gray : {std::uint8_t(255), std::uint8_t(0)}) {
     const Image before = makePlain(400, 300, gray);
     Image image = before;
-    uvol_tools::drawColorBar(image, ColorMap(), 0.0, 1.0, "density");
+    uvol_tools::drawColorBar(image, ColorMap(), {0.0, 1.0}, "density");
     std::size_t ink = 0;
     for (std::uint32_t row = 0; row < image.height; ++row)
       for (std::uint32_t column = 0; column < 370; ++column)
@@ -83,7 +83,7 @@ TEST(ColorBar, HasRoomBesideThePicture)
     const Image before = makePlain(
         static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 255);
     Image image = before;
-    uvol_tools::drawColorBar(image, ColorMap(), -123.4, 56.7, "T");
+    uvol_tools::drawColorBar(image, ColorMap(), {-123.4, 56.7}, "T");
     for (std::uint32_t row = 0; width > 500 && row < image.height; ++row)
       for (std::uint32_t column = 0; column < image.width - static_cast<unsigned>(bar);
            ++column)
@@ -106,16 +106,57 @@ TEST(AxisLabels, TellValuesApart)
   EXPECT_EQ((Texts{"7"}), labelValues({7.0}).texts);
 }
 
+TEST(ColorBar, WritesDecadesBesideALogarithmicScale)
+{
+  using uvol_tools::listTicks;
+  const auto expectNear = [](const std::vector<double>& expected,
+                             const std::vector<double>& found) {
+    ASSERT_EQ(expected.size(), found.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(expected[i], found[i], 1e-12 * expected[i]);
+  };
+  expectNear({1e-3, 1e-2, 0.1, 1.0}, listTicks({1e-3, 1.5, true}));
+  expectNear({2.0, 5.0, 10.0, 20.0}, listTicks({1.5, 30.0, true}));
+  Image image = makePlain(400, 300, 255);
+  const ColorMap map;
+  uvol_tools::drawColorBar(image, map, {1e-3, 1.0, true}, "density");
+  EXPECT_NE(makePlain(400, 300, 255).color, image.color);
+}
+
+TEST(ColorBar, ListsCategories)
+{
+  Image image = makePlain(400, 300, 255);
+  const ColorMap map("tab10");
+  uvol_tools::drawCategories(image, map, {-1.0, 0.0, 2.0}, "label");
+  const auto countColor = [&](double category) {
+    const pcl_uvol::Rgba color = pcl_uvol::toRgba(map.ofCategory(category));
+    std::size_t count = 0, row = 0;
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+      const std::uint8_t* const pixel = &image.color[4 * i];
+      if ((color & 0xff) == pixel[0] && (color >> 8 & 0xff) == pixel[1] &&
+          (color >> 16 & 0xff) == pixel[2]) {
+        ++count;
+        row += i / image.width;
+      }
+    }
+    return std::pair(count, count > 0 ? row / count : 0);
+  };
+  EXPECT_GT(countColor(0.0).first, 100u);
+  EXPECT_EQ(countColor(0.0).first, countColor(2.0).first);
+  EXPECT_EQ(countColor(1.0).first, 0u);
+  EXPECT_GT(countColor(0.0).second, countColor(2.0).second);
+}
+
 TEST(ColorBar, TakesAnyRangeAndLeavesSmallImagesAlone)
 {
   Image image = makePlain(300, 200, 255);
-  EXPECT_NO_THROW(uvol_tools::drawColorBar(image, ColorMap(), 2.0, 2.0, "constant"));
-  EXPECT_NO_THROW(uvol_tools::drawColorBar(image, ColorMap(), -1e30, 1e-30, ""));
+  EXPECT_NO_THROW(uvol_tools::drawColorBar(image, ColorMap(), {2.0, 2.0}, "constant"));
+  EXPECT_NO_THROW(uvol_tools::drawColorBar(image, ColorMap(), {-1e30, 1e-30}, ""));
   EXPECT_NO_THROW(
-      uvol_tools::drawColorBar(image, ColorMap(), 1.0, 1.0 + 1e-15, "narrow"));
+      uvol_tools::drawColorBar(image, ColorMap(), {1.0, 1.0 + 1e-15}, "narrow"));
   const Image small = makePlain(100, 200, 255);
   Image drawn = small;
-  uvol_tools::drawColorBar(drawn, ColorMap(), 0.0, 1.0, "density");
+  uvol_tools::drawColorBar(drawn, ColorMap(), {0.0, 1.0}, "density");
   EXPECT_EQ(small.color, drawn.color);
 }
 

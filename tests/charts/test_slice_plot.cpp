@@ -43,7 +43,7 @@ makeRamp()
   plot.up_label = "y";
   plot.title = "ramp";
   plot.map = pcl_uvol::ColorMap("gray");
-  plot.range = {0.0, 1.0};
+  plot.scale = {0.0, 1.0};
   return plot;
 }
 
@@ -119,8 +119,7 @@ TEST(SlicePlot, ContoursLieWhereTheValueIs)
 TEST(SlicePlot, LogarithmicColoursPartDecadesEvenly)
 {
   SlicePlot plot = makeRamp();
-  plot.is_logarithmic = true;
-  plot.range = {1e-4, 1.0};
+  plot.scale = {1e-4, 1.0, true};
   std::fill(plot.values.begin(), plot.values.end(), 0.01f);
   plot.values[0] = 0.0f;
   const Image image = drawSlicePlot(plot);
@@ -142,7 +141,7 @@ TEST(SlicePlot, ColoursRangeOverTheValuesWithinThoseOfTheSamples)
 {
   const AxisScale bounds{-1.0, 5.0};
   const auto of = [&](const std::vector<float>& values, bool is_logarithmic) {
-    const AxisScale range = findColorRange(values, bounds, is_logarithmic);
+    const auto range = findColorScale(values, bounds, is_logarithmic);
     return std::array<double, 2>{range.low, range.high};
   };
   using Range = std::array<double, 2>;
@@ -150,7 +149,7 @@ TEST(SlicePlot, ColoursRangeOverTheValuesWithinThoseOfTheSamples)
   EXPECT_EQ(of({nan, 9.0f}, false), (Range{-1.0, 5.0}));
   EXPECT_EQ(of({-0.5f, 0.5f, 4.0f}, true), (Range{0.5, 4.0}));
   EXPECT_EQ(of({1e-20f, 4.0f}, true), (Range{4e-6, 4.0}));
-  EXPECT_EQ(findColorRange({}, {-2.0, -1.0}, true).high, 1.0);
+  EXPECT_EQ(findColorScale({}, {-2.0, -1.0}, true).high, 1.0);
 }
 
 TEST(Profile, LinesAndGapsLieWhereTheValuesAre)

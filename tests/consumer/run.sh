@@ -10,11 +10,8 @@ cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/
 cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
-"$folder/build/pcl_consumer" | tee "$folder/out"
-grep -Eq '^1 clusters, [1-9][0-9]* triangles' "$folder/out"
 test "$("$folder/build/window_consumer")" = "bounds from 3"
-"$folder/build/pipeline_consumer" "$folder/splats.vtp" | tee "$folder/out"
-grep -Eq '^written: [1-9][0-9]* splats' "$folder/out"
-"$folder/prefix/bin/uvol_info" "$folder/splats.vtp" -field phi | grep -q tangent_x
 "$folder/prefix/bin/uvol_isosurface" -version
-"$folder/prefix/bin/uvol_viewer" -version
+"$folder/prefix/bin/uvol" viewer -version
+test -s "$folder/prefix/share/man/man1/uvol_isosurface.1"
+test -s "$folder/prefix/share/bash-completion/completions/uvol_isosurface"

@@ -197,6 +197,17 @@ struct Fit {
       term[i] = termAt(i, x);
     return term.dot(inverse * term) * variance;
   }
+
+  /** That of the derivative there along a unit vector. */
+  Real
+  sqSlopeError(const Vector3& x, const Vector3& along) const
+  {
+    VectorX term = VectorX::Zero(terms);
+    for (int i = 0; i < terms; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        term[i] += along[axis] * termAt(i, x, {axis == 0, axis == 1, axis == 2});
+    return term.dot(inverse * term) * variance;
+  }
 };
 
 TEST(FitKernel, CubicsAreExactOffTheCentre)
@@ -272,6 +283,9 @@ TEST(FitKernel, LeastSquaresAreThoseOfAnotherFactorisation)
         EXPECT_NEAR(gradient[axis], result.gradient[axis][lane], 1e-9);
       }
       EXPECT_NEAR(error, result.error[lane], 1e-9 * error);
+      const Real slope_error =
+          std::sqrt(fit.sqSlopeError(root, gradient.normalized())) / gradient.norm();
+      EXPECT_NEAR(slope_error, result.slope_error[lane], 1e-9 * slope_error);
       EXPECT_NEAR(
           std::sqrt(fit.sq_residuals / fit.weights), result.residual[lane], 1e-9);
     }
@@ -332,6 +346,7 @@ numbersOf(const FitResult& result)
     for (const auto& hessian : result.hessian)
       numbers.push_back(hessian[lane]);
     numbers.push_back(result.error[lane]);
+    numbers.push_back(result.slope_error[lane]);
     numbers.push_back(result.residual[lane]);
     numbers.push_back(result.order[lane]);
   }

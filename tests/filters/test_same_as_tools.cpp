@@ -6,7 +6,9 @@
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/filters/vtkUvolSplats.h>
 
+#include <vtkCell.h>
 #include <vtkImageData.h>
+#include <vtkPointData.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -44,6 +46,34 @@ outputOf(const std::string& tool, vtkPolyData* data, const std::string& options)
                                  (folder / "out.vtp") + " " + options);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   return read(folder / "out.vtp");
+}
+
+TEST(VtkIsosurface, SameMeshAsTheTool)
+{
+  const auto samples = makeSamples();
+  const auto expected = outputOf(
+      "uvol_isosurface", samples, "-field density -iso 4,5 -mesh -outside higher");
+  vtkNew<vtkUvolIsosurface> filter;
+  filter->SetInputData(samples);
+  filter->GenerateValues(2, 4.0, 5.0);
+  filter->SetOutside(vtkUvolIsosurface::OUTSIDE_HIGHER);
+  filter->MeshOn();
+  filter->Update();
+  vtkPolyData& mesh = *filter->GetOutput();
+  expectSamePoints(mesh, *expected);
+  EXPECT_EQ(mesh.GetNumberOfVerts(), 0);
+  ASSERT_GT(mesh.GetNumberOfPolys(), 800);
+  ASSERT_EQ(mesh.GetNumberOfPolys(), expected->GetNumberOfPolys());
+  for (vtkIdType i = 0; i < mesh.GetNumberOfPolys(); ++i)
+    for (int corner = 0; corner < 3; ++corner)
+      ASSERT_EQ(mesh.GetCell(i)->GetPointId(corner),
+                expected->GetCell(i)->GetPointId(corner));
+  EXPECT_NE(mesh.GetPointData()->GetArray("piece"), nullptr);
+  // Back to points.
+  filter->MeshOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 0);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfVerts(), 0);
 }
 
 TEST(VtkIsosurface, SamePointsAsTheTool)

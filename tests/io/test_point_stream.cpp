@@ -369,7 +369,8 @@ TEST(PointStream, FormatsThatHaveToBeReadWhole)
     const std::string message = messageOf<IOError>([&] { PointStream{path}; });
     EXPECT_NE(message.find(path), std::string::npos);
     EXPECT_NE(message.find("have to be read whole"), std::string::npos) << message;
-    EXPECT_NE(message.find("PLY and text tables."), std::string::npos) << message;
+    EXPECT_NE(message.find("PLY, text tables and snapshots."), std::string::npos)
+        << message;
   }
   EXPECT_NE(
       messageOf<IOError>([&] { PointStream(folder / "none.vtp"); }).find("no such"),

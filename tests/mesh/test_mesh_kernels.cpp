@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -255,7 +257,13 @@ TEST(Remesh, EvensOutAGlobe)
   WorkingMesh mesh = makeGlobe(40);
   ASSERT_EQ(0u, uvol_test::expectManifold(mesh.triangles, mesh.vertices.size()));
   WorkingMesh other = mesh;
-  remesh(mesh, 0.0, 1);
+  Report report;
+  std::vector<double> told;
+  report.progress = [&](const std::string&, double done) { told.push_back(done); };
+  remesh(mesh, 0.0, 1, report);
+  EXPECT_GT(told.size(), 11u); // rounds of smoothing, and passes of collapses
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(1.0, told.back());
   EXPECT_EQ(0u, uvol_test::expectManifold(mesh.triangles, mesh.vertices.size()));
   EXPECT_EQ(0u, findPieces(mesh.triangles, mesh.vertices.size()).pieces[0].genus);
   double shortest = 9.0, longest = 0.0;
@@ -273,7 +281,7 @@ TEST(Remesh, EvensOutAGlobe)
   EXPECT_LT(longest, 1.2);
   for (const WorkingVertex& vertex : mesh.vertices)
     EXPECT_NEAR(2.0, vertex.foot.place.norm(), 0.02);
-  remesh(other, 0.0, 3);
+  remesh(other, 0.0, 3, report);
   EXPECT_EQ(mesh.triangles, other.triangles);
 }
 

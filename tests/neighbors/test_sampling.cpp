@@ -99,6 +99,23 @@ TEST(Sampling, KnowsWhatIsAlone)
   EXPECT_EQ(LocalDimension::Isolated, summarize({{{1.0f, 2.0f, 3.0f}}}).most);
 }
 
+/** Lines between samples that are both have no lengths in float. */
+TEST(Sampling, TakesSamplesBothVeryNearAndVeryFar)
+{
+  std::vector<Position> positions;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    const auto draw = [&](unsigned axis) {
+      const double number = uniformAt(11, i, axis);
+      return number < 0.3 ? -0x1p63f
+                          : std::trunc(static_cast<float>(8.0 * number) - 5.0f);
+    };
+    positions.push_back({{draw(0), draw(1), draw(2)}});
+  }
+  const auto samples = makeSamples(positions, {{1.0f, 1.0f, 1.0f}});
+  for (const LocalSampling& found : diagnoseSampling(*samples, 0))
+    EXPECT_GE(found.along, 0.0f);
+}
+
 TEST(Sampling, DoesNotDependOnThreadsOrUnits)
 {
   auto positions = makeLattice(20, 20, 8, 1.0f, 1.0f, 12.0f);

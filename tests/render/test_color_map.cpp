@@ -26,7 +26,8 @@ TEST(ColorMap, EndsAndMiddleAreThoseOfMatplotlib)
 
 TEST(ColorMap, PerceptuallyUniformMapsGetLighter)
 {
-  for (const char* name : {"viridis", "inferno", "gray"}) {
+  for (const char* name :
+       {"viridis", "cividis", "inferno", "magma", "plasma", "gray"}) {
     const ColorMap map(name);
     double before = -1.0;
     for (int i = 0; i <= 64; ++i) {
@@ -35,6 +36,27 @@ TEST(ColorMap, PerceptuallyUniformMapsGetLighter)
       EXPECT_GT(luminance, before) << name << " at " << i;
       before = luminance;
     }
+  }
+}
+
+TEST(ColorMap, RunsBackwards)
+{
+  const ColorMap map("RdBu"), reversed("RdBu_r");
+  for (const double place : {0.0, 0.3, 0.5, 1.0})
+    for (int shift = 0; shift < 24; shift += 8)
+      EXPECT_NEAR(toRgba(map.at(place)) >> shift & 0xff,
+                  toRgba(reversed.at(1.0 - place)) >> shift & 0xff,
+                  1);
+  EXPECT_EQ(toRgba(map.at(0.0)), 0xff1f0067u); // dark red
+}
+
+TEST(ColorMap, EveryNameIsAMapOfManyColors)
+{
+  for (const std::string& name : ColorMap::names()) {
+    const ColorMap map(name);
+    EXPECT_GE(map.size(), 10u) << name;
+    EXPECT_NE(toRgba(map.at(0.1)), toRgba(map.at(0.6))) << name;
+    EXPECT_EQ(name == "tab10", map.isCategorical());
   }
 }
 
@@ -65,7 +87,8 @@ TEST(ColorMap, OneValueGetsTheMiddle)
 
 TEST(ColorMap, RefusesUnknownNamesAndRanges)
 {
-  EXPECT_THROW(ColorMap("jet"), InvalidArgument);
+  for (const char* name : {"jet", "", "_r", "jet_r"})
+    EXPECT_THROW(ColorMap{name}, InvalidArgument) << name;
   const ColorMap map;
   EXPECT_THROW(map.apply({1.0f}, 2.0, 1.0), InvalidArgument);
   EXPECT_THROW(map.apply({1.0f}, 0.0, std::numeric_limits<double>::infinity()),

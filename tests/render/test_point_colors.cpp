@@ -73,8 +73,9 @@ TEST(PointColors, TellTimeStampsApart)
     put(&dataset.cloud.data[i * dataset.cloud.point_step + 12],
         1.6e9 + 0.25 * static_cast<double>(i));
   const PointColors colored =
-      colorPoints(pcl_uvol::viewOf(dataset.cloud), "t", ColorMap(), std::nullopt);
-  EXPECT_EQ((std::array<double, 2>{1.6e9, 1.6e9 + 1.0}), colored.range);
+      colorPoints(pcl_uvol::viewOf(dataset.cloud), "t", pcl_uvol::ColorMapping());
+  EXPECT_EQ(1.6e9, colored.scale.low);
+  EXPECT_EQ(1.6e9 + 1.0, colored.scale.high);
   EXPECT_EQ(ColorMap().apply({0.0f, 0.25f, 0.5f, 0.75f, 1.0f}, 0.0, 1.0),
             colored.colors);
 }
@@ -92,7 +93,7 @@ TEST(PointColors, SeveralIsovaluesAreSeveral)
 PointColors
 ownColors(const pcl_uvol::CloudView& cloud)
 {
-  return colorPoints(cloud, "rgb", ColorMap(), std::nullopt);
+  return colorPoints(cloud, "rgb", pcl_uvol::ColorMapping());
 }
 
 void
@@ -100,7 +101,7 @@ expectTheTwo(const pcl_uvol::CloudView& cloud)
 {
   EXPECT_TRUE(hasColors(cloud));
   for (const char* name : {"rgb", "rgba"}) {
-    const auto colors = colorPoints(cloud, name, ColorMap(), std::nullopt).colors;
+    const auto colors = colorPoints(cloud, name, pcl_uvol::ColorMapping()).colors;
     EXPECT_EQ(colors, (std::vector<Rgba>{first_color, second_color}));
   }
 }
@@ -175,13 +176,14 @@ TEST(PointColors, OfAFieldSpanItsRange)
   const auto dataset = makeScalar(values);
   const ColorMap map("coolwarm");
   const auto view = pcl_uvol::viewOf(dataset.cloud);
-  const PointColors colored = colorPoints(view, "q", map, std::nullopt);
-  EXPECT_EQ(colored.range, (std::array<double, 2>{-1.0, 3.0}));
+  const PointColors colored = colorPoints(view, "q", {map, std::nullopt, false});
+  EXPECT_EQ(-1.0, colored.scale.low);
+  EXPECT_EQ(3.0, colored.scale.high);
   EXPECT_EQ(colored.colors, map.apply(values, -1.0, 3.0));
   EXPECT_EQ(colored.colors[2], pcl_uvol::toRgba(map.at(0.0)));
   const std::array<double, 2> range{0.0, 10.0};
-  const PointColors chosen = colorPoints(view, "q", map, range);
-  EXPECT_EQ(chosen.range, range);
+  const PointColors chosen = colorPoints(view, "q", {map, range, false});
+  EXPECT_EQ(10.0, chosen.scale.high);
   EXPECT_EQ(chosen.colors, map.apply(values, 0.0, 10.0));
 }
 
@@ -190,8 +192,49 @@ TEST(PointColors, InfiniteValuesDoNotWidenTheRange)
   const float infinity = std::numeric_limits<float>::infinity();
   const auto dataset = makeScalar({1.0f, infinity, 2.0f, -infinity});
   const auto view = pcl_uvol::viewOf(dataset.cloud);
-  const auto colored = colorPoints(view, "q", ColorMap(), std::nullopt);
-  EXPECT_EQ(colored.range, (std::array<double, 2>{1.0, 2.0}));
+  const auto colored = colorPoints(view, "q", pcl_uvol::ColorMapping());
+  EXPECT_EQ(1.0, colored.scale.low);
+  EXPECT_EQ(2.0, colored.scale.high);
+}
+
+TEST(PointColors, AreLogarithmicOnRequest)
+{
+  const auto dataset = makeScalar({1e-9f, 1.0f, 10.0f, 1000.0f, 0.0f, -5.0f});
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  pcl_uvol::ColorMapping mapping;
+  mapping.is_logarithmic = true;
+  // Six decades of the twelve that there are, unless a range is given.
+  EXPECT_NEAR(1e-3, colorPoints(view, "q", mapping).scale.low, 1e-12);
+  mapping.range = {1.0, 1000.0};
+  const PointColors colored = colorPoints(view, "q", mapping);
+  const std::vector<float> places{0.0f, 0.0f, 1.0f / 3.0f, 1.0f, 0.0f, 0.0f};
+  EXPECT_EQ(mapping.map.apply(places, 0.0, 1.0), colored.colors);
+  mapping.range = {0.0, 1.0};
+  EXPECT_THROW(colorPoints(view, "q", mapping), InvalidArgument);
+  const auto negative = makeScalar({-1.0f, 0.0f});
+  mapping.range.reset();
+  EXPECT_THROW(colorPoints(pcl_uvol::viewOf(negative.cloud), "q", mapping),
+               InvalidArgument);
+}
+
+TEST(PointColors, OfCategoriesAreThoseOfWholeNumbers)
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const ColorMap map("tab10");
+  const auto dataset = makeScalar({-1.0f, 0.0f, 3.0f, 13.0f, nan});
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  const auto colors = colorPoints(view, "q", {map, std::nullopt, false}).colors;
+  EXPECT_EQ(0xffb4771fu, colors[1]); // 0xaabbggrr of matplotlib's "tab:blue"
+  EXPECT_EQ(0xff2827d6u, colors[2]);
+  EXPECT_EQ(colors[2], colors[3]);
+  EXPECT_EQ(0xff808080u, colors[0]);
+  EXPECT_EQ(0xff808080u, colors[4]);
+  EXPECT_EQ((std::vector<double>{-1.0, 0.0, 3.0, 13.0}),
+            pcl_uvol::listCategories(view, "q", 4));
+  EXPECT_TRUE(pcl_uvol::listCategories(view, "q", 3).empty());
+  const auto fractions = makeScalar({0.0f, 0.5f});
+  EXPECT_TRUE(
+      pcl_uvol::listCategories(pcl_uvol::viewOf(fractions.cloud), "q", 3).empty());
 }
 
 TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)
@@ -201,7 +244,7 @@ TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)
   const auto view = pcl_uvol::viewOf(dataset.cloud);
   for (const char* name : {"q", "density"}) {
     const std::string message = messageOf<InvalidArgument>(
-        [&] { colorPoints(view, name, ColorMap(), std::nullopt); });
+        [&] { colorPoints(view, name, pcl_uvol::ColorMapping()); });
     EXPECT_NE(message.find(name), std::string::npos) << message;
   }
 }

@@ -50,7 +50,7 @@ listOptions(const std::string& tool)
 {
   std::vector<Option> options;
   for (const std::string& line :
-       split(uvol_test::runCommand("uvol_" + tool + " -h").out, '\n')) {
+       split(uvol_test::runCommand("uvol_" + tool + " -h all").out, '\n')) {
     if (line.compare(0, 3, "  -") != 0)
       continue;
     const std::size_t name_end = line.find(' ', 3);
@@ -181,8 +181,8 @@ expectSentences(const std::string& tool, const uvol_test::CommandResult& result)
   EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors);
 }
 
-/** What README says of reports: counts and times are numbers, warnings are sentences,
- * and no number stands in quotes. */
+/** What docs/reference/reports.md says: counts and times are numbers, warnings are
+ * sentences, and no number stands in quotes. */
 void
 expectReport(const std::string& text)
 {

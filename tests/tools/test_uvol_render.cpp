@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // uvol_render and the pictures of uvol_isosurface from the outside.
 #include "support/environment.h"
+#include "support/png.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -202,6 +204,94 @@ TEST_F(RenderTool, IsosurfaceDrawsItsResult)
   EXPECT_EQ((std::vector<std::string>{"in.ply", "out.ply", "samples.pcd"}),
             folder_.list());
   EXPECT_EQ(2, runCommand(extract + "-iso 8 -view above").exit_code);
+}
+
+/** The text between two others; "" if they are not there. */
+std::string
+textBetween(const std::string& text,
+            const std::string& before,
+            const std::string& after)
+{
+  const std::size_t begin = text.find(before);
+  if (begin == std::string::npos)
+    return "";
+  const std::size_t first = begin + before.size();
+  const std::size_t end = text.find(after, first);
+  return end == std::string::npos ? "" : text.substr(first, end - first);
+}
+
+TEST_F(RenderTool, WritesAWebPageThatNeedsNothingElse)
+{
+  const auto result = runCommand("uvol_render " + in_ + " " + folder_ / "page.html" +
+                                 " -background black -color normal_x");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string html = uvol_test::readFile(folder_ / "page.html");
+  for (const char* const elsewhere : {"http:", "https:", "src=", "import "})
+    EXPECT_EQ(html.find(elsewhere), std::string::npos) << elsewhere;
+  const std::string facts =
+      textBetween(html, "type=\"application/json\">", "</script>");
+  for (const char* const fact : {"\"count\":5000",
+                                 "\"title\":\"page\"",
+                                 "\"ink\":\"white\"",
+                                 "\"title\":\"normal_x\"",
+                                 "\"fov\":30.0"})
+    EXPECT_NE(facts.find(fact), std::string::npos) << fact << " in " << facts;
+  const std::string points =
+      textBetween(html, "type=\"application/octet-stream\">", "</script>");
+  EXPECT_EQ(points.size(), (5000u * 16u + 2u) / 3u * 4u);
+  // Every point of a unit ball, in 16 bits and base64: none at its centre.
+  EXPECT_EQ(points.find("AAAAAAAAAAAAAAAA"), std::string::npos);
+}
+
+TEST_F(RenderTool, RefusesOptionsOfPicturesForAWebPage)
+{
+  const auto result =
+      runCommand("uvol_render " + in_ + " " + folder_ / "page.html" + " -size 20x20");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("-size is for pictures"), std::string::npos);
+}
+
+/** A browser without a window; "" if there is none. */
+std::string
+findBrowser()
+{
+  for (const char* const name : {"chromium", "google-chrome"})
+    if (runCommand(std::string("command -v ") + name).exit_code == 0)
+      return name;
+  return "";
+}
+
+TEST_F(RenderTool, WebPageLooksLikeThePictureInABrowser_long)
+{
+  const std::string browser = findBrowser();
+  if (browser.empty())
+    GTEST_SKIP() << "there is no chromium here";
+  const std::string page = folder_ / "page.html", shot = folder_ / "shot.png";
+  ASSERT_EQ(
+      runCommand("uvol_render " + in_ + " " + page + " -color normal_z").exit_code, 0);
+  ASSERT_EQ(run("-size 600x600 -color normal_z -no-bar").exit_code, 0);
+  const auto result =
+      runCommand(browser +
+                 " --headless --no-sandbox --use-angle=swiftshader"
+                 " --enable-unsafe-swiftshader --hide-scrollbars --window-size=600,600"
+                 " --virtual-time-budget=5000 --user-data-dir=" +
+                 folder_ / "profile" + " --screenshot=" + shot + " file://" + page);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  int channels = 0;
+  const pcl_uvol::Image picture = uvol_test::readPng(out_, channels),
+                        seen = uvol_test::readPng(shot, channels);
+  ASSERT_EQ(seen.width, picture.width);
+  ASSERT_EQ(seen.height, picture.height);
+  // Away from the legend and the note: the ball, and what is around it.
+  double difference = 0.0;
+  std::size_t count = 0;
+  for (std::uint32_t row = 40; row < 540; ++row)
+    for (std::uint32_t column = 0; column < 480; ++column, ++count)
+      for (int channel = 0; channel < 3; ++channel)
+        difference +=
+            std::abs(picture.color[4 * (std::size_t{row} * 600 + column) + channel] -
+                     seen.color[4 * (std::size_t{row} * 600 + column) + channel]);
+  EXPECT_LT(difference / (3.0 * static_cast<double>(count)), 4.0);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 namespace uvol_tools {
 
 using pcl_uvol::ColorMap;
+using pcl_uvol::ColorScale;
 using pcl_uvol::Image;
 
 namespace {
@@ -27,15 +28,16 @@ letterSize(int height)
 /** Ends, and round values that do not come too near to them.
  * \param nearest in parts of the range */
 std::vector<double>
-barValues(double low, double high, double nearest)
+barValues(const ColorScale& scale, double nearest)
 {
-  if (!(high > low))
-    return {low};
-  std::vector<double> values = {low};
-  for (const double value : roundValues(low, high))
-    if (value - low > nearest * (high - low) && high - value > nearest * (high - low))
+  if (!(scale.high > scale.low))
+    return {scale.low};
+  std::vector<double> values = {scale.low};
+  for (const double value : listTicks(scale))
+    if (scale.placeOf(value) - scale.placeOf(values.back()) > nearest &&
+        1.0 - scale.placeOf(value) > nearest)
       values.push_back(value);
-  values.push_back(high);
+  values.push_back(scale.high);
   return values;
 }
 
@@ -50,6 +52,49 @@ inkOn(const Image& image)
   const int gray = (corner[0] + corner[1] + corner[2]) / 3;
   const std::uint8_t ink = corner[3] < middle_gray || gray >= middle_gray ? 0 : 255;
   return {ink, ink, ink};
+}
+
+bool
+isTooSmall(const Image& image)
+{
+  return std::min(image.width, image.height) < smallest_image;
+}
+
+/** Where the legend of an image stands, and how it is written. */
+struct Legend {
+  int size, length, top, left, right;
+  Ink ink;
+
+  explicit Legend(const Image& image)
+      : size(letterSize(static_cast<int>(image.height)))
+      , length(static_cast<int>(image.height) * 6 / 10)
+      , top((static_cast<int>(image.height) - length) / 2)
+      , left(static_cast<int>(image.width) - 2 * size)
+      , right(left + size)
+      , ink(inkOn(image))
+  {
+  }
+
+  PlotArea
+  area() const
+  {
+    return {left, right - 1, top, top + length - 1};
+  }
+
+  void
+  write(Image& image, const std::string& text, int row) const
+  {
+    writeText(image, text, size, right, row, TextAnchor::Right, ink);
+  }
+};
+
+std::vector<std::string>
+shortNumbers(const std::vector<double>& values)
+{
+  std::vector<std::string> texts;
+  for (const double value : values)
+    texts.push_back(shortNumber(value));
+  return texts;
 }
 
 } // namespace
@@ -93,42 +138,87 @@ drawBar(Image& image,
   return widest;
 }
 
+std::vector<double>
+listTicks(const ColorScale& scale)
+{
+  if (!scale.is_logarithmic)
+    return roundValues(scale.low, scale.high);
+  constexpr double few_decades = 2.0, slack = 1e-9;
+  const double low = std::log10(scale.low), high = std::log10(scale.high);
+  std::vector<double> values;
+  for (double power = std::floor(low); power <= high + slack; power += 1.0)
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double place = power + std::log10(digit);
+      if ((digit == 1.0 || high - low < few_decades) && place >= low - slack &&
+          place <= high + slack)
+        values.push_back(digit * std::pow(10.0, power));
+    }
+  return values;
+}
+
+BarLabels
+labelBar(const ColorScale& scale, double nearest)
+{
+  const std::vector<double> values = barValues(scale, nearest);
+  const AxisLabels texts =
+      scale.is_logarithmic ? AxisLabels{shortNumbers(values), ""} : labelValues(values);
+  BarLabels labels{{}, texts.offset};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    labels.values.push_back({scale.placeOf(values[i]), texts.texts[i]});
+  return labels;
+}
+
 void
 drawColorBar(Image& image,
              const ColorMap& map,
-             double low,
-             double high,
+             const ColorScale& scale,
              const std::string& title)
 {
-  if (std::min(image.width, image.height) < smallest_image)
+  if (isTooSmall(image))
     return;
-  const int height = static_cast<int>(image.height);
-  const int length = height * 6 / 10, top = (height - length) / 2;
-  const int size = letterSize(height);
-  const int right = static_cast<int>(image.width) - size, left = right - size;
-  const Ink ink = inkOn(image);
-  const std::vector<double> values =
-      barValues(low, high, label_distance * size / length);
-  const AxisLabels texts = labelValues(values);
-  const AxisScale scale{low, high};
-  std::vector<BarLabel> labels;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    labels.push_back({high > low ? scale.placeOf(values[i]) : 0.5, texts.texts[i]});
+  const Legend legend(image);
+  const BarLabels labels =
+      labelBar(scale, label_distance * legend.size / legend.length);
   drawBar(image,
           map,
-          {left, right - 1, top, top + length - 1},
-          labels,
+          legend.area(),
+          labels.values,
           TextAnchor::Right,
-          size,
-          ink);
-  writeText(image, title, size, right, top - size * 3 / 2, TextAnchor::Right, ink);
-  writeText(image,
-            texts.offset,
-            size,
-            right,
-            top + length + size * 3 / 2,
-            TextAnchor::Right,
-            ink);
+          legend.size,
+          legend.ink);
+  legend.write(image, title, legend.top - legend.size * 3 / 2);
+  legend.write(image, labels.offset, legend.top + legend.length + legend.size * 3 / 2);
+}
+
+void
+drawCategories(Image& image,
+               const ColorMap& map,
+               const std::vector<double>& categories,
+               const std::string& title)
+{
+  if (isTooSmall(image))
+    return;
+  const Legend legend(image);
+  const int count = static_cast<int>(categories.size());
+  const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
+  const int top = legend.top + (legend.length - step * count) / 2;
+  for (int i = 0; i < count; ++i) {
+    const double category = categories[static_cast<std::size_t>(i)];
+    const Ink color = inkOf(map.ofCategory(category));
+    // The lowest one is below, as on a bar.
+    const int row = top + step * (count - 1 - i);
+    for (int y = 0; y < std::max(step * 4 / 5, 1); ++y)
+      for (int x = legend.left; x < legend.right; ++x)
+        blend(image, x, row + y, color, 1.0);
+    writeText(image,
+              shortNumber(category),
+              std::min(legend.size, std::max(step, 1)),
+              legend.left - legend.size / 2,
+              row + step * 2 / 5,
+              TextAnchor::Right,
+              legend.ink);
+  }
+  legend.write(image, title, top - legend.size * 3 / 2);
 }
 
 } // namespace uvol_tools

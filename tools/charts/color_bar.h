@@ -4,6 +4,7 @@
 
 #include "charts/axes.h"
 #include "charts/drawing.h"
+#include "render/color_scale.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
@@ -23,15 +24,42 @@ colorBarWidth(int image_width, int image_height);
 void
 drawColorBar(pcl_uvol::Image& image,
              const pcl_uvol::ColorMap& map,
-             double low,
-             double high,
+             const pcl_uvol::ColorScale& scale,
              const std::string& title);
+
+/** \brief Most categories that a legend lists. */
+constexpr std::size_t most_categories = 20;
+
+/** \brief Draw a square for each category with its number, and a title, in the place
+ * of a bar.
+ * \param categories ascending, at most most_categories */
+void
+drawCategories(pcl_uvol::Image& image,
+               const pcl_uvol::ColorMap& map,
+               const std::vector<double>& categories,
+               const std::string& title);
 
 /** \brief A value beside a bar. */
 struct BarLabel {
   double place; ///< along the bar, 0 at its lower end and 1 at the upper one
   std::string text;
 };
+
+/** \brief Values beside a bar. */
+struct BarLabels {
+  std::vector<BarLabel> values; ///< from the lower end to the upper one
+  /** What is to be added to all of them, as "+ 1.6e9"; empty for nothing. */
+  std::string offset;
+};
+
+/** \brief Both ends of a scale, and round values in between.
+ * \param nearest two of them, in parts of the bar */
+BarLabels
+labelBar(const pcl_uvol::ColorScale& scale, double nearest);
+
+/** \brief Round values within a scale, to be written beside it. */
+std::vector<double>
+listTicks(const pcl_uvol::ColorScale& scale);
 
 /** \brief Draw a standing bar of colours with values beside it.
  * \param anchor Left: the values stand to the right of the bar; Right: to the left

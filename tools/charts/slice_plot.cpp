@@ -27,22 +27,19 @@ inkAgainst(const Ink& color)
   return gray < middle_gray ? white : black;
 }
 
-/** From values to places in a range of colours. */
-class ColorScale {
+/** The colours of values. */
+class Palette {
 public:
-  explicit ColorScale(const SlicePlot& plot)
+  explicit Palette(const SlicePlot& plot)
       : map_(plot.map)
-      , is_logarithmic_(plot.is_logarithmic)
-      , range_{transform(plot.range.low), transform(plot.range.high)}
+      , scale_(plot.scale)
   {
   }
 
   double
   placeOf(double value) const
   {
-    if (is_logarithmic_ && !(value > 0.0))
-      return 0.0;
-    return std::clamp(range_.placeOf(transform(value)), 0.0, 1.0);
+    return std::clamp(scale_.placeOf(value), 0.0, 1.0);
   }
 
   Ink
@@ -51,34 +48,9 @@ public:
     return std::isnan(value) ? ground : inkOf(map_.at(placeOf(value)));
   }
 
-  /** Values to write beside the bar. */
-  std::vector<double>
-  listTicks() const
-  {
-    if (!is_logarithmic_)
-      return roundValues(range_.low, range_.high);
-    std::vector<double> values;
-    const bool is_short = range_.high - range_.low < 2.0;
-    for (double power = std::floor(range_.low); power <= range_.high; power += 1.0)
-      for (const double digit : {1.0, 2.0, 5.0}) {
-        const double place = power + std::log10(digit);
-        if ((digit == 1.0 || is_short) && place >= range_.low - 1e-9 &&
-            place <= range_.high + 1e-9)
-          values.push_back(digit * std::pow(10.0, power));
-      }
-    return values;
-  }
-
 private:
-  double
-  transform(double value) const
-  {
-    return is_logarithmic_ ? std::log10(value) : value;
-  }
-
   const pcl_uvol::ColorMap& map_;
-  bool is_logarithmic_;
-  AxisScale range_;
+  const pcl_uvol::ColorScale& scale_;
 };
 
 /** Sizes of a figure, in pixels. */
@@ -114,7 +86,7 @@ struct Layout {
 
 void
 drawValues(const SlicePlot& plot,
-           const ColorScale& colors,
+           const Palette& colors,
            const Layout& layout,
            Image& image)
 {
@@ -233,7 +205,7 @@ private:
 /** Dots in the colours of the samples, with a rim that tells them from the slice. */
 void
 drawSamples(const SlicePlot& plot,
-            const ColorScale& colors,
+            const Palette& colors,
             const Layout& layout,
             Image& image)
 {
@@ -260,13 +232,13 @@ drawSamples(const SlicePlot& plot,
 
 void
 drawScale(const SlicePlot& plot,
-          const ColorScale& colors,
+          const Palette& colors,
           const Layout& layout,
           Image& image)
 {
   const int font = layout.font, left = layout.area.right + 2 * font;
   const PlotArea bar{left, left + font - 1, layout.area.top, layout.area.bottom};
-  const auto ticks = colors.listTicks();
+  const auto ticks = listTicks(plot.scale);
   const auto texts = pcl_uvol::describeNumbers(ticks);
   std::vector<BarLabel> labels;
   for (std::size_t i = 0; i < ticks.size(); ++i)
@@ -274,7 +246,7 @@ drawScale(const SlicePlot& plot,
   const int widest =
       drawBar(image, plot.map, bar, labels, TextAnchor::Left, font, black);
   for (const double value : plot.contours) {
-    if (value < plot.range.low || value > plot.range.high)
+    if (value < plot.scale.low || value > plot.scale.high)
       continue;
     const double row = bar.bottom - colors.placeOf(value) * (bar.bottom - bar.top);
     drawLine(image,
@@ -295,28 +267,22 @@ drawScale(const SlicePlot& plot,
 
 } // namespace
 
-AxisScale
-findColorRange(const std::vector<float>& values,
+pcl_uvol::ColorScale
+findColorScale(const std::vector<float>& values,
                const AxisScale& bounds,
                bool is_logarithmic)
 {
-  constexpr double most_decades = 1e6;
-  AxisScale range = bounds;
-  bool is_empty = true;
+  pcl_uvol::ColorScaleFinder finder(is_logarithmic);
   for (const float single : values) {
     const auto value = static_cast<double>(single);
-    if (!(value >= bounds.low && value <= bounds.high) ||
-        (is_logarithmic && !(value > 0.0)))
-      continue;
-    range.low = is_empty ? value : std::min(range.low, value);
-    range.high = is_empty ? value : std::max(range.high, value);
-    is_empty = false;
+    if (value >= bounds.low && value <= bounds.high)
+      finder.add(value);
   }
-  if (is_logarithmic && !(range.high > 0.0))
-    return {0.1, 1.0};
-  if (is_logarithmic)
-    range.low = std::max(range.low, range.high / most_decades);
-  return range;
+  const pcl_uvol::ColorScale none =
+      is_logarithmic && !(bounds.low > 0.0)
+          ? pcl_uvol::ColorScale{0.1, 1.0, true}
+          : pcl_uvol::ColorScale{bounds.low, bounds.high, is_logarithmic};
+  return finder.find().value_or(none);
 }
 
 Image
@@ -327,7 +293,7 @@ drawSlicePlot(const SlicePlot& plot)
   image.width = layout.width;
   image.height = layout.height;
   image.color.assign(4 * image.pixels(), 255);
-  const ColorScale colors(plot);
+  const Palette colors(plot);
   drawValues(plot, colors, layout, image);
   ContourPen pen(plot, layout, image);
   for (const double value : plot.contours)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "charts/axes.h"
+#include "render/color_scale.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
@@ -26,18 +27,17 @@ struct SlicePlot {
   AxisScale across{}, up{};          ///< at the centres of the outermost values
   std::string across_label, up_label, title;
   pcl_uvol::ColorMap map;
-  AxisScale range{};           ///< values at the ends of the colours
-  bool is_logarithmic = false; ///< the range is positive; what is not above 0 is low
+  pcl_uvol::ColorScale scale;
   std::vector<double> contours;
   std::vector<SliceSample> samples;
 };
 
 /** \brief The range of the finite values: of those above 0 for a logarithmic plot, and
- * then no more than six decades.
+ * then no more than most_decades.
  * \param bounds values beyond them, where a model overshoots, do not count
  * \return the bounds if no value lies within */
-AxisScale
-findColorRange(const std::vector<float>& values,
+pcl_uvol::ColorScale
+findColorScale(const std::vector<float>& values,
                const AxisScale& bounds,
                bool is_logarithmic);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/isosurface_options.h"
 
-#include "shared/point_files.h"
 #include "shared/scale_option.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace uvol_tools {
 
@@ -14,8 +16,7 @@ IsosurfaceOptions::IsosurfaceOptions()
 void
 IsosurfaceOptions::declareSamples(Options& options, bool automatic)
 {
-  options.numbers(
-      "iso", "v,...", 0, parameters.isosurface.isovalues, "isovalues (required)");
+  options.group("Input");
   options.text("field",
                "name",
                parameters.isosurface.field,
@@ -31,7 +32,15 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
                scale_,
                std::string("measure distances in a stretched space") +
                    (automatic ? "; auto: equal spread per axis" : ""));
-  declareColumns(options, xyz_);
+  input_files_.declare(options);
+  options.group("Surface");
+  options.numbers(
+      "iso",
+      "v,...",
+      0,
+      parameters.isosurface.isovalues,
+      "isovalues (required), ranges as well: 0.1:0.1:0.6 from first to last "
+      "by a step, 0.01:1:5log five of them from 0.01 to 1");
   options.choice("outside",
                  parameters.isosurface.outside,
                  "the side normals point to: where values are lower or higher");
@@ -40,6 +49,7 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
 void
 IsosurfaceOptions::declareMethod(Options& options)
 {
+  options.group("Surface");
   options.choice("criterion",
                  parameters.isosurface.criterion,
                  "angle criterion against kept or against all closer candidates");
@@ -64,9 +74,7 @@ IsosurfaceOptions::finish()
 pcl_uvol::LoadOptions
 IsosurfaceOptions::makeLoadOptions() const
 {
-  pcl_uvol::LoadOptions options;
-  options.xyz_columns = parseColumns(xyz_);
-  return options;
+  return input_files_.makeLoadOptions();
 }
 
 } // namespace uvol_tools

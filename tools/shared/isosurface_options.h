@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/options.h"
-#include <pcl_uvol/io/dataset.h>
+#include "shared/point_files.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <sstream>
@@ -19,7 +19,7 @@ struct IsosurfaceOptions {
 
   IsosurfaceOptions();
 
-  /** \brief -iso, -field, -where, -scale, -xyz, -outside.
+  /** \brief -iso, -field, -where, -scale, -xyz, -particles, -outside.
    * \param automatic -scale takes auto */
   void
   declareSamples(Options& options, bool automatic = true);
@@ -39,7 +39,7 @@ struct IsosurfaceOptions {
 
 private:
   std::string scale_;
-  std::string xyz_;
+  InputOptions input_files_;
 };
 
 /** \brief Numbers between commas. */

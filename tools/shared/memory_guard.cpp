@@ -25,9 +25,11 @@ MemoryGuard::MemoryGuard(std::string task)
 }
 
 void
-MemoryGuard::checkFile(const std::string& path, const Work& work)
+MemoryGuard::checkFile(const std::string& path,
+                       const Work& work,
+                       const pcl_uvol::LoadOptions& options)
 {
-  const auto cloud = pcl_uvol::peekHeader(path);
+  const auto cloud = pcl_uvol::peekHeader(path, options);
   if (!cloud)
     return;
   const auto points = static_cast<double>(cloud->points);

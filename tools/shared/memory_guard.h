@@ -27,7 +27,9 @@ public:
    * \param work empty if only reading tells how many points are left
    * \throws InvalidArgument with both figures if more is needed than is available */
   void
-  checkFile(const std::string& path, const Work& work);
+  checkFile(const std::string& path,
+            const Work& work,
+            const pcl_uvol::LoadOptions& options = {});
 
   /** \brief Check the points that were read.
    * \throws InvalidArgument the same */

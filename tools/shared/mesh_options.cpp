@@ -12,6 +12,7 @@ namespace uvol_tools {
 void
 MeshOptions::declare(Options& options)
 {
+  options.group("Mesh");
   options.flag("mesh",
                is_asked_for_,
                "make a closed triangle mesh whose vertices are isopoints; .obj, .off "
@@ -33,13 +34,23 @@ MeshOptions::declare(Options& options)
                   0,
                   std::numeric_limits<std::int32_t>::max(),
                   "with -mesh: leave out pieces of fewer triangles");
+  options.flag(
+      "measure",
+      is_measured_,
+      "with -mesh: tell area, volume, integrals of fields and the samples "
+      "inside, as uvol_measure does; vertices get their share of the area as a "
+      "field");
+  options.flag("check",
+               is_checked_,
+               "with -mesh: look for triangles that go through one another");
 }
 
 std::optional<pcl_uvol::MeshingParameters>
 MeshOptions::finish(const Options& options, const std::string& output) const
 {
   if (!is_asked_for_ && !pcl_uvol::isMeshOnly(output)) {
-    for (const char* const name : {"remesh", "edge-length", "open", "drop-pieces"})
+    for (const char* const name :
+         {"remesh", "edge-length", "open", "drop-pieces", "measure", "check"})
       if (options.given(name))
         throw UsageError(std::string("-") + name + " needs -mesh.");
     return std::nullopt;

@@ -23,8 +23,22 @@ public:
   std::optional<pcl_uvol::MeshingParameters>
   finish(const Options& options, const std::string& output) const;
 
+  /** \brief -measure: whether to tell area, volume and the like. */
+  bool
+  isMeasured() const
+  {
+    return is_measured_;
+  }
+
+  /** \brief -check: whether to look for triangles that go through one another. */
+  bool
+  isChecked() const
+  {
+    return is_checked_;
+  }
+
 private:
-  bool is_asked_for_ = false;
+  bool is_asked_for_ = false, is_measured_ = false, is_checked_ = false;
   std::uint64_t drop_pieces_ = 0;
   pcl_uvol::MeshingParameters parameters_;
 };

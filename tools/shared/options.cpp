@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parsing of one-dash options against a tool's table, and -h.
+// Parsing of one-dash options against a tool's table.
 #include "shared/options.h"
 
 #include "common/similar_words.h"
+#include "io/unpacked_file.h"
+#include "shared/number_list.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -16,32 +18,37 @@ namespace {
 
 std::string named_file; // a tool has one command line
 
-/** The whole text as a number; false for anything else, such as 1.5m or nothing. */
-template <typename T>
-bool
-parseWhole(const std::string& text, T& value)
-{
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, value);
-  return parsed.ec == std::errc() && parsed.ptr == end;
-}
-
-double
-parseNumber(const std::string& option, const std::string& text)
-{
-  double value = 0.0;
-  if (!parseWhole(text, value) || !std::isfinite(value))
-    throw UsageError("-" + option + " takes numbers, and '" + text + "' is none.");
-  return value;
-}
-
-/** True for a value that may start with a minus sign: -0.5 or -1,0,2. */
+/** True for a value that may start with a minus sign: -0.5, -1,0,2 or -1:0.5:1. */
 bool
 startsWithNumber(const std::string& text)
 {
   double ignored;
-  const std::string first = text.substr(0, text.find(','));
+  const std::string first = text.substr(0, text.find_first_of(",:"));
   return parseWhole(first, ignored);
+}
+
+bool
+isOption(const std::string& argument)
+{
+  // "-.csv" is standard output.
+  return argument.size() > 1 && argument[0] == '-' && argument[1] != '.' &&
+         !startsWithNumber(argument);
+}
+
+/** The command line with one dash where it has two, and --name=value as two words. */
+std::vector<std::string>
+splitValues(int argc, const char* const* argv)
+{
+  std::vector<std::string> words;
+  for (std::string word : std::vector<std::string>(argv + 1, argv + argc)) {
+    const bool is_long = word.size() > 2 && word.compare(0, 2, "--") == 0 &&
+                         std::isalpha(static_cast<unsigned char>(word[2]));
+    const std::size_t end = is_long ? word.find('=') : std::string::npos;
+    words.push_back(is_long ? word.substr(1, end - 1) : word);
+    if (end != std::string::npos)
+      words.push_back(word.substr(end + 1));
+  }
+  return words;
 }
 
 std::string
@@ -76,22 +83,6 @@ parseWholeIn(const std::string& name,
 
 } // namespace
 
-std::vector<double>
-parseNumbers(const std::string& option, const std::string& value, std::size_t count)
-{
-  std::vector<double> numbers;
-  for (std::size_t start = 0; start <= value.size();) {
-    const std::size_t end = std::min(value.find(',', start), value.size());
-    numbers.push_back(parseNumber(option, value.substr(start, end - start)));
-    start = end + 1;
-  }
-  if (count != 0 && numbers.size() != count)
-    throw UsageError("-" + option + " takes " + std::to_string(count) +
-                     " numbers joined by commas, and '" + value + "' has " +
-                     std::to_string(numbers.size()) + ".");
-  return numbers;
-}
-
 std::vector<std::string>
 parseNames(const std::string& option, const std::string& value)
 {
@@ -123,6 +114,24 @@ Options::Options(std::string tool, std::string synopsis, std::string purpose)
   integer("threads", threads_, 0, 4096, "number of threads, 0 for all cores");
   flag("v", verbose_, "tell all counts and the time of every step");
   flag("json", json_, "print the report as one JSON object");
+  group("Options");
+}
+
+void
+Options::group(const std::string& title, bool is_rare)
+{
+  const auto known = std::find_if(
+      groups_.begin(), groups_.end(), [&](const Group& g) { return g.title == title; });
+  current_group_ = static_cast<std::size_t>(known - groups_.begin());
+  if (known == groups_.end())
+    groups_.push_back({title, is_rare});
+}
+
+void
+Options::add(Option option)
+{
+  option.group = current_group_;
+  options_.push_back(std::move(option));
 }
 
 void
@@ -143,7 +152,7 @@ Options::flag(const std::string& name,
               const std::string& help,
               bool value)
 {
-  options_.push_back({name, "", help, {}, &target, value});
+  add({name, "", help, {}, &target, value});
 }
 
 void
@@ -152,9 +161,9 @@ Options::text(const std::string& name,
               std::string& target,
               const std::string& help)
 {
-  options_.push_back({name, placeholder, help, [&target](const std::string& value) {
-                        target = value;
-                      }});
+  add({name, placeholder, help, [&target](const std::string& value) {
+         target = value;
+       }});
 }
 
 void
@@ -192,8 +201,7 @@ Options::choice(const std::string& name,
                        "'.");
     assign(value);
   };
-  options_.push_back(
-      {name,
+  add({name,
        joined(shown, "|"),
        default_word.empty() ? help : help + " (default " + default_word + ")",
        check});
@@ -213,12 +221,12 @@ Options::number(const std::string& name,
                        shortest(maximum) + ", not " + value + ".");
     target = number;
   };
-  options_.push_back({name,
-                      "number",
-                      target >= minimum && std::isfinite(target)
-                          ? help + " (default " + shortest(target) + ")"
-                          : help,
-                      assign});
+  add({name,
+       "number",
+       target >= minimum && std::isfinite(target)
+           ? help + " (default " + shortest(target) + ")"
+           : help,
+       assign});
 }
 
 void
@@ -231,8 +239,7 @@ Options::integer(const std::string& name,
   const auto assign = [name, minimum, maximum, &target](const std::string& value) {
     target = parseWholeIn(name, value, minimum, maximum);
   };
-  options_.push_back(
-      {name,
+  add({name,
        "n",
        target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
        assign});
@@ -251,8 +258,7 @@ Options::integer(const std::string& name,
                                            static_cast<std::uint64_t>(minimum),
                                            static_cast<std::uint64_t>(maximum)));
   };
-  options_.push_back(
-      {name,
+  add({name,
        "n",
        target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
        assign});
@@ -268,7 +274,7 @@ Options::numbers(const std::string& name,
   const auto assign = [name, count, &target](const std::string& value) {
     target = parseNumbers(name, value, count);
   };
-  options_.push_back({name, placeholder, help, assign});
+  add({name, placeholder, help, assign});
 }
 
 bool
@@ -297,16 +303,35 @@ Options::find(const std::string& argument)
                    (nearest.empty() ? "." : "; did you mean -" + nearest + "?"));
 }
 
+void
+Options::assignOption(const std::vector<std::string>& arguments, std::size_t& i)
+{
+  const std::string& argument = arguments[i];
+  Option& option = find(argument);
+  if (option.given)
+    throw UsageError("The option " + argument + " was given twice.");
+  option.given = true;
+  if (option.flag != nullptr) {
+    *option.flag = option.flag_value;
+    return;
+  }
+  if (i + 1 == arguments.size() || isOption(arguments[i + 1]))
+    throw UsageError("The option " + argument +
+                     " needs a value: " + option.placeholder + ".");
+  option.assign(arguments[++i]);
+}
+
 bool
 Options::parse(int argc, const char* const* argv)
 {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  for (const std::string& argument : arguments) {
-    if (argument == "-h" || argument == "--help" || argument == "-help") {
-      printHelp();
+  const std::vector<std::string> arguments = splitValues(argc, argv);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "-h" || argument == "-help") {
+      printHelp(i + 1 < arguments.size() ? arguments[i + 1] : "");
       return false;
     }
-    if (argument == "-version" || argument == "--version") {
+    if (argument == "-version") {
       std::cout << tool_ << " of pcl_uvol " << PCL_UVOL_VERSION << '\n';
       return false;
     }
@@ -314,27 +339,12 @@ Options::parse(int argc, const char* const* argv)
   std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
-    if (argument.size() < 2 || argument[0] != '-' || startsWithNumber(argument)) {
-      if (files.size() == positionals_.size() && !positionals_[0].targets)
-        throw UsageError("The argument '" + argument + "' is one too many.");
+    if (isOption(argument))
+      assignOption(arguments, i);
+    else if (files.size() == positionals_.size() && !positionals_[0].targets)
+      throw UsageError("The argument '" + argument + "' is one too many.");
+    else
       files.push_back(argument);
-      continue;
-    }
-    Option& option = find(argument);
-    if (option.given)
-      throw UsageError("The option " + argument + " was given twice.");
-    option.given = true;
-    if (option.flag != nullptr) {
-      *option.flag = option.flag_value;
-      continue;
-    }
-    const bool has_value = i + 1 < arguments.size() &&
-                           (arguments[i + 1].empty() || arguments[i + 1][0] != '-' ||
-                            startsWithNumber(arguments[i + 1]));
-    if (!has_value)
-      throw UsageError("The option " + argument +
-                       " needs a value: " + option.placeholder + ".");
-    option.assign(arguments[++i]);
   }
   assignFiles(files);
   named_file = files.empty() ? std::string() : files.front();
@@ -348,7 +358,10 @@ Options::checkFiles(const std::vector<std::string>& files) const
   std::vector<std::string> inputs = files, outputs;
   const std::size_t last = std::min(files.size(), positionals_.size());
   if (last > 0 && positionals_[last - 1].name == "out") {
-    outputs.push_back(files.back());
+    if (pcl_uvol::io::isStandardStream(files.back()))
+      std::cout.rdbuf(std::cerr.rdbuf()); // the report leaves the data alone
+    else
+      outputs.push_back(files.back());
     inputs.pop_back();
   }
   for (const Option& option : options_)
@@ -375,52 +388,10 @@ Options::assignFiles(const std::vector<std::string>& files) const
       *positionals_[i].target = *next++;
 }
 
-void
-Options::printHelp() const
-{
-  constexpr std::size_t help_column = 28;
-  std::cout << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_
-            << "\n\nOptions:\n";
-  const auto print = [](const std::string& left, const std::string& help) {
-    std::cout << "  " << left
-              << std::string(left.size() < help_column ? help_column - left.size() : 2,
-                             ' ')
-              << help << '\n';
-  };
-  // The options of this tool first, those of every tool last.
-  for (std::size_t i = 2; i < options_.size() + 2; ++i) {
-    const Option& option = options_[i % options_.size()];
-    print("-" + option.name +
-              (option.placeholder.empty() ? "" : " " + option.placeholder),
-          option.help);
-  }
-  print("-h", "print this");
-  print("-version", "print the version");
-}
-
 const std::string&
 namedFile()
 {
   return named_file;
-}
-
-std::uint64_t
-parseBytes(const std::string& option, const std::string& text)
-{
-  static const std::string units = "KMGT";
-  std::string digits = text;
-  double factor = 1.0;
-  const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
-  if (unit != std::string::npos) {
-    digits.pop_back();
-    factor = std::pow(1000.0, static_cast<double>(unit + 1));
-  }
-  const double bytes = digits.empty() ? 0.0 : parseNumber(option, digits) * factor;
-  if (!(bytes >= 1.0 && bytes < 1e18))
-    throw UsageError("-" + option +
-                     " takes a number of bytes, as in 1500M or 2G, and '" + text +
-                     "' is none.");
-  return static_cast<std::uint64_t>(bytes);
 }
 
 } // namespace uvol_tools

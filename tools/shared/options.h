@@ -30,6 +30,12 @@ public:
    * \param purpose one or two sentences for -h */
   Options(std::string tool, std::string synopsis, std::string purpose);
 
+  /** \brief What is declared from here on stands below that heading in -h; headings of
+   * the same title are one.
+   * \param is_rare -h only names these options, -h all explains them */
+  void
+  group(const std::string& title, bool is_rare = false);
+
   /** \brief Positional arguments, in this order; optional ones last. The last one is
    * written if it is called "out", the others are read. */
   void
@@ -97,7 +103,8 @@ public:
           int minimum,
           int maximum,
           const std::string& help);
-  /** \brief Finite numbers joined by commas; count 0 takes one or more. */
+  /** \brief Finite numbers joined by commas; count 0 takes one or more, and ranges, see
+   * parseNumbers. */
   void
   numbers(const std::string& name,
           const std::string& placeholder,
@@ -106,6 +113,7 @@ public:
           const std::string& help);
 
   /** \brief Parse; -h and -version print and return false (the tool then returns 0).
+   * Two dashes are as good as one, and --name=value is --name value.
    * \throws UsageError, also where a file would be read and written, or written twice
    */
   bool
@@ -141,6 +149,11 @@ private:
     bool flag_value = true;
     bool given = false;
     const std::string* written = nullptr; // the target that names a file to be written
+    std::size_t group = 0;
+  };
+  struct Group {
+    std::string title;
+    bool is_rare;
   };
   struct Positional {
     std::string name;
@@ -159,8 +172,15 @@ private:
          const std::string& help,
          const std::function<void(const std::string&)>& assign);
 
+  void
+  add(Option option);
+
   Option&
   find(const std::string& argument);
+
+  /** Of the option at position i, which is moved on to its value. */
+  void
+  assignOption(const std::vector<std::string>& arguments, std::size_t& i);
 
   void
   assignFiles(const std::vector<std::string>& files) const;
@@ -168,11 +188,21 @@ private:
   void
   checkFiles(const std::vector<std::string>& files) const;
 
+  /** \param topic "all", the title of a group, or anything else for what is used most
+   */
   void
-  printHelp() const;
+  printHelp(const std::string& topic) const;
+
+  void
+  printGroup(std::size_t group) const;
+
+  void
+  nameRareOptions() const;
 
   std::string tool_, synopsis_, purpose_;
   std::vector<Option> options_;
+  std::vector<Group> groups_ = {{"Run", false}}; // which is printed last
+  std::size_t current_group_ = 0;
   std::vector<Positional> positionals_;
   std::uint64_t threads_ = 0;
   bool json_ = false, verbose_ = false;
@@ -186,7 +216,8 @@ checkDistinct(const std::vector<std::string>& inputs,
               const std::vector<std::string>& outputs);
 
 /** \brief Finite numbers joined by commas, as an option's value; count 0 takes one or
- * more.
+ * more, and ranges: 0.1:0.1:0.6 has a step, 0.01:1:5log has a number of values, whose
+ * ratios are equal. Both ends belong to a range.
  * \throws UsageError that names the option */
 std::vector<double>
 parseNumbers(const std::string& option, const std::string& value, std::size_t count);

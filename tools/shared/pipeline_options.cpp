@@ -67,6 +67,7 @@ PipelineOptions::declare(Options& options)
                validate_by_,
                "with -validate: samples in one part are random, lie in compact blocks, "
                "or share a value of a field, as those of a dive do (default random)");
+  options.group("Run");
   options.text("max-memory",
                "bytes",
                max_memory_,
@@ -78,6 +79,7 @@ PipelineOptions::declare(Options& options)
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
   mesh_.declare(options);
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   picture.declare(options);
 }

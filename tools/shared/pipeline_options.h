@@ -32,6 +32,12 @@ struct PipelineOptions : IsosurfaceOptions {
   bool
   needsAllSamples() const;
 
+  const MeshOptions&
+  getMesh() const
+  {
+    return mesh_;
+  }
+
   /** \brief The bound of memory, and where samples wait. \throws UsageError */
   pcl_uvol::OutOfCoreSettings
   makeOutOfCoreSettings(const Options& options) const;

@@ -4,20 +4,14 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace uvol_tools {
 
-void
-declareColumns(Options& options, std::string& columns)
-{
-  options.text("xyz",
-               "x,y,z",
-               columns,
-               "columns of a text file that hold the coordinates, by names or numbers "
-               "from 0 (default: by usual names)");
-}
+namespace {
 
+/** Names or numbers of -xyz; "": none. */
 std::array<std::string, 3>
 parseColumns(const std::string& columns)
 {
@@ -36,6 +30,32 @@ parseColumns(const std::string& columns)
         "not " +
         columns + ".");
   return parsed;
+}
+
+} // namespace
+
+void
+InputOptions::declare(Options& options)
+{
+  options.text("xyz",
+               "x,y,z",
+               xyz_,
+               "columns of a text file that hold the coordinates, by names or numbers "
+               "from 0 (default: by usual names)");
+  options.text("particles",
+               "kind",
+               particles_,
+               "of a snapshot: gas, dm, disk, bulge, stars, bh, or a number (default: "
+               "gas, else the first kind there is)");
+}
+
+pcl_uvol::LoadOptions
+InputOptions::makeLoadOptions() const
+{
+  pcl_uvol::LoadOptions options;
+  options.xyz_columns = parseColumns(xyz_);
+  options.particles = particles_;
+  return options;
 }
 
 pcl_uvol::Dataset

@@ -7,19 +7,24 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
-#include <array>
 #include <string>
 
 namespace uvol_tools {
 
-/** \brief -xyz: the columns of a text file that hold the coordinates. */
-void
-declareColumns(Options& options, std::string& columns);
+/** \brief What is read of a file: -xyz, the columns of a text file that hold the
+ * coordinates, and -particles, the kind that is read of a snapshot. */
+class InputOptions {
+public:
+  void
+  declare(Options& options);
 
-/** \brief Names or numbers of -xyz; "": none.
- * \throws UsageError unless there are three */
-std::array<std::string, 3>
-parseColumns(const std::string& columns);
+  /** \throws UsageError unless three columns are named, or none */
+  pcl_uvol::LoadOptions
+  makeLoadOptions() const;
+
+private:
+  std::string xyz_, particles_;
+};
 
 /** \brief Read a file, as a step of the report; its notes become warnings.
  * \param where keep only the points for which that holds, see selectRows; "": all

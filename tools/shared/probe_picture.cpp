@@ -65,16 +65,14 @@ withUnit(const std::string& name, const std::string& unit)
 void
 ProbePicture::declare(Options& options)
 {
+  options.group("Picture");
   options.output("png",
                  "out.png",
                  path_,
                  "draw the first field as well, of -line or -plane; the options below "
                  "are for the picture");
   options.numbers("contours", "v,...", 0, contours_, "draw lines of these values");
-  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
-  options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
-  options.choice(
-      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of the values");
+  colors_.declare(options);
   options.number("samples",
                  near_,
                  0.0,
@@ -98,10 +96,7 @@ ProbePicture::finish(const Options& options, bool is_plane, bool is_line) const
     return;
   if (!is_plane && !is_line)
     throw UsageError("-png needs -plane or -line.");
-  if (!range_.empty() && !(range_[0] < range_[1]))
-    throw UsageError("-range is a lower value and a higher one.");
-  if (!range_.empty() && is_logarithmic_ && !(range_[0] > 0.0))
-    throw UsageError("With -log the values of -range are above 0.");
+  colors_.check();
   pcl_uvol::checkPngPath(path_);
 }
 
@@ -137,10 +132,11 @@ ProbePicture::drawSlice(const std::string& field,
   plot.across_label = withUnit(across.name, unit_);
   plot.up_label = withUnit(up.name, unit_);
   plot.title = label_.empty() ? field : label_;
-  plot.map = pcl_uvol::ColorMap(color_map_);
-  plot.is_logarithmic = is_logarithmic_;
-  plot.range = range_.empty() ? findColorRange(values, of_samples, is_logarithmic_)
-                              : AxisScale{range_[0], range_[1]};
+  plot.map = colors_.getMap();
+  const auto range = colors_.getRange();
+  plot.scale =
+      range ? pcl_uvol::ColorScale{(*range)[0], (*range)[1], colors_.isLogarithmic()}
+            : findColorScale(values, of_samples, colors_.isLogarithmic());
   plot.contours = contours_;
   if (near_ >= 0.0) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);

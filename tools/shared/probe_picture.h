@@ -4,6 +4,7 @@
 
 #include "charts/axes.h"
 #include "interpolation/query_lattice.h"
+#include "shared/color_options.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
 
@@ -49,10 +50,10 @@ public:
             const pcl_uvol::Dataset& samples) const;
 
 private:
-  std::string path_, color_map_ = "viridis", label_, unit_;
-  std::vector<double> contours_, range_;
+  std::string path_, label_, unit_;
+  ColorOptions colors_;
+  std::vector<double> contours_;
   double near_ = -1.0; ///< samples so near to the plane are drawn
-  bool is_logarithmic_ = false;
 };
 
 } // namespace uvol_tools

@@ -145,7 +145,7 @@ Runner::probePoints()
   else {
     pcl_uvol::LoadOptions load;
     if (ending(path) == ending(probe_.input))
-      load.xyz_columns = parseColumns(probe_.xyz);
+      load = probe_.load;
     points = loadPoints(path, report_, load);
   }
   std::vector<Place> queries =

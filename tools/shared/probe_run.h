@@ -21,7 +21,7 @@ struct Probe {
   const std::optional<pcl_uvol::detail::Slice>& lattice; ///< none for points
   const ProbePicture& picture;
   std::string input, output;
-  std::string xyz; ///< columns of coordinates, of the samples and of points like them
+  pcl_uvol::LoadOptions load; ///< of the samples and of points like them
   bool ascii;
   const pcl_uvol::Dataset& samples;
   const pcl_uvol::InterpolationParameters& parameters;

@@ -92,9 +92,8 @@ RayOptions::makeScene(const Options& options,
   pcl_uvol::SplatObject object;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
-    const auto colored =
-        pcl_uvol::colorPoints(cloud, field, view.colorMap(), view.getRange());
-    range = colored.range;
+    const auto colored = pcl_uvol::colorPoints(cloud, field, view.colorMapping(cloud));
+    range = {colored.scale.low, colored.scale.high};
     for (const std::uint32_t source : splats.sources)
       object.colors.push_back(colored.colors[source]);
   }

@@ -3,9 +3,13 @@
 
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
+#include "render/surface_cloud.h"
+#include "web/surface_page.h"
 #include <pcl_uvol/io/image_file.h>
 
+#include <filesystem>
 #include <memory>
+#include <numeric>
 
 namespace uvol_tools {
 
@@ -46,6 +50,7 @@ RenderOptions::declarePasses(Options& options)
   using pcl_uvol::ImageSpaceSettings;
   ImageSpaceSettings& s = settings_;
   constexpr int most = 1000000;
+  options.group("Drawing points", true);
   options.flag("culling",
                s.cull_back_faces,
                "leave out what looks away from the eye: faster, for closed surfaces");
@@ -62,7 +67,9 @@ RenderOptions::declarePasses(Options& options)
                  "filter of colours");
   options.integer(
       "smoothings", s.smoothing_iterations, 0, 6, "times that it is applied");
+  options.group("Picture");
   options.flag("silhouettes", s.silhouettes, "draw silhouettes");
+  options.group("Lines", true);
   options.number("silhouette-threshold",
                  s.silhouette_threshold,
                  1e-9,
@@ -73,7 +80,9 @@ RenderOptions::declarePasses(Options& options)
                   1,
                   7,
                   "of silhouettes: t for 2 t - 1 pixels");
+  options.group("Picture");
   options.flag("features", s.feature_lines, "draw feature lines");
+  options.group("Lines", true);
   options.number("feature-threshold",
                  s.feature_threshold,
                  1e-9,
@@ -113,9 +122,11 @@ RenderOptions::applyLook(const Options& options,
   renderer.settings() = settings_;
   renderer.setNumberOfThreads(options.threads());
   renderer.setColorField(colorField(cloud));
-  renderer.setColorMap(colorMap());
-  if (const auto range = getRange())
-    renderer.setColorRange((*range)[0], (*range)[1]);
+  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+  renderer.setColorMap(mapping.map);
+  renderer.setLogarithmicColors(mapping.is_logarithmic);
+  if (mapping.range)
+    renderer.setColorRange((*mapping.range)[0], (*mapping.range)[1]);
 }
 
 void
@@ -154,6 +165,42 @@ RenderOptions::drawCloud(const Options& options,
   }
   report.merge(drawing);
   return renderer.describeBackend();
+}
+
+void
+RenderOptions::writePage(const Options& options,
+                         const pcl_uvol::Dataset& surface,
+                         const std::string& output,
+                         pcl_uvol::Report& report) const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  std::vector<std::uint32_t> all(cloud.count);
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::SurfaceCloud points(cloud, all, options.threads(), report);
+  if (settings_.footprints)
+    points.computeFootprints(options.threads(), report);
+  SurfacePage page;
+  page.title = std::filesystem::path(output).stem().string();
+  page.camera = makeCamera(points.getBounds(), surface.origin, getHeight(), &cloud);
+  page.material = getMaterial();
+  page.lights = getLights();
+  page.background = getBackground().color;
+  const std::string field = colorField(cloud);
+  if (field.empty())
+    points.setColor(pcl_uvol::toRgba(page.material.color));
+  else {
+    const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+    const pcl_uvol::PointColors colors = colorPoints(cloud, field, mapping);
+    points.setColors(colors.colors);
+    if (drawsBar(cloud)) {
+      page.field = field;
+      page.map = mapping.map;
+      page.scale = colors.scale;
+      page.categories = listCategories(cloud, mapping);
+    }
+  }
+  const pcl_uvol::StepTimer timer(report, "write");
+  writeSurfacePage(output, points, page);
 }
 
 } // namespace uvol_tools

@@ -41,6 +41,14 @@ public:
             const std::string& output,
             pcl_uvol::Report& report) const;
 
+  /** \brief Write a surface as a web page that turns in any browser.
+   * \throws UsageError for what pages cannot show */
+  void
+  writePage(const Options& options,
+            const pcl_uvol::Dataset& surface,
+            const std::string& output,
+            pcl_uvol::Report& report) const;
+
   /** \brief Apply everything but the camera. */
   void
   configure(const Options& options,

@@ -18,13 +18,13 @@ constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 34.0;
 void
 SurfacePicture::declare(Options& options)
 {
-  options.output("png",
-                 "out.png",
-                 path_,
-                 "draw the isosurface as well; the options below are for the picture");
+  options.group("Picture");
+  options.output("png", "out.png", path_, "draw the isosurface as well");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
+  look_.declareExaggeration(options);
   look_.declarePasses(options);
+  options.group("Ray tracing", true);
   rays_.declareRays(options);
   rays_.declareSurface(options);
 }
@@ -86,16 +86,18 @@ SurfacePicture::draw(const Options& options,
   const pcl_uvol::StepTimer timer(report, "picture");
   pcl_uvol::Report drawing;
   drawing.progress = report.progress;
+  pcl_uvol::Dataset stretched;
+  if (look_.isExaggerated()) {
+    stretched = surface;
+    look_.exaggerate(stretched);
+  }
+  const pcl_uvol::Dataset& drawn = look_.isExaggerated() ? stretched : surface;
   std::string backend = "ray tracing";
   if (is_ray_traced_)
-    rays_.traceCloud(options,
-                     look_,
-                     pcl_uvol::viewOf(surface.cloud),
-                     surface.origin,
-                     path_,
-                     drawing);
+    rays_.traceCloud(
+        options, look_, pcl_uvol::viewOf(drawn.cloud), drawn.origin, path_, drawing);
   else
-    backend = look_.drawCloud(options, surface, path_, drawing);
+    backend = look_.drawCloud(options, drawn, path_, drawing);
   for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
   if (is_ray_traced_)

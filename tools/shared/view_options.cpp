@@ -4,16 +4,14 @@
 #include "charts/color_bar.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
-#include "render/camera_fit.h"
+#include "render/camera_choice.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
 #include "shared/point_files.h"
-
-#include <Eigen/Geometry>
+#include "shared/stretch_surface.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -50,38 +48,6 @@ bool
 isColorName(const std::string& color)
 {
   return color == "auto" || color == "none" || color == "rgb" || color == "rgba";
-}
-
-/** z, or y for a camera that looks along z. */
-Eigen::Vector3d
-upwardsOf(const pcl_uvol::Camera& camera)
-{
-  constexpr double least_sine = 1e-3;
-  const Eigen::Vector3d sight = (camera.at - camera.eye).normalized();
-  return sight.head<2>().norm() > least_sine ? Eigen::Vector3d::UnitZ()
-                                             : Eigen::Vector3d::UnitY();
-}
-
-/** A named view of the world turned so that what was z is another direction. */
-pcl_uvol::Camera
-turnedUpwards(pcl_uvol::Camera camera, const Eigen::Vector3d& up)
-{
-  if (!(up.norm() > 0.0))
-    throw UsageError("-up takes a direction, and 0,0,0 is none.");
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
-  camera.eye = camera.at + turn * (camera.eye - camera.at);
-  camera.up = turn * camera.up;
-  return camera;
-}
-
-pcl_uvol::Camera
-zoomed(pcl_uvol::Camera camera, double zoom)
-{
-  constexpr double degree = 3.14159265358979323846 / 180.0;
-  if (zoom != 1.0)
-    camera.vertical_fov =
-        2.0 * std::atan(std::tan(0.5 * degree * camera.vertical_fov) / zoom) / degree;
-  return camera;
 }
 
 /** A picture with columns of background on its right. */
@@ -132,6 +98,7 @@ toColor(const std::string& option, const std::vector<double>& numbers)
 void
 ViewOptions::declareScene(Options& options)
 {
+  options.group("Picture");
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
   options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
   options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
@@ -154,17 +121,27 @@ ViewOptions::declareScene(Options& options)
       color_,
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
-  options.choice(
-      "colormap", pcl_uvol::ColorMap::names(), color_map_, "colours of a scalar field");
-  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  colors_.declare(options);
   options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
   options.numbers(
       "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
 }
 
 void
+ViewOptions::declareExaggeration(Options& options)
+{
+  options.numbers("exaggerate",
+                  "x,y,z",
+                  3,
+                  exaggeration_,
+                  "stretch the picture along the axes, as 1,1,100; -eye and -at are "
+                  "places in the data");
+}
+
+void
 ViewOptions::declareSupersampling(Options& options)
 {
+  options.group("Picture");
   options.integer("supersample",
                   supersampling_,
                   1,
@@ -175,12 +152,14 @@ ViewOptions::declareSupersampling(Options& options)
 void
 ViewOptions::declareOrbit(Options& options)
 {
+  options.group("Picture");
   options.integer("orbit", frames_, 1, 100000, "frames of a full turn about -up");
 }
 
 void
 ViewOptions::declareLighting(Options& options)
 {
+  options.group("Light", true);
   options.text("lights",
                "x,y,z;...",
                lights_text_,
@@ -243,8 +222,12 @@ ViewOptions::check(const Options& options)
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (!options.given("eye") && options.given("at"))
     throw UsageError("-at needs -eye.");
-  if (!range_.empty() && !(range_[0] < range_[1]))
-    throw UsageError("-range takes two numbers, the lower one first.");
+  if (!up_.empty() && toVector(up_).isZero(0.0))
+    throw UsageError("-up takes a direction, and 0,0,0 is none.");
+  colors_.check();
+  for (const double factor : exaggeration_)
+    if (!(factor > 0.0))
+      throw UsageError("-exaggerate takes three factors above 0.");
   if (!surface_color_.empty())
     material_.color = toColor("surface-color", surface_color_);
   parseBackground();
@@ -301,12 +284,16 @@ ViewOptions::getSupersampling() const
 std::string
 ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 {
-  if (color_ == "auto") {
-    if (pcl_uvol::hasColors(cloud))
-      return "rgb";
-    return pcl_uvol::hasIsovalues(cloud) ? "isovalue" : "";
-  }
+  if (color_ == "auto")
+    return pcl_uvol::usualColorField(cloud);
   return color_ == "none" ? "" : color_;
+}
+
+void
+ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
+{
+  if (isExaggerated())
+    stretchSurface(surface, toVector(exaggeration_));
 }
 
 pcl_uvol::Camera
@@ -315,22 +302,21 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         int width,
                         const pcl_uvol::CloudView* cloud) const
 {
-  const Eigen::Vector3d shift(origin.data());
-  const double aspect = static_cast<double>(width) / height_;
-  pcl_uvol::Camera camera = pcl_uvol::Camera::fit(bounds, view_, fov_, aspect);
-  if (!eye_.empty()) {
-    camera.eye = toVector(eye_) - shift;
-    if (!at_.empty())
-      camera.at = toVector(at_) - shift;
-    camera.up = up_.empty() ? upwardsOf(camera) : toVector(up_);
-  }
-  else {
-    if (!up_.empty())
-      camera = turnedUpwards(camera, toVector(up_));
-    if (cloud != nullptr && frames_ == 1)
-      camera = pcl_uvol::fitToPoints(camera, *cloud, aspect);
-  }
-  return zoomed(camera, zoom_);
+  const auto direction = [](const std::vector<double>& numbers) {
+    return numbers.empty() ? std::nullopt : std::optional(toVector(numbers));
+  };
+  const auto place = [&](const std::vector<double>& numbers) {
+    std::optional<Eigen::Vector3d> point = direction(numbers);
+    if (point && isExaggerated())
+      *point = point->cwiseProduct(toVector(exaggeration_));
+    return point;
+  };
+  return pcl_uvol::chooseCamera(
+      {view_, place(eye_), place(at_), direction(up_), fov_, zoom_},
+      bounds,
+      origin,
+      static_cast<double>(width) / height_,
+      frames_ == 1 ? cloud : nullptr);
 }
 
 pcl_uvol::Camera
@@ -340,7 +326,7 @@ ViewOptions::adjusted(const Options& options, pcl_uvol::Camera camera) const
     camera.up = toVector(up_);
   if (options.given("fov"))
     camera.vertical_fov = fov_;
-  return zoomed(camera, zoom_);
+  return pcl_uvol::zoomed(camera, zoom_);
 }
 
 pcl_uvol::Camera
@@ -376,6 +362,15 @@ ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
   return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
 }
 
+std::vector<double>
+ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
+                            const pcl_uvol::ColorMapping& mapping) const
+{
+  if (!mapping.map.isCategorical())
+    return {};
+  return pcl_uvol::listCategories(cloud, colorField(cloud), most_categories);
+}
+
 void
 ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
                       const std::array<double, 2>& range,
@@ -384,7 +379,14 @@ ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
   if (!drawsBar(cloud))
     return;
   image = widened(image, background_, width_);
-  uvol_tools::drawColorBar(image, colorMap(), range[0], range[1], colorField(cloud));
+  const std::string field = colorField(cloud);
+  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
+  const std::vector<double> categories = listCategories(cloud, mapping);
+  if (categories.empty())
+    drawColorBar(
+        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
+  else
+    drawCategories(image, mapping.map, categories, field);
 }
 
 } // namespace uvol_tools

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "common/memory.h"
+#include "shared/color_options.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 #include <pcl_uvol/render/lighting.h>
 
@@ -28,6 +28,10 @@ public:
   void
   declareScene(Options& options);
 
+  /** \brief -exaggerate, for tools that call exaggerate(). */
+  void
+  declareExaggeration(Options& options);
+
   void
   declareSupersampling(Options& options);
 
@@ -42,6 +46,19 @@ public:
    * \throws UsageError */
   void
   check(const Options& options);
+
+  /** \brief True if the axes of pictures have factors. */
+  bool
+  isExaggerated() const
+  {
+    return !exaggeration_.empty();
+  }
+
+  /** \brief Stretch a surface by the factors of -exaggerate: positions, its normals as
+   * covectors and lengths of edges by the largest factor. Fields keep their values.
+   * \throws InvalidArgument for splats */
+  void
+  exaggerate(pcl_uvol::Dataset& surface) const;
 
   /** \brief
    * \param origin what was subtracted from the coordinates of the cloud: places on the
@@ -116,19 +133,17 @@ public:
   std::string
   colorField(const pcl_uvol::CloudView& cloud) const;
 
-  pcl_uvol::ColorMap
-  colorMap() const
+  /** \brief How the field of -color becomes colours. */
+  pcl_uvol::ColorMapping
+  colorMapping(const pcl_uvol::CloudView& cloud) const
   {
-    return pcl_uvol::ColorMap(color_map_);
+    return colors_.mapFor(cloud, colorField(cloud));
   }
 
-  /** \brief Values at the ends of the colours; none: those of the field. */
-  std::optional<std::array<double, 2>>
-  getRange() const
+  const ColorOptions&
+  getColors() const
   {
-    if (range_.empty())
-      return std::nullopt;
-    return std::array<double, 2>{range_[0], range_[1]};
+    return colors_;
   }
 
   /** \brief True if there is nothing behind the surface, after check(). */
@@ -198,10 +213,17 @@ public:
   }
   /** @} */
 
-private:
+protected:
+  /** \brief True if the colours of a picture of this cloud need an explanation. */
   bool
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
+  /** \brief The categories that a legend lists; none: it is a bar. */
+  std::vector<double>
+  listCategories(const pcl_uvol::CloudView& cloud,
+                 const pcl_uvol::ColorMapping& mapping) const;
+
+private:
   void
   parseBackground();
 
@@ -209,8 +231,9 @@ private:
   parseLights();
 
   std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
-  std::string color_ = "auto", color_map_ = "viridis", lights_text_;
-  std::vector<double> eye_, at_, up_, range_, surface_color_;
+  std::string color_ = "auto", lights_text_;
+  ColorOptions colors_;
+  std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;
   double fov_ = 30.0, zoom_ = 1.0;
   int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/color_choice.h"
 
-#include "viewer/shown_surface.h"
+#include "charts/color_bar.h"
+#include "render/point_colors.h"
 
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
@@ -17,15 +18,33 @@ isScalar(const std::string& color)
   return !color.empty() && color != "rgb" && color != "rgba";
 }
 
+/** The colours of a bar. */
 void
-fill(vtkLookupTable& table, const pcl_uvol::ColorMap& map)
+fill(vtkLookupTable& table,
+     const pcl_uvol::ColorMapping& mapping,
+     const pcl_uvol::ColorScale& scale,
+     const std::vector<double>& categories)
 {
+  const auto set = [&table](vtkIdType i, const pcl_uvol::Color& color) {
+    table.SetTableValue(i, color.r, color.g, color.b);
+  };
+  if (!categories.empty()) {
+    const auto count = static_cast<vtkIdType>(categories.size());
+    table.SetNumberOfTableValues(count);
+    table.IndexedLookupOn();
+    for (vtkIdType i = 0; i < count; ++i) {
+      const double category = categories[static_cast<std::size_t>(i)];
+      table.SetAnnotation(category, shortNumber(category));
+      set(i, mapping.map.ofCategory(category));
+    }
+    return;
+  }
   constexpr int steps = 256;
   table.SetNumberOfTableValues(steps);
-  for (int i = 0; i < steps; ++i) {
-    const pcl_uvol::Color color = map.at(i / (steps - 1.0));
-    table.SetTableValue(i, color.r, color.g, color.b);
-  }
+  for (int i = 0; i < steps; ++i)
+    set(i, mapping.map.at(i / (steps - 1.0)));
+  table.SetScale(scale.is_logarithmic ? VTK_SCALE_LOG10 : VTK_SCALE_LINEAR);
+  table.SetTableRange(scale.low, scale.high);
 }
 
 } // namespace
@@ -59,12 +78,21 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
   renderer.setColorField("");
   bar.VisibilityOff();
   if (isScalar(field)) {
-    const auto fixed = look_.getRange();
-    const auto range = chosen_ == 0 && fixed ? *fixed : findRange(cloud, field);
-    renderer.setColorRange(range[0], range[1]);
+    const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
+    pcl_uvol::ColorMapping mapping = look_.getColors().mapFor(view, field);
+    if (chosen_ != 0) // the range of the options is that of their field
+      mapping.range.reset();
+    const pcl_uvol::ColorScale scale = findColorScale(view, field, mapping);
+    renderer.setColorMap(mapping.map);
+    renderer.setLogarithmicColors(mapping.is_logarithmic);
+    renderer.setColorRange(scale.low, scale.high);
     vtkNew<vtkLookupTable> table;
-    fill(*table, look_.colorMap());
-    table->SetTableRange(range[0], range[1]);
+    fill(*table,
+         mapping,
+         scale,
+         mapping.map.isCategorical()
+             ? pcl_uvol::listCategories(view, field, most_categories)
+             : std::vector<double>());
     bar.SetLookupTable(table);
     bar.SetTitle(field.c_str());
     bar.SetVisibility(look_.hasBar());

@@ -90,6 +90,13 @@ public:
   vtkGetMacro(AngleCriterion, int);
   /** @} */
 
+  /** \brief Join the points to closed triangle meshes, see pcl_uvol::SurfaceMesh, with
+   * the further arrays piece and cap; needs INTERPOLATION_FIT. Default: off. @{ */
+  vtkSetMacro(Mesh, bool);
+  vtkGetMacro(Mesh, bool);
+  vtkBooleanMacro(Mesh, bool);
+  /** @} */
+
   /** \brief Factors per axis of the space that distances are measured in: finite and
    * positive. Default 1, 1, 1. @{ */
   vtkSetVector3Macro(Scale, double);
@@ -120,6 +127,7 @@ private:
   int Outside = OUTSIDE_LOWER;
   int Interpolation = INTERPOLATION_FIT;
   int AngleCriterion = CRITERION_KEPT;
+  bool Mesh = false;
   double Scale[3] = {1.0, 1.0, 1.0};
 
   struct Samples;

@@ -21,6 +21,10 @@ struct PCL_UVOL_EXPORTS LoadOptions {
   /** False: a text file whose header names no coordinates is taken for data without
    * positions. */
   bool needs_coordinates = true;
+  /** The kind of particles that is read from a snapshot, by its name (gas, dm, disk,
+   * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
+   * first kind there is. */
+  std::string particles;
 };
 
 /** \brief How a file is written. */
@@ -31,13 +35,23 @@ struct PCL_UVOL_EXPORTS SaveOptions {
   std::vector<std::string> comments;
 };
 
-/** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu
- * or .vts, by the ending of the name (any case). Non-finite positions are kept.
- * \throws IOError in one sentence that names the file and, for text, the line */
+/** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu,
+ * .vts or HDF5 (.h5, .hdf5, .h5part, .vtkhdf), by the ending of the name (any case),
+ * and from binary snapshots of Gadget, whatever their name. Non-finite positions are
+ * kept.
+ *
+ * Names that end in .gz, .bz2 or .zst are unpacked into a temporary file (in TMPDIR),
+ * "-" is standard input. Arrays of NumPy (.npy, .npz) and laser scans (.las) are read
+ * as well.
+ *
+ * Within a file of HDF5 a group or tables may be named: file.h5:/group,
+ * file.h5:/group/pos, file.h5:/group/x,y,z. Of snapshots in several files any one is
+ * named. \throws IOError in one sentence that names the file and, for text, the line */
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
-/** \brief Write points as .pcd, .ply, .vtp or .csv, by the ending of the name. The file
+/** \brief Write points as .pcd, .ply, .vtp, .csv or .npz, by the ending of the name, or
+ * to standard output: "-" is PLY, "-.csv" and the like another format. The file
  * appears whole or not at all; an empty cloud gives a valid file with zero points.
  * \throws IOError */
 PCL_UVOL_EXPORTS void

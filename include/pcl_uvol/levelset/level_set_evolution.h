@@ -319,8 +319,17 @@ public:
     return sources_;
   }
 
+  /** \brief Of the last evolve(): the standard deviation of the zero level of phi from
+   * the true surface beside each point, in units of length, by index of the input
+   * cloud: noise that is left and places that smoothing has moved. NaN far from the
+   * surface; 0 where nearly nothing was smoothed, where fits to phi tell the noise. */
+  const std::vector<float>&
+  getDeviations() const
+  {
+    return deviations_;
+  }
+
 private:
-  /** Runs with the cloud and the indices that are set. */
   /** Calls take(cloud, indices, level_set). */
   template <typename TakeT>
   void
@@ -330,6 +339,7 @@ private:
   SnapshotCallback snapshot_;
   LevelSetSummary summary_;
   std::vector<std::uint32_t> sources_;
+  std::vector<float> deviations_;
 };
 
 template <typename PointT>
@@ -345,6 +355,7 @@ LevelSetEvolution<PointT>::evolveInput(const TakeT& take)
             cloud, indices, parameters_, snapshot_steps_, snapshot_, threads_, report_);
         summary_ = evolved.summary;
         sources_ = evolved.sources;
+        deviations_ = std::move(evolved.deviations);
         take(cloud, indices, evolved);
       });
 }

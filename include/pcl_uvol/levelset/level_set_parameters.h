@@ -182,6 +182,8 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
 struct LevelSet {
   std::vector<float> phi; ///< by input index, in units of length; NaN where a point has
                           ///< no coordinates or no value
+  std::vector<float> deviations;      ///< by input index: see
+                                      ///< LevelSetEvolution::getDeviations()
   std::vector<std::uint32_t> sources; ///< the points whose values the samples have: of
                                       ///< merged ones one
   LevelSetSummary summary;

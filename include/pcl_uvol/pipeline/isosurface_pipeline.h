@@ -170,12 +170,15 @@ finishIsosurface(const Dataset& samples,
 
 /** \brief The zero level of a level-set function of samples.
  * \param phi one per point of the cloud, see LevelSetEvolution
+ * \param deviations one per point, see LevelSetEvolution::getDeviations(); without any,
+ * errors are NaN: fits to phi know nothing of what became of the samples' noise
  * \param parameters of the isosurface that phi stands for; isopoints have its first
  * isovalue
  * \param report gets the counts and times of IsosurfaceExtraction */
 PCL_UVOL_EXPORTS void
 extractZeroLevel(const CloudView& samples,
                  const std::vector<float>& phi,
+                 const std::vector<float>& deviations,
                  const IsosurfaceParameters& parameters,
                  unsigned threads,
                  pcl::PointCloud<PointIso>& isopoints,

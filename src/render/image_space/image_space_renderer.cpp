@@ -146,8 +146,9 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
     surface_->setColor(toRgba(settings_.material.color));
     return;
   }
-  const PointColors colors = colorPoints(cloud, color_field_, color_map_, color_range_);
-  used_range_ = colors.range;
+  const PointColors colors =
+      colorPoints(cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
+  used_range_ = {colors.scale.low, colors.scale.high};
   surface_->setColors(colors.colors);
 }
 

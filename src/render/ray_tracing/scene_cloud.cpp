@@ -60,7 +60,8 @@ colorCloud(const Dataset& dataset, const CloudLook& look, SceneCloud& cloud)
   if (look.color_field.empty() && !hasColors(view))
     return;
   const std::string field = look.color_field.empty() ? "rgb" : look.color_field;
-  const PointColors points = colorPoints(view, field, look.color_map, look.color_range);
+  const PointColors points =
+      colorPoints(view, field, {look.color_map, look.color_range, false});
   for (const std::uint32_t source : cloud.sources)
     cloud.colors.push_back(points.colors[source]);
 }

@@ -58,6 +58,15 @@ public:
     colored_ = false;
   }
 
+  /** \brief Colours by the logarithm of the values, which then count above 0 only;
+   * default false. */
+  void
+  setLogarithmicColors(bool is_logarithmic)
+  {
+    logarithmic_colors_ = is_logarithmic;
+    colored_ = false;
+  }
+
   /** \brief Steps and thresholds. */
   ImageSpaceSettings&
   settings()
@@ -123,6 +132,7 @@ private:
   std::string color_field_;
   ColorMap color_map_;
   std::optional<std::array<double, 2>> color_range_;
+  bool logarithmic_colors_ = false;
   std::array<double, 2> used_range_{{0.0, 1.0}};
   ImageSpaceSettings settings_;
   ImagePlanes planes_;

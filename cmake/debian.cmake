@@ -1,0 +1,64 @@
+# Debian packages by CPack, as tools/package.sh makes them: one per component of the installation.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The pcl_uvol authors <pcl_uvol@localhost>")
+set(CPACK_PACKAGE_VENDOR "The pcl_uvol authors")
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_COMPONENTS_ALL)
+
+# A package of a component. The rest are names of packages that it needs besides what dpkg-shlibdeps finds.
+macro(pcl_uvol_debian component package section summary text)
+  string(TOUPPER ${component} key)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${package})
+  set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${text}")
+  list(JOIN ARGN ", " needs)
+  set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${needs}")
+  install(FILES ${PROJECT_BINARY_DIR}/changelog.gz DESTINATION share/doc/${package} COMPONENT ${component})
+  install(FILES LICENSE DESTINATION share/doc/${package} RENAME copyright COMPONENT ${component})
+endmacro()
+
+file(ARCHIVE_CREATE OUTPUT ${PROJECT_BINARY_DIR}/changelog.gz PATHS ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+     FORMAT raw COMPRESSION GZip)
+set(same "(= ${PROJECT_VERSION})")
+set(libraries_needed "libpcl-uvol-core${soversion} ${same}" "libpcl-uvol${soversion} ${same}")
+set(purpose "pcl_uvol extracts isosurfaces straight from scattered samples with scalars, as\n oriented points or closed meshes that carry every field of the samples.")
+pcl_uvol_debian(core libpcl-uvol-core${soversion} libs "surfaces from scattered samples: algorithms"
+  "${purpose}\n This package has the library without files, pictures of windows and VTK.")
+pcl_uvol_debian(libraries libpcl-uvol${soversion} libs "surfaces from scattered samples: files, VTK, OpenGL"
+  "${purpose}\n This package has file formats, expressions, OpenGL and filters of VTK."
+  "libpcl-uvol-core${soversion} ${same}")
+pcl_uvol_debian(development libpcl-uvol-dev libdevel "surfaces from scattered samples: headers"
+  "${purpose}\n This package has the headers and the package of CMake."
+  ${libraries_needed} libpcl-dev libflann-dev liblz4-dev nlohmann-json3-dev)
+if(PCL_UVOL_BUILD_TOOLS)
+  pcl_uvol_debian(tools pcl-uvol-tools science "surfaces from scattered samples: command line"
+    "${purpose}\n This package has the tools, their manual pages and completion in bash." ${libraries_needed})
+endif()
+if(TARGET uvol_viewer)
+  pcl_uvol_debian(uvol_viewer pcl-uvol-viewer science "surfaces from scattered samples: window"
+    "${purpose}\n This package has a window that shows surfaces, with a slider for isovalues."
+    ${libraries_needed})
+endif()
+if(PCL_UVOL_BUILD_MPI)
+  pcl_uvol_debian(mpi libpcl-uvol-mpi${soversion} libs "surfaces from scattered samples: MPI"
+    "${purpose}\n This package has the library for many processes."
+    "libpcl-uvol-core${soversion} ${same}")
+  if(TARGET uvol_isosurface_mpi)
+    pcl_uvol_debian(uvol_isosurface_mpi pcl-uvol-mpi science "surfaces from scattered samples: tool for MPI"
+      "${purpose}\n This package has the tool for many processes."
+      ${libraries_needed} "libpcl-uvol-mpi${soversion} ${same}" openmpi-bin)
+  endif()
+endif()
+include(CPack)

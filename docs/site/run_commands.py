@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
+picture below pictures/start/ that a page shows is made by them.
+
+usage: run_commands.py BIN_FOLDER [--renew] PAGE...; --renew copies the pictures beside the pages
+The commands find the tools in PATH and the data sets in $PCL_UVOL_DATA.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"\]\((\.\./pictures/start/([^)]+))\)")
+
+
+def run_page(page, bin_folder, renew):
+    text = page.read_text()
+    script = "set -euo pipefail\n" + "\n".join(BLOCK.findall(text))
+    environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
+    with tempfile.TemporaryDirectory() as folder:
+        result = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
+        if result.returncode != 0:
+            return f"{page}: a command failed: {result.stderr.strip()}"
+        for shown, name in PICTURE.findall(text):
+            made = pathlib.Path(folder) / name
+            if not made.exists():
+                return f"{page}: no command makes {name}"
+            if renew:
+                target = page.parent / shown
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(made, target)
+    return ""
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--renew"]
+    if len(words) < 2:
+        sys.exit(__doc__)
+    if not os.environ.get("PCL_UVOL_DATA"):
+        sys.exit("run_commands.py: PCL_UVOL_DATA does not name the folder of data sets.")
+    bin_folder = pathlib.Path(words[0]).resolve()
+    failures = [run_page(pathlib.Path(page), bin_folder, "--renew" in sys.argv) for page in words[1:]]
+    sys.exit("\n".join(filter(None, failures)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures of surfaces: area, volume, centroid, axes, genus, integrals of fields, and
+// what samples lie inside.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/parameters.h>
+#include <pcl_uvol/common/stage.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief Parameters of SurfaceMeasures. */
+struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
+  /** Bend triangles as the normals of their vertices tell. Flat ones are cut off the
+   * surface: area and volume are short by about (edge length / radius of curvature)^2
+   * / 8 of themselves. */
+  bool curved = true;
+  /** Look for triangles that go through one another, or touch without a vertex in
+   * common; takes about as long as all the rest. */
+  bool find_intersections = false;
+
+  static auto
+  listMembers()
+  {
+    using Own = SurfaceMeasuresParameters;
+    return std::make_tuple(Member{"curved", &Own::curved},
+                           Member{"find_intersections", &Own::find_intersections});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static SurfaceMeasuresParameters
+  fromJson(const std::string& text);
+};
+
+/** \brief A figure and how far from the truth it may be; NaN: not known. */
+struct Measure {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();
+};
+
+/** \brief A field on a surface. Vertices without a value are left out. */
+struct SurfaceFieldMeasures {
+  std::string name;
+  double mean;      ///< by area
+  Measure integral; ///< over the area: field times length^2
+};
+
+/** \brief A field of the samples in what a surface encloses. */
+struct InnerFieldMeasures {
+  std::string name;
+  Measure integral; ///< over the volume: field times length^3
+  double mean;      ///< by volume
+  double sum;       ///< over the samples inside: of masses, their mass
+};
+
+/** \brief Figures of a surface or a piece of it, in units of the coordinates. */
+struct PCL_UVOL_EXPORTS PieceMeasures {
+  double isovalue; ///< NaN where the vertices have no field of that name
+  std::uint32_t vertices = 0, triangles = 0;
+  std::uint32_t rims = 0;  ///< closed lines along which it is open
+  std::uint32_t genus = 0; ///< handles, of several pieces together
+  Measure area;
+  /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
+   * NaN where it is open. */
+  Measure volume;
+  /** Of the enclosed volume, or of the area where that is open or 0. @{ */
+  Eigen::Vector3d centroid;
+  Eigen::Matrix3d axes;      ///< columns: principal axes, the longest first
+  Eigen::Vector3d half_axes; ///< of the ellipsoid, or ellipsoidal shell, of the same
+                             ///< second moments
+  /** @} */
+  std::array<double, 3> low, high; ///< bounds of the vertices
+  std::vector<SurfaceFieldMeasures> on_surface;
+  std::int64_t samples = 0; ///< inside; those in a cavity count for its wall as -1
+  std::vector<InnerFieldMeasures> inside; ///< with samples, of closed surfaces
+};
+
+/** \brief Two triangles, by their indices, that go through one another, and where. */
+struct TriangleIntersection {
+  std::uint32_t first, second;
+  Eigen::Vector3d place; ///< the middle of the first one
+};
+
+/** \brief What SurfaceMeasures computes. */
+struct PCL_UVOL_EXPORTS SurfaceFigures {
+  /** All pieces of an isovalue together, in the order of the vertices. */
+  std::vector<PieceMeasures> isovalues;
+  /** By isovalue, then by falling number of triangles. */
+  std::vector<PieceMeasures> pieces;
+  std::vector<double> vertex_areas;   ///< shares of the vertices in the area, length^2
+  std::vector<std::int32_t> piece_of; ///< by vertex, among pieces; -1 without triangle
+  std::vector<TriangleIntersection> intersections; ///< if asked for: ascending
+};
+
+/** \brief Area, volume, moments and integrals of meshes.
+ *
+ * \code
+ * pcl_uvol::SurfaceMeasures measures;
+ * measures.setInputSurface(vertices, triangles); // as loadMesh() or a pipeline gives
+ * measures.setInputSamples(samples);             // to look inside
+ * const double volume = measures.compute().isovalues[0].volume.value;
+ * \endcode
+ * Vertices may have the fields normal_x, normal_y and normal_z, which bend the
+ * triangles; `error`, their estimated distance to the surface; `cap`, not 0 where they
+ * close the surface at the border of the samples; `isovalue`. Integrals are over
+ * quadratic triangles, see Dunavant, Int. J. Num. Meth. Eng. 21 (1985), and Vlachos et
+ * al., Curved PN Triangles, I3D 2001; those over the enclosed space follow by Gauss's
+ * theorem. The error of a figure adds up what all vertices may be off by, as though all
+ * were off to one side, and what the bent triangles leave out; that is the larger part
+ * without normals.
+ *
+ * A field of the samples is integrated over the space inside as the sum over the
+ * samples there of value times volume of the kd-tree's cell (thesis 2.2.1); where cells
+ * and surface enclose different volumes, the difference has the field's mean on the
+ * surface. Time and memory go with the triangles, and with the samples, if there are
+ * any. */
+class PCL_UVOL_EXPORTS SurfaceMeasures
+    : public ParameterStage<SurfaceMeasuresParameters> {
+public:
+  using Ptr = std::shared_ptr<SurfaceMeasures>;
+  using ConstPtr = std::shared_ptr<const SurfaceMeasures>;
+
+  void
+  setInputSurface(const std::shared_ptr<const Dataset>& vertices,
+                  const std::vector<Triangle>& triangles)
+  {
+    vertices_ = vertices;
+    triangles_ = triangles;
+  }
+
+  /** \brief The samples that the surface lies in; null, the default: none. */
+  void
+  setInputSamples(const std::shared_ptr<const Dataset>& samples)
+  {
+    samples_ = samples;
+  }
+
+  /** \brief Measure all pieces.
+   *
+   * Warnings of the report name pieces that are open, whose volume is not known,
+   * figures with large errors, a surface that looks inwards, and triangles that
+   * intersect. \throws InvalidArgument without a surface or triangles, for a vertex
+   * that is not finite or not there, and for triangles that are no oriented manifold */
+  SurfaceFigures
+  compute();
+
+private:
+  std::shared_ptr<const Dataset> vertices_, samples_;
+  std::vector<Triangle> triangles_;
+};
+
+} // namespace pcl_uvol

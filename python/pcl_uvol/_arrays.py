@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From what users have, arrays of any kind, to the records of a dataset."""
+
+import numpy as np
+
+from . import _core
+
+_LETTERS = {"b": "?", "i": "i", "u": "u", "f": "f"}
+_LARGEST_SIZE = 8
+
+
+def _as_array(values, what):
+    """The values as a numpy array of numbers; missing ones of masked arrays and of
+    pandas become NaN."""
+    if hasattr(values, "to_numpy") and not isinstance(values, np.ndarray):
+        values = _from_pandas(values)
+    try:
+        array = np.ma.asarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{what} is not an array of numbers: its rows have different lengths.") from error
+    if array.dtype.kind == "O":
+        raise ValueError(f"{what} holds Python objects, not numbers: convert it first, say by .astype(float).")
+    if array.dtype.kind not in _LETTERS:
+        raise ValueError(f"{what} has the type {array.dtype}: it must hold numbers or booleans.")
+    if np.ma.isMaskedArray(array):
+        if array.mask.any():
+            array = array.astype(array.dtype if array.dtype.kind == "f" else np.float64)
+        return array.filled(np.nan) if array.mask.any() else array.data
+    return array
+
+
+def _from_pandas(values):
+    """A column or table of pandas: its own missing values are NaN."""
+    dtypes = getattr(values, "dtypes", None)
+    kinds = [dtypes] if not hasattr(dtypes, "__iter__") else list(dtypes)
+    if any(hasattr(kind, "na_value") and not isinstance(kind, np.dtype) for kind in kinds):
+        try:
+            has_missing = bool(np.any(values.isna()))
+            return values.to_numpy(dtype=np.float64, na_value=np.nan) if has_missing else np.asarray(
+                values.to_numpy(dtype=getattr(kinds[0], "numpy_dtype", np.float64)))
+        except (TypeError, ValueError):
+            pass  # texts and the like, which are refused by their type
+    return values.to_numpy()
+
+
+def _number_type(dtype):
+    """Numpy's name of the type that a field gets: wider for float16, in double for
+    longer ones."""
+    size = dtype.itemsize
+    if dtype.kind == "f":
+        size = 4 if size <= 4 else _LARGEST_SIZE
+    return "?" if dtype.kind == "b" else f"{_LETTERS[dtype.kind]}{size}"
+
+
+def coordinates(points, what="points"):
+    """Points as an array of shape (n, 3); columns of zeros are not made up."""
+    array = _as_array(points, what)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{what} has the shape {array.shape}: it must be (n, 3), a row for each point.")
+    return array
+
+
+def make_dataset(points, fields):
+    """A dataset from coordinates and a mapping of names to columns."""
+    xyz = coordinates(points)
+    count = len(xyz)
+    columns = {}
+    for name, values in dict(fields or {}).items():
+        if not isinstance(name, str) or not name:
+            raise ValueError(f"A field is called {name!r}: names are texts of at least a letter.")
+        if name in ("x", "y", "z"):
+            raise ValueError(f"The field {name!r} is a coordinate: it belongs to the points.")
+        columns[name] = _column(name, values, count)
+    axis_type = _number_type(xyz.dtype)
+    specs = [(axis, axis_type, 1) for axis in "xyz"]
+    specs += [(name, _number_type(column.dtype), column.shape[1] if column.ndim == 2 else 1)
+              for name, column in columns.items()]
+    dataset = _core.Dataset.allocate(specs, count)
+    data = dataset.bytes
+    records = view_records(dataset, data)
+    for axis, name in enumerate("xyz"):
+        records[name] = xyz[:, axis]
+    for name, column in columns.items():
+        records[name] = column if column.ndim == 1 or column.shape[1] > 1 else column[:, 0]
+    dataset.settle()
+    return dataset
+
+
+def _column(name, values, count):
+    column = _as_array(values, f"The field {name!r}")
+    if column.ndim not in (1, 2) or (column.ndim == 2 and column.shape[1] == 0):
+        raise ValueError(f"The field {name!r} has the shape {column.shape}: it must be (n,), or (n, k) for "
+                         "k numbers per point.")
+    if len(column) != count:
+        raise ValueError(f"The field {name!r} has {len(column)} values for {count} points.")
+    return column
+
+
+def view_records(dataset, data=None):
+    """The points of a dataset as a structured array: no copy."""
+    data = dataset.bytes if data is None else data
+    names, formats, offsets = [], [], []
+    for name, kind, components, offset in dataset.fields:
+        names.append(name)
+        formats.append(kind if components == 1 else (kind, (components,)))
+        offsets.append(offset)
+    dtype = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": data.shape[1]})
+    return np.ndarray(len(data), dtype, data)
+
+
+def view_axes(records, names, dtype=np.float32):
+    """Three neighbouring numbers of each record as an array of shape (n, 3): no copy."""
+    if len(records) == 0:
+        return np.empty((0, 3), dtype)
+    first = records.dtype.fields[names[0]][1]
+    size = np.dtype(dtype).itemsize
+    for place, name in enumerate(names):
+        if records.dtype.fields[name] != (np.dtype(dtype), first + place * size):
+            return None
+    return np.ndarray((len(records), 3), dtype, records, first, (records.strides[0], size))

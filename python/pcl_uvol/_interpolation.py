@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The field between the samples: at any places, along lines, in slices and grids."""
+
+import functools
+
+import numpy as np
+
+from . import _arrays, _core, _parameters, _report
+from ._lattice import Lattice
+from ._progress import listening
+from ._samples import Samples, as_samples
+
+
+class Answers:
+    """Fields at queries, as an `Interpolator` tells them.
+
+    Attributes
+    ----------
+    values : numpy.ndarray
+        In units of the field, NaN where there is none; of one field in the shape of the
+        queries, of several with the field as the first axis.
+    errors : numpy.ndarray or None
+        Standard errors of the values; None if they were not asked for.
+    gradients : numpy.ndarray or None
+        Per unit of length, with an axis of three at the end.
+    support : numpy.ndarray of uint8
+        What a value rests on: 1 samples all around, 2 a gap of the sampling, 3 its rim,
+        4 outside of the data, 5 samples that do not determine the model, 6 no place.
+    report : dict
+        Counts, milliseconds and warnings.
+    """
+
+    def __init__(self, found, shape, is_single):
+        def shaped(array, *more):
+            if array is None:
+                return None
+            return array.reshape((() if is_single else array.shape[:1]) + shape + more)
+
+        self.values = shaped(found["values"])
+        self.errors = shaped(found.get("errors"))
+        self.gradients = shaped(found.get("gradients"), 3)
+        self.support = found["support"].reshape(shape)
+        self.report = found["report"]
+
+
+class Interpolator:
+    """Interpolates fields given at scattered points, at any other places.
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    field : str or sequence of str
+        What to interpolate: fields or expressions; by default `intensity`, else the only
+        candidate. A sequence gives arrays with an axis of fields in front.
+    model : {"fit", "natural", "laplace", "kriging", "sph", "shepard", "nearest", "auto"}
+        "auto": the one that is nearest to samples left out.
+    extrapolate : bool
+        Give values outside of the data as well; else NaN there.
+    gradients, errors : bool
+        Compute these beside the values.
+    scale : sequence of three float, or "auto"
+        Factors per axis of the space that distances are measured in.
+    kriging, sph, shepard : dict, optional
+        Parameters of these models, by the library's names: `kriging={"variogram":
+        "gaussian", "nugget": 0.1}`.
+    threads : int
+        0: all cores.
+    progress : bool or callable, optional
+        See `isosurface`.
+
+    Attributes
+    ----------
+    fields : list of str
+        In the order of the answers.
+    parameters : dict
+        With the model that was chosen.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> interpolator = uvol.Interpolator(points, {"rho": points[:, 0] ** 2})
+    >>> values, errors = interpolator([[0.5, 0.5, 0.5], [0.25, 0.5, 0.5]])
+    >>> [round(float(value), 4) for value in values]
+    [0.25, 0.0625]
+    """
+
+    def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
+                 scale=(1.0, 1.0, 1.0), kriging=None, sph=None, shepard=None, threads=0, progress=None):
+        samples = as_samples(points, fields)
+        self._made_of = functools.partial(Interpolator, samples, field=field, model=model, extrapolate=extrapolate,
+                                          gradients=gradients, errors=errors, scale=scale, kriging=kriging, sph=sph,
+                                          shepard=shepard, threads=threads)
+        self._is_single = isinstance(field, str)
+        self._threads = _parameters.count(threads, "threads")
+        names = []
+        for name in [field] if self._is_single else list(field):
+            samples, found = samples._with_field(name, threads, progress)
+            names += [found] if found else []
+        self.samples = samples
+        parameters = {
+            "fields": names,
+            "model": model,
+            "extrapolate": extrapolate,
+            "gradients": gradients,
+            "errors": errors,
+            "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
+            "kriging": kriging or {},
+            "sph": sph or {},
+            "shepard": shepard or {},
+        }
+        with listening(progress) as listener:
+            self._core = _core.Interpolator(samples._dataset, _parameters.to_json(parameters), self._threads, listener)
+        self.fields = self._core.names
+        _report.tell(self._core.report["warnings"])
+
+    @property
+    def parameters(self):
+        """dict: the library's parameters, with the model that was chosen."""
+        return _parameters.from_json(self._core.parameters)
+
+    def evaluate(self, queries, threads=None, progress=None):
+        """Answer queries.
+
+        Parameters
+        ----------
+        queries : array_like, shape (..., 3)
+            Places in the coordinates of the samples.
+
+        Returns
+        -------
+        Answers
+        """
+        places = _arrays._as_array(queries, "queries")
+        if places.ndim == 0 or places.shape[-1] != 3:
+            raise ValueError(f"queries has the shape {places.shape}: it must be (..., 3), a row for each place.")
+        with listening(progress) as listener:
+            found = self._core.answer(places.reshape(-1, 3), self._threads_of(threads), listener)
+        _report.tell(found["report"]["warnings"])
+        return Answers(found, places.shape[:-1], self._is_single)
+
+    def __call__(self, queries, threads=None):
+        """Values and standard errors at queries: those of `evaluate`."""
+        answers = self.evaluate(queries, threads)
+        return answers.values, answers.errors
+
+    def probe(self, points, threads=None, progress=None):
+        """Points with the interpolated fields behind their own, as uvol_probe has them.
+
+        Parameters
+        ----------
+        points : Samples, Surface or array_like, shape (n, 3)
+
+        Returns
+        -------
+        Samples
+        """
+        points = as_samples(points, None)
+        with listening(progress) as listener:
+            dataset, report = self._core.probe(points._dataset, self._threads_of(threads), listener)
+        _report.tell(report["warnings"])
+        return Samples._of(dataset)
+
+    def line(self, start, end, n=100, **options):
+        """The fields at `n` places from one point to another.
+
+        Returns
+        -------
+        Lattice
+        """
+        return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")), **options)
+
+    def slice(self, plane, size=512, box=None, **options):
+        """The fields in a plane.
+
+        Parameters
+        ----------
+        plane : str, or a pair of array_like
+            "z=0.5", or a point and a normal.
+        size : int or pair of int
+            Places along the longer side, or a bound for each.
+        box : pair of array_like, optional
+            Low and high corner; by default that of the samples.
+
+        Returns
+        -------
+        Lattice
+        """
+        point, normal = _plane(plane)
+        counts = [_parameters.count(side, "size") for side in np.broadcast_to(size, 2).tolist()]
+        lattice, _, _ = _core.slice(point, normal, *self._box(box), counts)
+        return self._fill(*lattice, **options)
+
+    def grid(self, n=128, box=None, **options):
+        """The fields in a grid.
+
+        Parameters
+        ----------
+        n : int or three int
+            Cubes, so many places along the longest side; or as many along x, y and z.
+        box : pair of array_like, optional
+            Low and high corner; by default that of the samples.
+
+        Returns
+        -------
+        Lattice
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> grid = uvol.Interpolator(points, {"rho": points[:, 0]}).grid((3, 4, 5), box=([0.2] * 3, [0.8] * 3))
+        >>> grid["rho"].shape
+        (5, 4, 3)
+        """
+        if np.ndim(n) == 0:
+            return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), **options)
+        counts = [_parameters.count(side, "n") for side in n]
+        if len(counts) != 3:
+            raise ValueError(f"n has {len(counts)} numbers: it must be one, or three.")
+        return self._fill(*_core.grid(*self._box(box), counts), **options)
+
+    def _box(self, box):
+        if box is None:
+            return _core.bounds(self.samples._dataset)
+        if len(box) != 2:
+            raise ValueError("box is a pair: its low and its high corner.")
+        return _place(box[0], "box"), _place(box[1], "box")
+
+    def _fill(self, places, counts, steps, threads=None, progress=None):
+        with listening(progress) as listener:
+            found = self._core.answer(places, self._threads_of(threads), listener)
+        _report.tell(found["report"]["warnings"])
+        columns = {}
+        for number, name in enumerate(self.fields):
+            columns[name] = found["values"][number]
+            if "errors" in found:
+                columns[name + "_error"] = found["errors"][number]
+            if "gradients" in found:
+                columns[name + "_gradient"] = found["gradients"][number]
+        columns["support"] = found["support"]
+        return Lattice(places, counts, steps, columns, found["report"])
+
+    def _threads_of(self, threads):
+        return self._threads if threads is None else _parameters.count(threads, "threads")
+
+    def __reduce__(self):
+        return self._made_of, ()
+
+    def __repr__(self):
+        return f"Interpolator of {', '.join(self.fields)} by {self.parameters['model']} from {len(self.samples)} points"
+
+
+def _place(values, what):
+    place = _parameters.numbers(values, what)
+    if len(place) != 3:
+        raise ValueError(f"{what} has {len(place)} numbers: there must be three, x, y and z.")
+    return place
+
+
+def _plane(plane):
+    """A point and a normal; those of "z=0.5" as well."""
+    if not isinstance(plane, str):
+        point, normal = plane
+        return _place(point, "plane"), _place(normal, "plane")
+    axis, _, value = plane.partition("=")
+    try:
+        place = "xyz".index(axis.strip() or "-")
+        number = float(value)
+    except ValueError:
+        raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, or a point and a normal.") from None
+    point, normal = [0.0] * 3, [0.0] * 3
+    point[place], normal[place] = number, 1.0
+    return point, normal

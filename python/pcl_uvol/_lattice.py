@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fields at places in rows: lines, slices and grids."""
+
+import numpy as np
+
+
+class Lattice:
+    """Fields at places at equal distances along up to three axes.
+
+    Arrays have the shape of the lattice without axes of one place; the first axis of
+    the coordinates runs fastest, it is the last one of the arrays.
+
+    Attributes
+    ----------
+    points : numpy.ndarray, shape (..., 3)
+    report : dict
+        Counts, milliseconds and warnings.
+    """
+
+    def __init__(self, places, counts, steps, columns, report):
+        self.shape = tuple(count for count in reversed(counts) if count > 1) or (1,)
+        self.points = places.reshape(*self.shape, 3)
+        self.report = report
+        self._steps = [step for step, count in zip(steps, counts) if count > 1][::-1]
+        self._columns = {name: values.reshape(self.shape + values.shape[1:]) for name, values in columns.items()}
+
+    def keys(self):
+        """Names of the fields, those of errors and gradients, and `support`.
+
+        Returns
+        -------
+        list of str
+        """
+        return list(self._columns)
+
+    def __iter__(self):
+        return iter(self._columns)
+
+    def __getitem__(self, name):
+        if name not in self._columns:
+            from ._errors import FieldError
+            from ._points import _describe_missing
+            raise FieldError(_describe_missing(str(name), self.keys()))
+        return self._columns[name]
+
+    def to_xarray(self):
+        """An xarray.Dataset: dimensions are x, y and z along the axes, else i, j and k
+        with the places beside them."""
+        import xarray
+        axes = [self._axis_of(step) for step in self._steps]
+        if None in axes:
+            dims = ["k", "j", "i"][3 - len(self.shape):]
+            coords = {axis: (dims, self.points[..., place]) for place, axis in enumerate("xyz")}
+        else:
+            dims = ["xyz"[axis] for axis in axes]
+            coords = {}
+            for place, axis in enumerate(axes):
+                along = tuple(slice(None) if other == place else 0 for other in range(len(dims)))
+                coords[dims[place]] = self.points[along + (axis,)]
+            for axis in set(range(3)) - set(axes):
+                coords["xyz"[axis]] = self.points[(0,) * len(dims) + (axis,)]
+        return xarray.Dataset({name: (dims + ["axis"] * (values.ndim - len(dims)), values)
+                               for name, values in self._columns.items()}, coords)
+
+    @staticmethod
+    def _axis_of(step):
+        axes = np.flatnonzero(step)
+        return int(axes[0]) if len(axes) == 1 else None
+
+    def __repr__(self):
+        return f"Lattice of {' x '.join(map(str, self.shape))} places: {', '.join(self.keys())}"

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Points with fields: samples, and what surfaces are made of."""
+
+import os
+
+import numpy as np
+
+from . import _arrays, _core
+from ._bridges import Bridges
+from ._errors import FieldError
+
+
+class Points(Bridges):
+    """Points with named fields, in the memory of the library.
+
+    Arrays that are taken out of it are views that cannot be written to; they keep the
+    memory alive.
+    """
+
+    def __init__(self, dataset):
+        self._dataset = dataset
+        self._records = None
+        self._points = None
+
+    def __len__(self):
+        return self._dataset.count
+
+    @property
+    def records(self):
+        """numpy.ndarray, shape (n,): all fields as a structured array, without a copy.
+
+        x, y, z are float32, relative to `origin`.
+        """
+        if self._records is None:
+            records = _arrays.view_records(self._dataset)
+            records.flags.writeable = False
+            self._records = records
+        return self._records
+
+    @property
+    def origin(self):
+        """numpy.ndarray, shape (3,): what is added to x, y, z of the records."""
+        return np.array(self._dataset.origin)
+
+    @property
+    def points(self):
+        """numpy.ndarray, shape (n, 3): the coordinates.
+
+        A view in float32 without an origin; else computed in double, once.
+        """
+        if self._points is None:
+            points = _arrays.view_axes(self.records, "xyz")
+            if self._dataset.double_coordinates or self.origin.any():
+                points = points + self.origin
+                points.flags.writeable = False
+            self._points = points
+        return self._points
+
+    def keys(self):
+        """Names of the fields, coordinates left out.
+
+        Returns
+        -------
+        list of str
+        """
+        return [name for name in self.records.dtype.names if name not in ("x", "y", "z")]
+
+    def __iter__(self):
+        return iter(self.keys())
+
+    def __contains__(self, name):
+        return name in self.keys()
+
+    def __getitem__(self, name):
+        """The values of a field, shape (n,) or (n, k): a view.
+
+        `vel[1]`, `|vel|` and `|vx,vy,vz|` are computed.
+        """
+        if not isinstance(name, str):
+            raise TypeError(f"Fields are asked for by their names, not by {name!r}.")
+        if name in self.keys():
+            return self.records[name]
+        if any(mark in name for mark in "[|"):
+            return self._dataset.read_scalar(name)
+        raise FieldError(_describe_missing(name, self.keys()))
+
+    def save(self, path, ascii=False):
+        """Write a file as the tools do: pcd, ply, vtp or csv, by the ending of its name.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+        ascii : bool
+            PCD and PLY as text.
+        """
+        from . import _io
+        _io.write(os.fspath(path), self._dataset, np.empty((0, 3), np.uint32), bool(ascii), self._comments())
+
+    def _comments(self):
+        """Lines for files that have comments."""
+        return []
+
+    def __getstate__(self):
+        state = self.__dict__.copy()
+        state.update(_records=None, _points=None)  # views of memory that is elsewhere
+        return state
+
+
+def _describe_missing(name, names):
+    similar = _core.find_similar(names, name)
+    hint = f" (did you mean {similar!r}?)" if similar else ""
+    return f"There is no field {name!r}{hint}; the fields are {', '.join(names) or 'none'}."

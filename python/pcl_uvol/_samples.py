@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scattered samples: what everything starts from."""
+
+import numpy as np
+
+from . import _arrays, _parameters, _report
+from ._pictures import Drawable
+from ._points import Points
+from ._progress import listening
+
+
+class Samples(Drawable, Points):
+    """Samples of fields at scattered points.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Coordinates, float32 or float64. Doubles keep their digits: they are held
+        relative to an origin. A structured array with x, y, z brings its other fields.
+    fields : mapping of str to array_like, optional
+        Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
+        values and pandas' missing ones are missing values.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> samples = uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]})
+    >>> samples["rho"]
+    array([1., 2., 3.])
+    >>> samples
+    Samples of 3 points: rho (float64)
+    """
+
+    def __init__(self, points, fields=None):
+        dtype = getattr(points, "dtype", None)
+        if fields is None and dtype is not None and getattr(dtype, "names", None):
+            points, fields = _split(np.asarray(points), ("x", "y", "z"))
+        super().__init__(_arrays.make_dataset(points, fields))
+        self._derived = {}
+        _report.tell(self._dataset.notes)
+
+    @classmethod
+    def _of(cls, dataset):
+        samples = cls.__new__(cls)
+        Points.__init__(samples, dataset)
+        samples._derived = {}
+        return samples
+
+    @classmethod
+    def from_dataframe(cls, frame, points=("x", "y", "z"), fields=None):
+        """Samples from the columns of a pandas.DataFrame or an xarray.Dataset.
+
+        Parameters
+        ----------
+        frame : pandas.DataFrame or xarray.Dataset
+        points : sequence of three str
+            Columns of the coordinates.
+        fields : sequence of str, optional
+            Columns to take; by default all others that hold numbers.
+
+        Returns
+        -------
+        Samples
+
+        Examples
+        --------
+        >>> import pandas
+        >>> frame = pandas.DataFrame({"lon": [1.0, 2.0], "lat": [3.0, 4.0], "depth": [5.0, 6.0], "T": [7, 8]})
+        >>> uvol.Samples.from_dataframe(frame, points=("lon", "lat", "depth"))
+        Samples of 2 points: T (int64)
+        """
+        axes = list(points)
+        if len(axes) != 3:
+            raise ValueError(f"points names {len(axes)} columns: there must be three.")
+        names = list(frame.columns) if hasattr(frame, "columns") else list(frame.variables)
+        for name in axes + list(fields or []):
+            if name not in names:
+                from ._errors import FieldError
+                from ._points import _describe_missing
+                raise FieldError(_describe_missing(name, [str(known) for known in names]))
+        if fields is None:
+            fields = [name for name in names if name not in axes and _holds_numbers(frame[name])]
+        xyz = np.stack([np.ravel(_arrays._as_array(frame[axis], f"The column {axis!r}")) for axis in axes], axis=1)
+        return cls(xyz, {str(name): _flat(frame[name]) for name in fields})
+
+    def compute(self, expression, threads=0, progress=None):
+        """Samples that have a field more: that of an expression.
+
+        Parameters
+        ----------
+        expression : str
+            As in the tools: `log10(rho)`, `|vel|`, `Q(vel)`, `|grad(rho)|`.
+
+        Returns
+        -------
+        Samples
+            These where they have the field already.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"rho": [1.0, 10.0, 100.0]})
+        >>> samples.compute("log10(rho)")["log10(rho)"]
+        array([0., 1., 2.])
+        """
+        return self._with_field(expression, threads, progress)[0]
+
+    def where(self, expression, threads=0):
+        """The samples for which an expression holds, as `T > 4 && depth < 100`.
+
+        Returns
+        -------
+        Samples
+        """
+        return Samples._of(self._dataset.select(str(expression), _parameters.count(threads, "threads"))[0])
+
+    def take(self, indices):
+        """The samples of some indices, or of a mask.
+
+        Returns
+        -------
+        Samples
+        """
+        return Samples._of(self._dataset.take(np.arange(len(self))[indices]))
+
+    def _with_field(self, expression, threads, progress):
+        """Samples that have the field, and its name. Made once: a tree built for them
+        serves again."""
+        if not isinstance(expression, str):
+            raise TypeError(f"field is {expression!r}: it must be the name of a field, or an expression.")
+        if expression == "":
+            return self, ""
+        if expression not in self._derived:
+            with listening(progress) as listener:
+                dataset, name, report = self._dataset.with_field(expression, _parameters.count(threads, "threads"),
+                                                                 listener)
+            samples = self if dataset is self._dataset else Samples._of(dataset)
+            self._derived[expression] = (samples, name, report["warnings"])
+        samples, name, messages = self._derived[expression]
+        _report.tell(messages)
+        return samples, name
+
+    def __getstate__(self):
+        state = super().__getstate__()
+        state["_derived"] = {}
+        return state
+
+    def __repr__(self):
+        fields = []
+        for name in self.keys():
+            values = self.records.dtype[name]
+            fields.append(f"{name} ({values.base}" + (f" x {values.shape[0]})" if values.shape else ")"))
+        return f"Samples of {len(self)} points: {', '.join(fields) or 'no fields'}"
+
+
+def _split(records, axes):
+    """Coordinates and fields of a structured array."""
+    missing = [axis for axis in axes if axis not in records.dtype.names]
+    if missing:
+        raise ValueError(f"The structured array has no field {missing[0]}: it needs x, y and z.")
+    records = records.reshape(-1)
+    points = np.stack([records[axis] for axis in axes], axis=1)
+    return points, {name: records[name] for name in records.dtype.names if name not in axes}
+
+
+def _holds_numbers(column):
+    return getattr(getattr(column, "dtype", None), "kind", "O") in "biuf"
+
+
+def _flat(column):
+    """A column, or a variable of a grid, as one number per point."""
+    values = _arrays._as_array(column, "A column")
+    return values.reshape(-1) if values.ndim != 1 else values
+
+
+def as_samples(points, fields):
+    """Samples as they are, or made of arrays, or of a table."""
+    if isinstance(points, Samples):
+        if fields is not None:
+            raise TypeError("Samples have their fields: give fields with an array of points.")
+        return points
+    if isinstance(points, Points):
+        return Samples._of(points._dataset)
+    if hasattr(points, "columns") and fields is None:
+        return Samples.from_dataframe(points)
+    return Samples(points, fields)

@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Level sets, normals, splats, clusters, projections, Voronoi diagrams, statistics."""
+
+import numpy as np
+
+from . import _core, _parameters, _report
+from ._progress import listening
+from ._samples import Samples, as_samples
+
+
+def _run(function, samples, parameters, threads, progress, *more):
+    """Run a stage; its last result is the report, whose warnings are told."""
+    with listening(progress) as listener:
+        results = function(samples._dataset, *more, _parameters.to_json(parameters),
+                           _parameters.count(threads, "threads"), listener)
+    _report.tell(results[-1]["warnings"])
+    return results
+
+
+def _with_report(dataset, report):
+    samples = Samples._of(dataset)
+    samples.report = report
+    return samples
+
+
+def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), start=None, outside="lower",
+              threads=0, progress=None, **parameters):
+    """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    iso : float
+        Isovalue, in units of the field.
+    field : str
+        As that of `isosurface`.
+    mu : float, optional
+        Weight of the data against smoothness, in [0, 1]; by default from the values.
+    scale : sequence of three float, or "auto"
+    start : str or dict, optional
+        A field in units of length, or a shape: {"kind": "sphere", "first": centre,
+        "radius": r}, {"kind": "box", "first": low, "second": high}, {"kind": "plane",
+        "first": point, "second": normal}. By default the values themselves.
+    outside : {"lower", "higher"}
+        Of the shapes.
+    **parameters
+        Further ones of the library: scheme, flow, bound, integration, reinitialization,
+        k, max_steps, tolerance, band_width.
+
+    Returns
+    -------
+    Samples
+        With the field `phi`, about the distance to the surface, positive where values
+        are higher; `report` tells mu, noise, spacing, and every step.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> random = np.random.default_rng(1)
+    >>> points = random.random((4000, 3))
+    >>> noisy = np.linalg.norm(points - 0.5, axis=1) + 0.02 * random.standard_normal(4000)
+    >>> smooth = uvol.level_set(points, {"r": noisy}, iso=0.3, mu=0.5)
+    >>> surface = uvol.isosurface(smooth, field="phi", iso=0.0)
+    """
+    samples, name = as_samples(points, fields)._with_field(field, threads, progress)
+    initial = {}
+    if isinstance(start, str):
+        samples, start_name = samples._with_field(start, threads, progress)
+        initial = {"kind": "field", "field": start_name}
+    elif start is not None:
+        initial = dict(start)
+    isovalues = _parameters.numbers(iso, "iso")
+    if len(isovalues) != 1:
+        raise ValueError("A level set has one isovalue.")
+    factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
+    parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
+                      scale=factors)
+    return _with_report(*_run(_core.evolve_level_set, samples, parameters, threads, progress))
+
+
+def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0, 0.0, 0.0), threads=0, progress=None):
+    """Estimate normals of a surface given as points (thesis 4.1).
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples. Normals that they have (fields normal_x,
+        normal_y, normal_z) orient the new ones.
+    k : int
+        Nearest neighbours besides the point, at least 2.
+    scale : sequence of three float
+    view_point : array_like
+        Where points without a normal of their own are seen from.
+
+    Returns
+    -------
+    Samples
+        With normals and `curvature`, and a `report`.
+    """
+    samples = as_samples(points, fields)
+    parameters = {"k": k, "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
+                  "view_point": _parameters.numbers(view_point, "view_point")}
+    return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
+
+
+def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, threads=0, progress=None):
+    """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, a surface, or samples; without normals they are estimated.
+    delta : float
+        Largest distance of points to their splat, in parts of the longest side of their
+        box, or with `delta_is_length` a length.
+    overlap : float
+        The thesis's lambda: part of a splat's radius in which no other one starts.
+
+    Returns
+    -------
+    Samples
+        The splats, with a `report`.
+    """
+    parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
+    return _with_report(*_run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress))
+
+
+class Clusters:
+    """Clusters of samples.
+
+    Attributes
+    ----------
+    labels : numpy.ndarray of int32, shape (n,)
+        From 0 by decreasing size; -1: noise.
+    probabilities : numpy.ndarray of float32, shape (n,)
+        How surely a sample belongs to its cluster.
+    tree : dict of numpy.ndarray
+        All clusters at all densities, a row each: parent, birth_density, death_density,
+        size, stability, label.
+    report : dict
+    """
+
+    def __init__(self, labels, probabilities, tree, report):
+        self.labels = labels
+        self.probabilities = probabilities
+        self.tree = tree
+        self.report = report
+
+    def __len__(self):
+        return int(self.labels.max(initial=-1)) + 1
+
+    def __repr__(self):
+        return f"Clusters: {len(self)} of {len(self.labels)} points, {int((self.labels < 0).sum())} of them noise"
+
+
+def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_size=0, cut=0.0, single=False, threads=0,
+            progress=None):
+    """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    attributes : sequence of str
+        Fields or expressions that span the space; "x", "y" and "z" may be among them.
+    standardized : bool
+        Take attributes in standard deviations, not in their units.
+    k : int
+        Nearest neighbours that tell the density.
+    min_size : int
+        Fewer points are no cluster; 0: the larger one of 10 and the square root of
+        their number.
+    cut : float
+        Choose the clusters at that distance of attributes; 0: by persistence.
+    single : bool
+        All points may be one cluster.
+
+    Returns
+    -------
+    Clusters
+    """
+    samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
+    parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
+                  "cut_distance": cut, "allow_single_cluster": single}
+    return Clusters(*_run(_core.find_clusters, samples, parameters, threads, progress))
+
+
+class Projection:
+    """Points of many attributes in space.
+
+    Attributes
+    ----------
+    places : numpy.ndarray of float32, shape (m, 3)
+        Of the points that have all attributes.
+    sources : numpy.ndarray, shape (m,)
+        Which of the samples these are.
+    labels : numpy.ndarray, shape (m,)
+        Their clusters, negative for noise.
+    map : dict
+        names, mean, offsets and units of the attributes, and the rows of the map;
+        smallest_ratio: the smallest Fisher ratio of two clusters.
+    report : dict
+    """
+
+    def __init__(self, places, sources, labels, projection, report):
+        self.places = places
+        self.sources = sources
+        self.labels = labels
+        self.map = projection
+        self.report = report
+
+
+def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
+            progress=None):
+    """Project points of many attributes into space, so that their clusters lie apart.
+
+    Parameters
+    ----------
+    points, fields, attributes, standardized
+        As those of `cluster`.
+    labels : array_like of int, shape (n,), optional
+        Clusters, negative for noise; by default they are found.
+    method : {"star", "pca"}
+        Keep the clusters apart as well as can be; or principal components.
+
+    Returns
+    -------
+    Projection
+    """
+    samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
+    given = [] if labels is None else np.asarray(labels)
+    if len(given) and (given.ndim != 1 or given.dtype.kind not in "iu"):
+        raise ValueError("labels are whole numbers, one for each point.")
+    parameters = {"attributes": names, "is_standardized": standardized, "method": method}
+    return Projection(*_run(_core.project_points, samples, parameters, threads, progress, list(given)))
+
+
+def _with_attributes(samples, attributes, threads, progress):
+    if isinstance(attributes, str):
+        raise TypeError("attributes is a sequence of names, not one of them.")
+    names = []
+    for attribute in attributes:
+        samples, name = samples._with_field(attribute, threads, progress)
+        names.append(name)
+    return samples, names
+
+
+class VoronoiGrid:
+    """The discrete Voronoi diagram of samples.
+
+    Attributes
+    ----------
+    site : numpy.ndarray of uint32, shape (nz, ny, nx)
+        A point in the nearest cell that holds any.
+    distance : numpy.ndarray of float32, shape (nz, ny, nx)
+        Between the centres of the cells.
+    origin, spacing : numpy.ndarray, shape (3,)
+        Lower corner of the first cell, sides of the cells.
+    report : dict
+    """
+
+    def __init__(self, site, distance, origin, spacing, report):
+        self.site = site
+        self.distance = distance
+        self.origin = np.array(origin)
+        self.spacing = np.array(spacing)
+        self.report = report
+
+
+def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):
+    """Find the nearest point to every cell of a grid (thesis 2.1).
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    cells : int or three int
+        Cubes, so many along the longest side of the points' box; or as many boxes along
+        x, y and z.
+    margin : int
+        More cubes on each side.
+
+    Returns
+    -------
+    VoronoiGrid
+    """
+    counts = [cells, 0, 0] if np.ndim(cells) == 0 else list(cells)
+    if len(counts) != 3:
+        raise ValueError(f"cells has {len(counts)} numbers: it must be one, or three.")
+    parameters = dict(zip(("cells_x", "cells_y", "cells_z"), counts), margin=margin)
+    return VoronoiGrid(*_run(_core.compute_voronoi, as_samples(points, fields), parameters, threads, progress))
+
+
+def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0):
+    """What samples hold: bounds, spacings, and the range of every number.
+
+    Returns
+    -------
+    dict
+        lower, upper, spacing (min, median, max), sampling, non_finite, duplicates,
+        warnings, and per number of `fields` min, max, mean, finite, missing, histogram
+        and isovalues worth a look.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> facts = uvol.info(np.eye(3), {"rho": [1.0, 2.0, 6.0]})
+    >>> facts["fields"]["rho"]["mean"], facts["upper"]
+    (3.0, [1.0, 1.0, 1.0])
+    """
+    samples = as_samples(points, fields)
+    factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
+    facts = _core.describe_places(samples._dataset, factors, _parameters.count(threads, "threads"))
+    facts["points"] = len(samples)
+    facts["fields"] = {}
+    for name in samples.keys():
+        components = samples.records.dtype[name].shape
+        names = [f"{name}[{place}]" for place in range(components[0])] if components else [name]
+        facts["fields"].update((each, _core.describe_field(samples._dataset, each)) for each in names)
+    return facts

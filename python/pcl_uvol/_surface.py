@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Isosurfaces: extraction and what comes out."""
+
+import base64
+import html
+import inspect
+import os
+
+from . import _arrays, _core, _parameters, _report
+from ._pictures import Drawable
+from ._points import Points
+from ._progress import listening
+from ._samples import as_samples
+
+
+class Surface(Drawable, Points):
+    """Points of one or several isosurfaces, with normals and all fields of the samples.
+
+    Attributes
+    ----------
+    report : dict
+        Counts, milliseconds and warnings, the field, isovalues, isopoints of each,
+        scale, error, sampling, and what level sets, validation and meshes tell.
+    parameters : dict
+        What it was extracted with, by the library's names.
+    """
+
+    def __init__(self, dataset, report, parameters, samples):
+        super().__init__(dataset)
+        self.report = report
+        self.parameters = parameters
+        self._samples = samples
+
+    @property
+    def normals(self):
+        """numpy.ndarray, shape (n, 3): unit vectors to the outside, a view."""
+        return _arrays.view_axes(self.records, ("normal_x", "normal_y", "normal_z"))
+
+    def mesh(self, remesh="even", edge_length=0.0, open=False, drop_pieces=0, threads=0, progress=None):
+        """Closed triangle meshes of the same isovalues, from the same samples.
+
+        Parameters
+        ----------
+        remesh : {"even", "none"}
+            Even triangles, or those between the cells as they are.
+        edge_length : float
+            Of even triangles, about, in units of the coordinates; 0: that of the local
+            spacing.
+        open : bool
+            Leave the surface open at the border of the samples instead of closing it.
+        drop_pieces : int
+            Leave out pieces of fewer triangles.
+
+        Returns
+        -------
+        Mesh
+        """
+        if self._samples is None:
+            raise ValueError("This surface has lost its samples, as pickled ones do: extract it with mesh=True.")
+        meshing = dict(remesh=remesh, edge_length=edge_length, open=open, drop_pieces=drop_pieces)
+        parameters = dict(self.parameters, mesh=meshing, max_error=None, drop_bridged=False,
+                          validation={"folds": 0})
+        return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
+
+    def _comments(self):
+        isovalues = ",".join(f"{value:g}" for value in self.report["isovalues"])
+        return [f"isosurface of {self.report['field']} at {isovalues}"]
+
+    def __getstate__(self):
+        state = super().__getstate__()
+        state["_samples"] = None
+        return state
+
+    def _describe(self):
+        values = ", ".join(f"{value:g}" for value in self.report["isovalues"])
+        return f"{type(self).__name__} of {self.report['field']} at {values}: {len(self)} points"
+
+    def __repr__(self):
+        return self._describe()
+
+    def _repr_png_(self):
+        return self.render(size=(640, 480))._repr_png_() if len(self) > 0 else None
+
+    def _repr_html_(self):
+        """A picture, counts and warnings: what a notebook shows."""
+        picture = self._repr_png_()
+        image = base64.b64encode(picture).decode() if picture else ""
+        lines = [f"<b>{html.escape(self._describe())}</b>"]
+        if "error" in self.report:
+            lines.append("estimated error: median {median:.3g}, 95 % within {percentile_95:.3g}".format(
+                **self.report["error"]))
+        lines += [f"&#9888; {html.escape(warning)}" for warning in self.report["warnings"]]
+        if image:
+            lines.append(f'<img src="data:image/png;base64,{image}">')
+        return "<br>".join(lines)
+
+
+class Mesh(Surface):
+    """A triangle mesh of one or several isosurfaces; its vertices are isopoints.
+
+    `piece` tells the connected piece of each vertex, `cap` is 1 where a vertex closes
+    the samples' box, `report["pieces"]` tells triangles, rims and genus of each.
+    """
+
+    def __init__(self, dataset, triangles, report, parameters, samples):
+        super().__init__(dataset, report, parameters, samples)
+        triangles.flags.writeable = False
+        self.triangles = triangles
+
+    @property
+    def vertices(self):
+        """numpy.ndarray, shape (n, 3): the points."""
+        return self.points
+
+    def save(self, path, ascii=False):
+        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
+        from . import _io
+        _io.write(os.fspath(path), self._dataset, self.triangles, bool(ascii), self._comments())
+
+    def _describe(self):
+        return f"{super()._describe()}, {len(self.triangles)} triangles"
+
+
+class Extractor:
+    """Extracts isosurfaces of samples, and keeps the tree for further ones.
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> extractor = uvol.Extractor(points, {"r": np.linalg.norm(points - 0.5, axis=1)})
+    >>> for iso in (0.2, 0.3, 0.4):
+    ...     surface = extractor.extract(iso=iso, outside="higher")
+    """
+
+    def __init__(self, points, fields=None):
+        self.samples = as_samples(points, fields)
+        self._extractor = _core.Extractor()
+
+    def extract(self, *, iso, field="", scale=(1.0, 1.0, 1.0), outside="lower", interpolation="auto",
+                neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
+                normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, validate=0,
+                validate_by="random", mesh=False, threads=0, progress=None):
+        """Extract the isosurfaces of a field: see `isosurface`.
+
+        Returns
+        -------
+        Surface
+            With `mesh` a Mesh.
+        """
+        samples, field = self.samples._with_field(field, threads, progress)
+        factors = _parameters.scale(scale)
+        parameters = {
+            "isosurface": {
+                "field": field,
+                "isovalues": _parameters.numbers(iso, "iso"),
+                "outside": outside,
+                "interpolation": interpolation,
+                "neighbors": neighbors,
+                "voronoi_cells": voronoi_cells,
+                "criterion": criterion,
+                "scale": factors or [1.0, 1.0, 1.0],
+            },
+            "automatic_scale": factors is None,
+            "smooth": smooth,
+            "level_set": dict(level_set or {}, **({} if mu is None else {"mu": mu})),
+            "normals": normals,
+            "normal_neighbors": normal_neighbors,
+            "max_error": max_error,
+            "drop_bridged": drop_bridged,
+            "validation": _validation(validate, validate_by),
+            "mesh": dict(mesh) if isinstance(mesh, dict) else ({} if mesh else None),
+        }
+        return _extract(self._extractor, samples, parameters, threads, progress)
+
+    def __reduce__(self):
+        return Extractor, (self.samples,)
+
+
+def _validation(folds, by):
+    if by in ("random", "blocks"):
+        return {"folds": folds, "by": by}
+    return {"folds": folds, "by": "field", "field": by}
+
+
+def _extract(extractor, samples, parameters, threads, progress):
+    """A surface, or with parameters of one a mesh."""
+    with listening(progress) as listener:
+        dataset, triangles, report = extractor.extract(samples._dataset, _parameters.to_json(parameters),
+                                                       _parameters.count(threads, "threads"), listener)
+    report["isovalues"] = parameters["isosurface"]["isovalues"]
+    parameters = dict(parameters, isosurface=dict(parameters["isosurface"], field=report["field"]))
+    if parameters["mesh"] is None:
+        surface = Surface(dataset, report, parameters, samples)
+    else:
+        surface = Mesh(dataset, triangles, report, parameters, samples)
+    _report.tell(report["warnings"])
+    return surface
+
+
+def isosurface(points, fields=None, **options):
+    """Extract isosurfaces of a scalar field given at scattered points.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3), or Samples
+    fields : mapping of str to array_like, optional
+        See `Samples`.
+    iso : float or sequence of float
+        Isovalues, in units of the field.
+    field : str
+        The scalar: a field's name, `vel[1]`, `|vel|`, or an expression as `log10(rho)`.
+        By default `intensity`, else the only candidate.
+    scale : sequence of three float, or "auto"
+        Factors per axis of the space that neighbours are found in; "auto": equal spread
+        along each.
+    outside : {"lower", "higher"}
+        The side that normals point to: where values are lower, or higher.
+    interpolation : {"auto", "fit", "linear"}
+        Isopoints on local polynomial fits, or along the edges between samples; "auto"
+        decides for each point.
+    neighbors : {"kdtree", "voronoi"}
+        Where neighbours are looked for; voronoi_cells along the longest side, 0: 4
+        samples to a cell.
+    criterion : {"kept", "all"}
+        See the library's AngleCriterion.
+    smooth : bool
+        Smooth noisy or uneven samples by a level set first, with the weight `mu` of the
+        data in [0, 1] (by default from the values) and further parameters of the level
+        set in the dictionary `level_set`.
+    normals : {"auto", "fit", "pca", "edge"}
+        How isopoints are oriented; pca takes `normal_neighbors` (default 30).
+    max_error : float, optional
+        Leave out isopoints of a larger estimated error, in units of length.
+    drop_bridged : bool
+        Leave out isopoints in gaps of the sampling.
+    validate : int
+        Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
+        or the name of a field.
+    mesh : bool or dict
+        Make closed triangle meshes; parameters as those of `Surface.mesh`.
+    threads : int
+        0: all cores. The result does not depend on it.
+    progress : bool or callable, optional
+        True: a bar; else called as progress(step, done) with the share done in [0, 1].
+
+    Returns
+    -------
+    Surface
+        With `mesh` a Mesh.
+
+    Raises
+    ------
+    ValueError
+        For arrays and parameters that are of no use.
+    FieldError
+        A KeyError, for a field that is not there.
+    MemoryError
+        Before the work begins, if the forecast exceeds what there is.
+
+    Examples
+    --------
+    >>> import numpy as np, pcl_uvol as uvol
+    >>> points = np.random.default_rng(1).random((20000, 3))
+    >>> r = np.linalg.norm(points - 0.5, axis=1)
+    >>> surface = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher")
+    >>> bool(abs(np.linalg.norm(surface.points - 0.5, axis=1) - 0.3).max() < 1e-3)
+    True
+    >>> surface.normals.shape == surface.points.shape
+    True
+    """
+    return Extractor(points, fields).extract(**options)
+
+
+def _show_options():
+    """Let help() and editors show the keywords of extract() as those of isosurface()."""
+    own = list(inspect.signature(isosurface).parameters.values())[:-1]
+    keywords = list(inspect.signature(Extractor.extract).parameters.values())[1:]
+    isosurface.__signature__ = inspect.Signature(own + keywords)
+
+
+_show_options()

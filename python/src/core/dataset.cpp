@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points with their fields, in memory that numpy looks into.
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "core/bindings.h"
+#include "core/interruptible.h"
+#include "pipeline/dataset_info.h"
+#include "shared/convert.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/expressions/derived_fields.h>
+
+#include <array>
+#include <cstring>
+#include <pybind11/stl.h>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/** Name, numpy's type and components of a field. */
+using FieldSpec = std::tuple<std::string, std::string, std::size_t>;
+
+struct NumberType {
+  const char* name;
+  std::uint8_t datatype;
+};
+
+using Type = pcl::PCLPointField;
+constexpr std::array<NumberType, 11> number_types = {{{"?", Type::BOOL},
+                                                      {"i1", Type::INT8},
+                                                      {"u1", Type::UINT8},
+                                                      {"i2", Type::INT16},
+                                                      {"u2", Type::UINT16},
+                                                      {"i4", Type::INT32},
+                                                      {"u4", Type::UINT32},
+                                                      {"i8", Type::INT64},
+                                                      {"u8", Type::UINT64},
+                                                      {"f4", Type::FLOAT32},
+                                                      {"f8", Type::FLOAT64}}};
+
+std::uint8_t
+toDatatype(const std::string& name)
+{
+  for (const NumberType& type : number_types)
+    if (name == type.name)
+      return type.datatype;
+  throw InvalidArgument("Fields have no type " + name + ".");
+}
+
+const char*
+toTypeName(std::uint8_t datatype)
+{
+  for (const NumberType& type : number_types)
+    if (datatype == type.datatype)
+      return type.name;
+  throw InvalidArgument("Numpy has no type for a field's datatype " +
+                        std::to_string(int{datatype}) + ".");
+}
+
+/** Records to be filled in through their bytes; settle() makes points of them. */
+DatasetPtr
+allocate(const std::vector<FieldSpec>& specs, std::uint64_t count)
+{
+  Fields fields;
+  for (const auto& [name, type, components] : specs)
+    appendField(fields, name, toDatatype(type), components);
+  Dataset dataset;
+  dataset.cloud = makeRecords(std::move(fields), 0);
+  // Points that are records already need not be moved: their step is a multiple of 4.
+  dataset.cloud.point_step = (dataset.cloud.point_step + 3u) / 4u * 4u;
+  checkSize(count, dataset.cloud.point_step);
+  resizePoints(dataset.cloud, count);
+  return share(std::move(dataset));
+}
+
+/** Coordinates of any type become float32 beside an origin, as in files. Arrays that
+ * look into the records are of no use any more. */
+void
+settle(Dataset& dataset)
+{
+  const py::gil_scoped_release unlocked;
+  dataset = makeDataset(std::move(dataset.cloud));
+}
+
+/** The bytes of all points, a row each: no copy. */
+py::array
+viewBytes(const py::object& self)
+{
+  auto& cloud = self.cast<Dataset&>().cloud;
+  return py::array_t<std::uint8_t>({static_cast<py::ssize_t>(cloud.width),
+                                    static_cast<py::ssize_t>(cloud.point_step)},
+                                   cloud.data.data(),
+                                   self);
+}
+
+/** Name, numpy's type, components and first byte of all fields. */
+py::list
+listFields(const Dataset& dataset)
+{
+  py::list list;
+  for (const pcl::PCLPointField& field : dataset.cloud.fields)
+    if (!isPadding(field))
+      list.append(py::make_tuple(toText(field.name),
+                                 toTypeName(field.datatype),
+                                 std::max<std::size_t>(field.count, 1),
+                                 field.offset));
+  return list;
+}
+
+/** The dataset itself where it has the field, else a copy with it. */
+py::tuple
+withField(const DatasetPtr& dataset,
+          const std::string& expression,
+          unsigned threads,
+          const py::object& progress)
+{
+  Report report;
+  DatasetPtr result = dataset;
+  std::string name = expression;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    try {
+      ScalarField(dataset->cloud.fields, expression);
+    }
+    catch (const InvalidArgument&) {
+      result = std::make_shared<Dataset>(*dataset);
+      name = addDerivedField(*result, expression, {threads, ""}, report);
+    }
+  });
+  return py::make_tuple(result, toText(name), toDict(report));
+}
+
+py::tuple
+selectPoints(const Dataset& dataset, const std::string& where, unsigned threads)
+{
+  DatasetPtr result;
+  std::size_t removed = 0;
+  {
+    const py::gil_scoped_release unlocked;
+    result = std::make_shared<Dataset>(dataset);
+    removed = selectRows(*result, where, {threads, ""});
+  }
+  return py::make_tuple(result, removed);
+}
+
+/** The points of some indices. */
+DatasetPtr
+takePoints(
+    const Dataset& dataset,
+    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& indices)
+{
+  auto result = std::make_shared<Dataset>(withoutCloud(dataset));
+  result->cloud = makeRecords(dataset.cloud.fields, 0);
+  const std::size_t step = dataset.cloud.point_step;
+  result->cloud.point_step = static_cast<pcl::uindex_t>(step);
+  resizePoints(result->cloud, static_cast<std::size_t>(indices.size()));
+  for (py::ssize_t i = 0; i < indices.size(); ++i) {
+    const std::int64_t index = indices.data()[i];
+    if (index < 0 || index >= std::int64_t{dataset.cloud.width})
+      throw py::index_error("There is no point " + std::to_string(index) + ".");
+    std::memcpy(&result->cloud.data[static_cast<std::size_t>(i) * step],
+                &dataset.cloud.data[static_cast<std::size_t>(index) * step],
+                step);
+  }
+  return result;
+}
+
+/** Values of a scalar that needs no computation: `vel[1]`, `|vel|`. */
+py::array_t<double>
+readScalar(const Dataset& dataset, const std::string& name)
+{
+  std::vector<double> values =
+      readFieldValues(dataset, ScalarField(dataset.cloud.fields, name));
+  const auto count = static_cast<py::ssize_t>(values.size());
+  return toArray(std::move(values), {count});
+}
+
+py::tuple
+getState(const Dataset& dataset)
+{
+  py::list fields;
+  for (const pcl::PCLPointField& field : dataset.cloud.fields)
+    fields.append(py::make_tuple(
+        py::bytes(field.name), field.offset, field.datatype, field.count));
+  const auto& data = dataset.cloud.data;
+  return py::make_tuple(
+      fields,
+      dataset.cloud.width,
+      dataset.cloud.point_step,
+      py::bytes(reinterpret_cast<const char*>(data.data()), data.size()),
+      dataset.origin,
+      dataset.double_coordinates,
+      dataset.has_coordinates,
+      dataset.notes);
+}
+
+DatasetPtr
+setState(const py::tuple& state)
+{
+  Dataset dataset;
+  auto& cloud = dataset.cloud;
+  for (const py::handle item : state[0]) {
+    const auto values = item.cast<py::tuple>();
+    pcl::PCLPointField field;
+    field.name = values[0].cast<std::string>();
+    field.offset = values[1].cast<pcl::uindex_t>();
+    field.datatype = values[2].cast<std::uint8_t>();
+    field.count = values[3].cast<pcl::uindex_t>();
+    cloud.fields.push_back(std::move(field));
+  }
+  cloud.point_step = state[2].cast<pcl::uindex_t>();
+  const auto bytes = state[3].cast<std::string_view>();
+  cloud.data.assign(bytes.begin(), bytes.end());
+  cloud.height = 1;
+  cloud.width = state[1].cast<pcl::uindex_t>();
+  cloud.row_step = cloud.width * cloud.point_step;
+  checkComplete(cloud);
+  dataset.origin = state[4].cast<std::array<double, 3>>();
+  dataset.double_coordinates = state[5].cast<bool>();
+  dataset.has_coordinates = state[6].cast<bool>();
+  dataset.notes = state[7].cast<std::vector<std::string>>();
+  return share(std::move(dataset));
+}
+
+} // namespace
+
+void
+bindDataset(py::module_& module)
+{
+  py::class_<Dataset, DatasetPtr>(module, "Dataset")
+      .def_static("allocate", &allocate)
+      .def("settle", &settle)
+      .def_property_readonly("bytes", &viewBytes)
+      .def_property_readonly("fields", &listFields)
+      .def_property_readonly("count",
+                             [](const Dataset& dataset) { return dataset.cloud.width; })
+      .def_readonly("origin", &Dataset::origin)
+      .def_readonly("double_coordinates", &Dataset::double_coordinates)
+      .def_readonly("has_coordinates", &Dataset::has_coordinates)
+      .def_readonly("notes", &Dataset::notes)
+      .def("with_field", &withField)
+      .def("select", &selectPoints)
+      .def("take", &takePoints)
+      .def("read_scalar", &readScalar)
+      .def(py::pickle(&getState, &setState));
+}
+
+} // namespace pcl_uvol::python

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields between the samples: a model that answers queries, and the places of lines,
+// slices and grids.
+#include "core/bindings.h"
+#include "core/interruptible.h"
+#include "interpolation/answer_summary.h"
+#include "interpolation/query_lattice.h"
+#include "shared/convert.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/interpolation/cross_validation.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
+
+#include <array>
+#include <memory>
+#include <numeric>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using detail::AnswerSummary;
+using detail::Bounds;
+using detail::FieldInterpolator;
+using detail::Place;
+using detail::QueryLattice;
+using Queries = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/** A model of some fields, ready for queries. Any number of threads may ask at once. */
+class Interpolator {
+public:
+  /** \param parameters JSON of InterpolationParameters */
+  Interpolator(const DatasetPtr& samples,
+               const std::string& parameters,
+               unsigned threads,
+               const py::object& progress)
+      : samples_(samples)
+      , parameters_(InterpolationParameters::fromJson(parameters))
+      , view_(viewOf(samples->cloud))
+      , indices_(view_.count)
+  {
+    std::iota(indices_.begin(), indices_.end(), 0);
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      report_.progress = callback;
+      if (parameters_.model == InterpolationModel::Auto)
+        parameters_.model = chooseModel(view_, indices_, parameters_, threads, report_)
+                                .scores.front()
+                                .model;
+      interpolator_ = std::make_unique<FieldInterpolator>(
+          view_, indices_, parameters_, threads, report_);
+      report_.progress = nullptr;
+    });
+  }
+
+  /** \param queries in coordinates with the origin added, shape (n, 3)
+   * \return values, errors and gradients, field by field, support, and the report */
+  py::dict
+  answer(const Queries& queries, unsigned threads, const py::object& progress) const
+  {
+    std::vector<Place> places(static_cast<std::size_t>(queries.shape(0)));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        places[i][axis] = queries.data()[3 * i + axis] - samples_->origin[axis];
+    InterpolatedFields answers;
+    Report report;
+    report.counts = report_.counts;
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      report.progress = callback;
+      answers = interpolator_->interpolate(places, threads, report);
+      AnswerSummary summary(view_, indices_, interpolator_->getNames());
+      summary.add(answers);
+      summary.warn(report);
+    });
+    return toAnswers(std::move(answers), report);
+  }
+
+  /** Copies of points with the answers at their places, as uvol_probe writes them. */
+  py::tuple
+  probe(const Dataset& points, unsigned threads, const py::object& progress) const
+  {
+    auto result = std::make_shared<Dataset>(points);
+    std::vector<Place> places = detail::placesOf(viewOf(points.cloud));
+    for (Place& place : places)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        place[axis] += points.origin[axis] - samples_->origin[axis];
+    Report report;
+    report.counts = report_.counts;
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      report.progress = callback;
+      const auto answers = interpolator_->interpolate(places, threads, report);
+      AnswerSummary summary(view_, indices_, interpolator_->getNames());
+      summary.add(answers);
+      summary.warn(report);
+      appendFields(answers, result->cloud);
+    });
+    return py::make_tuple(result, toDict(report));
+  }
+
+  py::list
+  getNames() const
+  {
+    py::list names;
+    for (const std::string& name : interpolator_->getNames())
+      names.append(toText(name));
+    return names;
+  }
+
+  std::string
+  getParameters() const
+  {
+    return parameters_.toJson();
+  }
+
+  py::dict
+  getReport() const
+  {
+    return toDict(report_);
+  }
+
+private:
+  static py::dict
+  toAnswers(InterpolatedFields&& answers, const Report& report)
+  {
+    const auto fields = static_cast<py::ssize_t>(answers.names.size());
+    const auto size = static_cast<py::ssize_t>(answers.size);
+    std::vector<std::uint8_t> support;
+    support.reserve(answers.support.size());
+    for (const FieldSupport kind : answers.support)
+      support.push_back(static_cast<std::uint8_t>(kind));
+    py::dict dict;
+    dict["values"] = toArray(std::move(answers.values), {fields, size});
+    if (!answers.errors.empty() || size == 0)
+      dict["errors"] = toArray(std::move(answers.errors), {fields, size});
+    if (!answers.gradients.empty() || size == 0)
+      dict["gradients"] = toArray(std::move(answers.gradients), {fields, size, 3});
+    dict["support"] = toArray(std::move(support), {size});
+    dict["report"] = toDict(report);
+    return dict;
+  }
+
+  DatasetPtr samples_;
+  InterpolationParameters parameters_;
+  CloudView view_;
+  pcl::Indices indices_;
+  std::unique_ptr<const FieldInterpolator> interpolator_;
+  Report report_; ///< of making the model
+};
+
+/** The box of samples, in coordinates with the origin added. */
+py::tuple
+findBounds(const Dataset& samples)
+{
+  Bounds bounds = detail::boundsOf(viewOf(samples.cloud));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    bounds.low[axis] += samples.origin[axis];
+    bounds.high[axis] += samples.origin[axis];
+  }
+  return py::make_tuple(bounds.low, bounds.high);
+}
+
+/** \return all places, and along each axis how many, and the step */
+py::tuple
+describe(const QueryLattice& lattice)
+{
+  std::vector<double> places;
+  places.reserve(3 * lattice.size());
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    const Place place = lattice.at(i);
+    places.insert(places.end(), place.begin(), place.end());
+  }
+  const auto count = static_cast<py::ssize_t>(lattice.size());
+  return py::make_tuple(
+      toArray(std::move(places), {count, 3}), lattice.counts, lattice.steps);
+}
+
+py::tuple
+placeSlice(const Place& point,
+           const Place& normal,
+           const Bounds& box,
+           const std::array<std::size_t, 2>& counts)
+{
+  const auto slice = detail::makeSlice({point, normal}, box, counts);
+  return py::make_tuple(describe(slice.lattice), slice.horizontal, slice.vertical);
+}
+
+} // namespace
+
+void
+bindInterpolation(py::module_& module)
+{
+  py::class_<Interpolator>(module, "Interpolator")
+      .def(py::init<const DatasetPtr&,
+                    const std::string&,
+                    unsigned,
+                    const py::object&>())
+      .def("answer", &Interpolator::answer)
+      .def("probe", &Interpolator::probe)
+      .def_property_readonly("names", &Interpolator::getNames)
+      .def_property_readonly("parameters", &Interpolator::getParameters)
+      .def_property_readonly("report", &Interpolator::getReport);
+  module.def("bounds", &findBounds);
+  module.def("line", [](const Place& from, const Place& to, std::size_t count) {
+    return describe(detail::makeLine(from, to, count));
+  });
+  module.def("slice",
+             [](const Place& point,
+                const Place& normal,
+                const Place& low,
+                const Place& high,
+                const std::array<std::size_t, 2>& counts) {
+               return placeSlice(point, normal, {low, high}, counts);
+             });
+  module.def("cubic_grid", [](const Place& low, const Place& high, std::size_t count) {
+    return describe(detail::makeCubicGrid({low, high}, count));
+  });
+  module.def("grid",
+             [](const Place& low,
+                const Place& high,
+                const std::array<std::size_t, 3>& counts) {
+               return describe(detail::makeGrid({low, high}, counts));
+             });
+}
+
+} // namespace pcl_uvol::python

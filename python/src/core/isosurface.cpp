@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline from samples to an isosurface, which keeps its tree.
+#include "common/memory.h"
+#include "core/bindings.h"
+#include "core/interruptible.h"
+#include "pipeline/memory_need.h"
+#include "shared/convert.h"
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <memory>
+#include <mutex>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/** Edges of a sample across the isovalue, if its value jumps to and fro. */
+constexpr double most_edges = 6.0;
+
+/** Memory that a run will not get, with the forecast. */
+class NotEnoughMemory : public std::bad_alloc {
+public:
+  explicit NotEnoughMemory(std::string message)
+      : message_(std::move(message))
+  {
+  }
+
+  const char*
+  what() const noexcept override
+  {
+    return message_.c_str();
+  }
+
+private:
+  std::string message_;
+};
+
+void
+checkForecast(std::size_t points, double bytes)
+{
+  const auto taken = static_cast<double>(residentMemory());
+  try {
+    checkMemory(
+        "An isosurface of " + std::to_string(points) + " points", taken + bytes, taken);
+  }
+  catch (const InvalidArgument& error) {
+    throw NotEnoughMemory(error.message());
+  }
+}
+
+py::dict
+describe(const LevelSetSummary& summary)
+{
+  py::dict dict;
+  dict["spacing"] = summary.spacing;
+  dict["noise"] = summary.noise;
+  dict["mu"] = summary.mu;
+  dict["smoothed"] = summary.smoothed;
+  dict["converged"] = summary.converged;
+  dict["steps"] = summary.steps.size();
+  return dict;
+}
+
+py::dict
+describe(const SurfacePiece& piece)
+{
+  py::dict dict;
+  dict["isovalue"] = piece.isovalue;
+  dict["vertices"] = piece.vertices;
+  dict["triangles"] = piece.triangles;
+  dict["rims"] = piece.rims;
+  dict["genus"] = piece.genus;
+  return dict;
+}
+
+py::dict
+describe(const ValidationScore& score)
+{
+  py::dict dict;
+  dict["tested"] = score.tested;
+  dict["near"] = score.covered;
+  dict["side"] = score.side.predicted;
+  dict["side_of_nearest"] = score.side.nearest;
+  dict["side_base"] = score.side.base;
+  dict["side_of_field"] = score.side_of_field;
+  dict["side_everywhere"] = score.side_everywhere;
+  dict["class"] = score.field.predicted;
+  dict["class_of_nearest"] = score.field.nearest;
+  dict["class_base"] = score.field.base;
+  dict["beyond_error"] = score.beyond_error;
+  dict["side_beyond_error"] = score.side_beyond_error;
+  return dict;
+}
+
+template <typename Items>
+py::list
+toList(const Items& items)
+{
+  py::list list;
+  for (const auto& item : items)
+    list.append(describe(item));
+  return list;
+}
+
+/** What is told of a surface besides its points. */
+py::dict
+describe(const IsosurfaceResult& result)
+{
+  py::dict report = toDict(result.report);
+  report["field"] = toText(result.field);
+  report["isopoints"] = result.isopoints;
+  report["scale"] = std::vector<float>(result.scale.data(), result.scale.data() + 3);
+  report["level_sets"] = toList(result.level_sets);
+  report["validation"] = toList(result.validation);
+  if (result.errors) {
+    py::dict errors;
+    errors["median"] = result.errors->median;
+    errors["percentile_95"] = result.errors->percentile_95;
+    errors["largest"] = result.errors->largest;
+    report["error"] = errors;
+  }
+  if (result.sampling) {
+    py::dict sampling;
+    sampling["shares"] = result.sampling->shares;
+    sampling["along"] = result.sampling->along;
+    sampling["across"] = result.sampling->across;
+    report["sampling"] = sampling;
+  }
+  if (!result.pieces.empty()) {
+    report["pieces"] = toList(result.pieces);
+    report["smallest_angle"] = result.smallest_angle;
+  }
+  return report;
+}
+
+py::array_t<std::uint32_t>
+toIndices(const std::vector<Triangle>& triangles)
+{
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles)
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  return toArray(std::move(indices), {static_cast<py::ssize_t>(triangles.size()), 3});
+}
+
+/** A pipeline for one caller at a time. */
+class Extractor {
+public:
+  /** \param parameters JSON of IsosurfacePipelineParameters
+   * \return points, triangles and report */
+  py::tuple
+  extract(const DatasetPtr& samples,
+          const std::string& parameters,
+          unsigned threads,
+          const py::object& progress)
+  {
+    IsosurfaceResult result;
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      result = run(samples, parameters, threads, callback);
+    });
+    const py::dict report = describe(result);
+    return py::make_tuple(
+        share(std::move(result.surface)), toIndices(result.triangles), report);
+  }
+
+private:
+  IsosurfaceResult
+  run(const DatasetPtr& samples,
+      const std::string& parameters,
+      unsigned threads,
+      const ProgressCallback& progress)
+  {
+    if (samples != samples_)
+      pipeline_.setInput(samples);
+    samples_ = samples;
+    pipeline_.setParameters(IsosurfacePipelineParameters::fromJson(parameters));
+    pipeline_.setNumberOfThreads(threads);
+    pipeline_.setProgressCallback(progress);
+    checkParameters(pipeline_.getParameters());
+    checkNeed();
+    return pipeline_.run();
+  }
+
+  /** Before work whose result would be lost. The sizes of surfaces are estimated, which
+   * takes time, only where the most that there may be does not fit. */
+  void
+  checkNeed() const
+  {
+    const auto points = static_cast<double>(samples_->cloud.width);
+    const IsosurfacePipelineParameters& parameters = pipeline_.getParameters();
+    const std::vector<SurfaceSize> most(parameters.isosurface.isovalues.size(),
+                                        {points, most_edges * points});
+    MemoryForecast forecast(0.0);
+    addMemoryNeed(parameters, points, samples_->cloud.point_step, most, forecast);
+    if (forecast.getPeak() > static_cast<double>(availableMemory()))
+      checkForecast(samples_->cloud.width, pipeline_.estimateMemory());
+  }
+
+  std::mutex mutex_;
+  std::shared_ptr<const Dataset> samples_;
+  IsosurfacePipeline pipeline_;
+};
+
+} // namespace
+
+void
+bindIsosurface(py::module_& module)
+{
+  py::class_<Extractor>(module, "Extractor")
+      .def(py::init<>())
+      .def("extract", &Extractor::extract);
+}
+
+} // namespace pcl_uvol::python

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The extension _core: everything but files, without VTK. Its face is for the Python
+// files beside it, not for users.
+#include "core/bindings.h"
+
+PYBIND11_MODULE(_core, module)
+{
+  using namespace pcl_uvol::python;
+  bindErrors(module);
+  bindDataset(module);
+  bindIsosurface(module);
+  bindInterpolation(module);
+  bindSurfaceStages(module);
+  bindClusterStages(module);
+  bindSamplingStages(module);
+  bindPictures(module);
+}

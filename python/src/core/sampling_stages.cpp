@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What samples are like: statistics, spacings, and the nearest of them by Voronoi
+// diagrams.
+#include "common/scalar_field.h"
+#include "core/bindings.h"
+#include "core/run_stage.h"
+#include "neighbors/anisotropy.h"
+#include "pipeline/dataset_info.h"
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
+
+#include <array>
+#include <pybind11/stl.h>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/** \return a point in the nearest filled cell, and the distance, per cell with z
+ * slowest; the lower corner and the sides of the cells */
+py::tuple
+computeVoronoi(const DatasetPtr& dataset,
+               const std::string& parameters,
+               unsigned threads,
+               const py::object& progress)
+{
+  VoronoiDiagram<Cloud> diagram;
+  std::vector<std::uint32_t> nearest;
+  std::vector<float> distances;
+  GridShape shape;
+  const py::dict report =
+      runStage(diagram, dataset, parameters, threads, progress, [&] {
+        const auto grid = diagram.compute();
+        shape = grid->getShape();
+        nearest = grid->getNearest();
+        for (std::uint32_t& site : nearest)
+          site = *grid->getMembers()[site].begin();
+        distances = grid->computeDistances(threads);
+      });
+  const std::vector<py::ssize_t> sides(shape.cells.rbegin(), shape.cells.rend());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    shape.origin[axis] += dataset->origin[axis];
+  return py::make_tuple(toArray(std::move(nearest), sides),
+                        toArray(std::move(distances), sides),
+                        shape.origin,
+                        shape.spacing,
+                        report);
+}
+
+py::dict
+describe(const ValueStatistics& statistics)
+{
+  py::dict dict;
+  if (statistics.finite > 0) {
+    dict["min"] = statistics.min;
+    dict["max"] = statistics.max;
+    dict["mean"] = statistics.mean;
+  }
+  dict["finite"] = statistics.finite;
+  dict["missing"] = statistics.missing;
+  dict["histogram"] = statistics.histogram;
+  dict["isovalues"] = statistics.isovalues;
+  return dict;
+}
+
+py::dict
+describeField(const Dataset& dataset, const std::string& field)
+{
+  return describe(describeValues(
+      readFieldValues(dataset, ScalarField(dataset.cloud.fields, field))));
+}
+
+py::dict
+describePlaces(const Dataset& dataset,
+               const std::array<float, 3>& scale,
+               unsigned threads)
+{
+  PositionStatistics statistics;
+  {
+    const py::gil_scoped_release unlocked;
+    statistics = describePositions(dataset, Eigen::Array3f(scale.data()), threads);
+  }
+  py::dict dict;
+  dict["non_finite"] = statistics.non_finite;
+  dict["duplicates"] = statistics.duplicates;
+  dict["lower"] = statistics.lower;
+  dict["upper"] = statistics.upper;
+  dict["spacing"] = py::dict(py::arg("min") = statistics.spacing_min,
+                             py::arg("median") = statistics.spacing_median,
+                             py::arg("max") = statistics.spacing_max);
+  dict["sampling"] = py::dict(py::arg("shares") = statistics.sampling.shares,
+                              py::arg("along") = statistics.sampling.along,
+                              py::arg("across") = statistics.sampling.across);
+  dict["warnings"] = statistics.warnings;
+  return dict;
+}
+
+std::array<float, 3>
+equalScale(const Dataset& dataset)
+{
+  const py::gil_scoped_release unlocked;
+  const Eigen::Array3f scale = equalizingScale(viewOf(dataset.cloud));
+  return {scale[0], scale[1], scale[2]};
+}
+
+} // namespace
+
+void
+bindSamplingStages(py::module_& module)
+{
+  module.def("compute_voronoi", &computeVoronoi);
+  module.def("describe_field", &describeField);
+  module.def("describe_places", &describePlaces);
+  module.def("equalizing_scale", &equalScale);
+}
+
+} // namespace pcl_uvol::python

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Level sets, and what is made of points on a surface.
+#include "common/scalar_field.h"
+#include "core/bindings.h"
+#include "core/run_stage.h"
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/surface/splat_generation.h>
+#include <pcl_uvol/surface/surface_normals.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::list
+describeSteps(const std::vector<LevelSetStep>& steps)
+{
+  py::list list;
+  for (const LevelSetStep& step : steps) {
+    py::dict dict;
+    dict["time"] = step.time;
+    dict["change"] = step.change;
+    dict["min_slope"] = step.min_slope;
+    dict["max_slope"] = step.max_slope;
+    dict["slope_error"] = step.slope_error;
+    dict["energy"] = step.energy;
+    dict["reinitialized"] = step.reinitialized;
+    list.append(dict);
+  }
+  return list;
+}
+
+py::tuple
+evolveLevelSet(const DatasetPtr& dataset,
+               const std::string& parameters,
+               unsigned threads,
+               const py::object& progress)
+{
+  LevelSetEvolution<Cloud> evolution;
+  Cloud cloud;
+  py::dict report = runStage(evolution, dataset, parameters, threads, progress, [&] {
+    auto shifted = evolution.getParameters();
+    const Eigen::Array3d origin(dataset->origin.data());
+    shifted.initial.first -= origin;
+    if (shifted.initial.kind == InitialKind::Box)
+      shifted.initial.second -= origin;
+    if (shifted.field.empty())
+      shifted.field = ScalarField::defaultName(dataset->cloud.fields);
+    evolution.setParameters(shifted);
+    evolution.evolve(cloud);
+  });
+  const LevelSetSummary& summary = evolution.getSummary();
+  report["field"] = toText(evolution.getParameters().field);
+  report["spacing"] = summary.spacing;
+  report["noise"] = summary.noise;
+  report["mu"] = summary.mu;
+  report["smoothed"] = summary.smoothed;
+  report["converged"] = summary.converged;
+  report["steps"] = describeSteps(summary.steps);
+  return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
+}
+
+py::tuple
+estimateNormals(const DatasetPtr& dataset,
+                const std::string& parameters,
+                unsigned threads,
+                const py::object& progress)
+{
+  SurfaceNormalEstimation<Cloud, pcl::PointNormal> estimation;
+  Cloud cloud;
+  const py::dict report =
+      runStage(estimation, dataset, parameters, threads, progress, [&] {
+        auto shifted = estimation.getParameters();
+        shifted.view_point =
+            (shifted.view_point.cast<double>() - Eigen::Array3d(dataset->origin.data()))
+                .cast<float>();
+        estimation.setParameters(shifted);
+        pcl::PointCloud<pcl::PointNormal> points;
+        estimation.compute(points);
+        const CloudView view = viewOf(dataset->cloud);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          points[i].getVector3fMap() = Eigen::Vector3f(view.xyz(i));
+        std::vector<std::uint32_t> all(points.size());
+        std::iota(all.begin(), all.end(), 0u);
+        pcl::toPCLPointCloud2(points, cloud);
+        copyFields(dataset->cloud, all, cloud, threads);
+      });
+  return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
+}
+
+py::tuple
+generateSplats(const DatasetPtr& dataset,
+               const std::string& parameters,
+               unsigned threads,
+               const py::object& progress)
+{
+  SplatGeneration<Cloud> generation;
+  Cloud cloud;
+  const py::dict report =
+      runStage(generation, dataset, parameters, threads, progress, [&] {
+        pcl::PointCloud<PointSplat> splats;
+        generation.compute(splats);
+        pcl::toPCLPointCloud2(splats, cloud);
+        copyFields(dataset->cloud, generation.getSources(), cloud, threads);
+      });
+  return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
+}
+
+} // namespace
+
+void
+bindSurfaceStages(py::module_& module)
+{
+  module.def("evolve_level_set", &evolveLevelSet);
+  module.def("estimate_normals", &estimateNormals);
+  module.def("generate_splats", &generateSplats);
+}
+
+} // namespace pcl_uvol::python

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which format a file has: by the ending of its name, else by its first bytes.
+#include "common/printable.h"
+#include "common/similar_words.h"
+#include "io/files.h"
+#include "io/formats.h"
+#include "io/hdf5_file.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+constexpr struct {
+  const char* ending;
+  FileFormat format;
+} known_endings[] = {{".pcd", FileFormat::Pcd},     {".ply", FileFormat::Ply},
+                     {".csv", FileFormat::Text},    {".txt", FileFormat::Text},
+                     {".xyz", FileFormat::Text},    {".dat", FileFormat::Text},
+                     {".tsv", FileFormat::Text},    {".vtk", FileFormat::Vtk},
+                     {".vtp", FileFormat::Vtk},     {".vtu", FileFormat::Vtk},
+                     {".vts", FileFormat::Vtk},     {".las", FileFormat::Las},
+                     {".npy", FileFormat::Npy},     {".npz", FileFormat::Npz},
+                     {".h5", FileFormat::Hdf5},     {".hdf5", FileFormat::Hdf5},
+                     {".hdf", FileFormat::Hdf5},    {".he5", FileFormat::Hdf5},
+                     {".h5part", FileFormat::Hdf5}, {".vtkhdf", FileFormat::Hdf5}};
+
+/** What usually makes a file that is read of one that is not. */
+constexpr struct {
+  const char* ending;
+  const char* way;
+} converters[] = {
+    {".laz", "laszip -i in.laz -o out.las unpacks it"},
+    {".e57", "pdal translate in.e57 out.las converts it"},
+    {".bgeo", "splashsurf convert in.bgeo out.vtk converts it"},
+    {".ex2", "meshio convert in.ex2 out.vtu converts it, and so does ParaView"},
+    {".exo", "meshio convert in.exo out.vtu converts it, and so does ParaView"},
+    {".e", "meshio convert in.e out.vtu converts it, and so does ParaView"},
+    {".cgns", "meshio convert in.cgns out.vtu converts it, and so does ParaView"},
+    {".msh", "meshio convert in.msh out.vtu converts it"},
+    {".xdmf", "meshio convert in.xdmf out.vtu converts it"},
+    {".case", "ParaView saves its data as .vtu"},
+    {".foam", "foamToVTK writes .vtu files of it"},
+    {".pvd", "name one of the files that it lists"},
+    {".pvtu", "name one of the files that it lists"},
+    {".vtm", "name one of the files that it lists"},
+    {".pvtp", "uvol_isosurface_mpi reads it, or name one of the files that it lists"},
+    {".vtr", "ParaView saves its data as .vts"},
+    {".vti", "uvol_generate in.vti out.pcd makes points of a volume"},
+    {".nrrd", "uvol_generate in.nrrd out.pcd makes points of a volume"},
+    {".nhdr", "uvol_generate in.nhdr out.pcd makes points of a volume"},
+    {".mha", "uvol_generate in.mha out.pcd makes points of a volume"},
+    {".mhd", "uvol_generate in.mhd out.pcd makes points of a volume"},
+    {".nc", "a few lines of Python's xarray write it as .csv or .npz"},
+    {".obj", "meshio convert in.obj out.ply converts it"},
+    {".off", "meshio convert in.off out.ply converts it"},
+    {".stl", "meshio convert in.stl out.ply converts it"},
+    {".xlsx", "save the sheet as .csv"},
+    {".ods", "save the sheet as .csv"},
+    {".json", "write a table of it, as .csv"},
+    {".parquet", "a line of Python's pandas writes it as .csv"},
+    {".mat", "a line of Matlab or SciPy writes it as .csv"}};
+
+/** The ending that the content of standard input would have: PLY and PCD say what they
+ * are, everything else is taken for text. */
+std::string
+sniffEnding(const std::string& path)
+{
+  const std::string head = InputFile(path).head(16);
+  const auto begins = [&](const char* word) { return head.rfind(word, 0) == 0; };
+  if (begins("ply"))
+    return ".ply";
+  if (begins("# .PCD") || begins("VERSION") || begins("FIELDS"))
+    return ".pcd";
+  return ".csv";
+}
+
+[[noreturn]] void
+throwUnknown(const std::string& path, const std::string& ending)
+{
+  for (const auto& known : converters)
+    if (ending == known.ending)
+      throwUnreadable(path, describeEnding(ending) + "; " + known.way);
+  std::vector<std::string> endings;
+  for (const auto& known : known_endings)
+    endings.emplace_back(known.ending);
+  const std::string nearest = findSimilar(endings, ending);
+  throwUnreadable(path,
+                  describeEnding(ending) +
+                      (nearest.empty() ? "" : ", but " + nearest + " is") +
+                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
+                      ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, files of HDF5 "
+                      "and snapshots of Gadget");
+}
+
+FileFormat
+formatOf(const std::string& path)
+{
+  if (!splitHdf5Name(path).inside.empty())
+    return FileFormat::Hdf5;
+  const std::string ending = path == "-" ? sniffEnding(path) : getEnding(path);
+  for (const auto& known : known_endings)
+    if (ending == known.ending)
+      return known.format;
+  if (isGadget(path)) // a missing file matters more than its ending
+    return FileFormat::Gadget;
+  if (isHdf5(path))
+    return FileFormat::Hdf5;
+  throwUnknown(path, ending);
+}
+
+} // namespace
+
+std::string
+describeEnding(const std::string& ending)
+{
+  return ending.empty() ? "its name has no ending"
+                        : "the ending " + quoteText(ending) + " is not known";
+}
+
+FileFormat
+findFormat(const std::string& path, const LoadOptions& options)
+{
+  const FileFormat format = formatOf(path);
+  if (options.xyz_columns != LoadOptions().xyz_columns && format != FileFormat::Text)
+    throw InvalidArgument(
+        "Columns of coordinates can be chosen in text files only, and '" + path +
+        "' is none.");
+  if (!options.particles.empty() && format != FileFormat::Gadget &&
+      format != FileFormat::Hdf5)
+    throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
+                          "' is none.");
+  return format;
+}
+
+} // namespace io
+} // namespace pcl_uvol

@@ -1,0 +1,580 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arrays of NumPy: .npy, and .npz, which is a zip of them (numpy.lib.format, versions 1
+// to 3; PKWARE, APPNOTE.TXT 6.3).
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "common/scalar_field.h"
+#include "io/column_source.h"
+#include "io/formats.h"
+#include "io/position_tables.h"
+#include "io/unpacked_file.h"
+
+#include <pcl/PCLPointField.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+using Type = pcl::PCLPointField;
+
+constexpr std::uint64_t most_header_bytes = 1u << 16;
+constexpr std::uint64_t most_entries = 1u << 16;
+
+/** A field of an array: the whole array has one without a name. */
+struct Member {
+  std::string name;
+  std::uint8_t datatype = 0;
+  std::uint64_t components = 1;
+  bool swapped = false;
+};
+
+struct Array {
+  std::string name;
+  std::vector<Member> members;
+  bool is_structured = false, by_columns = false;
+  std::vector<std::uint64_t> shape;
+  std::uint64_t offset = 0; ///< of the numbers
+  std::shared_ptr<const InputFile> file;
+
+  std::uint64_t
+  rows() const
+  {
+    return shape.empty() ? 1 : shape[0];
+  }
+
+  std::uint64_t
+  components() const
+  {
+    std::uint64_t product = 1;
+    for (std::size_t i = 1; i < shape.size(); ++i)
+      product *= shape[i];
+    return product;
+  }
+};
+
+/** Takes the literal of Python in a header apart. */
+class HeaderParser {
+public:
+  HeaderParser(const std::string& path, std::string_view text)
+      : path_(path)
+      , rest_(text)
+  {
+  }
+
+  void
+  parse(Array& array);
+
+private:
+  bool
+  take(char c)
+  {
+    rest_ = trimmed(rest_);
+    if (rest_.empty() || rest_[0] != c)
+      return false;
+    rest_.remove_prefix(1);
+    return true;
+  }
+  void
+  expect(char c)
+  {
+    if (!take(c))
+      fail();
+  }
+  std::string
+  takeText();
+  std::vector<std::uint64_t>
+  takeCounts();
+  Member
+  takeType(const std::string& name);
+  bool
+  takeTruth();
+  [[noreturn]] void
+  fail() const
+  {
+    throwUnreadable(path_, "its header is no description of an array of NumPy");
+  }
+
+  const std::string& path_;
+  std::string_view rest_;
+};
+
+std::string
+HeaderParser::takeText()
+{
+  rest_ = trimmed(rest_);
+  if (rest_.empty() || (rest_[0] != '\'' && rest_[0] != '"'))
+    fail();
+  const std::size_t end = rest_.find(rest_[0], 1);
+  if (end == std::string_view::npos)
+    fail();
+  const std::string text(rest_.substr(1, end - 1));
+  rest_.remove_prefix(end + 1);
+  return text;
+}
+
+std::vector<std::uint64_t>
+HeaderParser::takeCounts()
+{
+  std::vector<std::uint64_t> counts;
+  expect('(');
+  while (!take(')')) {
+    const std::size_t end = rest_.find_first_of(",)");
+    std::uint64_t count = 0;
+    if (end == std::string_view::npos ||
+        !parseCount(trimmed(rest_.substr(0, end)), count) || counts.size() == 32)
+      fail();
+    counts.push_back(count);
+    rest_.remove_prefix(end);
+    take(',');
+  }
+  return counts;
+}
+
+bool
+HeaderParser::takeTruth()
+{
+  rest_ = trimmed(rest_);
+  for (const bool truth : {true, false}) {
+    const std::string_view word = truth ? "True" : "False";
+    if (rest_.substr(0, word.size()) == word) {
+      rest_.remove_prefix(word.size());
+      return truth;
+    }
+  }
+  fail();
+}
+
+/** "<f4" and the like. */
+Member
+HeaderParser::takeType(const std::string& name)
+{
+  const std::string type = takeText();
+  constexpr struct {
+    const char* name;
+    Type::PointFieldTypes datatype;
+  } types[] = {{"f4", Type::FLOAT32},
+               {"f8", Type::FLOAT64},
+               {"i1", Type::INT8},
+               {"i2", Type::INT16},
+               {"i4", Type::INT32},
+               {"i8", Type::INT64},
+               {"u1", Type::UINT8},
+               {"u2", Type::UINT16},
+               {"u4", Type::UINT32},
+               {"u8", Type::UINT64},
+               {"b1", Type::UINT8}};
+  for (const auto& known : types)
+    if (type.size() == 3 && type.compare(1, 2, known.name) == 0)
+      return {name, static_cast<std::uint8_t>(known.datatype), 1, type[0] == '>'};
+  throwUnreadable(path_,
+                  "the type " + quoteText(type) +
+                      " is none of integers and of reals with 4 or 8 bytes");
+}
+
+void
+HeaderParser::parse(Array& array)
+{
+  expect('{');
+  while (!take('}')) {
+    const std::string key = takeText();
+    expect(':');
+    if (key == "descr") {
+      array.is_structured = take('[');
+      if (!array.is_structured)
+        array.members = {takeType("")};
+      while (array.is_structured && !take(']')) {
+        expect('(');
+        const std::string name = takeText();
+        expect(',');
+        Member member = takeType(name);
+        if (take(','))
+          for (const std::uint64_t count : takeCounts())
+            member.components *= std::min<std::uint64_t>(count, UINT16_MAX);
+        expect(')');
+        if (member.components < 1 || member.components > most_table_components)
+          throwUnreadable(path_,
+                          "its field " + quoteText(name) + " has more than " +
+                              std::to_string(most_table_components) + " numbers");
+        array.members.push_back(member);
+        take(',');
+      }
+    }
+    else if (key == "fortran_order")
+      array.by_columns = takeTruth();
+    else if (key == "shape")
+      array.shape = takeCounts();
+    else
+      fail();
+    take(',');
+  }
+  if (array.members.empty())
+    fail();
+}
+
+/** The array that starts at an offset of a file. */
+Array
+readArray(const std::string& path,
+          const std::string& name,
+          std::shared_ptr<const InputFile> file,
+          std::uint64_t start,
+          std::uint64_t bytes)
+{
+  std::array<std::uint8_t, 12> head{};
+  if (bytes < head.size())
+    throwUnreadable(path, "it is truncated: the header of an array is not complete");
+  file->read(start, head.data(), head.size());
+  if (std::memcmp(head.data(), "\x93NUMPY", 6) != 0 || head[6] < 1 || head[6] > 3)
+    throwUnreadable(path, "it is no array of NumPy, or of a newer format");
+  const bool is_long = head[6] > 1;
+  std::uint64_t length = head[8] | std::uint64_t(head[9]) << 8;
+  if (is_long)
+    length |= std::uint64_t(head[10]) << 16 | std::uint64_t(head[11]) << 24;
+  const std::uint64_t begin = is_long ? 12 : 10;
+  if (length > most_header_bytes || length > bytes - begin)
+    throwUnreadable(path,
+                    "it is truncated or damaged: the header of an array has " +
+                        std::to_string(length) + " bytes");
+  std::string text(length, '\0');
+  file->read(start + begin, text.data(), text.size());
+  Array array;
+  array.name = name;
+  HeaderParser(path, text).parse(array);
+  array.offset = start + begin + length;
+  array.file = std::move(file);
+  std::uint64_t size = 0;
+  for (const Member& member : array.members)
+    size += member.components * datatypeSize(member.datatype);
+  const std::uint64_t left = bytes - begin - length;
+  std::uint64_t count = 1;
+  bool fits = true;
+  for (const std::uint64_t side : array.shape) {
+    fits = fits && (side == 0 || count <= left / side);
+    count *= fits ? side : 0;
+  }
+  if (!fits || count > left / size)
+    throwUnreadable(path,
+                    "it is truncated or damaged: the array " + quoteText(name) +
+                        " is larger than the " + std::to_string(left) +
+                        " bytes that follow");
+  return array;
+}
+
+/** Columns of a table by their numbers, contiguous each or row by row. */
+class StridedColumn : public FileColumn {
+public:
+  StridedColumn(const Array& array, std::uint64_t column, std::size_t components)
+      : array_(array)
+      , column_(column)
+      , components_(components)
+      , size_(datatypeSize(array.members[0].datatype))
+  {
+  }
+
+  void
+  read(std::uint64_t first, std::size_t count, std::uint8_t* tuples) override
+  {
+    const std::size_t step = components_ * size_;
+    for (std::size_t k = 0; k < components_; ++k) {
+      block_.resize(count * size_);
+      array_.file->read(array_.offset + ((column_ + k) * array_.rows() + first) * size_,
+                        block_.data(),
+                        block_.size());
+      for (std::size_t i = 0; i < count; ++i) {
+        std::uint8_t* const to = tuples + i * step + k * size_;
+        std::copy_n(block_.data() + i * size_, size_, to);
+        if (array_.members[0].swapped)
+          std::reverse(to, to + size_);
+      }
+    }
+  }
+
+private:
+  Array array_;
+  std::uint64_t column_;
+  std::size_t components_, size_;
+  std::vector<std::uint8_t> block_;
+};
+
+const std::vector<std::string> axis_names{"x", "y", "z"};
+
+/** A column of all numbers of an array. */
+NamedColumn
+columnOf(const Array& array, std::vector<std::string> names)
+{
+  const Member& type = array.members[0];
+  const auto components = static_cast<std::size_t>(array.components());
+  return {std::move(names),
+          type.datatype,
+          components,
+          array.by_columns && components > 1
+              ? std::make_unique<StridedColumn>(array, 0, components)
+              : openStored(
+                    array.file, array.offset, type.datatype, components, type.swapped)};
+}
+
+/** Structured arrays are records as they are. */
+class StructuredSource : public RecordSource {
+public:
+  explicit StructuredSource(const Array& array)
+      : array_(array)
+  {
+    info_.count = array.rows() * array.components();
+    for (const Member& member : array.members) {
+      const auto components = static_cast<std::size_t>(member.components);
+      const bool is_position =
+          findPositionTables({{member.name, 1, member.components}}).size() == 1;
+      for (std::size_t k = 0; is_position && k < 3; ++k)
+        appendField(info_.fields, axis_names[k], member.datatype);
+      if (!is_position)
+        appendField(info_.fields, member.name, member.datatype, components);
+    }
+  }
+
+  FileCursor::Place
+  tellEnd() const override
+  {
+    return {};
+  }
+
+  void
+  seek(std::uint64_t record) override
+  {
+    next_ = record;
+  }
+
+  void
+  read(std::size_t count, std::uint8_t* records) override
+  {
+    const std::size_t step = recordBytes(info_.fields);
+    array_.file->read(array_.offset + next_ * step, records, count * step);
+    next_ += count;
+    for (std::size_t i = 0; i < count; ++i)
+      for (const Member& member : array_.members)
+        for (std::uint64_t k = 0; k < member.components; ++k) {
+          const std::size_t size = datatypeSize(member.datatype);
+          if (member.swapped)
+            std::reverse(records, records + size);
+          records += size;
+        }
+  }
+
+private:
+  Array array_;
+};
+
+/** x, y, z in the first three columns, further ones by their numbers. */
+std::unique_ptr<RecordSource>
+openTable(const std::string& path, const Array& array)
+{
+  if (array.is_structured)
+    return std::make_unique<StructuredSource>(array);
+  if (array.shape.size() != 2 || array.shape[1] < 3 ||
+      array.shape[1] > most_table_components)
+    throwUnreadable(path,
+                    "points are arrays with a row per point and 3 to " +
+                        std::to_string(most_table_components) +
+                        " columns, x, y and z first, or with named fields");
+  std::vector<NamedColumn> columns;
+  std::vector<std::string> names = axis_names;
+  for (std::uint64_t i = 3; i < array.shape[1]; ++i)
+    names.push_back("column_" + std::to_string(i));
+  std::vector<std::string> notes;
+  if (names.size() > 3)
+    notes.push_back("The array names no columns: those behind x, y and z are called "
+                    "column_3 and so on.");
+  columns.push_back(columnOf(array, names));
+  return std::make_unique<ColumnSource>(
+      array.rows(), std::move(columns), std::move(notes));
+}
+
+template <typename T>
+T
+littleAt(const std::string& bytes, std::size_t offset)
+{
+  T value = 0;
+  for (std::size_t i = sizeof(T); i-- > 0;)
+    value = static_cast<T>(value << 8 | static_cast<std::uint8_t>(bytes[offset + i]));
+  return value;
+}
+
+/** Arrays of a zip, by the directory at its end. */
+class ZipReader {
+public:
+  explicit ZipReader(const std::string& path)
+      : path_(path)
+      , file_(std::make_shared<const InputFile>(path))
+  {
+  }
+
+  std::vector<Array>
+  read();
+
+private:
+  struct Entry {
+    std::string name;
+    std::uint16_t method;
+    std::uint64_t packed, bytes, header;
+  };
+  std::vector<Entry>
+  listEntries() const;
+  Array
+  open(const Entry& entry) const;
+  std::string
+  bytesAt(std::uint64_t offset, std::uint64_t count) const;
+  [[noreturn]] void
+  fail() const
+  {
+    throwUnreadable(path_, "it is truncated, damaged or no zip of arrays");
+  }
+
+  const std::string& path_;
+  std::shared_ptr<const InputFile> file_;
+};
+
+std::string
+ZipReader::bytesAt(std::uint64_t offset, std::uint64_t count) const
+{
+  if (offset > file_->getSize() || count > file_->getSize() - offset)
+    fail();
+  std::string bytes(count, '\0');
+  file_->read(offset, bytes.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<ZipReader::Entry>
+ZipReader::listEntries() const
+{
+  constexpr std::uint64_t end_bytes = 22, locator_bytes = 20, most_comment = 1u << 16;
+  const std::uint64_t size = file_->getSize();
+  const std::uint64_t tail = std::min(size, most_comment + end_bytes);
+  const std::string end = bytesAt(size - tail, tail);
+  const std::size_t at = end.rfind("PK\5\6");
+  if (at == std::string::npos || end.size() - at < end_bytes)
+    fail();
+  std::uint64_t count = littleAt<std::uint16_t>(end, at + 10),
+                offset = littleAt<std::uint32_t>(end, at + 16);
+  if (count == UINT16_MAX || offset == UINT32_MAX) { // zip64
+    const std::uint64_t place = size - tail + at;
+    if (place < locator_bytes)
+      fail();
+    const std::string locator = bytesAt(place - locator_bytes, locator_bytes);
+    const std::string wide = bytesAt(littleAt<std::uint64_t>(locator, 8), 56);
+    count = littleAt<std::uint64_t>(wide, 32);
+    offset = littleAt<std::uint64_t>(wide, 48);
+  }
+  if (count > most_entries)
+    fail();
+  std::vector<Entry> entries;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::string head = bytesAt(offset, 46);
+    if (head.rfind("PK\1\2", 0) != 0)
+      fail();
+    const auto name_bytes = littleAt<std::uint16_t>(head, 28),
+               extra_bytes = littleAt<std::uint16_t>(head, 30),
+               comment_bytes = littleAt<std::uint16_t>(head, 32);
+    Entry entry{bytesAt(offset + 46, name_bytes),
+                littleAt<std::uint16_t>(head, 10),
+                littleAt<std::uint32_t>(head, 20),
+                littleAt<std::uint32_t>(head, 24),
+                littleAt<std::uint32_t>(head, 42)};
+    const std::string extra = bytesAt(offset + 46 + name_bytes, extra_bytes);
+    for (std::size_t field = 0; field + 4 <= extra.size();
+         field += 4 + littleAt<std::uint16_t>(extra, field + 2)) {
+      std::size_t number = field + 4;
+      if (littleAt<std::uint16_t>(extra, field) != 1)
+        continue;
+      for (std::uint64_t* const wide : {&entry.bytes, &entry.packed, &entry.header})
+        if (*wide == UINT32_MAX && number + 8 <= extra.size()) {
+          *wide = littleAt<std::uint64_t>(extra, number);
+          number += 8;
+        }
+    }
+    entries.push_back(entry);
+    offset += 46u + name_bytes + extra_bytes + comment_bytes;
+  }
+  return entries;
+}
+
+Array
+ZipReader::open(const Entry& entry) const
+{
+  const std::string head = bytesAt(entry.header, 30);
+  if (head.rfind("PK\3\4", 0) != 0)
+    fail();
+  const std::uint64_t start = entry.header + 30 + littleAt<std::uint16_t>(head, 26) +
+                              littleAt<std::uint16_t>(head, 28);
+  if (start > file_->getSize() || entry.packed > file_->getSize() - start)
+    fail();
+  const std::string name = entry.name.substr(0, entry.name.size() - 4);
+  if (entry.method == 0)
+    return readArray(path_, name, file_, start, entry.packed);
+  if (entry.method != 8)
+    fail();
+  const auto unpacked = std::make_shared<const InputFile>(
+      path_,
+      inflatePart(path_, file_->getDescriptor(), start, entry.packed, entry.bytes));
+  return readArray(path_, name, unpacked, 0, unpacked->getSize());
+}
+
+std::vector<Array>
+ZipReader::read()
+{
+  std::vector<Array> arrays;
+  for (const Entry& entry : listEntries())
+    if (entry.name.size() > 4 &&
+        entry.name.compare(entry.name.size() - 4, 4, ".npy") == 0)
+      arrays.push_back(open(entry));
+  return arrays;
+}
+
+} // namespace
+
+std::unique_ptr<RecordSource>
+openNpy(const std::string& path)
+{
+  auto file = std::make_shared<const InputFile>(path);
+  const std::uint64_t bytes = file->getSize();
+  return openTable(path, readArray(path, "", std::move(file), 0, bytes));
+}
+
+std::unique_ptr<RecordSource>
+openNpz(const std::string& path)
+{
+  const std::vector<Array> arrays = ZipReader(path).read();
+  if (arrays.size() == 1)
+    return openTable(path, arrays[0]);
+  std::vector<NumberTable> tables;
+  for (const Array& array : arrays)
+    tables.push_back(
+        {array.name, array.rows(), array.is_structured ? 0 : array.components()});
+  const std::vector<std::size_t> positions = findPositionTables(tables);
+  if (positions.empty())
+    throwUnreadable(path,
+                    "no array of it has a usual name of coordinates (" +
+                        std::string(usual_position_names) + ")");
+  std::vector<NamedColumn> columns;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    columns.push_back(columnOf(
+        arrays[positions[i]],
+        positions.size() == 1 ? axis_names : std::vector<std::string>{axis_names[i]}));
+  const std::uint64_t rows = tables[positions[0]].rows;
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    if (std::find(positions.begin(), positions.end(), i) != positions.end())
+      continue;
+    if (arrays[i].shape.empty() || tables[i].rows != rows || tables[i].components < 1 ||
+        tables[i].components > most_table_components)
+      notes.push_back("The array " + quoteText(tables[i].name) +
+                      " has no numbers for every point and is left out.");
+    else
+      columns.push_back(columnOf(arrays[i], {tables[i].name}));
+  }
+  return std::make_unique<ColumnSource>(rows, std::move(columns), std::move(notes));
+}
+
+} // namespace io
+} // namespace pcl_uvol

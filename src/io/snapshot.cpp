@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/snapshot.h"
+
+#include "common/numbers.h"
+#include "common/printable.h"
+#include "io/files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+std::string
+describeKinds(const std::vector<ParticleKind>& kinds)
+{
+  std::string text;
+  for (const ParticleKind& kind : kinds)
+    if (kind.count > 0)
+      text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " of " +
+              (kind.name.empty() ? "kind " : kind.name + " (") +
+              std::to_string(kind.number) + (kind.name.empty() ? "" : ")");
+  return text;
+}
+
+} // namespace
+
+std::vector<ParticleKind>
+listGadgetKinds(const std::vector<std::uint64_t>& counts)
+{
+  constexpr const char* names[] = {"gas", "dm", "disk", "bulge", "stars", "bh"};
+  std::vector<ParticleKind> kinds;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    kinds.push_back({i, i < std::size(names) ? names[i] : "", counts[i]});
+  return kinds;
+}
+
+std::size_t
+chooseKind(const std::string& path,
+           const std::vector<ParticleKind>& kinds,
+           const std::string& chosen,
+           std::vector<std::string>& notes)
+{
+  std::uint64_t number = 0;
+  const bool is_number = parseCount(chosen, number);
+  const auto is_meant = [&](const ParticleKind& kind) {
+    if (kind.count == 0)
+      return false;
+    return chosen.empty() ||
+           (is_number ? kind.number == number : kind.name == lowerCase(chosen));
+  };
+  const auto found = std::find_if(kinds.begin(), kinds.end(), is_meant);
+  if (found == kinds.end())
+    throwUnreadable(path,
+                    (chosen.empty() ? std::string("it holds no particles")
+                                    : "it holds no particles " + quoteText(chosen)) +
+                        (chosen.empty() ? "" : "; there are " + describeKinds(kinds)));
+  const auto filled = std::count_if(
+      kinds.begin(), kinds.end(), [](const ParticleKind& k) { return k.count > 0; });
+  if (chosen.empty() && filled > 1)
+    notes.push_back("There are " + describeKinds(kinds) +
+                    " particles; the first are read, -particles chooses others.");
+  return found->number;
+}
+
+std::vector<std::string>
+listSnapshotFiles(const std::string& path, std::size_t count)
+{
+  namespace fs = std::filesystem;
+  if (count <= 1)
+    return {path};
+  const bool has_ending = getEnding(path).find_first_of("0123456789", 1) != 1;
+  const fs::path ending = has_ending ? fs::path(path).extension() : fs::path();
+  const fs::path stem =
+      has_ending ? fs::path(path).replace_extension() : fs::path(path);
+  const std::string number = stem.extension().string();
+  std::uint64_t own = 0;
+  if (number.empty() || !parseCount(number.substr(1), own))
+    throwUnreadable(path,
+                    "it is one of " + std::to_string(count) +
+                        " files of a snapshot, whose names should differ in a number, "
+                        "as in snap.0" +
+                        ending.string());
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < count; ++i) {
+    files.push_back(fs::path(stem)
+                        .replace_extension(std::to_string(i))
+                        .concat(ending.string())
+                        .string());
+    if (!fs::exists(files.back()))
+      throwUnreadable(path,
+                      "of the " + std::to_string(count) + " files of its snapshot '" +
+                          files.back() + "' is not there");
+  }
+  return files;
+}
+
+void
+noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes)
+{
+  std::ostringstream text;
+  if (header.redshift > 1e-9 || (header.hubble > 0.0 && header.hubble != 1.0)) {
+    text << "Numbers are those of the file, whose units hold factors of the redshift "
+         << header.redshift << " and of the Hubble parameter " << header.hubble << ".";
+    notes.push_back(text.str());
+  }
+  if (header.box > 0.0) {
+    std::ostringstream box;
+    box << "The header names a box of " << header.box
+        << ": should it repeat, neighbours across its faces are not seen.";
+    notes.push_back(box.str());
+  }
+}
+
+} // namespace io
+} // namespace pcl_uvol

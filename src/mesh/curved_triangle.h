@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Integrals over a triangle that is bent as the normals of its corners tell, and over
+// the space between it and a centre.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace pcl_uvol::detail {
+
+/** \brief A point of a triangle that stands for a part of it. */
+struct QuadraturePoint {
+  std::array<double, 3> lambda; ///< weights of the corners
+  double weight;                ///< all together 1
+};
+
+/** \brief A rule that integrates polynomials of degree 4 exactly (Dunavant 1985), and
+ * with it the volume below quadratic triangles. */
+PCL_UVOL_EXPORTS const std::array<QuadraturePoint, 6>&
+triangleQuadrature();
+
+/** \brief A corner of a triangle. */
+struct SurfaceCorner {
+  Eigen::Vector3d place;
+  Eigen::Vector3d normal; ///< of unit length; 0: none
+  bool is_on_cap = false; ///< on a side of the samples' box, see SurfaceTriangles
+};
+
+/** \brief Integrals over a surface, and over what it encloses: of 1, of the place and
+ * of the products of coordinates. Places are those relative to a centre. */
+struct PCL_UVOL_EXPORTS SurfaceIntegrals {
+  double area = 0.0;
+  Eigen::Vector3d area_moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d area_products = Eigen::Matrix3d::Zero();
+  /** Over the cone between the surface and the centre, negative where the surface looks
+   * to the centre: over the enclosed space once the surface is closed. @{ */
+  double volume = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  /** @} */
+  /** What bending leaves out, about. @{ */
+  double area_error = 0.0, volume_error = 0.0;
+  /** @} */
+
+  /** \brief Add another surface, whose places are relative to the same centre. */
+  void
+  add(const SurfaceIntegrals& other);
+
+  /** \brief The same relative to another centre.
+   * \param offset from that one to this one */
+  SurfaceIntegrals
+  shifted(const Eigen::Vector3d& offset) const;
+};
+
+/** \brief A triangle with quadratic edges.
+ *
+ * An edge e between corners with normals n, m goes through the middle of an arc: above
+ * the middle of the edge, along n + m, by |e| / 2 tan(t / 4) where the sine of t / 2 is
+ * e (m - n) / (2 |e|). To first order that is the middle of the edge of a PN triangle
+ * (Vlachos et al. 2001); on circles it is exact. It depends on the two corners alone,
+ * so that triangles fit together without gaps. Edges stay straight where the normals
+ * are no help: without one, farther apart than 60 degrees, more than 45 degrees off the
+ * right angle to the edge, and between a cap and the surface. */
+class PCL_UVOL_EXPORTS CurvedTriangle {
+public:
+  /** \param corners counter-clockwise as seen from outside
+   * \param center that places are to be relative to */
+  CurvedTriangle(const std::array<SurfaceCorner, 3>& corners,
+                 const Eigen::Vector3d& center);
+
+  /** \brief Integrals over the bent triangle.
+   * \param[out] shares of the area that the corners have: linear functions with their
+   * values there integrate to the sum of these times shares */
+  SurfaceIntegrals
+  integrate(std::array<double, 3>& shares) const;
+
+  /** \brief Integrals over the flat triangle; its errors are the difference to the bent
+   * one. \param[out] shares as above */
+  SurfaceIntegrals
+  integrateFlat(std::array<double, 3>& shares) const;
+
+private:
+  using Nodes = std::array<Eigen::Vector3d, 6>; // corners, then the middle of the edge
+                                                // opposite to each of them
+
+  static SurfaceIntegrals
+  integrate(const Nodes& nodes, std::array<double, 3>& shares);
+
+  Nodes flat_, bent_;
+  double sq_turn_ = 0.0; // of normals along an edge that is bent, squared, at most
+};
+
+} // namespace pcl_uvol::detail

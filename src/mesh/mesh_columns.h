@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which closed pieces of a mesh are around a place.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/mesh.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief A piece of a mesh and how often it winds around a place. */
+struct Winding {
+  std::int32_t piece;
+  int turns; ///< 1 inside of a piece that looks outwards; not 0
+};
+
+/** \brief Triangles by the columns, parallel to the z axis, that they are in.
+ *
+ * A place is inside where a ray along z leaves more often than it enters. On which side
+ * of an edge the ray passes is computed in one way for both triangles of the edge, and
+ * a ray through a vertex is taken to be a little to its right: what rounds wrongly
+ * moves the edge, and opens no gap. */
+class PCL_UVOL_EXPORTS MeshColumns {
+public:
+  /** \param places of the vertices; they and the triangles must outlive this
+   * \param piece_of by vertex */
+  MeshColumns(const std::vector<Eigen::Vector3d>& places,
+              const std::vector<Triangle>& triangles,
+              const std::vector<std::int32_t>& piece_of);
+
+  /** \brief The pieces around a place, ascending. \param found cleared first */
+  void
+  findAround(const Eigen::Vector3d& place, std::vector<Winding>& found) const;
+
+private:
+  /** Columns that a box reaches into: from low to high, both included. */
+  struct ColumnRange {
+    std::array<std::size_t, 2> low, high;
+  };
+
+  std::size_t
+  columnOf(int axis, double coordinate) const;
+
+  ColumnRange
+  columnsOf(const Triangle& triangle) const;
+
+  int
+  crossingOf(const Triangle& triangle, const Eigen::Vector3d& place) const;
+
+  const std::vector<Eigen::Vector3d>& places_;
+  const std::vector<Triangle>& triangles_;
+  const std::vector<std::int32_t>& piece_of_;
+  Eigen::Vector3d low_, high_;
+  std::array<std::size_t, 2> columns_;
+  std::vector<std::size_t> begins_; // by column, and the end
+  std::vector<std::uint32_t> members_;
+};
+
+} // namespace pcl_uvol::detail

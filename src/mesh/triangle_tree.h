@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangles of a mesh that are nearest to a place, or in a box.
+#pragma once
+
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/mesh.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief A point of a triangle. */
+struct TrianglePoint {
+  Eigen::Vector3d place;
+  std::array<double, 3> lambda; ///< weights of the corners, which add up to 1
+};
+
+/** \brief The point of a triangle nearest to a place (Ericson, Real-Time Collision
+ * Detection, 2005, 5.1.5); of one without area, that of one of its edges. */
+PCL_UVOL_EXPORTS TrianglePoint
+nearestOfTriangle(const std::array<Eigen::Vector3d, 3>& corners,
+                  const Eigen::Vector3d& place);
+
+/** \brief A tree of boxes around triangles. */
+class PCL_UVOL_EXPORTS TriangleTree {
+public:
+  /** \brief What is nearest. */
+  struct Nearest {
+    double distance = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = 0;
+    TrianglePoint point;
+  };
+
+  /** \param places of the vertices; they and the triangles, at least one, must outlive
+   * this */
+  TriangleTree(const std::vector<Eigen::Vector3d>& places,
+               const std::vector<Triangle>& triangles);
+
+  /** \brief The nearest point of all triangles. */
+  Nearest
+  find(const Eigen::Vector3d& place) const;
+
+  /** \brief The triangles whose boxes meet a box, in no order. \param found cleared
+   * first */
+  void
+  findOverlapping(const Eigen::AlignedBox3d& box,
+                  std::vector<std::uint32_t>& found) const;
+
+private:
+  /** Triangles from begin to end; the first child follows, unless it is a leaf. */
+  struct Node {
+    Eigen::AlignedBox3d box;
+    std::uint32_t begin, end;
+    std::uint32_t second = 0; ///< child; 0: a leaf
+  };
+
+  std::uint32_t
+  build(const std::vector<Eigen::Vector3d>& centers,
+        std::uint32_t begin,
+        std::uint32_t end);
+
+  void
+  find(std::uint32_t node, const Eigen::Vector3d& place, Nearest& nearest) const;
+
+  void
+  findOverlapping(std::uint32_t node,
+                  const Eigen::AlignedBox3d& box,
+                  std::vector<std::uint32_t>& found) const;
+
+  std::array<Eigen::Vector3d, 3>
+  cornersOf(std::uint32_t triangle) const;
+
+  const std::vector<Eigen::Vector3d>& places_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<std::uint32_t> order_; // of triangles
+  std::vector<Node> nodes_;
+};
+
+} // namespace pcl_uvol::detail

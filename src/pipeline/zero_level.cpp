@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/zero_level.h"
+
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** Error over standard deviation: it covers 95 % of the deviations where these are
+ * normal and the estimate is a tenth too small. Deviations of neighbours are alike
+ * after smoothing, so that chance may make most of a small surface's larger than usual.
+ */
+constexpr float deviation_factor = 2.2f;
+
+/** Errors of fits to phi become errors of the surface.
+ * \param deviations by sample; empty: not known
+ * \param scale of the space that these are lengths of */
+void
+addDeviations(const std::vector<float>& deviations,
+              const IsoEdges& edges,
+              const Eigen::Array3f& scale,
+              pcl::PointCloud<PointIso>& isopoints)
+{
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    PointIso& point = isopoints[i];
+    if (deviations.empty()) {
+      point.error = std::numeric_limits<float>::quiet_NaN();
+      continue;
+    }
+    // Of an end far from the surface it is not known: fmax takes the other one.
+    const float deviation =
+        std::fmax(deviations[edges[i].first], deviations[edges[i].second]);
+    if (!(deviation > 0.0f))
+      continue;
+    // Across the surface, a length of the stretched space is as much in the original
+    // one.
+    const float across = (point.getNormalVector3fMap().array() / scale).matrix().norm();
+    point.error = std::hypot(point.error, deviation_factor * deviation * across);
+  }
+}
+
+} // namespace
+
+SurfaceTriangles
+meshZeroLevel(const CloudView& samples,
+              const std::vector<float>& phi,
+              const std::vector<float>& deviations,
+              const IsosurfaceParameters& parameters,
+              const MeshingParameters& meshing,
+              unsigned threads,
+              Report& report)
+{
+  const auto cloud = cloudOfPhi(samples, phi);
+  const CloudView view = viewOf(cloud);
+  pcl::Indices all(view.count);
+  std::iota(all.begin(), all.end(), 0);
+  SurfaceMeshParameters of_phi{parameters, meshing};
+  of_phi.isosurface.field = "phi";
+  of_phi.isosurface.isovalues = {0.0};
+  SurfaceTriangles found =
+      detail::makeSurfaceMesh(view, all, of_phi, parameters.isovalues, threads, report);
+  addDeviations(deviations, found.edges, parameters.scale, found.vertices);
+  return found;
+}
+
+void
+extractZeroLevel(const CloudView& samples,
+                 const std::vector<float>& phi,
+                 const std::vector<float>& deviations,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads,
+                 pcl::PointCloud<PointIso>& isopoints,
+                 IsoEdges& edges,
+                 Report& report)
+{
+  const auto cloud = cloudOfPhi(samples, phi);
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
+  extraction.setParameters(parameters);
+  extraction.setScalarField("phi");
+  extraction.setIsoValue(0.0);
+  extraction.setNumberOfThreads(threads);
+  extraction.setProgressCallback(report.progress);
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+  edges = extraction.getEdges();
+  addDeviations(deviations, edges, parameters.scale, isopoints);
+  for (PointIso& point : isopoints)
+    point.isovalue = static_cast<float>(parameters.isovalues.front());
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/camera_choice.h"
+
+#include "render/camera_fit.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** z, or y for a camera that looks along z. */
+Eigen::Vector3d
+upwardsOf(const Camera& camera)
+{
+  constexpr double least_sine = 1e-3;
+  const Eigen::Vector3d sight = (camera.at - camera.eye).normalized();
+  return sight.head<2>().norm() > least_sine ? Eigen::Vector3d::UnitZ()
+                                             : Eigen::Vector3d::UnitY();
+}
+
+/** A named view of the world turned so that what was z is another direction. */
+Camera
+turnedUpwards(Camera camera, const Eigen::Vector3d& up)
+{
+  if (!(up.norm() > 0.0))
+    throw InvalidArgument("The upward direction of a camera is 0,0,0, which is none.");
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
+  camera.eye = camera.at + turn * (camera.eye - camera.at);
+  camera.up = turn * camera.up;
+  return camera;
+}
+
+} // namespace
+
+Camera
+chooseCamera(const CameraChoice& choice,
+             const BoundingSphere& bounds,
+             const std::array<double, 3>& origin,
+             double aspect,
+             const CloudView* cloud)
+{
+  const Eigen::Vector3d shift(origin.data());
+  Camera camera = Camera::fit(bounds, choice.view, choice.fov, aspect);
+  if (choice.eye) {
+    camera.eye = *choice.eye - shift;
+    if (choice.at)
+      camera.at = *choice.at - shift;
+    camera.up = choice.up ? *choice.up : upwardsOf(camera);
+  }
+  else {
+    if (choice.up)
+      camera = turnedUpwards(camera, *choice.up);
+    if (cloud != nullptr)
+      camera = fitToPoints(camera, *cloud, aspect);
+  }
+  return zoomed(camera, choice.zoom);
+}
+
+Camera
+zoomed(Camera camera, double zoom)
+{
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  if (zoom != 1.0)
+    camera.vertical_fov =
+        2.0 * std::atan(std::tan(0.5 * degree * camera.vertical_fov) / zoom) / degree;
+  return camera;
+}
+
+} // namespace pcl_uvol

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The camera that users ask for in a few words: from a side, or from a place.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/render/camera.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace pcl_uvol {
+
+/** \brief What is asked for of a camera. Places are those of coordinates with their
+ * origin added. */
+struct CameraChoice {
+  std::string view = "iso";           ///< one of Camera::viewNames()
+  std::optional<Eigen::Vector3d> eye; ///< takes the place of view
+  std::optional<Eigen::Vector3d> at;  ///< with eye; none: the centre
+  /** None: z, or y for a camera that looks along z. A view turns to it. */
+  std::optional<Eigen::Vector3d> up;
+  double fov = 30.0; ///< vertical, degrees
+  double zoom = 1.0; ///< of the middle of the picture
+};
+
+/** \brief The camera of a choice.
+ * \param bounds of what is seen
+ * \param origin what was subtracted from its coordinates
+ * \param aspect width / height
+ * \param cloud that fills the picture where only a view is chosen; null: the bounds do
+ * \throws InvalidArgument for another view, and for an upward direction of no length */
+PCL_UVOL_EXPORTS Camera
+chooseCamera(const CameraChoice& choice,
+             const BoundingSphere& bounds,
+             const std::array<double, 3>& origin,
+             double aspect,
+             const CloudView* cloud);
+
+/** \brief The same camera with the middle of its picture enlarged. */
+PCL_UVOL_EXPORTS Camera
+zoomed(Camera camera, double zoom);
+
+} // namespace pcl_uvol

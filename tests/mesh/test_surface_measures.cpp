@@ -1,0 +1,485 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures of meshes: against the truth of spheres, ellipsoids and tori, of boxes and of
+// samples counted one by one; the same for any unit, place and number of threads.
+#include "measured_shapes.h"
+#include "mesh/curved_triangle.h"
+#include "mesh/mesh_columns.h"
+#include "mesh/surface_pieces.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/mesh/surface_measures.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+using namespace pcl_uvol;
+using namespace uvol_test;
+
+void
+expectWithin(const Measure& measure, double truth, double part)
+{
+  EXPECT_NEAR(truth, measure.value, part * std::abs(truth));
+  EXPECT_LE(std::abs(measure.value - truth), measure.error + 1e-6 * std::abs(truth));
+}
+
+TEST(SurfaceMeasures, BentTrianglesMeasureSpheres)
+{
+  // A bent triangle is off by the fourth power of its size.
+  for (const auto& [levels, part] : {std::pair{2, 2e-3}, {3, 1.5e-4}, {4, 1e-5}}) {
+    const SurfaceFigures figures = measure(makeEllipsoid({2.0, 2.0, 2.0}, levels));
+    ASSERT_EQ(1u, figures.isovalues.size());
+    const PieceMeasures& sphere = figures.isovalues[0];
+    expectWithin(sphere.area, 16.0 * M_PI, part);
+    expectWithin(sphere.volume, 32.0 / 3.0 * M_PI, part);
+    EXPECT_LT(sphere.area.error, 20.0 * part * sphere.area.value);
+    EXPECT_LT(sphere.volume.error, 20.0 * part * sphere.volume.value);
+    EXPECT_EQ(0u, sphere.genus);
+    EXPECT_TRUE(std::isnan(sphere.isovalue));
+  }
+}
+
+TEST(SurfaceMeasures, MomentsGiveCentroidAndAxesOfEllipsoids)
+{
+  MeasuredShape shape = makeEllipsoid({1.0, 3.0, 2.0}, 5);
+  Eigen::Matrix3d turn;
+  turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  shape.transform(turn, Eigen::Vector3d(7.0, -5.0, 3.0));
+  const PieceMeasures ellipsoid = measure(shape).isovalues[0];
+  expectWithin(ellipsoid.volume, 8.0 * M_PI, 1e-5);
+  // Numerically from the series of elliptic integrals.
+  expectWithin(ellipsoid.area, 48.882154, 1e-5);
+  EXPECT_LT((ellipsoid.centroid - Eigen::Vector3d(7.0, -5.0, 3.0)).norm(), 1e-5);
+  EXPECT_LT((ellipsoid.half_axes - Eigen::Vector3d(3.0, 2.0, 1.0)).norm(), 1e-4);
+  const int order[] = {1, 2, 0};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(1.0, std::abs(ellipsoid.axes.col(i).dot(turn.col(order[i]))), 1e-6);
+  EXPECT_NEAR(1.0, ellipsoid.axes.determinant(), 1e-12);
+}
+
+TEST(SurfaceMeasures, ToriHaveAHandle)
+{
+  const PieceMeasures torus = measure(makeTorus(3.0, 1.0, 120, 40)).isovalues[0];
+  expectWithin(torus.volume, 6.0 * M_PI * M_PI, 1e-4);
+  expectWithin(torus.area, 12.0 * M_PI * M_PI, 1e-4);
+  EXPECT_EQ(1u, torus.genus);
+  EXPECT_NEAR(4.0, torus.high[0], 1e-3);
+  EXPECT_NEAR(-1.0, torus.low[2], 1e-3);
+}
+
+TEST(SurfaceMeasures, FlatTrianglesMeasurePolyhedraAndTellWhatTheyMiss)
+{
+  MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  SurfaceMeasuresParameters parameters;
+  parameters.curved = false;
+  const PieceMeasures flat = measure(sphere, nullptr, parameters).isovalues[0];
+  EXPECT_LT(flat.volume.value, 32.0 / 3.0 * M_PI * 0.999);
+  EXPECT_NEAR(flat.volume.value + flat.volume.error, 32.0 / 3.0 * M_PI, 1e-3);
+  EXPECT_NEAR(flat.area.value + flat.area.error, 16.0 * M_PI, 1e-3);
+
+  MeasuredShape box = makeBox({1.0, 2.0, 4.0});
+  const PieceMeasures of_box = measure(box).isovalues[0];
+  EXPECT_DOUBLE_EQ(8.0, of_box.volume.value);
+  EXPECT_DOUBLE_EQ(28.0, of_box.area.value);
+  EXPECT_NEAR(0.0, (of_box.centroid - Eigen::Vector3d(0.5, 1.0, 2.0)).norm(), 1e-12);
+  // Moments of a box are a twelfth of its squared sides.
+  EXPECT_NEAR(4.0 * std::sqrt(5.0 / 12.0), of_box.half_axes[0], 1e-12);
+  EXPECT_NEAR(1.0 * std::sqrt(5.0 / 12.0), of_box.half_axes[2], 1e-12);
+  // A cube with normals at its corners is too sharp to be bent.
+  MeasuredShape cube = makeBox({2.0, 2.0, 2.0});
+  for (const Eigen::Vector3d& place : cube.places)
+    cube.normals.push_back((place - Eigen::Vector3d::Ones()).normalized());
+  EXPECT_DOUBLE_EQ(8.0, measure(cube).isovalues[0].volume.value);
+}
+
+TEST(SurfaceMeasures, CapsStayFlat)
+{
+  // The upper half of a ball: its cap has the normals of the plane.
+  MeasuredShape half = makeHalfBall(2.0, 5);
+  const PieceMeasures solid = measure(half).isovalues[0];
+  expectWithin(solid.volume, 16.0 / 3.0 * M_PI, 2e-3);
+  expectWithin(solid.area, 12.0 * M_PI, 2e-3);
+  EXPECT_NEAR(3.0 / 8.0 * 2.0, solid.centroid[2], 1e-3);
+}
+
+TEST(SurfaceMeasures, WallsOfCavitiesCountNegative)
+{
+  MeasuredShape shell = makeEllipsoid({3.0, 3.0, 3.0}, 4);
+  MeasuredShape hole = makeEllipsoid({1.0, 1.0, 1.0}, 3);
+  for (Triangle& triangle : hole.triangles)
+    std::swap(triangle[0], triangle[1]);
+  shell.append(hole);
+  const SurfaceFigures figures = measure(shell);
+  ASSERT_EQ(2u, figures.pieces.size());
+  EXPECT_NEAR(-4.0 / 3.0 * M_PI, figures.pieces[1].volume.value, 1e-3);
+  expectWithin(figures.isovalues[0].volume, 104.0 / 3.0 * M_PI, 1e-4);
+  expectWithin(figures.isovalues[0].area, 40.0 * M_PI, 1e-4);
+}
+
+TEST(SurfaceMeasures, PiecesGoByIsovalue)
+{
+  MeasuredShape three = makeEllipsoid({1.0, 1.0, 1.0}, 2);
+  three.isovalues.assign(three.places.size(), 5.0f);
+  for (const auto& [radius, away, isovalue] :
+       {std::tuple{2.0, 10.0, 3.0f}, {1.0, 20.0, 5.0f}}) {
+    MeasuredShape next = makeEllipsoid({radius, radius, radius}, radius > 1.5 ? 3 : 1);
+    next.transform(Eigen::Matrix3d::Identity(), {away, 0.0, 0.0});
+    next.isovalues.assign(next.places.size(), isovalue);
+    three.append(next);
+  }
+  const SurfaceFigures figures = measure(three);
+  ASSERT_EQ(2u, figures.isovalues.size());
+  EXPECT_EQ(5.0, figures.isovalues[0].isovalue);
+  EXPECT_EQ(3.0, figures.isovalues[1].isovalue);
+  ASSERT_EQ(3u, figures.pieces.size());
+  EXPECT_EQ(128u, figures.pieces[0].triangles);
+  EXPECT_EQ(32u, figures.pieces[1].triangles);
+  EXPECT_EQ(160u, figures.isovalues[0].triangles);
+  EXPECT_DOUBLE_EQ(figures.pieces[0].volume.value + figures.pieces[1].volume.value,
+                   figures.isovalues[0].volume.value);
+  EXPECT_NEAR(10.0, figures.isovalues[1].centroid[0], 1e-5);
+  EXPECT_EQ(2, figures.piece_of[three.places.size() - 100]);
+  EXPECT_EQ(1, figures.piece_of.back());
+  double areas = 0.0;
+  for (const double area : figures.vertex_areas)
+    areas += area;
+  EXPECT_NEAR(figures.isovalues[0].area.value + figures.isovalues[1].area.value,
+              areas,
+              1e-9 * areas);
+}
+
+TEST(SurfaceMeasures, FieldsOnTheSurfaceAreIntegrated)
+{
+  MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 5);
+  sphere.transform(Eigen::Matrix3d::Identity(), {1.0, 0.0, 0.0});
+  std::vector<float> height, some;
+  for (const Eigen::Vector3d& place : sphere.places) {
+    height.push_back(static_cast<float>(place[0] * place[0]));
+    some.push_back(place[2] > 0.0 ? 3.0f : std::numeric_limits<float>::quiet_NaN());
+  }
+  auto vertices = std::make_shared<Dataset>(sphere.toDataset());
+  setField(*vertices, "square", height);
+  setField(*vertices, "some", some);
+  setField(*vertices, "cap", std::vector<std::int32_t>(height.size(), 0));
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, sphere.triangles);
+  const PieceMeasures piece = measures.compute().isovalues[0];
+  ASSERT_EQ(2u, piece.on_surface.size());
+  EXPECT_EQ("square", piece.on_surface[0].name);
+  EXPECT_NEAR(1.0 + 4.0 / 3.0, piece.on_surface[0].mean, 2e-3);
+  EXPECT_NEAR(16.0 * M_PI * 7.0 / 3.0, piece.on_surface[0].integral.value, 0.1);
+  EXPECT_NEAR(3.0, piece.on_surface[1].mean, 1e-12);
+}
+
+TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
+{
+  MeasuredShape sphere = makeEllipsoid({2.0, 2.0, 2.0}, 5);
+  auto vertices = std::make_shared<Dataset>(sphere.toDataset());
+  setField(*vertices, "error", std::vector<float>(sphere.places.size(), 0.01f));
+  setField(*vertices, "mean_curvature", std::vector<float>(sphere.places.size(), 0.5f));
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, sphere.triangles);
+  const PieceMeasures piece = measures.compute().isovalues[0];
+  // Of a sphere larger by that much.
+  EXPECT_NEAR(4.0 / 3.0 * M_PI * (std::pow(2.01, 3) - 8.0), piece.volume.error, 0.01);
+  EXPECT_NEAR(4.0 * M_PI * (std::pow(2.01, 2) - 4.0), piece.area.error, 0.5);
+  EXPECT_GT(piece.area.error, 4.0 * M_PI * (std::pow(2.01, 2) - 4.0));
+}
+
+TEST(SurfaceMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
+{
+  MeasuredShape open = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  open.triangles.pop_back();
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(open.toDataset()), open.triangles);
+  const PieceMeasures piece = measures.compute().isovalues[0];
+  EXPECT_EQ(1u, piece.rims);
+  EXPECT_NEAR(16.0 * M_PI, piece.area.value, 0.1);
+  EXPECT_TRUE(std::isnan(piece.volume.value));
+  // Second moments of a spherical shell.
+  EXPECT_NEAR(2.0, piece.half_axes[0], 1e-2);
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("open"));
+}
+
+TEST(SurfaceMeasures, SaysWhatLooksInwards)
+{
+  MeasuredShape shape = makeEllipsoid({2.0, 2.0, 2.0}, 3);
+  for (Triangle& triangle : shape.triangles)
+    std::swap(triangle[0], triangle[1]);
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()),
+                           shape.triangles);
+  EXPECT_LT(measures.compute().isovalues[0].volume.value, -33.0);
+  EXPECT_EQ(1u, measures.getReport().warnings.size());
+}
+
+TEST(SurfaceMeasures, ThingsThatTouchInAVertexOrAnEdgeAreTwo)
+{
+  // Two boxes with a corner in common, and two with an edge.
+  for (const std::size_t shared : {1u, 2u}) {
+    MeasuredShape boxes = makeBox({1.0, 1.0, 1.0}), other = boxes;
+    other.transform(Eigen::Matrix3d::Identity(), {1.0, 1.0, shared == 1 ? 1.0 : 0.0});
+    boxes.append(other);
+    boxes.mergeEqualPlaces();
+    ASSERT_EQ(16u - shared, boxes.places.size());
+    const SurfaceFigures figures = measure(boxes);
+    ASSERT_EQ(2u, figures.pieces.size());
+    EXPECT_DOUBLE_EQ(2.0, figures.isovalues[0].volume.value);
+    EXPECT_DOUBLE_EQ(12.0, figures.isovalues[0].area.value);
+    EXPECT_EQ(boxes.places.size(), figures.vertex_areas.size());
+    EXPECT_EQ(boxes.places.size(), figures.piece_of.size());
+  }
+}
+
+TEST(SurfaceMeasures, SaysWhereASurfaceGoesThroughItself)
+{
+  SurfaceMeasuresParameters parameters;
+  parameters.find_intersections = true;
+  EXPECT_TRUE(
+      measure(makeTorus(3.0, 1.0, 30, 12), nullptr, parameters).intersections.empty());
+  MeasuredShape boxes = makeBox({1.0, 1.0, 1.0}), other = boxes;
+  other.transform(Eigen::Matrix3d::Identity(), {0.5, 0.25, 0.25});
+  boxes.append(other);
+  Dataset vertices = boxes.toDataset();
+  vertices.origin = {{64.0, 0.0, 0.0}};
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(vertices), boxes.triangles);
+  measures.setParameters(parameters);
+  const SurfaceFigures figures = measures.compute();
+  ASSERT_FALSE(figures.intersections.empty());
+  for (const TriangleIntersection& pair : figures.intersections) {
+    EXPECT_LT(pair.first, 12u);
+    EXPECT_GE(pair.second, 12u);
+    EXPECT_NEAR(64.5, pair.place[0], 0.5);
+  }
+  ASSERT_EQ(1u, measures.getReport().warnings.size());
+  EXPECT_NE(std::string::npos, measures.getReport().warnings[0].find("through itself"));
+}
+
+TEST(SurfaceMeasures, UnitsAndPlacesChangeNothing)
+{
+  MeasuredShape shape = makeTorus(3.0, 1.0, 30, 12);
+  const PieceMeasures one = measure(shape).isovalues[0];
+  Dataset far = shape.toDataset();
+  far.origin = {{4e6, -2e6, 1e3}};
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(far), shape.triangles);
+  const PieceMeasures moved = measures.compute().isovalues[0];
+  EXPECT_EQ(one.volume.value, moved.volume.value);
+  EXPECT_EQ(one.centroid[0] + 4e6, moved.centroid[0]);
+  EXPECT_EQ(one.high[1] - 2e6, moved.high[1]);
+  for (const double factor : {0x1p-30, 0x1p30}) {
+    MeasuredShape scaled = shape;
+    for (Eigen::Vector3d& place : scaled.places)
+      place *= factor;
+    const PieceMeasures other = measure(scaled).isovalues[0];
+    EXPECT_EQ(one.volume.value * factor * factor * factor, other.volume.value);
+    EXPECT_EQ(one.area.value * factor * factor, other.area.value);
+    EXPECT_NEAR(one.half_axes[2] * factor, other.half_axes[2], 1e-9 * factor);
+  }
+}
+
+TEST(SurfaceMeasures, RefusesWhatIsNoSurface)
+{
+  SurfaceMeasures measures;
+  EXPECT_THROW(measures.compute(), InvalidArgument);
+  const MeasuredShape box = makeBox({1.0, 1.0, 1.0});
+  const auto refuses = [&](const MeasuredShape& shape, const std::string& word) {
+    measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()),
+                             shape.triangles);
+    try {
+      measures.compute();
+      ADD_FAILURE() << word;
+    }
+    catch (const InvalidArgument& error) {
+      EXPECT_NE(std::string::npos, std::string(error.what()).find(word))
+          << error.what();
+    }
+  };
+  MeasuredShape shape = box;
+  shape.triangles.clear();
+  refuses(shape, "no triangles");
+  shape = box;
+  shape.triangles[3][1] = 8;
+  refuses(shape, "vertex 8");
+  shape = box;
+  shape.places[2][1] = std::numeric_limits<double>::quiet_NaN();
+  refuses(shape, "not finite");
+}
+
+TEST(SurfaceMeasures, TrianglesThatAreLinesGo)
+{
+  MeasuredShape box = makeBox({1.0, 1.0, 1.0});
+  box.triangles.push_back({0, 1, 1});
+  EXPECT_DOUBLE_EQ(1.0, measure(box).isovalues[0].volume.value);
+  EXPECT_EQ(12u, measure(box).isovalues[0].triangles);
+}
+
+TEST(SurfaceMeasures, ParametersAreJson)
+{
+  SurfaceMeasuresParameters parameters;
+  EXPECT_EQ(parameters, SurfaceMeasuresParameters::fromJson("{}"));
+  parameters.curved = false;
+  EXPECT_EQ(parameters, SurfaceMeasuresParameters::fromJson(parameters.toJson()));
+}
+
+TEST(SurfaceMeasures, CountsSamplesInsideAndIntegratesOverThem)
+{
+  // A ball of radius 2 in a cube, a part of it in a second isovalue of radius 1.
+  MeasuredShape shape = makeEllipsoid({2.0, 2.0, 2.0}, 4);
+  shape.isovalues.assign(shape.places.size(), 4.0f);
+  MeasuredShape inner = makeEllipsoid({1.0, 1.0, 1.0}, 4);
+  inner.isovalues.assign(inner.places.size(), 7.0f);
+  shape.append(inner);
+  auto vertices = std::make_shared<Dataset>(shape.toDataset());
+  std::vector<float> rho;
+  for (const Eigen::Vector3d& place : shape.places)
+    rho.push_back(static_cast<float>(8.0 - place.squaredNorm()));
+  setField(*vertices, "rho", rho);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> any(-2.5, 2.5);
+  MeasuredShape points;
+  std::vector<float> values, masses;
+  std::size_t inside[2] = {};
+  for (std::size_t i = 0; i < 100000; ++i) {
+    const Eigen::Vector3d place(any(random), any(random), any(random));
+    points.places.push_back(place);
+    values.push_back(static_cast<float>(8.0 - place.squaredNorm()));
+    masses.push_back(0.5f);
+    inside[0] += place.norm() < 2.0;
+    inside[1] += place.norm() < 1.0;
+  }
+  auto samples = std::make_shared<Dataset>(points.toDataset());
+  setField(*samples, "rho", values);
+  setField(*samples, "mass", masses);
+  samples->cloud.data.insert(samples->cloud.data.end(), // a duplicate counts as well
+                             samples->cloud.data.begin(),
+                             samples->cloud.data.begin() + samples->cloud.point_step);
+  ++samples->cloud.width;
+  samples->cloud.row_step += samples->cloud.point_step;
+  inside[0] += points.places[0].norm() < 2.0;
+  inside[1] += points.places[0].norm() < 1.0;
+
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, shape.triangles);
+  measures.setInputSamples(samples);
+  const SurfaceFigures figures = measures.compute();
+  ASSERT_EQ(2u, figures.isovalues.size());
+  const double radii[] = {2.0, 1.0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PieceMeasures& ball = figures.isovalues[i];
+    const double r = radii[i];
+    // Flat triangles cut off half a per cent of the volume.
+    EXPECT_NEAR(static_cast<double>(inside[i]),
+                static_cast<double>(ball.samples),
+                0.01 * static_cast<double>(inside[i]));
+    ASSERT_EQ(2u, ball.inside.size());
+    EXPECT_EQ("rho", ball.inside[0].name);
+    const double truth =
+        4.0 * M_PI * (8.0 * std::pow(r, 3) / 3.0 - std::pow(r, 5) / 5.0);
+    expectWithin(ball.inside[0].integral, truth, 3e-3);
+    EXPECT_LT(ball.inside[0].integral.error, 0.02 * truth);
+    EXPECT_NEAR(truth / (4.0 / 3.0 * M_PI * std::pow(r, 3)), ball.inside[0].mean, 0.03);
+    EXPECT_DOUBLE_EQ(0.5 * static_cast<double>(ball.samples), ball.inside[1].sum);
+    // Without a mean on the surface that of the samples stands in.
+    EXPECT_NEAR(0.5, ball.inside[1].mean, 1e-9);
+  }
+  // The same for any number of threads.
+  measures.setNumberOfThreads(5);
+  const SurfaceFigures many = measures.compute();
+  EXPECT_EQ(figures.isovalues[0].inside[0].integral.value,
+            many.isovalues[0].inside[0].integral.value);
+  EXPECT_EQ(figures.isovalues[0].samples, many.isovalues[0].samples);
+}
+
+TEST(SurfaceMeasures, SamplesAndSurfaceMayHaveOtherOrigins)
+{
+  const MeasuredShape ball = makeEllipsoid({2.0, 2.0, 2.0}, 3);
+  MeasuredShape points;
+  points.places = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {3.0, 0.0, 0.0}};
+  Dataset vertices = ball.toDataset(), samples = points.toDataset();
+  vertices.origin = {{1024.0, 0.0, 0.0}};
+  samples.origin = {{1026.5, 0.0, 0.0}}; // so that the third one is 5.5 to the right
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(vertices), ball.triangles);
+  measures.setInputSamples(std::make_shared<Dataset>(samples));
+  EXPECT_EQ(0, measures.compute().isovalues[0].samples);
+  samples.origin[0] = 1023.0;
+  measures.setInputSamples(std::make_shared<Dataset>(samples));
+  EXPECT_EQ(2, measures.compute().isovalues[0].samples);
+}
+
+TEST(MeshColumns, TellInsideFromOutsideOnGridPlanesToo)
+{
+  // A box whose corners and edges lie above and below the places that are asked for.
+  MeasuredShape box = makeBox({4.0, 4.0, 4.0});
+  MeasuredShape ball = makeEllipsoid({6.0, 6.0, 6.0}, 3);
+  ball.transform(Eigen::Matrix3d::Identity(), {2.0, 2.0, 2.0});
+  box.append(ball);
+  const detail::PieceList list = detail::findPieces(box.triangles, box.places.size());
+  const detail::MeshColumns columns(box.places, box.triangles, list.of_vertex);
+  std::vector<detail::Winding> found;
+  const std::int32_t of_box = list.of_vertex[0], of_ball = list.of_vertex.back();
+  for (int x = -5; x <= 9; ++x)
+    for (int y = -5; y <= 9; ++y)
+      for (double z : {-5.0, -0.5, 0.5, 2.0, 3.5, 4.5, 8.0}) {
+        const Eigen::Vector3d place(x, y, z);
+        columns.findAround(place, found);
+        const double away = (place - Eigen::Vector3d(2.0, 2.0, 2.0)).norm();
+        const auto turns = [&](std::int32_t piece) {
+          for (const detail::Winding& winding : found)
+            if (winding.piece == piece)
+              return winding.turns;
+          return 0;
+        };
+        if (std::abs(away - 6.0) > 0.2) {
+          EXPECT_EQ(away < 6.0 ? 1 : 0, turns(of_ball)) << place.transpose();
+        }
+        if (x != 0 && x != 4 && y != 0 && y != 4) {
+          const bool is_inside = x > 0 && x < 4 && y > 0 && y < 4 && z > 0 && z < 4;
+          EXPECT_EQ(is_inside ? 1 : 0, turns(of_box)) << place.transpose();
+        }
+      }
+}
+
+TEST(CurvedTriangle, EdgesPassThroughTheMiddleOfTheArc)
+{
+  // An edge of half a right angle of a unit circle, and a tip whose edges are straight.
+  // Beyond the chord the bent edge cuts off two thirds of length times height.
+  const auto on_circle = [](double angle) {
+    const Eigen::Vector3d place(std::sin(angle), std::cos(angle), 0.0);
+    return detail::SurfaceCorner{place, place};
+  };
+  const detail::SurfaceCorner tip{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const double half = M_PI / 8.0;
+  const detail::CurvedTriangle triangle({on_circle(half), on_circle(-half), tip},
+                                        Eigen::Vector3d::Zero());
+  std::array<double, 3> shares;
+  const double added =
+      triangle.integrate(shares).area - triangle.integrateFlat(shares).area;
+  EXPECT_NEAR(4.0 / 3.0 * std::sin(half) * (1.0 - std::cos(half)), added, 1e-14);
+}
+
+TEST(CurvedTriangle, IntegralsMoveWithTheCentre)
+{
+  const detail::CurvedTriangle here({detail::SurfaceCorner{{1.0, 0.0, 0.5}, {1, 0, 0}},
+                                     detail::SurfaceCorner{{0.0, 1.0, 0.0}, {0, 1, 0}},
+                                     detail::SurfaceCorner{{0.0, 0.0, 1.0}, {0, 0, 1}}},
+                                    Eigen::Vector3d::Zero());
+  std::array<double, 3> shares;
+  const detail::SurfaceIntegrals integrals = here.integrate(shares);
+  EXPECT_NEAR(integrals.area, shares[0] + shares[1] + shares[2], 1e-15);
+  const Eigen::Vector3d offset(2.0, -3.0, 5.0);
+  const detail::SurfaceIntegrals moved = integrals.shifted(offset),
+                                 back = moved.shifted(-offset);
+  EXPECT_NEAR(0.0, (back.products - integrals.products).norm(), 1e-12);
+  EXPECT_NEAR(0.0, (back.area_products - integrals.area_products).norm(), 1e-12);
+  EXPECT_NEAR(
+      0.0, (moved.moment - integrals.moment - integrals.volume * offset).norm(), 1e-14);
+}
+
+} // namespace

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the Python module share. PCL_UVOL_TOOL_DIR names the folder of the tools, whose results
+are those of the module."""
+
+import os
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: takes more than some seconds")
+
+
+@pytest.fixture
+def ball():
+    """Samples of the distance to the centre of a cube, with other fields of several types."""
+    random = np.random.default_rng(7)
+    points = random.random((4000, 3))
+    fields = {
+        "r": np.linalg.norm(points - 0.5, axis=1),
+        "vel": (points - 0.5).astype(np.float32),
+        "id": np.arange(4000, dtype=np.int32),
+    }
+    return points, fields
+
+
+@pytest.fixture
+def sphere(ball):
+    """The isosurface of radius 0.3."""
+    return uvol.isosurface(*ball, field="r", iso=0.3, outside="higher")
+
+
+@pytest.fixture
+def run_tool(tmp_path):
+    """Calls run_tool("uvol_isosurface", argument, ...), in a folder of the test's own."""
+    folder = os.environ.get("PCL_UVOL_TOOL_DIR")
+    if not folder:
+        pytest.skip("PCL_UVOL_TOOL_DIR does not say where the tools are")
+
+    def run(tool, *arguments):
+        command = [os.path.join(folder, tool), *map(str, arguments)]
+        subprocess.run(command, check=True, cwd=tmp_path, capture_output=True)
+
+    return run
+
+
+@pytest.fixture
+def run_python():
+    """Calls run_python(code): what a new interpreter prints."""
+    def run(code):
+        return subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=True, capture_output=True,
+                              text=True).stdout
+
+    return run

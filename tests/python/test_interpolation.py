@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fields between the samples: the tool's own answers, arrays of the right shapes."""
+
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+
+@pytest.fixture
+def linear():
+    """Samples of a linear field, far from the origin."""
+    points = np.random.default_rng(11).random((2000, 3)) + [5e5, 4e6, 0]
+    return uvol.Samples(points, {"f": (points - [5e5, 4e6, 0]) @ [1, 2, 3], "g": np.ones(2000, np.float32)})
+
+
+@pytest.mark.parametrize("model", ["fit", "natural", "laplace", "auto"])
+def test_linear_fields_are_told_exactly(linear, model):
+    interpolator = uvol.Interpolator(linear, field="f", model=model)
+    queries = np.random.default_rng(12).uniform(0.2, 0.8, (40, 3))
+    answers = interpolator.evaluate(queries + [5e5, 4e6, 0])
+    assert np.allclose(answers.values, queries @ [1, 2, 3], atol=1e-4)
+    assert np.allclose(answers.gradients, [1, 2, 3], atol=1e-3)
+    assert np.isin(answers.support, [1, 2]).all()
+
+
+def test_shapes_follow_queries_and_fields(linear):
+    queries = np.full((4, 5, 3), 0.5) + [5e5, 4e6, 0]
+    one = uvol.Interpolator(linear, field="f").evaluate(queries)
+    assert one.values.shape == one.errors.shape == one.support.shape == (4, 5)
+    assert one.gradients.shape == (4, 5, 3)
+    two = uvol.Interpolator(linear, field=["f", "g", "f*g"], gradients=False, errors=False).evaluate(queries)
+    assert two.values.shape == (3, 4, 5) and two.gradients is None and two.errors is None
+    assert np.allclose(two.values[0], two.values[2])
+    values, errors = uvol.Interpolator(linear, field="f")(queries[0, 0])
+    assert values.shape == errors.shape == ()
+    assert uvol.Interpolator(linear, field="f")(np.empty((0, 3)))[0].shape == (0,)
+
+
+def test_the_tool_writes_the_same_answers(tmp_path, run_tool, linear):
+    linear.save(tmp_path / "samples.csv")
+    queries = uvol.Samples(np.random.default_rng(13).random((50, 3)) + [5e5, 4e6, 0], {"f": np.zeros(50)})
+    queries.save(tmp_path / "queries.csv")
+    run_tool("uvol_probe", "samples.csv", "tool.csv", "-points", "queries.csv", "-field", "f", "-model", "kriging")
+    interpolator = uvol.Interpolator(uvol.read(tmp_path / "samples.csv"), field="f", model="kriging", gradients=False)
+    interpolator.probe(uvol.read(tmp_path / "queries.csv")).save(tmp_path / "module.csv")
+    assert (tmp_path / "module.csv").read_bytes() == (tmp_path / "tool.csv").read_bytes()
+
+
+def test_the_tool_has_the_same_slices(tmp_path, run_tool, linear):
+    linear.save(tmp_path / "samples.ply")
+    run_tool("uvol_probe", "samples.ply", "tool.csv", "-plane", "z=0.5", "-size", "20", "-field", "f")
+    tool = uvol.read(tmp_path / "tool.csv")
+    lattice = uvol.Interpolator(linear, field="f").slice("z=0.5", 20)
+    assert np.array_equal(lattice["f"].ravel(), tool["f"], equal_nan=True)
+    assert np.array_equal(lattice["support"].ravel(), tool["support"])
+    assert np.allclose(lattice.points.reshape(-1, 3), tool.points, atol=1e-3)
+
+
+def test_lattices(linear):
+    interpolator = uvol.Interpolator(linear, field="f")
+    grid = interpolator.grid((4, 3, 2))
+    assert grid["f"].shape == (2, 3, 4) and grid["f_gradient"].shape == (2, 3, 4, 3)
+    assert (np.diff(grid.points[0, 0, :, 0]) > 0).all() and (np.diff(grid.points[:, 0, 0, 2]) > 0).all()
+    assert max(interpolator.grid(5).shape) == 5
+    line = interpolator.line([5e5, 4e6, 0.5], [5e5 + 1, 4e6 + 1, 0.5], n=7)
+    assert line["f"].shape == (7,)
+    oblique = interpolator.slice(([5e5 + 0.5, 4e6 + 0.5, 0.5], [1, 1, 1]), 9)
+    assert max(oblique.shape) == 9
+    with pytest.raises(KeyError, match="did you mean"):
+        grid["f_eror"]
+
+
+def test_grids_become_datasets_of_xarray(linear):
+    pytest.importorskip("xarray")
+    interpolator = uvol.Interpolator(linear, field="f")
+    data = interpolator.grid((4, 3, 2)).to_xarray()
+    assert data["f"].dims == ("z", "y", "x") and data["f_gradient"].dims == ("z", "y", "x", "axis")
+    inner = data.isel(x=1, y=1, z=0)
+    expected = float(inner.x - 5e5) + 2 * float(inner.y - 4e6) + 3 * float(inner.z)
+    assert np.isnan(inner.f) or abs(float(inner.f) - expected) < 1e-2
+    oblique = interpolator.slice(([5e5 + 0.5, 4e6 + 0.5, 0.5], [1, 1, 1]), 9).to_xarray()
+    assert oblique["f"].dims == ("k", "j") or oblique["f"].dims == ("j", "i")
+
+
+def test_queries_outside_are_a_warning(linear):
+    with pytest.warns(uvol.ResultWarning):
+        values, _ = uvol.Interpolator(linear, field="f")(np.zeros((20, 3)))
+    assert np.isnan(values).all()
+
+
+def test_pickled_models_answer_the_same(linear):
+    interpolator = uvol.Interpolator(linear, field=["f", "f*g"], model="shepard", shepard={"k": 5})
+    queries = np.random.default_rng(3).random((20, 3)) + [5e5, 4e6, 0]
+    again = pickle.loads(pickle.dumps(interpolator))
+    assert np.array_equal(again(queries)[0], interpolator(queries)[0], equal_nan=True)
+
+
+def test_threads_may_ask_at_once(linear):
+    interpolator = uvol.Interpolator(linear, field="f", threads=1)
+    queries = np.random.default_rng(3).random((500, 3)) + [5e5, 4e6, 0]
+    expected = interpolator(queries)[0]
+    found = [None] * 8
+
+    def ask(number):
+        found[number] = interpolator(queries)[0]
+
+    workers = [threading.Thread(target=ask, args=[number]) for number in range(8)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert all(np.array_equal(values, expected, equal_nan=True) for values in found)
+
+
+@pytest.mark.parametrize("options, message", [
+    (dict(model="spline"), "spline"),
+    (dict(kriging={"nugget": -1}, model="kriging"), "nugget"),
+    (dict(kriging={"nuget": 1}), "nuget"),
+    (dict(field="q"), "no field"),
+    (dict(scale=[1, 0, 1]), "finite|positive"),
+])
+def test_mistakes_get_a_sentence(linear, options, message):
+    with pytest.raises((ValueError, KeyError), match=message):
+        uvol.Interpolator(linear, **{"field": "f", **options})
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda i: i(np.zeros((3, 2))), "must be"),
+    (lambda i: i([["a", "b", "c"]]), "numbers"),
+    (lambda i: i.slice("w=1"), "must be x="),
+    (lambda i: i.slice("z=deep"), "must be x="),
+    (lambda i: i.slice("z=99"), "box|plane"),
+    (lambda i: i.grid(1), "2"),
+    (lambda i: i.grid((3, 3)), "must be one, or three"),
+    (lambda i: i.line([0, 0], [1, 1, 1]), "three"),
+    (lambda i: i.grid(5, box=[0, 0, 0]), "pair"),
+])
+def test_queries_that_are_none_get_a_sentence(linear, call, message):
+    with pytest.raises(ValueError, match=message):
+        call(uvol.Interpolator(linear, field="f"))

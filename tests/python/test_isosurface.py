@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Isosurfaces from Python: the tool's own, byte for byte; errors, warnings, progress, threads."""
+
+import pickle
+import signal
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+
+def test_isopoints_lie_on_the_sphere(sphere):
+    offsets = sphere.points - 0.5
+    misses = np.abs(np.linalg.norm(offsets, axis=1) - 0.3)
+    assert misses.max() < 1e-2 and np.median(misses) < 2e-4
+    inwards = -offsets / np.linalg.norm(offsets, axis=1)[:, None]
+    cosines = np.sum(sphere.normals * -inwards, axis=1)
+    assert cosines.min() > 0.5 and np.median(cosines) > 0.9999
+    assert sphere["vel"].shape == sphere.points.shape
+    assert sphere["id"].dtype == np.int32
+    assert len(sphere) == sphere.report["isopoints"][0] == sphere.report["counts"]["isopoints"]
+    assert sphere.report["error"]["median"] < 2e-3
+
+
+OPTIONS = [
+    (dict(iso=0.3), ["-iso", "0.3"]),
+    (dict(iso=[0.2, 0.4], interpolation="linear", normals="pca"),
+     ["-iso", "0.2,0.4", "-interpolation", "linear", "-normals", "pca"]),
+    (dict(iso=0.3, outside="higher", criterion="all", scale=(1, 2, 1)),
+     ["-iso", "0.3", "-outside", "higher", "-criterion", "all", "-scale", "1,2,1"]),
+    (dict(iso=0.3, smooth=True, mu=0.4), ["-iso", "0.3", "-smooth", "-mu", "0.4"]),
+    (dict(iso=0.3, scale="auto", max_error=0.001, neighbors="voronoi", voronoi_cells=30),
+     ["-iso", "0.3", "-scale", "auto", "-max-error", "0.001", "-neighbors", "voronoi", "-grid", "30"]),
+    (dict(iso=0.09, field="r*r"), ["-iso", "0.09", "-field", "r*r"]),
+]
+
+
+@pytest.mark.parametrize("options, arguments", OPTIONS)
+def test_the_tool_writes_the_same_bytes(tmp_path, run_tool, ball, options, arguments):
+    samples = uvol.Samples(*ball)
+    samples.save(tmp_path / "samples.ply")
+    options = {"field": "r", **options}
+    arguments = arguments if "-field" in arguments else [*arguments, "-field", "r"]
+    run_tool("uvol_isosurface", "samples.ply", "tool.ply", *arguments)
+    uvol.isosurface(uvol.read(tmp_path / "samples.ply"), **options).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
+def test_the_tool_writes_the_same_mesh(tmp_path, run_tool, ball, ending):
+    uvol.Samples(*ball).save(tmp_path / "samples.ply")
+    run_tool("uvol_isosurface", "samples.ply", f"tool.{ending}", "-field", "r", "-iso", "0.3", "-mesh")
+    surface = uvol.isosurface(uvol.read(tmp_path / "samples.ply"), field="r", iso=0.3)
+    surface.mesh().save(tmp_path / f"module.{ending}")
+    assert (tmp_path / f"module.{ending}").read_bytes() == (tmp_path / f"tool.{ending}").read_bytes()
+
+
+def test_a_mesh_is_closed(sphere):
+    mesh = sphere.mesh()
+    edges = np.concatenate([mesh.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+    forward = {tuple(edge) for edge in edges.tolist()}
+    assert len(forward) == len(edges) and {edge[::-1] for edge in forward} == forward
+    assert [piece["genus"] for piece in mesh.report["pieces"]] == [0]
+    assert len(mesh.vertices) - len(edges) // 2 + len(mesh.triangles) == 2
+
+
+def test_threads_do_not_change_a_byte(ball):
+    records = [uvol.isosurface(*ball, field="r", iso=0.3, threads=threads).records.tobytes() for threads in (1, 2, 5)]
+    assert records[0] == records[1] == records[2]
+
+
+def test_an_extractor_serves_several_isovalues_and_fields(ball):
+    extractor = uvol.Extractor(*ball)
+    for options in (dict(iso=0.2), dict(iso=0.3), dict(iso=0.1, field="|vel|"), dict(iso=0.3)):
+        options = {"field": "r", **options}
+        again = uvol.isosurface(*ball, **options)
+        assert extractor.extract(**options).records.tobytes() == again.records.tobytes()
+
+
+def test_points_of_tables_and_surfaces_are_samples(ball, sphere):
+    pandas = pytest.importorskip("pandas")
+    points, fields = ball
+    frame = pandas.DataFrame(points, columns=list("xyz")).assign(r=fields["r"])
+    surface = uvol.isosurface(frame, iso=0.3, outside="higher")
+    assert np.array_equal(surface.points, sphere.points)
+
+
+def test_pickled_surfaces_are_the_same(sphere):
+    for surface in (sphere, sphere.mesh()):
+        again = pickle.loads(pickle.dumps(surface))
+        assert again.records.tobytes() == surface.records.tobytes()
+        assert again.report == surface.report and type(again) is type(surface)
+    assert np.array_equal(again.triangles, surface.triangles)
+    with pytest.raises(ValueError, match="lost its samples"):
+        again.mesh()
+    extractor = pickle.loads(pickle.dumps(uvol.Extractor(sphere)))
+    assert extractor.samples.records.tobytes() == sphere.records.tobytes()
+
+
+def test_no_isopoints_are_a_warning(ball):
+    with pytest.warns(uvol.ResultWarning, match="outside the range"):
+        surface = uvol.isosurface(*ball, field="r", iso=7.0)
+    assert len(surface) == 0 and surface.points.shape == (0, 3) and surface.normals.shape == (0, 3)
+    assert surface.report["warnings"]
+    assert "0 points" in repr(surface) and surface._repr_png_() is None
+
+
+def test_warnings_name_the_line_of_the_caller(ball):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        uvol.isosurface(*ball, field="r", iso=7.0)
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("options, error, message", [
+    (dict(field="vle", iso=1), KeyError, "did you mean 'vel'"),
+    (dict(field="log10(q)", iso=1), KeyError, "There is no field"),
+    (dict(field="r +", iso=1), ValueError, "r \\+"),
+    (dict(field="vel", iso=1), ValueError, "components"),
+    (dict(field=5, iso=1), TypeError, "field is 5"),
+    (dict(field="r"), TypeError, "iso"),
+    (dict(field="r", iso=[]), ValueError, "isovalue"),
+    (dict(field="r", iso=np.nan), ValueError, "iso is nan"),
+    (dict(field="r", iso="0.3"), ValueError, "iso is '0.3'"),
+    (dict(field="r", iso=1, izo=2), TypeError, "izo"),
+    (dict(field="r", iso=1, outside="up"), ValueError, "lower, higher"),
+    (dict(field="r", iso=1, scale=(1, 1)), ValueError, "scale has 2"),
+    (dict(field="r", iso=1, scale=(1, 1, -1)), ValueError, "positive"),
+    (dict(field="r", iso=1, scale="automatic"), ValueError, "scale is 'automatic'"),
+    (dict(field="r", iso=1, threads=-1), ValueError, "threads is -1"),
+    (dict(field="r", iso=1, threads=1.5), TypeError, "threads is 1.5"),
+    (dict(field="r", iso=1, normal_neighbors=1), ValueError, "at least 2"),
+    (dict(field="r", iso=1, max_error=-1), ValueError, "from 0"),
+    (dict(field="r", iso=1, validate=1), ValueError, "1 fold"),
+    (dict(field="r", iso=1, level_set={"speed": 1}), ValueError, "speed"),
+    (dict(field="r", iso=1, level_set={"mu": object()}), ValueError, "parameter"),
+    (dict(field="r", iso=1, mesh={"edges": 1}), ValueError, "edges"),
+    (dict(field="r", iso=1, progress=5), TypeError, "progress is True or a function"),
+])
+def test_mistakes_get_a_sentence(ball, options, error, message):
+    with pytest.raises(error, match=message):
+        uvol.isosurface(*ball, **options)
+
+
+@pytest.mark.parametrize("points, fields, message", [
+    (np.empty((0, 3)), {"r": []}, "empty|no point|no usable"),
+    (np.full((20, 3), np.nan), {"r": np.ones(20)}, "finite|usable"),
+    (np.random.default_rng(1).random((20, 3)), {"r": np.full(20, np.nan)}, "finite|usable|value"),
+])
+def test_samples_without_a_value_get_a_sentence(points, fields, message):
+    with pytest.raises(ValueError, match=message):
+        uvol.isosurface(points, fields, iso=0.5)
+
+
+def test_progress_is_told_and_may_end_the_work(ball):
+    told = []
+    random = np.random.default_rng(3)
+    points = random.random((60000, 3))
+    uvol.isosurface(points, {"r": points[:, 0]}, iso=0.5, progress=lambda step, done: told.append((step, done)))
+    assert told and all(isinstance(step, str) and 0 <= done <= 1 for step, done in told)
+
+    def stop(step, done):
+        raise RuntimeError("enough")
+
+    extractor = uvol.Extractor(points, {"r": points[:, 0]})
+    with pytest.raises(RuntimeError, match="enough"):
+        extractor.extract(iso=0.5, progress=stop)
+    assert len(extractor.extract(iso=0.5)) > 100
+
+
+def test_a_bar_shows_progress(ball, capsys):
+    uvol.isosurface(*ball, field="r", iso=0.3, smooth=True, progress=True)
+    assert capsys.readouterr().err
+
+
+def test_ctrl_c_ends_a_long_step_and_leaves_the_object_usable(ball):
+    random = np.random.default_rng(3)
+    points = random.random((200000, 3))
+    noisy = np.linalg.norm(points - 0.5, axis=1) + 0.05 * random.standard_normal(len(points))
+    extractor = uvol.Extractor(points, {"r": noisy})
+    timer = threading.Timer(0.3, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        extractor.extract(iso=0.3, smooth=True)
+    assert time.perf_counter() - start < 5.0
+    assert len(extractor.extract(iso=0.3, interpolation="linear")) > 100
+
+
+def test_eight_threads_at_once(ball):
+    expected = uvol.isosurface(*ball, field="r", iso=0.3).records.tobytes()
+    samples = uvol.Samples(*ball)
+    extractor = uvol.Extractor(samples)
+    found = [None] * 8
+
+    def extract(number):
+        mine = extractor if number % 2 else uvol.Extractor(samples)
+        found[number] = mine.extract(field="r", iso=0.3, threads=1).records.tobytes()
+
+    workers = [threading.Thread(target=extract, args=[number]) for number in range(8)]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert found == [expected] * 8
+
+
+def test_other_threads_run_meanwhile():
+    points = np.random.default_rng(3).random((100000, 3))
+    samples = uvol.Samples(points, {"r": points[:, 0]})
+    counted = [0]
+    ended = threading.Event()
+
+    def count():
+        while not ended.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    start = time.perf_counter()
+    uvol.isosurface(samples, iso=0.5)
+    spent = time.perf_counter() - start
+    ended.set()
+    counter.join()
+    assert counted[0] > 50 * spent
+
+
+def test_a_notebook_shows_a_surface(sphere):
+    text = sphere._repr_html_()
+    assert "Surface of r at 0.3" in text and "data:image/png;base64," in text
+    assert sphere._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_memory_that_is_not_there_is_a_memoryerror(run_python):
+    out = run_python("""
+        import resource, numpy as np, pcl_uvol as uvol
+        samples = uvol.Samples(np.random.default_rng(1).random((3000000, 3)), {"r": np.arange(3e6)})
+        used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + 80_000_000, used + 80_000_000))
+        try:
+            uvol.isosurface(samples, iso=5.0, threads=1)
+        except MemoryError as error:
+            print(error)
+        """)
+    assert "3000000 points" in out and "B" in out

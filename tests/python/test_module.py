@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The module as a whole: what importing it loads, its documentation, its memory."""
+
+import ast
+import doctest
+import importlib
+import inspect
+import pathlib
+import pkgutil
+import re
+import warnings
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+FOLDER = pathlib.Path(uvol.__file__).parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def test_importing_is_quick_and_loads_neither_vtk_nor_opengl(run_python):
+    out = run_python("""
+        import time
+        import numpy
+        start = time.perf_counter()
+        import pcl_uvol
+        print(time.perf_counter() - start)
+        print([line for line in open("/proc/self/maps") if "libvtk" in line or "libGL" in line or "libEGL" in line])
+        """)
+    spent, libraries = out.splitlines()
+    assert float(spent) < 0.5  # 0.03 s on a quiet machine
+    assert libraries == "[]"
+
+
+@pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(uvol.__path__)
+                                  if module.name not in ("_core", "_io")])
+def test_examples_of_the_documentation_run(name):
+    module = importlib.import_module(f"pcl_uvol.{name}")
+    outcome = doctest.testmod(module, extraglobs={"np": np, "uvol": uvol})
+    assert outcome.failed == 0
+
+
+def test_everything_public_is_documented():
+    for name in uvol.__all__:
+        thing = getattr(uvol, name)
+        assert inspect.getdoc(thing), name
+        for member, value in inspect.getmembers(thing):
+            if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
+                assert inspect.getdoc(value), f"{name}.{member}"
+
+
+def test_types_of_the_stub_have_the_names_of_the_code():
+    stub = ast.parse((FOLDER / "__init__.pyi").read_text())
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+    functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    assert {name for name in {**classes, **functions} if not name.startswith("_")} == set(uvol.__all__)
+
+    def compare(node, function):
+        arguments = node.args
+        listed = [argument.arg for argument in arguments.args + arguments.kwonlyargs]
+        keywords = [parameter.name for parameter in inspect.signature(function).parameters.values()
+                    if parameter.kind != parameter.VAR_KEYWORD]
+        assert [name for name in listed if name not in ("self", "cls")] == [k for k in keywords if k != "self"], node.name
+
+    for name, node in functions.items():
+        compare(node, getattr(uvol, name))
+    for name, node in classes.items():
+        if not name.startswith("_"):
+            for method in node.body:
+                if isinstance(method, ast.FunctionDef) and not method.name.startswith("__"):
+                    compare(method, getattr(getattr(uvol, name), method.name))
+
+
+@pytest.mark.parametrize("path", ["README.md", "python/README.md"])
+def test_examples_of_the_readme_run(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / path).read_text(), re.DOTALL)
+    assert blocks
+    for block in blocks:
+        exec(block, {})
+    assert (tmp_path / "surface.png").exists()
+
+
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * 4096
+
+
+@pytest.mark.long
+def test_ten_thousand_calls_leave_memory_where_it_was():
+    points = np.random.default_rng(1).random((300, 3))
+    fields = {"r": points[:, 0]}
+
+    def call(times):
+        for _ in range(times):
+            surface = uvol.isosurface(points, fields, iso=0.5, threads=1)
+            assert surface.points.shape[1] == 3
+            with pytest.raises(ValueError):
+                uvol.isosurface(points, fields, iso=0.5, outside="up")
+
+    call(1000)
+    before = resident()
+    call(10000)
+    assert resident() - before < 3e6
+
+
+@pytest.mark.long
+def test_random_arrays_never_crash():
+    random = np.random.default_rng(2024)
+    kinds = ["f2", "f4", "f8", "i1", "u2", "i8", "?", "c8", "O", "S3", "M8[s]", ">f8"]
+    extremes = [np.nan, np.inf, -np.inf, 0.0, 1e300, -1e-300, 3e38, 1.0]
+
+    def array(shape):
+        values = random.standard_normal(shape)
+        if random.random() < 0.3 and values.size:
+            values[random.random(values.shape) < 0.3] = random.choice(extremes)
+        with np.errstate(all="ignore"):
+            values = values.astype(random.choice(kinds)) if random.random() < 0.5 else values
+        return values[::-1] if random.random() < 0.3 and values.ndim else values
+
+    def shape(count):
+        return random.choice(np.array([(count, 3), (count,), (count, 2), (3, count), (), (count, 3, 1)], object))
+
+    calls = 0
+    for _ in range(3000):
+        count = int(random.choice([0, 1, 2, 3, 5, 40, 300]))
+        points = array((count, 3)) if random.random() < 0.8 else array(shape(count))
+        fields = {name: array((count,) if random.random() < 0.8 else shape(count)) for name in "ab"}
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                choice = random.integers(4)
+                if choice == 0:
+                    uvol.isosurface(points, fields, field="a", iso=float(random.standard_normal()), threads=1,
+                                    mesh=bool(random.random() < 0.3))
+                elif choice == 1:
+                    uvol.Interpolator(points, fields, field="a", threads=1)(array((5, 3)))
+                elif choice == 2:
+                    uvol.level_set(points, fields, field="a", iso=0.1, threads=1, max_steps=5)
+                else:
+                    uvol.splats(points, fields, threads=1)
+                calls += 1
+            except (ValueError, TypeError, KeyError, uvol.DivergedError) as error:
+                assert str(error)
+    assert calls > 100

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays of all kinds into samples, and out again."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+POINTS = np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0], [6.0, 7.0, 8.5]])
+
+
+@pytest.mark.parametrize("kind", ["?", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"])
+def test_fields_keep_type_and_values(kind):
+    values = np.array([1, 0, 1]).astype(kind)
+    if kind[0] in "iu":
+        info = np.iinfo(kind)
+        values[:2] = info.min, info.max
+    found = uvol.Samples(POINTS, {"a": values})["a"]
+    assert found.dtype == values.dtype
+    assert found.tolist() == values.tolist()
+
+
+@pytest.mark.parametrize("kind, wider", [("f2", "f4"), ("f16", "f8"), (">f8", "f8"), (">i4", "i4"), (">f4", "f4")])
+def test_other_types_become_the_next_wider_one(kind, wider):
+    found = uvol.Samples(POINTS, {"a": np.array([1, 2, 3]).astype(kind)})["a"]
+    assert found.dtype == np.dtype(wider)
+    assert found.tolist() == [1, 2, 3]
+
+
+def test_any_stride_gives_the_same_samples():
+    wide = np.zeros((6, 7))
+    wide[::2, 1:6:2] = POINTS
+    backwards = np.asfortranarray(POINTS)[::-1]
+    for points in (wide[::2, 1:6:2], backwards[::-1], POINTS.tolist(), np.asfortranarray(POINTS)):
+        assert uvol.Samples(points).records.tobytes() == uvol.Samples(POINTS).records.tobytes()
+
+
+def test_doubles_keep_their_digits_far_from_the_origin():
+    points = POINTS * 1e-3 + [5e6, 4e5, 0.0]
+    assert np.abs(uvol.Samples(points).points - points).max() < 2e-9
+
+
+def test_views_look_into_the_memory_of_the_library():
+    samples = uvol.Samples(POINTS.astype(np.float32), {"a": [1.0, 2.0, 3.0], "v": POINTS})
+    base = samples.records.__array_interface__["data"][0]
+    size = samples.records.nbytes
+    for view in (samples.points, samples["a"], samples["v"]):
+        assert base <= view.__array_interface__["data"][0] < base + size
+        assert not view.flags.writeable
+    with pytest.raises(ValueError):
+        samples["a"][0] = 5
+
+
+def test_views_outlive_their_samples():
+    values = uvol.Samples(np.random.default_rng(1).random((10000, 3)), {"a": np.arange(10000)})["a"]
+    again = [uvol.Samples(np.zeros((10000, 3))) for _ in range(5)]
+    assert (values == np.arange(10000)).all() and again
+
+
+def test_masked_values_are_missing():
+    floats = np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False], dtype=np.float32)
+    integers = np.ma.array([1, 2, 3], mask=[False, True, False])
+    whole = np.ma.array([1, 2, 3])
+    samples = uvol.Samples(POINTS, {"f": floats, "i": integers, "w": whole})
+    assert samples["f"].dtype == np.float32 and np.isnan(samples["f"]).tolist() == [False, True, False]
+    assert samples["i"].dtype == np.float64 and np.isnan(samples["i"]).tolist() == [False, True, False]
+    assert samples["w"].dtype == whole.dtype
+
+
+def test_structured_array_brings_its_fields():
+    records = np.zeros(3, [("T", "f4"), ("x", "f8"), ("y", "f8"), ("z", "f8"), ("v", "f4", (2,))])
+    for axis, name in enumerate("xyz"):
+        records[name] = POINTS[:, axis]
+    records["T"] = 1, 2, 3
+    samples = uvol.Samples(records)
+    assert samples.keys() == ["T", "v"] and samples["v"].shape == (3, 2)
+    assert (samples.points == POINTS).all() and samples["T"].tolist() == [1, 2, 3]
+
+
+def test_dataframes():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(POINTS, columns=["x", "y", "z"]).assign(
+        T=[1.0, None, 3.0], n=pandas.array([1, None, 3], dtype="Int32"), b=[True, False, True], name=["a", "b", "c"])
+    samples = uvol.Samples.from_dataframe(frame)
+    assert samples.keys() == ["T", "n", "b"]
+    assert samples["b"].dtype == bool and np.isnan(samples["n"]).tolist() == [False, True, False]
+    back = samples.to_dataframe()
+    assert back[["x", "y", "z"]].to_numpy().tolist() == POINTS.tolist() and back["T"][2] == 3
+    with pytest.raises(KeyError, match="did you mean 'name'"):
+        uvol.Samples.from_dataframe(frame, fields=["T", "nane"])
+
+
+def test_grids_of_xarray():
+    xarray = pytest.importorskip("xarray")
+    data = xarray.Dataset({name: ("n", POINTS[:, axis]) for axis, name in enumerate("xyz")} | {"T": ("n", [1, 2, 3])})
+    assert uvol.Samples.from_dataframe(data)["T"].tolist() == [1, 2, 3]
+
+
+def test_computed_fields():
+    samples = uvol.Samples(POINTS, {"a": [1.0, 10.0, 100.0], "v": POINTS})
+    assert samples.compute("log10(a)")["log10(a)"].tolist() == [0, 1, 2]
+    assert samples.compute("a") is samples
+    assert "log10(a)" not in samples
+    assert samples["v[1]"].tolist() == POINTS[:, 1].tolist()
+    assert np.allclose(samples["|v|"], np.linalg.norm(POINTS, axis=1))
+    assert len(samples.where("a > 5")) == 2
+    assert samples.take([2, 0])["a"].tolist() == [100, 1]
+    assert samples.take(samples["a"] > 50).points.tolist() == [POINTS[2].tolist()]
+
+
+def test_pickled_samples_are_the_same():
+    samples = uvol.Samples(POINTS + [1e7, 0, 0], {"a": [1, 2, 3], "b": [True, False, True]})
+    again = pickle.loads(pickle.dumps(samples))
+    assert (again.points == samples.points).all()
+    assert again.records.dtype == samples.records.dtype and again.records.tobytes() == samples.records.tobytes()
+
+
+@pytest.mark.parametrize("ending", ["ply", "pcd", "vtp", "csv"])
+def test_files_give_back_what_they_got(tmp_path, ending):
+    samples = uvol.Samples(POINTS + [4e6, 0, 0], {"a": [1.5, 2.5, np.nan]})
+    path = tmp_path / f"samples.{ending}"
+    samples.save(path)
+    again = uvol.read(path)
+    assert np.array_equal(again.points, samples.points)
+    assert np.array_equal(again["a"], samples["a"], equal_nan=True)
+
+
+@pytest.mark.parametrize("points, fields, message", [
+    (np.zeros((3, 2)), None, r"points has the shape \(3, 2\)"),
+    (np.zeros(3), None, r"points has the shape \(3,\)"),
+    ([[1, 2, 3], [4, 5]], None, "different lengths"),
+    (np.array([["a", "b", "c"]]), None, "must hold numbers"),
+    (np.zeros((2, 3), complex), None, "must hold numbers"),
+    (np.zeros((2, 3), object), None, "Python objects"),
+    (POINTS, {"a": [1, 2]}, "2 values for 3 points"),
+    (POINTS, {"a": np.zeros((3, 2, 2))}, r"shape \(3, 2, 2\)"),
+    (POINTS, {"a": np.zeros((3, 0))}, r"shape \(3, 0\)"),
+    (POINTS, {"a": ["x", "y", "z"]}, "must hold numbers"),
+    (POINTS, {"a": np.array(["2020-01-01"] * 3, "M8[D]")}, "must hold numbers"),
+    (POINTS, {"x": [1, 2, 3]}, "is a coordinate"),
+    (POINTS, {"": [1, 2, 3]}, "names are texts"),
+    (POINTS, {5: [1, 2, 3]}, "names are texts"),
+    (np.zeros(3, [("x", "f4"), ("y", "f4")]), None, "has no field z"),
+])
+def test_what_is_no_sample_gets_a_sentence(points, fields, message):
+    with pytest.raises(ValueError, match=message):
+        uvol.Samples(points, fields)
+
+
+def test_a_missing_field_gets_a_proposal():
+    samples = uvol.Samples(POINTS, {"density": [1, 2, 3]})
+    with pytest.raises(KeyError) as caught:
+        samples["desnity"]
+    assert "did you mean 'density'" in str(caught.value)
+    with pytest.raises(uvol.FieldError, match="did you mean 'density'"):
+        samples.compute("log10(desnity)")
+
+
+def test_a_missing_file_is_an_oserror(tmp_path):
+    with pytest.raises(OSError, match="missing.ply"):
+        uvol.read(tmp_path / "missing.ply")

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The stages beside isosurfaces: what the tools write."""
+
+import numpy as np
+import pytest
+
+import pcl_uvol as uvol
+
+
+def compare(tmp_path, run_tool, tool, samples, arguments, make):
+    """What a tool makes of samples, and what the module does, as files."""
+    samples.save(tmp_path / "in.ply")
+    run_tool(tool, "in.ply", "tool.ply", *arguments)
+    make(uvol.read(tmp_path / "in.ply")).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+
+
+@pytest.mark.parametrize("arguments, options", [
+    (["-mu", "0.5"], dict(mu=0.5)),
+    (["-sphere", "1000.5,0.5,0.5,0.2", "-outside", "higher", "-steps", "20"],
+     dict(start={"kind": "sphere", "first": [1000.5, 0.5, 0.5], "radius": 0.2}, outside="higher", max_steps=20)),
+    (["-start", "r-0.3", "-scale", "auto", "-flow", "mean"],
+     dict(start="r-0.3", scale="auto", flow="mean")),
+])
+def test_level_sets(tmp_path, run_tool, ball, arguments, options):
+    points, fields = ball
+    samples = uvol.Samples(points + [1000, 0, 0], fields)
+    compare(tmp_path, run_tool, "uvol_levelset", samples, ["-field", "r", "-iso", "0.3", *arguments],
+            lambda samples: uvol.level_set(samples, field="r", iso=0.3, **options))
+
+
+def test_a_level_set_tells_of_its_steps(ball):
+    smooth = uvol.level_set(*ball, field="r", iso=0.3, mu=0.5)
+    assert smooth.report["mu"] == 0.5 and len(smooth.report["steps"]) > 0
+    assert smooth["phi"].shape == (4000,)
+    inside = smooth["r"] < 0.3
+    assert np.mean((smooth["phi"] < 0) == inside) > 0.97
+
+
+def test_normals(tmp_path, run_tool, sphere):
+    compare(tmp_path, run_tool, "uvol_normals", sphere, ["-k", "12"], lambda samples: uvol.normals(samples, k=12))
+    bare = uvol.Samples(sphere.points)
+    found = uvol.normals(bare, view_point=[0.5, 0.5, 0.5])
+    found = np.stack([found[f"normal_{axis}"] for axis in "xyz"], axis=1)
+    assert (np.sum(found * (sphere.points - 0.5), axis=1) < 0).all()
+
+
+def test_splats(tmp_path, run_tool, sphere):
+    compare(tmp_path, run_tool, "uvol_splats", sphere, ["-delta", "0.001", "-lambda", "0.5"],
+            lambda samples: uvol.splats(samples, delta=0.001, overlap=0.5))
+    assert len(uvol.splats(sphere, delta=0.01, delta_is_length=True)) < len(sphere)
+
+
+@pytest.fixture
+def groups():
+    """Two groups in three attributes."""
+    random = np.random.default_rng(5)
+    centers = np.repeat([[0, 0, 0], [4, 4, 0]], 150, axis=0)
+    values = centers + random.standard_normal((300, 3))
+    return uvol.Samples(random.random((300, 3)), {name: values[:, k] for k, name in enumerate("abc")})
+
+
+def test_clusters(tmp_path, run_tool, groups):
+    clusters = uvol.cluster(groups, attributes=["a", "b"])
+    assert len(clusters) == 2 and "2 of 300" in repr(clusters)
+    first, second = clusters.labels[:150], clusters.labels[150:]
+    assert abs(np.median(first) - np.median(second)) == 1
+    assert clusters.tree["parent"][0] == -1 and (clusters.probabilities[clusters.labels < 0] == 0).all()
+    groups.save(tmp_path / "in.csv")
+    run_tool("uvol_cluster", "in.csv", "tool.csv", "-attributes", "a,b")
+    tool = uvol.read(tmp_path / "tool.csv")
+    clusters = uvol.cluster(uvol.read(tmp_path / "in.csv"), attributes=["a", "b"])
+    assert np.array_equal(tool["label"], clusters.labels)
+    assert np.array_equal(tool["probability"].astype(np.float32), clusters.probabilities)
+
+
+def test_projections(tmp_path, run_tool, groups):
+    groups.save(tmp_path / "in.csv")
+    run_tool("uvol_project", "in.csv", "tool.csv", "-attributes", "a,b,c,a*b")
+    tool = uvol.read(tmp_path / "tool.csv")
+    found = uvol.project(uvol.read(tmp_path / "in.csv"), attributes=["a", "b", "c", "a*b"])
+    assert np.array_equal(found.places, tool.records[["x", "y", "z"]].tolist())
+    assert np.array_equal(found.labels, tool["label"])
+    rows = np.array(found.map["rows"])
+    assert np.allclose(rows @ rows.T, np.eye(3), atol=1e-6)
+    given = uvol.project(groups, attributes=["a", "b", "c"], labels=[0] * 150 + [1] * 150, method="pca")
+    assert np.array_equal(given.labels, [0] * 150 + [1] * 150)
+
+
+def test_voronoi_finds_the_nearest():
+    points = np.random.default_rng(9).random((50, 3)) + [100, 0, 0]
+    diagram = uvol.voronoi(points, cells=24)
+    assert max(diagram.site.shape) == 24
+    cells = np.stack(np.meshgrid(*(np.arange(side) for side in diagram.site.shape), indexing="ij"), axis=-1)[..., ::-1]
+    centers = diagram.origin + (cells + 0.5) * diagram.spacing
+    distances = np.linalg.norm(centers[..., None, :] - points, axis=-1)
+    diagonal = np.linalg.norm(diagram.spacing)
+    assert (np.take_along_axis(distances, diagram.site[..., None].astype(int), -1)[..., 0]
+            <= distances.min(-1) + diagonal).all()
+    assert (np.abs(diagram.distance - distances.min(-1)) <= diagonal).all()
+    assert uvol.voronoi(points, cells=(3, 4, 5)).site.shape == (5, 4, 3)
+
+
+def test_info(ball):
+    points, fields = ball
+    facts = uvol.info(points, {**fields, "gap": np.where(fields["r"] > 0.4, np.nan, fields["r"])})
+    assert facts["points"] == 4000 and np.allclose(facts["lower"], points.min(0)) and facts["duplicates"] == 0
+    assert facts["fields"]["r"]["max"] == fields["r"].max() and sum(facts["fields"]["r"]["histogram"]) == 4000
+    assert facts["fields"]["vel[2]"]["missing"] == 0
+    assert facts["fields"]["gap"]["missing"] == np.sum(fields["r"] > 0.4)
+    assert 0.01 < facts["spacing"]["median"] < 0.1
+    assert "min" not in uvol.info(points[:2], {"n": [np.nan, np.nan]})["fields"]["n"]
+
+
+@pytest.mark.parametrize("call, error, message", [
+    (lambda b: uvol.level_set(*b, field="r", iso=[1, 2]), ValueError, "one isovalue"),
+    (lambda b: uvol.level_set(*b, field="r", iso=0.3, mu=2), ValueError, "mu|weight"),
+    (lambda b: uvol.level_set(*b, field="r", iso=0.3, speed=2), ValueError, "speed"),
+    (lambda b: uvol.level_set(*b, field="r", iso=9.0), ValueError, ""),
+    (lambda b: uvol.normals(*b, k=0), ValueError, "neighbours|2"),
+    (lambda b: uvol.splats(*b, delta=-1), ValueError, "delta|greater|distance"),
+    (lambda b: uvol.cluster(*b, attributes="r"), TypeError, "sequence"),
+    (lambda b: uvol.cluster(*b, attributes=["q"]), KeyError, "no field"),
+    (lambda b: uvol.cluster(*b, attributes=[]), ValueError, "attribute"),
+    (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[0.5]), ValueError, "whole numbers"),
+    (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[1, 2]), ValueError, "labels"),
+    (lambda b: uvol.voronoi(*b, cells=0), ValueError, "cells"),
+    (lambda b: uvol.voronoi(*b, cells=(1, 2)), ValueError, "must be one, or three"),
+    (lambda b: uvol.voronoi(*b, cells=10**6), ValueError, "cells"),
+])
+def test_mistakes_get_a_sentence(ball, call, error, message):
+    with pytest.raises(error, match=message):
+        call(ball)

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of the tools: spellings of options, ranges of numbers, headings of
+// -h.
+#include "common/similar_words.h"
+#include "shared/options.h"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using uvol_tools::Options;
+using uvol_tools::parseNumbers;
+using uvol_tools::UsageError;
+
+struct Line {
+  std::string input, output, field;
+  std::vector<double> iso;
+  double zoom = 1.0;
+  Options options{"tool", "in out [options]", "Does something."};
+
+  Line()
+  {
+    options.file("in", input);
+    options.file("out", output);
+    options.group("Input");
+    options.text("field", "name", field, "a field");
+    options.group("Surface");
+    options.numbers("iso", "v,...", 0, iso, "isovalues");
+    options.group("Fine points", true);
+    options.number("zoom", zoom, 0.0, 9.0, "enlarge");
+    options.group("Input");
+    options.text("other", "name", field, "another field");
+  }
+
+  bool
+  parse(std::vector<const char*> words)
+  {
+    words.insert(words.begin(), "tool");
+    return options.parse(static_cast<int>(words.size()), words.data());
+  }
+
+  std::string
+  help(const std::vector<const char*>& words)
+  {
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(parse(words));
+    return testing::internal::GetCapturedStdout();
+  }
+};
+
+TEST(Options, TakeTwoDashesAndEqualSigns)
+{
+  for (const std::vector<const char*>& words :
+       {std::vector<const char*>{"a", "b", "-field", "rho", "-iso", "-1,2"},
+        {"a", "b", "--field", "rho", "--iso", "-1,2"},
+        {"--field=rho", "--iso=-1,2", "a", "b"}}) {
+    Line line;
+    EXPECT_TRUE(line.parse(words));
+    EXPECT_EQ("rho", line.field);
+    EXPECT_THAT(line.iso, ElementsAre(-1.0, 2.0));
+    EXPECT_EQ("a", line.input);
+    EXPECT_EQ("b", line.output);
+  }
+}
+
+TEST(Options, KeepEqualSignsBehindOneDashAndInValues)
+{
+  Line line;
+  EXPECT_TRUE(line.parse({"a", "b", "-field", "x=1"}));
+  EXPECT_EQ("x=1", line.field);
+  EXPECT_THROW(Line().parse({"a", "b", "-field=rho"}), UsageError);
+}
+
+TEST(Options, RefuseWhatIsNoOption)
+{
+  EXPECT_THROW(Line().parse({"a", "b", "--"}), UsageError);
+  EXPECT_THROW(Line().parse({"a", "b", "--field"}), UsageError);
+  EXPECT_THROW(Line().parse({"a", "b", "--field", "-iso"}), UsageError);
+  EXPECT_THROW(Line().parse({"a", "b", "--field=r", "-field", "s"}), UsageError);
+}
+
+TEST(Options, MeanTheOptionThatBeginsSo)
+{
+  try {
+    Line().parse({"a", "b", "-Fie", "rho"});
+    FAIL();
+  }
+  catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean -field?"));
+  }
+}
+
+TEST(Options, HelpNamesRareOptionsAndExplainsThemWhereAsked)
+{
+  const std::string help = Line().help({"-h"});
+  EXPECT_THAT(help, Not(HasSubstr("enlarge")));
+  EXPECT_THAT(help, HasSubstr("  Fine points                 -zoom\n"));
+  const std::string all = Line().help({"--help", "all"});
+  EXPECT_THAT(all, HasSubstr("\nFine points:\n  -zoom number                enlarge"));
+  EXPECT_THAT(all, Not(HasSubstr("Further options")));
+  EXPECT_EQ("\nFine points:\n  -zoom number                enlarge (default 1)\n",
+            Line().help({"-h", "fine points"}));
+}
+
+TEST(Options, HelpHasOneHeadingPerTitleAndRunLast)
+{
+  const std::string help = Line().help({"-h"});
+  const std::size_t input = help.find("\nInput:\n  -field name");
+  const std::size_t surface = help.find("\nSurface:\n");
+  const std::size_t run = help.find("\nRun:\n  -threads n");
+  EXPECT_LT(input, help.find("  -other name"));
+  EXPECT_LT(help.find("  -other name"), surface);
+  EXPECT_LT(surface, run);
+  EXPECT_NE(std::string::npos, run);
+}
+
+TEST(NumberRanges, HaveBothEndsAndTheDigitsOfTheirSteps)
+{
+  EXPECT_THAT(parseNumbers("iso", "0.1:0.1:0.6", 0),
+              ElementsAre(0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+  EXPECT_THAT(parseNumbers("iso", "-0.3:0.1:0.1", 0),
+              ElementsAre(-0.3, -0.2, -0.1, 0.0, 0.1));
+  EXPECT_THAT(parseNumbers("iso", "3:-1:1", 0), ElementsAre(3.0, 2.0, 1.0));
+  EXPECT_THAT(parseNumbers("iso", "0:0.4:1", 0), ElementsAre(0.0, 0.4, 0.8));
+  EXPECT_THAT(parseNumbers("iso", "2:1:2", 0), ElementsAre(2.0));
+  EXPECT_THAT(parseNumbers("iso", "1e-20:1e-20:3e-20", 0),
+              ElementsAre(1e-20, 2e-20, 3e-20));
+}
+
+TEST(NumberRanges, HaveEqualRatiosWithLog)
+{
+  EXPECT_THAT(parseNumbers("iso", "0.01:1:3log", 0), ElementsAre(0.01, 0.1, 1.0));
+  EXPECT_THAT(parseNumbers("iso", "-1:-100:3log", 0), ElementsAre(-1.0, -10.0, -100.0));
+  EXPECT_THAT(parseNumbers("iso", "0.3:7:2log", 0), ElementsAre(0.3, 7.0));
+}
+
+TEST(NumberRanges, StandAmongNumbers)
+{
+  EXPECT_THAT(parseNumbers("iso", "9,1:1:3,1:10:2log", 0),
+              ElementsAre(9.0, 1.0, 2.0, 3.0, 1.0, 10.0));
+}
+
+TEST(NumberRanges, RefuseWhatNeverEnds)
+{
+  for (const char* const text : {"1:2",
+                                 "1:2:3:4",
+                                 "a:1:2",
+                                 "1:a:2",
+                                 "1:1:b",
+                                 "1:-1:2",
+                                 "0:0:1",
+                                 "0:0:0",
+                                 "1::2",
+                                 "0:0.001:1",
+                                 "0:1:5log",
+                                 "-1:1:5log",
+                                 "1:2:1log",
+                                 "1:2:log",
+                                 "1:2:1001log",
+                                 "1:2:3logs",
+                                 "1:inf:2",
+                                 ":",
+                                 "1:2:-3log"})
+    EXPECT_THROW(parseNumbers("iso", text, 0), UsageError) << text;
+  EXPECT_THROW(parseNumbers("range", "0:1:2", 2), UsageError);
+  EXPECT_EQ(1000u, parseNumbers("iso", "1:1:1000", 0).size());
+}
+
+TEST(SimilarWords, AreContinuationsFirst)
+{
+  const std::vector<std::string> words = {"x", "cu_pct_wide", "cu_pct", "Temperature"};
+  EXPECT_EQ("cu_pct", pcl_uvol::findSimilar(words, "cu"));
+  EXPECT_EQ("cu_pct", pcl_uvol::findSimilar(words, "CU"));
+  EXPECT_EQ("Temperature", pcl_uvol::findSimilar(words, "temp"));
+  EXPECT_EQ("cu_pct", pcl_uvol::findSimilar(words, "cu_ptc"));
+  EXPECT_EQ("", pcl_uvol::findSimilar(words, ""));
+  EXPECT_EQ("", pcl_uvol::findSimilar(words, "density"));
+}
+
+} // namespace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_compare from the outside: distances of known planes, what it writes, refusals.
+#include "support/environment.h"
+#include "tools/tool_test.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+using Json = nlohmann::json;
+using uvol_test::CommandResult;
+using uvol_test::readFile;
+using uvol_test::runCommand;
+
+/** A triangle of side 1 at a height, with a field. */
+std::string
+makePly(double height, double value)
+{
+  const std::string rest = " " + std::to_string(height) + " " + std::to_string(value);
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nproperty float f\nelement face 1\n"
+         "property list uchar int vertex_indices\nend_header\n0 0" +
+         rest + "\n1 0" + rest + "\n0 1" + rest + "\n3 0 1 2\n";
+}
+
+class CompareTool : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    uvol_test::writeFile(low_, makePly(0.0, 5.0));
+    uvol_test::writeFile(high_, makePly(0.25, 7.0));
+  }
+
+  CommandResult
+  run(const std::string& arguments) const
+  {
+    return runCommand("uvol_compare " + arguments);
+  }
+
+  void
+  expectFailure(const std::string& arguments, int exit_code, const std::string& word)
+  {
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(exit_code, result.exit_code) << result.err;
+    EXPECT_NE(std::string::npos, result.err.find(word)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  }
+
+  uvol_test::TemporaryFolder folder_;
+  const std::string low_ = folder_ / "low.ply", high_ = folder_ / "high.ply",
+                    out_ = folder_ / "out.ply";
+};
+
+TEST_F(CompareTool, TellsDistancesBothWays)
+{
+  const CommandResult result = run(low_ + " " + high_ + " -json");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const Json report = Json::parse(result.out);
+  for (const char* const way : {"a_to_b", "b_to_a"}) {
+    for (const char* const name :
+         {"mean", "root_mean_square", "percentile_99_9", "largest"})
+      EXPECT_NEAR(0.25, report[way][name].get<double>(), 1e-12) << way << name;
+    EXPECT_EQ(3u, report[way]["farthest"].size());
+    EXPECT_NEAR(
+        2.0, report[std::string("fields_") + way]["f"]["mean"].get<double>(), 1e-12);
+  }
+  EXPECT_EQ(0.25, report["largest_distance"].get<double>());
+}
+
+TEST_F(CompareTool, WritesTheDistanceOfVertices)
+{
+  ASSERT_EQ(0, run(low_ + " " + high_ + " " + out_).exit_code);
+  std::vector<pcl_uvol::Triangle> triangles;
+  const pcl_uvol::Dataset written = pcl_uvol::loadMesh(out_, triangles);
+  EXPECT_EQ(1u, triangles.size());
+  // Below what looks upwards.
+  EXPECT_EQ((std::vector<double>{-0.25, -0.25, -0.25}),
+            uvol_test::fieldOf(written, "distance"));
+  EXPECT_EQ((std::vector<double>{5.0, 5.0, 5.0}), uvol_test::fieldOf(written, "f"));
+}
+
+TEST_F(CompareTool, WarnsWhereThereAreOnlyPoints)
+{
+  const std::string points = folder_ / "points.csv";
+  uvol_test::writeFile(points, "x,y,z\n0,0,1\n0.25,0.25,3\n");
+  const CommandResult result = run(points + " " + low_ + " " + (folder_ / "out.csv"));
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.out.find("a to b: mean 2,")) << result.out;
+  EXPECT_NE(std::string::npos, result.err.find("points.csv' has no triangles"));
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  EXPECT_NE(std::string::npos, readFile(folder_ / "out.csv").find("distance"));
+}
+
+TEST_F(CompareTool, Refuses)
+{
+  expectFailure(low_, 2, "<b>");
+  expectFailure(low_ + " " + (folder_ / "none.ply"), 1, "none.ply");
+  expectFailure(low_ + " " + high_ + " " + low_, 2, "low.ply");
+  expectFailure(low_ + " " + high_ + " " + (folder_ / "out.csv"), 1, "meshes");
+  const std::string cut = folder_ / "cut.ply";
+  uvol_test::writeFile(cut, makePly(0.0, 0.0).substr(0, 150));
+  expectFailure(low_ + " " + cut, 1, "cut.ply");
+}
+
+} // namespace

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// uvol_measure from the outside: figures of known bodies, tables, curves, refusals; and
+// -measure of uvol_isosurface.
+#include "support/environment.h"
+#include "support/png.h"
+#include "tools/tool_test.h"
+#include <pcl_uvol/io/mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+namespace {
+
+using Json = nlohmann::json;
+using uvol_test::CommandResult;
+using uvol_test::fieldOf;
+using uvol_test::readFile;
+using uvol_test::runCommand;
+
+class MeasureTool : public uvol_test::ToolTest {
+protected:
+  MeasureTool()
+      : ToolTest("uvol_measure", "out.csv")
+  {
+  }
+
+  /** Balls about the origin: rho = 1 - r, and a mass of 0.5. */
+  void
+  SetUp() override
+  {
+    uvol_test::Random random(2);
+    std::ostringstream csv;
+    csv << "x,y,z,rho,mass\n";
+    for (int i = 0; i < 20000; ++i) {
+      double sq_radius = 0.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = 2.0 * random.uniform() - 1.0;
+        csv << x << ',';
+        sq_radius += x * x;
+      }
+      csv << 1.0 - std::sqrt(sq_radius) << ",0.5\n";
+    }
+    uvol_test::writeFile(in_, csv.str());
+  }
+
+  /** The report of a run without a table. */
+  Json
+  reportOf(const std::string& arguments) const
+  {
+    const CommandResult result = runCommand("uvol_measure " + arguments + " -json");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return Json::parse(result.out);
+  }
+
+  const std::string mesh_ = folder_ / "mesh.ply", picture_ = folder_ / "out.png";
+};
+
+TEST_F(MeasureTool, MeasuresIsosurfacesOfSamples)
+{
+  const Json surfaces = reportOf(in_ + " -field rho -iso 0.1:0.2:0.5")["surfaces"];
+  ASSERT_EQ(3u, surfaces["isovalue"].size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double radius = 0.9 - 0.2 * static_cast<double>(i);
+    EXPECT_NEAR(1.0 - radius, surfaces["isovalue"][i].get<double>(), 1e-15);
+    for (const auto& [name, truth] :
+         {std::pair{"area", 4.0 * M_PI * radius * radius},
+          {"volume", 4.0 / 3.0 * M_PI * std::pow(radius, 3)},
+          {"rho_volume_integral",
+           4.0 * M_PI * (std::pow(radius, 3) / 3.0 - std::pow(radius, 4) / 4.0)}}) {
+      const double value = surfaces[name][i],
+                   error = surfaces[std::string(name) + "_error"][i];
+      EXPECT_LE(std::abs(value - truth), error) << name;
+      EXPECT_LT(error, 0.02 * truth) << name;
+    }
+    EXPECT_EQ(0, surfaces["genus"][i]);
+    EXPECT_EQ(0.5 * surfaces["samples"][i].get<double>(),
+              surfaces["mass_sample_sum"][i].get<double>());
+  }
+}
+
+TEST_F(MeasureTool, WritesATableOfSurfacesAndPieces)
+{
+  const pcl_uvol::Dataset table = resultOf("-field rho -iso 0.3,0.5 -pieces");
+  EXPECT_EQ(4u, table.cloud.width);
+  const std::vector<double> isovalues = fieldOf(table, "isovalue");
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(i % 2 == 0 ? 0.3 : 0.5, isovalues[i], 1e-7);
+  EXPECT_EQ((std::vector<double>{-1, -1, 0, 1}), fieldOf(table, "piece"));
+  for (const char* const axis : {"x", "y", "z"})
+    for (const double place : fieldOf(table, axis))
+      EXPECT_NEAR(0.0, place, 1e-3);
+  const auto volumes = fieldOf(table, "volume");
+  EXPECT_EQ(volumes[0], volumes[2]);
+  EXPECT_NEAR(4.0 / 3.0 * M_PI * 0.343, volumes[0], 1e-3);
+  for (const double half_axis : fieldOf(table, "half_axis_3"))
+    EXPECT_TRUE(std::abs(half_axis - 0.7) < 1e-3 || std::abs(half_axis - 0.5) < 1e-3);
+}
+
+TEST_F(MeasureTool, DrawsCurves)
+{
+  expectSuccess("-field rho -iso 0.05:0.8:5log -png " + picture_ +
+                " -plot mass_sample_sum");
+  int channels = 0;
+  const auto image = uvol_test::readPng(picture_, channels);
+  EXPECT_EQ(720u, image.width);
+  EXPECT_EQ(440u, image.height);
+}
+
+TEST_F(MeasureTool, MeasuresMeshesAsTheSamplesTheyCameFrom)
+{
+  const CommandResult made = runCommand("uvol_isosurface " + in_ + " " + mesh_ +
+                                        " -field rho -iso 0.3 -mesh -measure -json");
+  ASSERT_EQ(0, made.exit_code) << made.err;
+  const Json told = Json::parse(made.out)["surfaces"],
+             measured = reportOf(mesh_ + " -samples " + in_)["surfaces"];
+  for (const char* const name :
+       {"area", "volume", "samples", "rho_volume_integral", "mass_sample_sum"})
+    EXPECT_EQ(told[name], measured[name]) << name;
+  // Shares of the area, whose sums are integrals.
+  std::vector<pcl_uvol::Triangle> triangles;
+  const auto areas = fieldOf(pcl_uvol::loadMesh(mesh_, triangles), "area");
+  const double area = told["area"];
+  EXPECT_NEAR(area, std::accumulate(areas.begin(), areas.end(), 0.0), 1e-9);
+  // Flat triangles lie within the ball.
+  EXPECT_LT(reportOf(mesh_ + " -flat")["surfaces"]["volume"].get<double>(),
+            0.999 * measured["volume"].get<double>());
+}
+
+TEST_F(MeasureTool, TellsPeople)
+{
+  const CommandResult result = run("-field rho -iso 0.5");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  for (const char* const part : {"surface at 0.5: area 3.14",
+                                 "volume 0.523",
+                                 "1 piece, genus 0",
+                                 "samples inside",
+                                 "mass inside at 0.5",
+                                 "half axes at 0.5: 0.5"})
+    EXPECT_NE(std::string::npos, result.out.find(part)) << part << result.out;
+}
+
+TEST_F(MeasureTool, SameBytesForAnyNumberOfThreads)
+{
+  std::string first;
+  for (const char* const threads : {"1", "2", "5"}) {
+    expectSuccess(std::string("-field rho -iso 0.2,0.4 -threads ") + threads);
+    if (first.empty())
+      first = readFile(out_);
+    EXPECT_EQ(first, readFile(out_)) << threads;
+  }
+}
+
+TEST_F(MeasureTool, OpenMeshesHaveNoVolume)
+{
+  uvol_test::writeFile(mesh_,
+                       "ply\nformat ascii 1.0\nelement vertex 3\n"
+                       "property float x\nproperty float y\nproperty float z\n"
+                       "element face 1\nproperty list uchar int vertex_indices\n"
+                       "end_header\n0 0 0\n2 0 0\n0 3 0\n3 0 1 2\n");
+  const CommandResult result = runCommand("uvol_measure " + mesh_);
+  EXPECT_EQ(0, result.exit_code);
+  EXPECT_NE(std::string::npos, result.out.find("area 3 "));
+  EXPECT_NE(std::string::npos, result.out.find("open at 1 rim"));
+  EXPECT_NE(std::string::npos, result.err.find("enclose no volume"));
+  EXPECT_TRUE(reportOf(mesh_)["surfaces"]["volume"].is_null());
+}
+
+TEST_F(MeasureTool, RefusesWrongCommandLines)
+{
+  expectFailure("", 2, "-iso");
+  expectFailure("-field rho -iso 0.1:0.5", 2, "0.1:0.5");
+  expectFailure("-field rho -iso 0.1:0:1", 2, "0.1:0:1");
+  expectFailure("-field rho -iso 0.1:0.5:x", 2, "'x' is none");
+  expectFailure("-field rho -iso 0:0.5:5log", 2, "log");
+  expectFailure("-field rho -iso 0.5 -png " + picture_, 2, "-iso two");
+  expectFailure("-field rho -iso 0.5 -plot area", 2, "-png");
+  expectFailure("-field rho -iso 0.5 -samples " + in_, 2, "-samples");
+  expectFailure("-field rho -iso 0.2,0.5 -png " + picture_ + " -plot no", 2, "no");
+  expectFailure("-field rho -iso 7", 1, "no isosurface");
+  expectFailure("-field nothing -iso 7", 1, "nothing");
+  out_ = folder_ / "out.jpg";
+  expectFailure("-field rho -iso 0.5", 1, ".jpg");
+}
+
+TEST_F(MeasureTool, RefusesWhatIsNoSurface)
+{
+  const auto refuses = [&](const std::string& input, const std::string& word) {
+    const CommandResult result = runCommand("uvol_measure " + input);
+    EXPECT_NE(0, result.exit_code);
+    EXPECT_NE(std::string::npos, result.err.find(word)) << result.err;
+    EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  };
+  refuses(folder_ / "missing.ply", "missing.ply");
+  const std::string points = folder_ / "points.ply";
+  ASSERT_EQ(0,
+            runCommand("uvol_isosurface " + in_ + " " + points + " -field rho -iso 0.3")
+                .exit_code);
+  refuses(points, "no triangles");
+  refuses(points + " -iso 0.3 -measure", "-measure");
+  const CommandResult result = runCommand("uvol_isosurface " + in_ + " " + points +
+                                          " -field rho -iso 0.3 -measure");
+  EXPECT_EQ(2, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("-mesh"));
+}
+
+} // namespace

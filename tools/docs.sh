@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Builds the documentation into build/docs/site, without network once its packages are installed, and checks
+# every link of it. The API pages by Doxygen are at build/docs/site/api.
+# usage: docs.sh [run]; run: also run every command of the walkthroughs, and renew their pictures. Needs the
+# tools (tools/build.sh tools) and for run $PCL_UVOL_DATA, the folder of data sets.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+bin=${PCL_UVOL_BIN:-build/release/bin}
+bash tools/install_dependencies.sh mkdocs mkdocs-material doxygen python3
+
+if [ "${1:-}" = run ]; then
+  python3 docs/site/run_commands.py "$bin" --renew docs/start/*.md
+fi
+rm -rf build/docs
+mkdir -p build/docs/source/benchmarks
+cp -r docs/. build/docs/source
+rm -r build/docs/source/site
+python3 docs/site/make_reference.py "$bin" build/docs/source
+# These name files of the repository, which are no pages.
+sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' tests/benchmarks/README.md >build/docs/source/benchmarks/diary.md
+sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md
+mkdocs build --quiet --strict
+doxygen docs/site/Doxyfile
+python3 docs/site/check_links.py build/docs/site
+echo "The documentation is build/docs/site/index.html."

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/color_options.h"
+
+#include <pcl_uvol/common/exceptions.h>
+
+namespace uvol_tools {
+
+namespace {
+
+constexpr const char* of_values = "viridis";
+constexpr const char* of_categories = "tab10";
+
+} // namespace
+
+void
+ColorOptions::declare(Options& options)
+{
+  std::string names;
+  for (const std::string& name : pcl_uvol::ColorMap::names())
+    names += (names.empty() ? "" : "|") + name;
+  options.text("colormap",
+               names,
+               map_,
+               "colours of values, backwards with _r behind the name (default viridis, "
+               "tab10 for up to ten whole numbers)");
+  options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
+  options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
+}
+
+void
+ColorOptions::check() const
+{
+  try {
+    const pcl_uvol::ColorMap map = getMap();
+    if (is_logarithmic_ && map.isCategorical())
+      throw UsageError("-log needs a map of shades, and " + map_ +
+                       " is one of categories.");
+  }
+  catch (const pcl_uvol::InvalidArgument& error) {
+    throw UsageError(error.what());
+  }
+  if (!range_.empty() && !(range_[0] < range_[1]))
+    throw UsageError("-range takes two numbers, the lower one first.");
+  if (!range_.empty() && is_logarithmic_ && !(range_[0] > 0.0))
+    throw UsageError("With -log the numbers of -range are above 0.");
+}
+
+pcl_uvol::ColorMap
+ColorOptions::getMap() const
+{
+  return pcl_uvol::ColorMap(map_ == "auto" ? of_values : map_);
+}
+
+pcl_uvol::ColorMapping
+ColorOptions::mapFor(const pcl_uvol::CloudView& cloud, const std::string& field) const
+{
+  const bool may_be_categories = map_ == "auto" && !is_logarithmic_ && range_.empty() &&
+                                 field != "rgb" && field != "rgba" && !field.empty();
+  const pcl_uvol::ColorMap categories(of_categories);
+  if (may_be_categories &&
+      pcl_uvol::listCategories(cloud, field, categories.size()).size() > 1)
+    return {categories, std::nullopt, false};
+  return {getMap(), getRange(), is_logarithmic_};
+}
+
+std::optional<std::array<double, 2>>
+ColorOptions::getRange() const
+{
+  if (range_.empty())
+    return std::nullopt;
+  return std::array<double, 2>{range_[0], range_[1]};
+}
+
+} // namespace uvol_tools

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/measure_table.h"
+
+#include "common/number_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace uvol_tools {
+
+using pcl_uvol::InnerFieldMeasures;
+using pcl_uvol::Measure;
+using pcl_uvol::PieceMeasures;
+using pcl_uvol::SurfaceFieldMeasures;
+
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+/** As many digits as the error leaves, and one more. */
+std::string
+describe(const Measure& measure)
+{
+  std::ostringstream text;
+  if (measure.error > 0.0 && std::isfinite(measure.error)) {
+    const double digits =
+        std::floor(std::log10(std::abs(measure.value) / measure.error)) + 3.0;
+    text.precision(static_cast<int>(std::clamp(digits, 2.0, 12.0)));
+  }
+  text << measure.value;
+  std::ostringstream error;
+  error.precision(2);
+  error << measure.error;
+  return text.str() + " +- " + error.str();
+}
+
+std::string
+plural(std::int64_t count, const std::string& thing)
+{
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+std::string
+describeSize(const PieceMeasures& surface, std::int64_t pieces)
+{
+  std::string text = "area " + describe(surface.area);
+  text += surface.rims > 0 ? ", open at " + plural(surface.rims, "rim")
+                           : ", volume " + describe(surface.volume);
+  text += ", " + plural(pieces, "piece") + ", genus " + std::to_string(surface.genus);
+  if (!surface.inside.empty())
+    text += ", " + plural(surface.samples, "sample") + " inside";
+  return text;
+}
+
+/** Centroid, half axes and fields of a surface. */
+void
+describeParts(const PieceMeasures& surface, const std::string& of, Facts& facts)
+{
+  const auto add = [&](const std::string& name, const std::string& text) {
+    facts.push_back(Fact(name + of, text).withoutJson());
+  };
+  const auto vector = [](const Eigen::Vector3d& numbers) {
+    std::ostringstream text;
+    text << numbers[0] << ", " << numbers[1] << ", " << numbers[2];
+    return text.str();
+  };
+  add("centroid", vector(surface.centroid));
+  add("half axes", vector(surface.half_axes));
+  for (const SurfaceFieldMeasures& field : surface.on_surface) {
+    std::ostringstream mean;
+    mean << field.mean;
+    add(field.name + " on it",
+        "mean " + mean.str() + ", integral " + describe(field.integral));
+  }
+  for (const InnerFieldMeasures& field : surface.inside) {
+    std::ostringstream mean, sum;
+    mean << field.mean;
+    sum << field.sum;
+    add(field.name + " inside",
+        "mean " + mean.str() + ", integral " + describe(field.integral) +
+            ", sum of samples " + sum.str());
+  }
+}
+
+} // namespace
+
+pcl_uvol::SurfaceFigures
+measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
+               const std::vector<pcl_uvol::Triangle>& triangles,
+               const std::shared_ptr<const pcl_uvol::Dataset>& samples,
+               const std::vector<double>& isovalues,
+               const pcl_uvol::SurfaceMeasuresParameters& parameters,
+               unsigned threads,
+               pcl_uvol::Report& report)
+{
+  pcl_uvol::SurfaceMeasures measures;
+  measures.setInputSurface(vertices, triangles);
+  measures.setInputSamples(samples);
+  measures.setParameters(parameters);
+  measures.setNumberOfThreads(threads);
+  measures.setProgressCallback(report.progress);
+  pcl_uvol::SurfaceFigures figures = measures.compute();
+  for (auto* const list : {&figures.isovalues, &figures.pieces})
+    for (PieceMeasures& surface : *list)
+      for (const double isovalue : isovalues)
+        if (surface.isovalue == static_cast<double>(static_cast<float>(isovalue)))
+          surface.isovalue = isovalue;
+  // Of the samples' counts the surface has told already.
+  const pcl_uvol::Report& own = measures.getReport();
+  if (parameters.find_intersections)
+    report.setCount("intersections", own.getCount("intersections"));
+  for (const auto& [step, milliseconds] : own.milliseconds)
+    report.time(step, milliseconds);
+  report.warnings.insert(
+      report.warnings.end(), own.warnings.begin(), own.warnings.end());
+  return figures;
+}
+
+MeasureTable::MeasureTable(const std::vector<PieceMeasures>& isovalues)
+{
+  for (const PieceMeasures& all : isovalues)
+    addRow(all, -1.0);
+}
+
+void
+MeasureTable::append(const std::vector<PieceMeasures>& pieces)
+{
+  double number = 0.0;
+  for (const PieceMeasures& piece : pieces)
+    addRow(piece, number++);
+}
+
+void
+MeasureTable::addRow(const PieceMeasures& measures, double piece)
+{
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::size_t rows = columns_.empty() ? 0 : columns_.front().second.size();
+  const auto put = [&](const std::string& name, double number) {
+    auto at = std::find_if(columns_.begin(), columns_.end(), [&](const auto& column) {
+      return column.first == name;
+    });
+    if (at == columns_.end())
+      at = columns_.insert(at, {name, Fact::Numbers(rows, none)});
+    at->second.push_back(number);
+  };
+  const auto putMeasure = [&](const std::string& name, const Measure& measure) {
+    put(name, measure.value);
+    put(name + "_error", measure.error);
+  };
+  put("isovalue", measures.isovalue);
+  put("piece", piece);
+  put("vertices", measures.vertices);
+  put("triangles", measures.triangles);
+  put("rims", measures.rims);
+  put("genus", measures.genus);
+  putMeasure("area", measures.area);
+  putMeasure("volume", measures.volume);
+  for (int axis = 0; axis < 3; ++axis)
+    put(axis_names[axis], measures.centroid[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(std::string("low_") + axis_names[axis], measures.low[axis]);
+    put(std::string("high_") + axis_names[axis], measures.high[axis]);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const std::string number = std::to_string(i + 1);
+    put("half_axis_" + number, measures.half_axes[i]);
+    for (int axis = 0; axis < 3; ++axis)
+      put("axis_" + number + "_" + axis_names[axis], measures.axes(axis, i));
+  }
+  for (const SurfaceFieldMeasures& field : measures.on_surface) {
+    put(field.name + "_surface_mean", field.mean);
+    putMeasure(field.name + "_surface_integral", field.integral);
+  }
+  if (!measures.inside.empty())
+    put("samples", static_cast<double>(measures.samples));
+  for (const InnerFieldMeasures& field : measures.inside) {
+    put(field.name + "_volume_mean", field.mean);
+    putMeasure(field.name + "_volume_integral", field.integral);
+    put(field.name + "_sample_sum", field.sum);
+  }
+  // What an open surface among closed ones has not.
+  ++rows;
+  for (auto& column : columns_)
+    column.second.resize(rows, none);
+}
+
+const Fact::Numbers*
+MeasureTable::find(const std::string& name) const
+{
+  for (const auto& [other, numbers] : columns_)
+    if (other == name)
+      return &numbers;
+  return nullptr;
+}
+
+pcl_uvol::Dataset
+MeasureTable::toDataset() const
+{
+  pcl_uvol::Dataset dataset;
+  dataset.double_coordinates = true;
+  dataset.cloud.height = 1;
+  const std::size_t rows = columns_.empty() ? 0 : columns_.front().second.size();
+  dataset.cloud.width = static_cast<std::uint32_t>(rows);
+  std::vector<double> xyz;
+  for (std::size_t i = 0; i < rows; ++i)
+    for (const char* const name : axis_names)
+      xyz.push_back((*find(name))[i]);
+  pcl_uvol::setCoordinates(dataset, xyz);
+  for (const auto& [name, numbers] : columns_)
+    if (std::find(std::begin(axis_names), std::end(axis_names), name) ==
+        std::end(axis_names))
+      pcl_uvol::setField(dataset, name, numbers);
+  return dataset;
+}
+
+Facts
+describeMeasures(const pcl_uvol::SurfaceFigures& figures)
+{
+  constexpr std::size_t most_described = 3;
+  Facts facts;
+  std::vector<double> isovalues;
+  for (const PieceMeasures& all : figures.isovalues)
+    isovalues.push_back(all.isovalue);
+  const std::vector<std::string> names = pcl_uvol::describeNumbers(isovalues);
+  for (std::size_t i = 0; i < isovalues.size(); ++i) {
+    const PieceMeasures& all = figures.isovalues[i];
+    const std::string of = std::isnan(all.isovalue) ? "" : " at " + names[i];
+    const auto pieces = std::count_if(
+        figures.pieces.begin(), figures.pieces.end(), [&](const PieceMeasures& piece) {
+          return std::isnan(all.isovalue) || piece.isovalue == all.isovalue;
+        });
+    facts.push_back(Fact("surface" + of, describeSize(all, pieces)).withoutJson());
+    if (isovalues.size() <= most_described)
+      describeParts(all, of, facts);
+  }
+  facts.emplace_back("surfaces", "", MeasureTable(figures.isovalues).getColumns());
+  MeasureTable pieces({});
+  pieces.append(figures.pieces);
+  facts.emplace_back("pieces", "", pieces.getColumns());
+  return facts;
+}
+
+} // namespace uvol_tools

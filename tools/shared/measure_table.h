@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures of surfaces as lines for people and as a table for programs.
+#pragma once
+
+#include "shared/facts.h"
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/mesh/surface_measures.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Measure a mesh.
+ * \param samples to look for inside; null: none
+ * \param isovalues that the vertices hold in single precision; figures have them
+ * exactly \param report gets counts, times and warnings */
+pcl_uvol::SurfaceFigures
+measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
+               const std::vector<pcl_uvol::Triangle>& triangles,
+               const std::shared_ptr<const pcl_uvol::Dataset>& samples,
+               const std::vector<double>& isovalues,
+               const pcl_uvol::SurfaceMeasuresParameters& parameters,
+               unsigned threads,
+               pcl_uvol::Report& report);
+
+/** \brief A row per surface or piece, and named columns of equal length: isovalue,
+ * piece
+ * (-1 for all of an isovalue), counts, area, volume, centroid, bounds, half axes and
+ * axes, samples inside, and for each field its mean and integrals on the surface and
+ * inside, and its sum over the samples inside. Errors stand in columns named ..._error.
+ */
+class MeasureTable {
+public:
+  explicit MeasureTable(const std::vector<pcl_uvol::PieceMeasures>& isovalues);
+
+  /** \brief Add rows for pieces. */
+  void
+  append(const std::vector<pcl_uvol::PieceMeasures>& pieces);
+
+  const Fact::Members&
+  getColumns() const
+  {
+    return columns_;
+  }
+
+  /** \brief A column; null if there is none of that name. */
+  const Fact::Numbers*
+  find(const std::string& name) const;
+
+  /** \brief The rows as points at the centroids, with the other columns as fields. */
+  pcl_uvol::Dataset
+  toDataset() const;
+
+private:
+  void
+  addRow(const pcl_uvol::PieceMeasures& measures, double piece);
+
+  Fact::Members columns_;
+};
+
+/** \brief Lines for people, with fields where there are few isovalues, and the table
+ * for programs: "surfaces" and "pieces". */
+Facts
+describeMeasures(const pcl_uvol::SurfaceFigures& figures);
+
+} // namespace uvol_tools

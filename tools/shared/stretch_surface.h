@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface stretched along the axes, for pictures.
+#pragma once
+
+#include <pcl_uvol/common/dataset.h>
+
+#include <Eigen/Core>
+
+namespace uvol_tools {
+
+/** \brief Multiply positions and origin by factors per axis, normals as the covectors
+ * that they are, and lengths of edges by the largest factor. Other fields keep their
+ * values.
+ * \param factors above 0
+ * \throws InvalidArgument for splats, whose axes would no longer be at right angles */
+void
+stretchSurface(pcl_uvol::Dataset& surface, const Eigen::Vector3d& factors);
+
+} // namespace uvol_tools

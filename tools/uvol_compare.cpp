@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far two surfaces are apart, and how much their fields differ.
+#include "common/numbers.h"
+#include "mesh/surface_distance.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
+
+#include <filesystem>
+#include <sstream>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::Report;
+using pcl_uvol::Triangle;
+using pcl_uvol::detail::FieldDifference;
+using pcl_uvol::detail::SurfaceDistances;
+using uvol_tools::Fact;
+using uvol_tools::Facts;
+using uvol_tools::Options;
+
+struct Surface {
+  Dataset vertices;
+  std::vector<Triangle> triangles;
+};
+
+Surface
+loadSurface(const std::string& path, Report& report)
+{
+  Surface surface;
+  if (pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) == ".ply") {
+    const pcl_uvol::StepTimer timer(report, "read");
+    surface.vertices = pcl_uvol::loadMesh(path, surface.triangles);
+  }
+  else
+    surface.vertices = uvol_tools::loadPoints(path, report);
+  if (surface.vertices.cloud.width == 0)
+    throw pcl_uvol::InvalidArgument("'" + path + "' holds no points.");
+  return surface;
+}
+
+SurfaceDistances
+measure(const Surface& from, const Surface& to, unsigned threads)
+{
+  return pcl_uvol::detail::measureDistances(
+      {from.vertices, from.triangles}, {to.vertices, to.triangles}, threads);
+}
+
+/** The distances one way. \param name as in "a to b" */
+void
+describe(const SurfaceDistances& distances, const std::string& name, Facts& facts)
+{
+  const Eigen::Vector3d& at = distances.farthest;
+  std::ostringstream text;
+  text << "mean " << distances.mean << ", root mean square "
+       << distances.root_mean_square << ", 99.9 % within " << distances.permille
+       << ", largest " << distances.largest << " at " << at[0] << "," << at[1] << ","
+       << at[2];
+  facts.push_back(Fact(name,
+                       text.str(),
+                       Fact::Members{{"mean", {distances.mean}},
+                                     {"root_mean_square", {distances.root_mean_square}},
+                                     {"percentile_99_9", {distances.permille}},
+                                     {"largest", {distances.largest}},
+                                     {"farthest", {at[0], at[1], at[2]}}}));
+  Facts fields;
+  for (const FieldDifference& field : distances.fields) {
+    std::ostringstream difference;
+    difference << "differs by " << field.mean << " in the mean, " << field.largest
+               << " at most";
+    facts.push_back(Fact(field.name + ", " + name, difference.str()).withoutJson());
+    fields.emplace_back(
+        field.name,
+        "",
+        Fact::Members{{"mean", {field.mean}}, {"largest", {field.largest}}});
+  }
+  facts.emplace_back("fields " + name, fields);
+}
+
+/** Warns where the distance is to points, which lie apart. */
+void
+warnOfPoints(const Surface& surface, const std::string& path, Report& report)
+{
+  if (surface.triangles.empty())
+    report.warnings.push_back("'" + path +
+                              "' has no triangles: distances to it are those to its "
+                              "points, and no smaller than these lie apart.");
+}
+
+int
+run(int argc, char** argv)
+{
+  std::string first, second, output;
+  bool ascii = false;
+  Options options(
+      "uvol_compare",
+      "a.ply b.ply [out.ply] [options]",
+      "Measures how far surfaces, meshes or points, are apart both ways, and how much "
+      "the fields differ that both\nhave. Writes a with the field distance, negative "
+      "inside of b, which uvol_render draws by -color distance.");
+  options.file("a", first);
+  options.file("b", second);
+  options.file("out", output, false);
+  options.flag("ascii", ascii, "write PCD and PLY as text");
+  if (!options.parse(argc, argv))
+    return 0;
+  Report report;
+  Surface a = loadSurface(first, report);
+  if (!output.empty() && a.triangles.empty())
+    pcl_uvol::checkSavePath(output, a.vertices.cloud.fields);
+  else if (!output.empty())
+    pcl_uvol::checkMeshPath(output);
+  const Surface b = loadSurface(second, report);
+  warnOfPoints(a, first, report);
+  warnOfPoints(b, second, report);
+  Facts facts = {{"a", first}, {"b", second}};
+  SurfaceDistances there, back;
+  {
+    const pcl_uvol::StepTimer timer(report, "distances");
+    there = measure(a, b, options.threads());
+    back = measure(b, a, options.threads());
+  }
+  describe(there, "a to b", facts);
+  describe(back, "b to a", facts);
+  facts.emplace_back("largest distance", std::max(there.largest, back.largest));
+  if (!output.empty()) {
+    setField(a.vertices, "distance", there.at_vertices);
+    pcl_uvol::SaveOptions save;
+    save.ascii = ascii;
+    if (a.triangles.empty())
+      uvol_tools::savePoints(output, a.vertices, save, report);
+    else
+      pcl_uvol::saveMesh(output, a.vertices, a.triangles, save);
+  }
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_compare", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points from one format into another, as they are.
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include <pcl_uvol/io/dataset.h>
+
+namespace {
+
+int
+run(int argc, char** argv)
+{
+  std::string input, output, where;
+  bool ascii = false;
+  uvol_tools::InputOptions reading;
+  uvol_tools::Options options(
+      "uvol_convert",
+      "in.hdf5 out.ply [options]",
+      "Writes the points of a file in another format; fields keep their names and "
+      "types.\nReads pcd ply csv txt vtk vtp vtu vts las npy npz h5 and snapshots of "
+      "Gadget, writes pcd ply vtp csv npz;\n- is standard input or output.");
+  options.file("in", input);
+  options.file("out", output);
+  options.text("where", "expr", where, "only the points for which it holds");
+  reading.declare(options);
+  options.flag("ascii", ascii, "write PCD and PLY as text");
+  if (!options.parse(argc, argv))
+    return 0;
+  const pcl_uvol::LoadOptions load = reading.makeLoadOptions();
+  pcl_uvol::checkSavePath(output);
+  uvol_tools::MemoryGuard memory("Converting");
+  memory.checkFile(input, nullptr, load);
+  pcl_uvol::Report report;
+  const pcl_uvol::Dataset dataset =
+      uvol_tools::loadPoints(input, report, load, where, options.threads());
+  pcl_uvol::SaveOptions save;
+  save.ascii = ascii;
+  uvol_tools::savePoints(output, dataset, save, report);
+  report.count("points", dataset.cloud.width);
+  uvol_tools::printReport(options, report, {{"input", input}, {"output", output}});
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_convert", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures of surfaces: area, volume, axes, genus, integrals of fields, and the samples
+// inside; of a mesh, or of the isosurfaces of samples.
+#include "charts/line_plot.h"
+#include "common/numbers.h"
+#include "pipeline/memory_need.h"
+#include "shared/isosurface_options.h"
+#include "shared/measure_table.h"
+#include "shared/memory_guard.h"
+#include "shared/options.h"
+#include "shared/point_files.h"
+#include "shared/progress_bar.h"
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/io/image_file.h>
+#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/mesh/surface_measures.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+namespace {
+
+using pcl_uvol::Dataset;
+using pcl_uvol::Report;
+using pcl_uvol::SurfaceFigures;
+using uvol_tools::Options;
+using uvol_tools::UsageError;
+
+struct Arguments : uvol_tools::IsosurfaceOptions {
+  std::string input, output, samples, picture, plot = "volume";
+  std::uint64_t drop_pieces = 0;
+  bool with_pieces = false, is_flat = false, is_checked = false;
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
+  options.file("in", arguments.input);
+  options.file("out", arguments.output, false);
+  arguments.declareSamples(options);
+  options.flag("smooth",
+               arguments.parameters.smooth,
+               "smooth noisy or uneven samples by a level set first");
+  options.integer("drop-pieces",
+                  arguments.drop_pieces,
+                  0,
+                  std::numeric_limits<std::int32_t>::max(),
+                  "of samples: leave out pieces of fewer triangles");
+  options.text("samples",
+               "file",
+               arguments.samples,
+               "of a mesh: the samples to look for inside of it");
+  options.flag(
+      "pieces", arguments.with_pieces, "rows of the table for every piece as well");
+  options.flag("flat",
+               arguments.is_flat,
+               "measure triangles as they are, not bent as their normals tell");
+  options.flag("check",
+               arguments.is_checked,
+               "look for triangles that go through one another as well");
+  options.output("png",
+                 "out.png",
+                 arguments.picture,
+                 "of samples: draw a curve over the isovalues");
+  options.text("plot",
+               "column",
+               arguments.plot,
+               "with -png: the column of the table that is drawn (default volume)");
+}
+
+bool
+isPly(const std::string& path)
+{
+  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
+         ".ply";
+}
+
+void
+check(const Options& options, Arguments& arguments)
+{
+  const bool has_isovalues = options.given("iso");
+  for (const char* const name :
+       {"field", "where", "scale", "xyz", "outside", "smooth", "drop-pieces", "png"})
+    if (options.given(name) && !has_isovalues)
+      throw UsageError(std::string("-") + name +
+                       " is for isosurfaces of samples, which need -iso.");
+  if (!has_isovalues && !isPly(arguments.input))
+    throw UsageError("Surfaces are read as .ply with triangles; isosurfaces of samples "
+                     "need -iso.");
+  if (has_isovalues) {
+    arguments.finish();
+    if (options.given("samples"))
+      throw UsageError("-samples is for meshes: those that -iso is for are known.");
+    arguments.parameters.mesh.emplace();
+    arguments.parameters.mesh->drop_pieces = arguments.drop_pieces;
+  }
+  if (options.given("plot") && arguments.picture.empty())
+    throw UsageError("-plot needs -png.");
+  if (options.given("pieces") && arguments.output.empty())
+    throw UsageError("-pieces needs a file for the table.");
+  if (!arguments.picture.empty() &&
+      arguments.parameters.isosurface.isovalues.size() < 2)
+    throw UsageError("-png draws a curve over isovalues: give -iso two or more.");
+  if (!arguments.output.empty())
+    pcl_uvol::checkSavePath(arguments.output);
+  if (!arguments.picture.empty())
+    pcl_uvol::checkPngPath(arguments.picture);
+}
+
+/** A surface, and the samples to look for inside. */
+struct Surface {
+  std::shared_ptr<Dataset> vertices = std::make_shared<Dataset>();
+  std::vector<pcl_uvol::Triangle> triangles;
+  std::shared_ptr<const Dataset> samples;
+};
+
+Surface
+loadSurface(const Arguments& arguments, Report& report)
+{
+  Surface surface;
+  {
+    const pcl_uvol::StepTimer timer(report, "read");
+    *surface.vertices = pcl_uvol::loadMesh(arguments.input, surface.triangles);
+  }
+  if (surface.triangles.empty())
+    throw pcl_uvol::InvalidArgument(
+        "'" + arguments.input +
+        "' has points and no triangles: give -iso to measure isosurfaces of samples.");
+  if (!arguments.samples.empty())
+    surface.samples =
+        std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.samples, report));
+  return surface;
+}
+
+/** Meshes of the isosurfaces of samples. */
+Surface
+extractSurface(const Options& options,
+               Arguments& arguments,
+               uvol_tools::MemoryGuard& memory,
+               Report& report)
+{
+  const auto samples =
+      std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.input,
+                                                       report,
+                                                       arguments.makeLoadOptions(),
+                                                       arguments.where,
+                                                       options.threads()));
+  uvol_tools::addField(
+      *samples, arguments.parameters.isosurface.field, options, report);
+  memory.checkCloud(
+      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
+      });
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(arguments.parameters);
+  pipeline.setNumberOfThreads(options.threads());
+  pipeline.setProgressCallback(report.progress);
+  pcl_uvol::IsosurfaceResult result = pipeline.run();
+  report.merge(result.report);
+  if (result.triangles.empty())
+    throw pcl_uvol::InvalidArgument(
+        "There is no isosurface to measure: " + result.field +
+        " has all its values on one side of the isovalues.");
+  return {std::make_shared<Dataset>(std::move(result.surface)),
+          std::move(result.triangles),
+          samples};
+}
+
+/** Whether isovalues are nearer to even ratios than to even steps. */
+bool
+areLogarithmic(const std::vector<double>& isovalues)
+{
+  const double low = isovalues.front(), high = isovalues.back(),
+               middle = isovalues[isovalues.size() / 2];
+  return low > 0.0 && high > 0.0 && isovalues.size() > 2 &&
+         std::abs(middle - std::sqrt(low * high)) <
+             std::abs(middle - 0.5 * (low + high));
+}
+
+void
+drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
+{
+  const uvol_tools::MeasureTable table(figures.isovalues);
+  const std::vector<double>* const values = table.find(arguments.plot);
+  if (values == nullptr) {
+    std::string names;
+    for (const auto& [name, numbers] : table.getColumns())
+      names += (names.empty() ? "" : ", ") + name;
+    throw UsageError("There is no column " + arguments.plot + " to plot; there are " +
+                     names + ".");
+  }
+  const std::vector<double>* const errors = table.find(arguments.plot + "_error");
+  std::vector<std::size_t> order(values->size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = i;
+  const std::vector<double>& isovalues = *table.find("isovalue");
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return isovalues[a] < isovalues[b];
+  });
+  uvol_tools::Profile profile;
+  for (const std::size_t i : order) {
+    profile.abscissas.push_back(isovalues[i]);
+    profile.values.push_back((*values)[i]);
+    profile.errors.push_back(errors == nullptr ? 0.0 : (*errors)[i]);
+  }
+  profile.abscissa = "isovalue";
+  if (areLogarithmic(profile.abscissas)) {
+    for (double& isovalue : profile.abscissas)
+      isovalue = std::log10(isovalue);
+    profile.abscissa = "log10 of the isovalue";
+  }
+  profile.ordinate = arguments.plot;
+  pcl_uvol::savePng(arguments.picture, uvol_tools::drawProfile(profile));
+}
+
+int
+run(int argc, char** argv)
+{
+  Arguments arguments;
+  Options options(
+      "uvol_measure",
+      "surface-or-samples [out.csv] [options]",
+      "Measures a mesh, or with -iso the isosurfaces of samples: area, volume, "
+      "centroid, axes, genus, integrals of\nfields on the surface and inside, and the "
+      "samples inside. Writes a table as csv pcd ply vtp, a row per isovalue.");
+  declare(options, arguments);
+  if (!options.parse(argc, argv))
+    return 0;
+  check(options, arguments);
+  uvol_tools::MemoryGuard memory("Measuring isosurfaces");
+  Report report;
+  uvol_tools::ProgressBar bar;
+  report.progress = std::ref(bar);
+  const Surface surface = options.given("iso")
+                              ? extractSurface(options, arguments, memory, report)
+                              : loadSurface(arguments, report);
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.curved = !arguments.is_flat;
+  parameters.find_intersections = arguments.is_checked;
+  const SurfaceFigures figures =
+      uvol_tools::measureSurface(surface.vertices,
+                                 surface.triangles,
+                                 surface.samples,
+                                 arguments.parameters.isosurface.isovalues,
+                                 parameters,
+                                 options.threads(),
+                                 report);
+
+  if (!arguments.picture.empty())
+    drawCurve(arguments, figures);
+  if (!arguments.output.empty()) {
+    uvol_tools::MeasureTable table(figures.isovalues);
+    if (arguments.with_pieces)
+      table.append(figures.pieces);
+    uvol_tools::savePoints(arguments.output, table.toDataset(), {}, report);
+  }
+  uvol_tools::Facts facts = {{"input", arguments.input}};
+  for (const uvol_tools::Fact& fact : uvol_tools::describeMeasures(figures))
+    facts.push_back(fact);
+  uvol_tools::printReport(options, report, facts);
+  return 0;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return uvol_tools::runTool("uvol_measure", [&] { return run(argc, argv); });
+}
