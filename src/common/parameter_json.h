@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/json_value.h"
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parameters.h>
 
@@ -75,7 +76,7 @@ toJsonValue(const T& value)
 [[noreturn]] inline void
 refuseJson(const std::string& name, const JsonValue& value, const char* expected)
 {
-  throw InvalidArgument("The parameter " + name + " is " + value.dump() +
+  throw InvalidArgument("The parameter " + name + " is " + shortenText(value.dump()) +
                         " in JSON: it must be " + expected + ".");
 }
 
@@ -101,7 +102,7 @@ readMembers(const std::string& path, const JsonValue& json, Parameters& paramete
       fromJsonValue(prefix + name, value, parameters.*pointer);
     });
     if (!found)
-      throw InvalidArgument("There is no parameter " + prefix + key +
+      throw InvalidArgument("There is no parameter " + prefix + shortenText(key) +
                             " in JSON: there are " + names + ".");
   });
 }

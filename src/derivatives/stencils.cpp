@@ -108,7 +108,8 @@ Stencils::compute(const SampleSet& samples,
       float sq_nearest = row.size > 0 ? row.sq_dists[0] : 0.0f;
       bool is_first = true;
       for (std::size_t j = 0; j < row.size; ++j)
-        if (row.samples[j] != center) {
+        // Others at distance 0, in float, may keep the centre out of its own row.
+        if (row.samples[j] != center && neighbors.size() < neighbors_) {
           neighbors.push_back(row.samples[j]);
           sq_nearest =
               is_first ? row.sq_dists[j] : std::min(sq_nearest, row.sq_dists[j]);

@@ -346,7 +346,7 @@ SceneReader::takeMaterial(SceneItem& item) const
     return found->second.first;
   std::vector<std::string> names;
   for (const auto& known : materials_)
-    names.push_back(known.first);
+    names.push_back(shortenText(known.first));
   item.fail("unknown material " + quoteText(name) +
             (names.empty() ? "; none is defined in front of this line"
                            : "; known ones are " + io::listOf(names)));
