@@ -288,7 +288,7 @@ detail::generateSplats(const CloudView& cloud,
     if (splat_of[sample] == none)
       continue;
     const PointSplat splat = toInput(accepted[splat_of[sample]].splat, unit);
-    if (!std::isfinite(splat.radius)) // beyond float in the unit of the input
+    if (!(splat.radius > 0.0f) || !std::isfinite(splat.radius)) // in the input's unit
       continue;
     splats.cloud.push_back(splat);
     splats.sources.push_back(points.samples->getInputIndex(sample));
