@@ -131,6 +131,8 @@ TEST(SphDensity, CoincidingParticlesAddTheirMassesAndMissingOnesHaveNone)
 
 TEST(SphDensity, OfAPlanetIsThatOfItsFile)
 {
+  if (uvol_test::dataFolder().empty())
+    GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
   const Dataset planet =
       loadDataset(uvol_test::dataFolder() + "/particles/planet_remnant.gadget1");
   const std::vector<double> densities = densitiesOf(planet);

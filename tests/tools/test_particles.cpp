@@ -15,6 +15,13 @@ protected:
   {
     in_ = dataFolder() + "/particles/planet_remnant.gadget1";
   }
+
+  void
+  SetUp() override
+  {
+    if (dataFolder().empty())
+      GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
+  }
 };
 
 /** Nothing lies outside of the planet, and its surface is closed all the same. */
