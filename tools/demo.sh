@@ -18,7 +18,6 @@ run() {
   printf '\n$ %s\n' "$*"
   "$@" 2>&1 | tee "$out/report.txt"
   { echo "<details><summary><code>$(echo "$*" | escape)</code></summary><pre>$(escape <"$out/report.txt")</pre></details>"; } >>"$page"
-  rm "$out/report.txt"
 }
 
 # show PICTURE SENTENCE
@@ -32,6 +31,7 @@ body { font-family: sans-serif; max-width: 50em; margin: 2em auto }
 pre { background: #f4f4f4; padding: 1em; overflow: auto }
 summary { cursor: pointer; margin: 0.5em 0 }
 img { max-width: 100% }
+iframe { width: 100%; height: 30em; border: 1px solid #ccc }
 </style>
 <h1>A torn star in a million scattered samples</h1>
 <p>Every command that was run, in this order; open one to read its report.</p>
@@ -45,11 +45,18 @@ run $bin/uvol_isosurface "$out/star.pcd" "$out/star_inner.ply" -field star -iso 
 show star.png "The surface at 0.01, coloured by its mean curvature."
 run $bin/uvol_render "$out/star_inner.ply" "$out/star_lines.png" -size 640x480 -silhouettes -features
 show star_lines.png "The same with silhouettes and feature lines."
+run $bin/uvol_render "$out/star_inner.ply" "$out/star_turning.html" -color mean_curvature -range -2,2 -colormap coolwarm
+echo '<figure><iframe src="star_turning.html" title="the surface"></iframe><figcaption>The same, to turn by dragging.</figcaption></figure>' >>"$page"
+run $bin/uvol_measure "$out/star.pcd" "$out/measures.csv" -field star -iso 0.01,0.1
+{ echo "<pre>"; grep '^surface at' "$out/report.txt" | escape; echo "</pre>"; } >>"$page"
+rm "$out/report.txt"
 cat >>"$page" <<'EOF'
 <h2>Files beside this page</h2>
 <ul>
 <li><a href="star_surface.ply">star_surface.ply</a>: three surfaces as points, for CloudCompare, MeshLab, Blender, pcl_viewer
 <li><a href="star_surface.vtp">star_surface.vtp</a>: the same for ParaView (colour by isovalue)
+<li><a href="star_turning.html">star_turning.html</a>: a surface in one file that any browser shows
+<li><a href="measures.csv">measures.csv</a>: figures of two surfaces
 <li><a href="star.pcd">star.pcd</a>: the samples themselves
 </ul>
 <p>Your own data: <code>build/release/bin/uvol info data.csv</code> names its fields and suggests isovalues,
