@@ -25,7 +25,7 @@ class CMakeBuild(build_ext):
                   "-DCMAKE_INSTALL_LIBDIR=pcl_uvol/libraries", *(f"-DPCL_UVOL_BUILD_{part}=OFF" for part in OFF),
                   *shlex.split(os.environ.get("CMAKE_ARGS", "")))
         self.call("cmake", "--build", build)
-        for component in ("python", "libraries"):
+        for component in ("python", "core", "libraries"):
             self.call("cmake", "--install", build, "--component", component, "--prefix", package.parent)
         for link in (package / "libraries").glob("*.so.*"):  # wheels have no links
             if link.is_symlink():

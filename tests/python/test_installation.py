@@ -46,7 +46,7 @@ def test_cmake_installs_beside_the_libraries(tmp_path):
     build = os.environ.get("PCL_UVOL_BINARY_DIR")
     if not build:
         pytest.skip("PCL_UVOL_BINARY_DIR does not say where the build is")
-    for component in ("python", "libraries"):
+    for component in ("python", "core", "libraries"):
         subprocess.run(["cmake", "--install", build, "--component", component, "--prefix", tmp_path / "prefix"],
                        check=True, capture_output=True)
     folder = next((tmp_path / "prefix").rglob("pcl_uvol/__init__.py")).parents[1]
