@@ -33,7 +33,7 @@ struct MeasuredShape {
   }
 
   void
-  append(const MeasuredShape& other)
+  append(MeasuredShape other) // a copy: a shape may be appended to itself
   {
     const auto first = static_cast<std::uint32_t>(places.size());
     const auto join = [](auto& to, const auto& from) {

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
-#include <regex>
 #include <unistd.h>
 #include <utility>
 
@@ -21,11 +20,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::regex&
-placeOfNumber()
+/** Where a name has "{}", "{:d}", "{:4d}" or "{:04d}". */
+struct NumberPlace {
+  std::size_t begin, end;
+  char fill = ' ';
+  std::size_t digits = 0;
+};
+
+std::optional<NumberPlace>
+findPlaceOfNumber(const std::string& text)
 {
-  static const std::regex place(R"(\{(?::(0?)(\d?)d)?\})");
-  return place;
+  for (std::size_t begin = text.find('{'); begin != std::string::npos;
+       begin = text.find('{', begin + 1)) {
+    NumberPlace place{begin, begin + 1};
+    const auto next = [&] { return place.end < text.size() ? text[place.end] : '\0'; };
+    if (next() == ':') {
+      ++place.end;
+      if (next() == '0') {
+        place.fill = '0';
+        ++place.end;
+      }
+      if (next() >= '0' && next() <= '9')
+        place.digits = static_cast<std::size_t>(text[place.end++] - '0');
+      if (next() != 'd')
+        continue;
+      ++place.end;
+    }
+    if (next() != '}')
+      continue;
+    ++place.end;
+    return place;
+  }
+  return std::nullopt;
 }
 
 /** The command line of a series. */
@@ -180,19 +206,18 @@ runAll(const char* tool, const Series& series, int (*run)(int, char**))
 bool
 NumberedName::isOne(const std::string& text)
 {
-  return std::regex_search(text, placeOfNumber());
+  return findPlaceOfNumber(text).has_value();
 }
 
 NumberedName::NumberedName(const std::string& text)
 {
-  std::smatch match;
-  std::regex_search(text, match, placeOfNumber());
-  before_ = match.prefix();
-  after_ = match.suffix();
-  if (match[1].length() > 0)
-    fill_ = '0';
-  if (match[2].length() > 0)
-    digits_ = static_cast<std::size_t>(match[2].str()[0] - '0');
+  const std::optional<NumberPlace> place = findPlaceOfNumber(text);
+  if (!place)
+    throw UsageError("'" + text + "' has no place for a number, as in snap_{:04d}.");
+  before_ = text.substr(0, place->begin);
+  after_ = text.substr(place->end);
+  fill_ = place->fill;
+  digits_ = place->digits;
 }
 
 std::string
