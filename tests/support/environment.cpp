@@ -25,10 +25,14 @@ Random::uniform()
 
 TemporaryFolder::TemporaryFolder()
 {
-  std::string pattern = (fs::temp_directory_path() / "uvol_test_XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw std::runtime_error("cannot create a temporary folder");
-  path_ = pattern;
+  // Digits alone: tests look for words such as "0x" in messages that name their files.
+  const std::string stem =
+      (fs::temp_directory_path() / "uvol_test_").string() + std::to_string(getpid());
+  for (int number = 0; path_.empty(); ++number) {
+    const std::string path = stem + "_" + std::to_string(number);
+    if (fs::create_directory(path)) // throws unless it is there already
+      path_ = path;
+  }
 }
 
 TemporaryFolder::~TemporaryFolder()
