@@ -1,8 +1,7 @@
-// A closed mesh as a pcl::PolygonMesh, its area and the volume inside.
+// A closed mesh as a pcl::PolygonMesh; its area, the volume inside and their errors.
 #include "samples.h"
+#include <pcl_uvol/mesh/surface_measures.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
-
-#include <pcl/conversions.h>
 
 #include <iostream>
 
@@ -17,16 +16,18 @@ main()
   pcl::PolygonMesh mesh;
   mesher.extract(mesh);
 
-  pcl::PointCloud<pcl::PointXYZ> vertices;
-  pcl::fromPCLPointCloud2(mesh.cloud, vertices);
-  double area = 0.0, volume = 0.0;
-  for (const pcl::Vertices& triangle : mesh.polygons) {
-    const Eigen::Vector3f a = vertices[triangle.vertices[0]].getVector3fMap();
-    const Eigen::Vector3f b = vertices[triangle.vertices[1]].getVector3fMap();
-    const Eigen::Vector3f c = vertices[triangle.vertices[2]].getVector3fMap();
-    area += 0.5 * (b - a).cross(c - a).norm();
-    volume += a.dot(b.cross(c)) / 6.0; // of a closed, oriented mesh
-  }
-  std::cout << mesh.polygons.size() << " triangles, area " << area << " (sphere "
-            << M_PI << "), volume " << volume << " (sphere " << M_PI / 6.0 << ")\n";
+  const auto vertices = std::make_shared<pcl_uvol::Dataset>();
+  vertices->cloud = mesh.cloud;
+  std::vector<pcl_uvol::Triangle> triangles;
+  for (const pcl::Vertices& polygon : mesh.polygons)
+    triangles.push_back({static_cast<std::uint32_t>(polygon.vertices[0]),
+                         static_cast<std::uint32_t>(polygon.vertices[1]),
+                         static_cast<std::uint32_t>(polygon.vertices[2])});
+  pcl_uvol::SurfaceMeasures measures;
+  measures.setInputSurface(vertices, triangles);
+  const pcl_uvol::PieceMeasures sphere = measures.compute().isovalues[0];
+  std::cout << triangles.size() << " triangles, area " << sphere.area.value << " +- "
+            << sphere.area.error << " (sphere " << M_PI << "), volume "
+            << sphere.volume.value << " +- " << sphere.volume.error << " (sphere "
+            << M_PI / 6.0 << "), genus " << sphere.genus << '\n';
 }

@@ -57,23 +57,11 @@ std::unique_ptr<FileColumn>
 makeConstant(double value);
 
 /** \brief Records of columns of the same length. */
-class ColumnSource : public RecordSource {
+class ColumnSource : public NumberedSource {
 public:
   ColumnSource(std::uint64_t count,
                std::vector<NamedColumn> columns,
                std::vector<std::string> notes);
-
-  FileCursor::Place
-  tellEnd() const override
-  {
-    return {};
-  }
-
-  void
-  seek(std::uint64_t record) override
-  {
-    next_ = record;
-  }
 
   void
   read(std::size_t count, std::uint8_t* records) override;
@@ -88,7 +76,7 @@ private:
 
 /** \brief The records of several files behind one another; one file is open at a time.
  */
-class PartsSource : public RecordSource {
+class PartsSource : public NumberedSource {
 public:
   using Open = std::function<std::unique_ptr<RecordSource>(std::size_t part)>;
 
@@ -97,18 +85,6 @@ public:
   PartsSource(std::size_t parts,
               Open open,
               const std::function<std::string(std::size_t part)>& name);
-
-  FileCursor::Place
-  tellEnd() const override
-  {
-    return {};
-  }
-
-  void
-  seek(std::uint64_t record) override
-  {
-    next_ = record;
-  }
 
   void
   read(std::size_t count, std::uint8_t* records) override;
@@ -128,22 +104,10 @@ private:
 };
 
 /** \brief Some records of another source. */
-class SelectedSource : public RecordSource {
+class SelectedSource : public NumberedSource {
 public:
   /** \param rows those that are kept, ascending */
   SelectedSource(std::unique_ptr<RecordSource> source, std::vector<std::uint64_t> rows);
-
-  FileCursor::Place
-  tellEnd() const override
-  {
-    return {};
-  }
-
-  void
-  seek(std::uint64_t record) override
-  {
-    next_ = record;
-  }
 
   void
   read(std::size_t count, std::uint8_t* records) override;

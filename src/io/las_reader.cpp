@@ -135,7 +135,7 @@ readHeader(const InputFile& file, const std::string& path)
   return header;
 }
 
-class LasSource : public RecordSource {
+class LasSource : public NumberedSource {
 public:
   explicit LasSource(const std::string& path)
       : file_(path)
@@ -151,18 +151,6 @@ public:
       info_.notes.push_back(
           std::to_string(header_.point_bytes - format_bytes[header_.format]) +
           " extra bytes of every point are left out.");
-  }
-
-  FileCursor::Place
-  tellEnd() const override
-  {
-    return {};
-  }
-
-  void
-  seek(std::uint64_t record) override
-  {
-    next_ = record;
   }
 
   void

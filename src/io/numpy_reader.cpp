@@ -316,7 +316,7 @@ columnOf(const Array& array, std::vector<std::string> names)
 }
 
 /** Structured arrays are records as they are. */
-class StructuredSource : public RecordSource {
+class StructuredSource : public NumberedSource {
 public:
   explicit StructuredSource(const Array& array)
       : array_(array)
@@ -331,18 +331,6 @@ public:
       if (!is_position)
         appendField(info_.fields, member.name, member.datatype, components);
     }
-  }
-
-  FileCursor::Place
-  tellEnd() const override
-  {
-    return {};
-  }
-
-  void
-  seek(std::uint64_t record) override
-  {
-    next_ = record;
   }
 
   void

@@ -59,6 +59,23 @@ protected:
   std::uint64_t next_ = 0;
 };
 
+/** \brief Records that are found by their numbers alone, with nothing of use behind the
+ * last one. */
+class NumberedSource : public RecordSource {
+public:
+  FileCursor::Place
+  tellEnd() const override
+  {
+    return {};
+  }
+
+  void
+  seek(std::uint64_t record) override
+  {
+    next_ = record;
+  }
+};
+
 /** \brief Records of a fixed number of bytes. */
 class FixedSource : public RecordSource {
 public:

@@ -4,6 +4,7 @@
 #include "common/random.h"
 #include "common/scalar_field.h"
 #include "surface/footprints.h"
+#include "surface/splat_fields.h"
 #include "surface/splat_growth.h"
 #include <pcl_uvol/surface/splat_generation.h>
 
@@ -203,22 +204,6 @@ toInput(PointSplat splat, const LengthUnit& unit)
     *length = static_cast<float>(unit.toInput(*length));
   return splat;
 }
-
-constexpr std::array<const char*, 15> splat_fields = {"x",
-                                                      "y",
-                                                      "z",
-                                                      "normal_x",
-                                                      "normal_y",
-                                                      "normal_z",
-                                                      "tangent_x",
-                                                      "tangent_y",
-                                                      "tangent_z",
-                                                      "radius",
-                                                      "error",
-                                                      "tilt_u",
-                                                      "tilt_v",
-                                                      "slope_u",
-                                                      "slope_v"};
 
 /** \param count splats that there were before some were left out */
 void

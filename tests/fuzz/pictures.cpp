@@ -2,6 +2,7 @@
 // Pictures of any points, splats, spheres and planes.
 #include "promises.h"
 #include "random_cloud.h"
+#include "surface/splat_fields.h"
 #include "targets.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
@@ -64,22 +65,7 @@ traceRays(const std::uint8_t* bytes, std::size_t size)
     scene.spheres.push_back({takePlace(input), input.take<float>(), material});
   if (input.flip())
     scene.planes.push_back({takePlace(input), takePlace(input), material, 1.0, {}});
-  const auto cloud = takeCloud(input,
-                               std::array<const char*, 15>{"x",
-                                                           "y",
-                                                           "z",
-                                                           "normal_x",
-                                                           "normal_y",
-                                                           "normal_z",
-                                                           "tangent_x",
-                                                           "tangent_y",
-                                                           "tangent_z",
-                                                           "radius",
-                                                           "error",
-                                                           "tilt_u",
-                                                           "tilt_v",
-                                                           "slope_u",
-                                                           "slope_v"});
+  const auto cloud = takeCloud(input, pcl_uvol::splat_fields);
   refusalOf([&] {
     pcl_uvol::Report report;
     const auto splats = std::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(
