@@ -252,11 +252,8 @@ runInMemory(const Options& options,
   resolved.isosurface = pipeline.resolveParameters();
   resolved.automatic_scale = false; // it is filled in now
   pipeline.setParameters(resolved);
-  const auto sizes = pcl_uvol::estimateSurfaces(pcl_uvol::viewOf(samples->cloud),
-                                                resolved.isosurface.field,
-                                                resolved.isosurface.isovalues,
-                                                resolved.isosurface.scale,
-                                                options.threads());
+  const auto sizes = pcl_uvol::estimateSurfaces(
+      pcl_uvol::viewOf(samples->cloud), resolved.isosurface, options.threads());
   memory.checkCloud(
       *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         pcl_uvol::addMemoryNeed(parameters, points, step, sizes, forecast);

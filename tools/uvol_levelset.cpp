@@ -322,15 +322,16 @@ run(int argc, char** argv)
   parameters.initial = shift(parameters.initial, dataset.origin);
   if (parameters.field.empty())
     parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
-  memory.checkCloud(dataset,
-                    forecastMemory(parameters,
-                                   has_snapshots,
-                                   pcl_uvol::estimateSurfaces(view,
-                                                              parameters.field,
-                                                              arguments.iso,
-                                                              parameters.scale,
-                                                              options.threads())
-                                       .front()));
+  pcl_uvol::IsosurfaceParameters at_start;
+  at_start.field = parameters.field;
+  at_start.isovalues = arguments.iso;
+  at_start.scale = parameters.scale;
+  memory.checkCloud(
+      dataset,
+      forecastMemory(
+          parameters,
+          has_snapshots,
+          pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front()));
   pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));

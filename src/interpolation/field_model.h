@@ -3,6 +3,7 @@
 // values in frames of their own, and answer queries block by block.
 #pragma once
 
+#include "neighbors/query.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/interpolation/interpolated_fields.h>
 
@@ -24,31 +25,6 @@ struct SampledFields {
     return &values[sample * fields];
   }
 };
-
-/** \brief A place in the space of the samples. */
-struct Query {
-  double x[3];
-
-  /** \brief The nearest place in float. */
-  Position
-  toPosition() const
-  {
-    return {
-        {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}};
-  }
-};
-
-/** \brief Squared distance of a query from a sample. */
-inline double
-sqDistance(const Query& query, const Position& sample)
-{
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double along = query.x[axis] - static_cast<double>(sample[axis]);
-    sum += along * along;
-  }
-  return sum;
-}
 
 /** \brief Where the answers to a block of queries go; they are NaN before. */
 struct Estimates {

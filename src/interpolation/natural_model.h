@@ -4,7 +4,7 @@
 #pragma once
 
 #include "interpolation/field_model.h"
-#include "interpolation/voronoi_cell.h"
+#include "neighbors/voronoi_cell.h"
 
 #include <array>
 #include <cstdint>

@@ -45,18 +45,17 @@ thin(const CloudView& cloud)
 
 std::vector<SurfaceSize>
 estimateSurfaces(const CloudView& cloud,
-                 const std::string& field,
-                 const std::vector<double>& isovalues,
-                 const Eigen::Array3f& scale,
+                 const IsosurfaceParameters& parameters,
                  unsigned threads)
 {
+  const std::vector<double>& isovalues = parameters.isovalues;
   std::vector<SurfaceSize> surfaces(isovalues.size());
   if (cloud.count == 0)
     return surfaces;
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(thin(cloud));
-  extraction.setScalarField(field);
-  extraction.setScale(scale);
+  extraction.setParameters(parameters);
+  extraction.setNeighborSource(parameters.neighbors); // cells by the number of samples
   extraction.setInterpolation(Interpolation::Linear);
   extraction.setNumberOfThreads(threads);
   pcl::PointCloud<PointIso> isopoints;

@@ -6,6 +6,7 @@
 #include "common/memory.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/isosurface/isosurface_parameters.h>
 
 #include <Eigen/Core>
 
@@ -24,13 +25,12 @@ struct SurfaceSize {
  * random: of N samples c N^(2/3) lie next to a surface. It assumes that the surface is
  * resolved by the thinned cloud and that the field is smooth: of finer detail and of
  * noise there is more.
- * \param scale factors per axis
- * \return one per isovalue; of size 0 where the field does not tell */
+ * \param parameters of the extraction; neighbours are those that its criterion leaves
+ * of its candidates, of a diagram or the tree of the thinned cloud \return one per
+ * isovalue; of size 0 where the field does not tell */
 PCL_UVOL_EXPORTS std::vector<SurfaceSize>
 estimateSurfaces(const CloudView& cloud,
-                 const std::string& field,
-                 const std::vector<double>& isovalues,
-                 const Eigen::Array3f& scale,
+                 const IsosurfaceParameters& parameters,
                  unsigned threads);
 
 /** \brief The memory of IsosurfaceExtraction besides the cloud: 52 to 68 bytes per

@@ -45,7 +45,7 @@ checkParameters(const SurfaceMeshParameters& parameters)
   if (parameters.isosurface.neighbors != NeighborSource::KdTree)
     throw InvalidArgument(
         "A mesh is made from the cells of the kd-tree: neighbours from "
-        "a Voronoi diagram are of no use to it.");
+        "Voronoi diagrams are of no use to it.");
 }
 
 void

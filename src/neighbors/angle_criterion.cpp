@@ -22,6 +22,13 @@ AngleFilter::apply(std::uint32_t sample, std::vector<std::uint32_t>& candidates)
     *last++ = {dx, dy, dz, dx * dx + dy * dy + dz * dz, candidate};
   }
   candidates.clear();
+  if (criterion_ == AngleCriterion::None) {
+    std::sort(
+        first, last, [](const Sight& a, const Sight& b) { return a.isBefore(b); });
+    for (const Sight* sight = first; sight != last; ++sight)
+      candidates.push_back(sight->index);
+    return;
+  }
   if (criterion_ == AngleCriterion::Kept) {
     keepByKept(first, last, candidates);
     return;

@@ -13,7 +13,8 @@
 namespace pcl_uvol {
 
 /** \brief Remove every candidate whose angle to a closer one, seen from the sample, is
- * below acos(sqrt(1/3)), 54.7 degrees (Table 2.4). Equal distances count by index. */
+ * below acos(sqrt(1/3)), 54.7 degrees (Table 2.4), unless the criterion is None. Equal
+ * distances count by index. */
 class PCL_UVOL_EXPORTS AngleFilter {
 public:
   /** \param positions must outlive the filter and be distinct */

@@ -2,6 +2,7 @@
 #include "neighbors/neighbor_candidates.h"
 
 #include "common/parallel.h"
+#include "neighbors/exact_neighbors.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -206,6 +207,8 @@ makeCandidates(const SampleSet& samples,
                unsigned threads,
                Report& report)
 {
+  if (source == NeighborSource::Exact)
+    return std::make_shared<ExactNeighbors>(samples, threads, report);
   std::optional<VoronoiCandidateSettings> voronoi;
   if (source == NeighborSource::Voronoi)
     voronoi = VoronoiCandidateSettings{voronoi_cells, nullptr};

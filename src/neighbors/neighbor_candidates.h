@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a sample's neighbours are looked for, before the angle criterion thins them
-// out: in touching cells of the kd-tree (thesis 2.2), or in adjacent regions of a
-// discrete Voronoi diagram (2.1).
+// out: in touching cells of the kd-tree (thesis 2.2), in adjacent regions of a discrete
+// Voronoi diagram (2.1), or at the faces of exact cells (exact_neighbors.h).
 #pragma once
 
 #include "neighbors/sample_set.h"
@@ -109,7 +109,9 @@ makeCandidates(const SampleSet& samples,
                unsigned threads,
                Report& report);
 
-/** \brief The same by a source, and the cells of a diagram along the longest side. */
+/** \brief Those of any source.
+ * \param voronoi_cells of a diagram along the longest side
+ * \throws as VoronoiCandidates and ExactNeighbors */
 PCL_UVOL_EXPORTS NeighborCandidates::ConstPtr
 makeCandidates(const SampleSet& samples,
                NeighborSource source,

@@ -116,9 +116,10 @@ runPipelineOutOfCore(PointSource& points,
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
       parameters.validation.folds > 0 ||
-      parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale, hold-out tests, meshes and "
-                          "Voronoi grids need all samples in memory.");
+      parameters.isosurface.neighbors != NeighborSource::KdTree)
+    throw InvalidArgument(
+        "Level sets, an automatic scale, hold-out tests, meshes and "
+        "neighbours from Voronoi diagrams need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

@@ -2,6 +2,7 @@
 #include "pipeline/memory_need.h"
 
 #include "levelset/memory_need.h"
+#include "neighbors/exact_neighbors.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -42,6 +43,8 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               MemoryForecast& forecast)
 {
   surfaces.resize(parameters.isosurface.isovalues.size());
+  if (parameters.isosurface.neighbors == NeighborSource::Exact)
+    forecast.hold(ExactNeighbors::bytesPerSample() * points);
   if (parameters.smooth)
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else
@@ -73,11 +76,7 @@ IsosurfacePipeline::estimateMemory() const
   addMemoryNeed(parameters_,
                 static_cast<double>(cloud.width) * static_cast<double>(cloud.height),
                 static_cast<double>(cloud.point_step),
-                estimateSurfaces(viewOf(cloud),
-                                 parameters.field,
-                                 parameters.isovalues,
-                                 parameters.scale,
-                                 threads_),
+                estimateSurfaces(viewOf(cloud), parameters, threads_),
                 forecast);
   return forecast.getPeak();
 }

@@ -14,8 +14,9 @@ using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 std::vector<pcl_uvol::SurfaceSize>
 estimate(const Cloud& cloud, const std::vector<double>& isovalues, unsigned threads = 0)
 {
-  return pcl_uvol::estimateSurfaces(
-      pcl_uvol::viewOf(cloud), "intensity", isovalues, Eigen::Array3f::Ones(), threads);
+  pcl_uvol::IsosurfaceParameters parameters;
+  parameters.isovalues = isovalues;
+  return pcl_uvol::estimateSurfaces(pcl_uvol::viewOf(cloud), parameters, threads);
 }
 
 /** Within that part of what the extraction finds. */

@@ -50,9 +50,10 @@ void
 IsosurfaceOptions::declareMethod(Options& options)
 {
   options.group("Surface");
-  options.choice("criterion",
-                 parameters.isosurface.criterion,
-                 "angle criterion against kept or against all closer candidates");
+  options.choice(
+      "criterion",
+      parameters.isosurface.criterion,
+      "angle criterion against kept, against all or against no closer candidates");
   options.choice(
       "interpolation",
       parameters.isosurface.interpolation,

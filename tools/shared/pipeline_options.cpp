@@ -20,10 +20,11 @@ PipelineOptions::declare(Options& options)
   options.file("in", input);
   options.file("out", output);
   declareSamples(options);
-  options.choice("neighbors",
-                 parameters.isosurface.neighbors,
-                 "candidates from touching cells of the tree, or from adjacent regions "
-                 "of a discrete Voronoi diagram: slower");
+  options.choice(
+      "neighbors",
+      parameters.isosurface.neighbors,
+      "candidates from touching cells of the tree, from adjacent regions of a "
+      "discrete Voronoi diagram, or from exact Voronoi cells: slower, much slower");
   options.integer(
       "grid",
       grid_,
@@ -99,7 +100,7 @@ PipelineOptions::needsAllSamples() const
   return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
          parameters.validation.folds > 0 || parameters.mesh ||
-         parameters.isosurface.neighbors == NeighborSource::Voronoi ||
+         parameters.isosurface.neighbors != NeighborSource::KdTree ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
 }
@@ -126,15 +127,16 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
         "auto, -validate, -mesh, "
-        "-neighbors voronoi and derivatives as fields, which need all samples in "
+        "-neighbors voronoi or exact and derivatives as fields, which need all samples "
+        "in "
         "memory.");
   if (!parameters.mesh)
     return;
-  if (!fits || parameters.isosurface.neighbors == NeighborSource::Voronoi ||
+  if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||
       parameters.normals == NormalMethod::Pca)
     throw UsageError(
         "-mesh is made of fits and of cells of the kd-tree: it goes without "
-        "-interpolation linear, -neighbors voronoi and -normals pca.");
+        "-interpolation linear, -neighbors voronoi or exact and -normals pca.");
   if (options.given("max-error") || parameters.drop_bridged)
     throw UsageError("-mesh keeps all of its vertices: it goes without -max-error and "
                      "-drop-bridged.");

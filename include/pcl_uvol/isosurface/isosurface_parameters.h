@@ -55,7 +55,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceParameters {
   Outside outside = Outside::Lower;
   Interpolation interpolation = Interpolation::Fit;
   /** Where neighbours are looked for: in the kd-tree (thesis 2.2), which is faster and
-   * never sees more than some tens, or in a discrete Voronoi diagram (2.1). */
+   * never sees more than some tens, in a discrete Voronoi diagram (2.1), or in exact
+   * cells. */
   NeighborSource neighbors = NeighborSource::KdTree;
   /** Cells of the diagram along the longest side; 0: 4 samples to a cell. */
   std::uint32_t voronoi_cells = 0;

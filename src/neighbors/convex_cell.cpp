@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "interpolation/convex_cell.h"
+#include "neighbors/convex_cell.h"
 
 #include <Eigen/Geometry>
 

@@ -3,9 +3,9 @@
 // triangulation.
 #pragma once
 
-#include "interpolation/convex_cell.h"
-#include "interpolation/field_model.h"
-#include "neighbors/kd_tree.h"
+#include "neighbors/convex_cell.h"
+#include "neighbors/query.h"
+#include "neighbors/sample_set.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +31,12 @@ public:
   bool
   find(const Query& place, const std::uint32_t* near, std::size_t count);
 
+  /** \brief Find the cell of a sample, to its end also where it is not bounded: then
+   * within a cube of some hundred diagonals of the samples' box.
+   * \param near other samples to begin with, at least one */
+  void
+  findWhole(std::uint32_t sample, const std::uint32_t* near, std::size_t count);
+
   /** \brief Relative to the place; the tags of its faces are places in getNeighbors().
    */
   const ConvexCell&
@@ -51,6 +57,8 @@ public:
   offsetOf(std::uint32_t sample) const;
 
 private:
+  static constexpr std::uint32_t no_sample = 0xffffffffu;
+
   struct Vertex {
     double sq_length; ///< from the place
     Eigen::Vector3d place;
@@ -61,6 +69,10 @@ private:
       return sq_length < other;
     }
   };
+
+  /** Cut with the first samples. */
+  void
+  start(const Query& place, const std::uint32_t* near, std::size_t count);
 
   /** Look at the farthest vertex that may not be final: cut it off if it is not.
    * \return false if all are */
@@ -76,6 +88,7 @@ private:
 
   const SampleSet& samples_;
   Query place_{};
+  std::uint32_t own_ = no_sample; ///< at the place
   ConvexCell cell_;
   std::vector<std::uint32_t> neighbors_;
   std::vector<Vertex> final_; ///< ascending

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "interpolation/voronoi_cell.h"
+#include "neighbors/voronoi_cell.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +38,32 @@ VoronoiCellFinder::find(const Query& place,
                         const std::uint32_t* near,
                         std::size_t count)
 {
+  own_ = no_sample;
+  start(place, near, count);
+  while (is_bounded_ && improve()) {
+  }
+  for (std::size_t i = 0; i < cell_.size(); ++i)
+    is_bounded_ = is_bounded_ && cell_[i].tag != ConvexCell::no_tag;
+  return is_bounded_;
+}
+
+void
+VoronoiCellFinder::findWhole(std::uint32_t sample,
+                             const std::uint32_t* near,
+                             std::size_t count)
+{
+  const Position& position = samples_.getPositions()[sample];
+  own_ = sample;
+  start({{position[0], position[1], position[2]}}, near, count);
+  while (improve()) {
+  }
+}
+
+void
+VoronoiCellFinder::start(const Query& place,
+                         const std::uint32_t* near,
+                         std::size_t count)
+{
   place_ = place;
   const KdBox box = samples_.getTree().getBox(samples_.getTree().getRoot());
   double sq_size = 0.0;
@@ -61,11 +87,6 @@ VoronoiCellFinder::find(const Query& place,
   }
   sq_reach_ = offsetOf(neighbors_.back()).squaredNorm();
   is_bounded_ = true;
-  while (is_bounded_ && improve()) {
-  }
-  for (std::size_t i = 0; i < cell_.size(); ++i)
-    is_bounded_ = is_bounded_ && cell_[i].tag != ConvexCell::no_tag;
-  return is_bounded_;
 }
 
 bool
@@ -156,7 +177,7 @@ VoronoiCellFinder::findInBall(const Vector3d& vertex, std::uint32_t& found) cons
     }
     for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
       const double sq_dist = sqDistance(center, positions[i]);
-      if (sq_dist >= sq_least)
+      if (sq_dist >= sq_least || i == own_)
         continue;
       sq_least = sq_dist;
       found = i;

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/exact_neighbors.h"
+
+#include "common/parallel.h"
+#include "neighbors/nearest_finder.h"
+#include "neighbors/voronoi_cell.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol {
+
+namespace {
+
+constexpr std::size_t block_samples = 1u << 9;
+
+/** Nearest samples that a cell begins with: those of random samples have 15.5 natural
+ * neighbours, and most of these are among them. */
+constexpr std::size_t nearest_samples = 40;
+
+/** Of the squared distance of two samples: a face of less area is one of rounding. */
+constexpr double least_area = 1e-12;
+
+/** The rows of consecutive samples. */
+struct Rows {
+  std::vector<std::uint32_t> sizes, indices;
+};
+
+/** Finds the neighbours of one sample after another, ascending. */
+class FaceFinder {
+public:
+  FaceFinder(const SampleSet& samples, std::size_t begin, std::size_t end)
+      : samples_(samples)
+      , nearest_(samples, nearest_samples + 1)
+      , cells_(samples)
+  {
+    nearest_.expect(&samples.getPositions()[begin], end - begin);
+  }
+
+  const std::vector<std::uint32_t>&
+  find(std::uint32_t sample)
+  {
+    const Position& place = samples_.getPositions()[sample];
+    const NearestFinder::Row row = nearest_.find(place, reach_);
+    reach_ = std::sqrt(row.sq_dists[row.size - 1]);
+    others_.clear();
+    std::remove_copy(
+        row.samples, row.samples + row.size, std::back_inserter(others_), sample);
+    found_.clear();
+    if (others_.empty())
+      return found_;
+    cells_.findWhole(sample, others_.data(), others_.size());
+    const detail::ConvexCell& cell = cells_.getCell();
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      if (cell[i].tag == detail::ConvexCell::no_tag)
+        continue;
+      const std::uint32_t other =
+          cells_.getNeighbors()[static_cast<std::size_t>(cell[i].tag)];
+      if (detail::momentsOf(cell[i].vertices).area >
+          least_area * cells_.offsetOf(other).squaredNorm())
+        found_.push_back(other);
+    }
+    std::sort(found_.begin(), found_.end());
+    return found_;
+  }
+
+private:
+  const SampleSet& samples_;
+  NearestFinder nearest_;
+  detail::VoronoiCellFinder cells_;
+  float reach_ = 1.0f; ///< of the sample before
+  std::vector<std::uint32_t> others_, found_;
+};
+
+} // namespace
+
+ExactNeighbors::ExactNeighbors(const SampleSet& samples,
+                               unsigned threads,
+                               Report& report)
+{
+  if (samples.getTrees().size() != 1)
+    throw InvalidArgument("Exact natural neighbours need all samples in one piece.");
+  StepTimer step(report, "voronoi_cells", samples.size());
+  std::vector<Rows> blocks((samples.size() + block_samples - 1) / block_samples);
+  parallelBlocks(
+      samples.size(), block_samples, threads, [&](std::size_t begin, std::size_t end) {
+        FaceFinder finder(samples, begin, end);
+        Rows& rows = blocks[begin / block_samples];
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& found = finder.find(static_cast<std::uint32_t>(i));
+          rows.sizes.push_back(static_cast<std::uint32_t>(found.size()));
+          rows.indices.insert(rows.indices.end(), found.begin(), found.end());
+        }
+        step.advance(end - begin);
+      });
+  faces_.offsets.reserve(samples.size() + 1);
+  faces_.offsets.push_back(0);
+  for (const Rows& rows : blocks) {
+    for (const std::uint32_t size : rows.sizes)
+      faces_.offsets.push_back(faces_.offsets.back() + size);
+    faces_.indices.insert(
+        faces_.indices.end(), rows.indices.begin(), rows.indices.end());
+  }
+}
+
+void
+ExactNeighbors::find(std::uint32_t sample, std::vector<std::uint32_t>& candidates) const
+{
+  candidates.clear();
+  for (const std::uint32_t other : faces_[sample]) {
+    const NeighborGraph::Row seen = faces_[other];
+    if (std::binary_search(seen.begin(), seen.end(), sample))
+      candidates.push_back(other);
+  }
+}
+
+std::vector<std::uint32_t>
+ExactNeighbors::findCrossing(const NodeRanges& ranges,
+                             float isovalue,
+                             unsigned threads) const
+{
+  const auto isAbove = [&](std::uint32_t sample) {
+    return ranges.values[sample] >= isovalue;
+  };
+  // Blocks come in order, and so do their samples.
+  return parallelGather<std::uint32_t>(
+      faces_.size(), block_samples, threads, [&](auto begin, auto end, auto& found) {
+        std::vector<std::uint32_t> others;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto sample = static_cast<std::uint32_t>(i);
+          find(sample, others);
+          if (std::any_of(others.begin(), others.end(), [&](std::uint32_t other) {
+                return isAbove(other) != isAbove(sample);
+              }))
+            found.push_back(sample);
+        }
+      });
+}
+
+} // namespace pcl_uvol
