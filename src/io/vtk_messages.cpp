@@ -44,8 +44,10 @@ public:
   void
   DisplayErrorText(const char* text) override
   {
-    if (error && error->empty())
-      *error = extractWords(text);
+    const std::string words = extractWords(text);
+    // The pipeline tells by addresses of objects that a part of it failed.
+    if (error && error->empty() && words.find("(0x") == std::string::npos)
+      *error = words;
   }
 
   /** Readers without an object at hand report damaged data as a generic warning. */
