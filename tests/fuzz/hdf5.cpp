@@ -3,6 +3,7 @@
 // names that readers look for, and chunks whose packed bytes are any. They are written
 // by the library of HDF5, whose own headers stay whole: it does not survive them
 // damaged.
+#include "io/hdf5_column.h"
 #include "point_files.h"
 #include "random_cloud.h"
 #include "targets.h"
@@ -176,13 +177,13 @@ Hdf5Maker::addTable(Bytes& bytes)
 void
 readHdf5(const std::uint8_t* data, std::size_t size)
 {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Bytes bytes(data, size);
   const std::string path = fileNamed("a.h5");
   constexpr std::array<const char*, 4> insides{
       {"", ":/particles", ":/particles/xyz", ":/x,y,z"}};
   const char* const inside = insides[bytes.choose(insides.size())];
   {
+    const pcl_uvol::io::Hdf5Session session;
     Hdf5Maker file(path);
     for (std::size_t i = 0; i < most_objects && bytes.size() > 0; ++i)
       if (bytes.choose(3) == 0)

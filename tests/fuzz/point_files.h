@@ -6,7 +6,7 @@
 
 namespace uvol_fuzz {
 
-/** \brief A file of that name in a folder of this process, which goes at its end. */
+/** \brief A file of that name in a folder of this thread, which goes at its end. */
 std::string
 fileNamed(const std::string& name);
 

@@ -24,13 +24,13 @@ using pcl_uvol::Dataset;
 using pcl_uvol::IOError;
 namespace fs = std::filesystem;
 
-/** A folder of this process, in memory where the system has such a place. */
+/** A folder of this thread, in memory where the system has such a place. */
 class Folder {
 public:
   Folder()
       : path_((fs::exists("/dev/shm") ? fs::path("/dev/shm")
                                       : fs::temp_directory_path()) /
-              ("uvol_fuzz." + std::to_string(::getpid())))
+              ("uvol_fuzz." + std::to_string(::gettid())))
   {
     fs::create_directories(path_);
   }
@@ -149,7 +149,7 @@ readVolume(const std::string& path)
 std::string
 fileNamed(const std::string& name)
 {
-  static const Folder made;
+  static thread_local const Folder made;
   return made / name;
 }
 

@@ -8,7 +8,6 @@
 #include <pcl/impl/pcl_base.hpp>
 #include <pcl/pcl_base.h>
 
-#include <new>
 #include <string>
 #include <type_traits>
 
@@ -57,8 +56,6 @@ protected:
       throw InvalidArgument(std::string(stage) +
                             " has no input cloud: call setInputCloud.");
     const CloudView cloud = viewOf(*this->input_);
-    if (this->fake_indices_ && this->indices_->size() != cloud.count)
-      throw std::bad_alloc(); // PCL leaves a list that it has no memory for empty
     detail::checkIndices(*this->indices_, cloud.count, stage);
     work(cloud, *this->indices_);
     this->deinitCompute();
