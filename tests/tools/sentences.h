@@ -32,14 +32,16 @@ expectSentences(const std::string& tool, const CommandResult& result)
     const bool is_error = line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
                           line.compare(0, 9, "libgomp: ") == 0;
     errors += is_error;
-    if (line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
-        line.compare(0, 9, "Warning: ") == 0)
-      EXPECT_NE(std::string::npos, std::string(".?)").find(line.back())) << line;
-    else if (!is_error) // the place in an expression
-      EXPECT_EQ(0, line.compare(0, 2, "  ")) << line;
+    const bool is_sentence = line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
+                             line.compare(0, 9, "Warning: ") == 0;
+    const std::string marks = line.substr(0, 2); // the place in an expression
+    EXPECT_TRUE(is_sentence ? std::string(".?)").find(line.back()) != std::string::npos
+                            : is_error || marks == "  ")
+        << line;
   }
-  if (result.exit_code >= 0 && result.exit_code < least_signal)
+  if (result.exit_code >= 0 && result.exit_code < least_signal) {
     EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors) << result.err;
+  }
 }
 
 } // namespace uvol_test

@@ -24,8 +24,8 @@ struct Tool {
 
 /** The fault itself, told by the shell or the library in front. */
 struct Fault {
-  std::string before, faults; ///< before the command; for the library
-  int signal = 0;             ///< that may end it
+  std::string before, faults = {}; ///< before the command; for the library
+  int signal = 0;                  ///< that may end it
 };
 
 class Faults : public testing::TestWithParam<Tool> {
@@ -100,10 +100,16 @@ protected:
     writeFile(out(), "old");
     const auto result = run(fault);
     constexpr int signals = 128; // of shells
-    EXPECT_TRUE((result.exit_code >= 0 && result.exit_code <= 2) ||
+    const bool ended_itself = result.exit_code >= 0 && result.exit_code <= 2;
+    // FLANN, VTK and the runtime of C++ do not survive every lack of memory.
+    const bool may_die = fault.faults.rfind("malloc", 0) == 0 &&
+                         (result.exit_code == signals + SIGABRT ||
+                          result.exit_code == signals + SIGSEGV);
+    EXPECT_TRUE(ended_itself || may_die ||
                 (fault.signal != 0 && result.exit_code == signals + fault.signal))
         << result.exit_code << result.err;
-    uvol_test::expectSentences(toolName(), result);
+    if (ended_itself)
+      uvol_test::expectSentences(toolName(), result);
     const std::string now = readFile(out());
     EXPECT_TRUE(now == expected_ || (result.exit_code != 0 && now == "old"))
         << now.size() << " bytes";
