@@ -306,7 +306,10 @@ writeAtomically(const std::string& path,
   if (io::isStandardStream(path))
     return writeToStandardOutput(writer);
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+  const bool is_there = ::stat(path.c_str(), &status) == 0;
+  if (!is_there && errno == ELOOP)
+    io::throwUnwritable(path, std::strerror(errno));
+  if (is_there && !S_ISREG(status.st_mode))
     io::throwUnwritable(path,
                         S_ISDIR(status.st_mode) ? "it is a directory"
                                                 : "it is not a regular file");

@@ -80,6 +80,9 @@ catchErrors(const char* tool, const std::function<int()>& body)
     return {1, withFile("There are not enough memory or threads for it.")};
   }
   catch (const std::exception& error) {
+    // TBB, which VTK's filters run on, tells of threads that it is not given.
+    if (std::string(error.what()).find("pthread_create") != std::string::npos)
+      return {1, withFile("There are not enough memory or threads for it.")};
     return {1, error.what()};
   }
 }
