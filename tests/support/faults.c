@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -134,13 +135,20 @@ pread(int descriptor, void* bytes, size_t count, off_t offset)
   return meets(READ) ? -1 : NEXT(pread)(descriptor, bytes, count, offset);
 }
 
-/** Sentences reach the terminal, whatever else fails. */
+/** Disks are full, not terminals and not the wires of MPI. */
+static int
+isOnDisk(int descriptor)
+{
+  struct stat status;
+  return descriptor != STDERR_FILENO && fstat(descriptor, &status) == 0 &&
+         S_ISREG(status.st_mode);
+}
+
 ssize_t
 write(int descriptor, const void* bytes, size_t count)
 {
-  return descriptor != STDERR_FILENO && meets(WRITE)
-             ? -1
-             : NEXT(write)(descriptor, bytes, count);
+  return isOnDisk(descriptor) && meets(WRITE) ? -1
+                                              : NEXT(write)(descriptor, bytes, count);
 }
 
 ssize_t
