@@ -24,7 +24,10 @@ expectSentences(const std::string& tool, const CommandResult& result)
   std::istringstream lines(result.err);
   for (std::string line; std::getline(lines, line);) {
     EXPECT_TRUE(pcl_uvol::isPrintable(line)) << line;
-    EXPECT_FALSE(line.empty());
+    if (line.empty()) { // which the runtime of OpenMP begins with
+      EXPECT_NE(std::string::npos, result.err.find("\nlibgomp: ")) << result.err;
+      continue;
+    }
     EXPECT_LE(line.size(), most_bytes) << line;
     for (const char* const word : {"std::", "vector::", "0x", "vtk", "exception"})
       EXPECT_EQ(std::string::npos, line.find(word)) << line;
