@@ -190,17 +190,16 @@ UnfinishedFile::createPart(const Create& create)
 {
   const std::string start =
       (folder_ / partPrefix(target_)).string() + std::to_string(::getpid());
-  for (int serial = 0; part_.empty(); ++serial) { // threads may write one file at once
-    const std::string part =
-        start + (serial > 0 ? '-' + std::to_string(serial) : std::string()) +
-        part_ending;
-    slot_ = part_names.add(part);
-    if (create(part)) {
-      part_ = part;
+  for (int serial = 0;; ++serial) { // threads may write one file at once
+    // Named before it is there: from then on nothing may fail.
+    part_ = start + (serial > 0 ? '-' + std::to_string(serial) : std::string()) +
+            part_ending;
+    slot_ = part_names.add(part_);
+    if (create(part_))
       return;
-    }
     part_names.release(slot_);
     slot_ = -1;
+    part_.clear();
     if (errno != EEXIST)
       return;
   }
