@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/report.h>
 
+#include <new>
+
 namespace pcl_uvol {
 
 namespace {
@@ -87,10 +89,14 @@ StepTimer::advance(std::uint64_t work)
 
 StepTimer::~StepTimer()
 {
-  report_.time(step_,
-               std::chrono::duration<double, std::milli>(
-                   std::chrono::steady_clock::now() - start_)
-                   .count());
+  const std::chrono::duration<double, std::milli> spent =
+      std::chrono::steady_clock::now() - start_;
+  try {
+    report_.time(step_, spent.count());
+  }
+  catch (const std::bad_alloc&) {
+    // A time is no reason to end a program: what runs on meets the lack of memory too.
+  }
 }
 
 } // namespace pcl_uvol

@@ -190,17 +190,16 @@ UnfinishedFile::createPart(const Create& create)
 {
   const std::string start =
       (folder_ / partPrefix(target_)).string() + std::to_string(::getpid());
-  for (int serial = 0; part_.empty(); ++serial) { // threads may write one file at once
-    const std::string part =
-        start + (serial > 0 ? '-' + std::to_string(serial) : std::string()) +
-        part_ending;
-    slot_ = part_names.add(part);
-    if (create(part)) {
-      part_ = part;
+  for (int serial = 0;; ++serial) { // threads may write one file at once
+    // Named before it is there: from then on nothing may fail.
+    part_ = start + (serial > 0 ? '-' + std::to_string(serial) : std::string()) +
+            part_ending;
+    slot_ = part_names.add(part_);
+    if (create(part_))
       return;
-    }
     part_names.release(slot_);
     slot_ = -1;
+    part_.clear();
     if (errno != EEXIST)
       return;
   }
@@ -306,7 +305,10 @@ writeAtomically(const std::string& path,
   if (io::isStandardStream(path))
     return writeToStandardOutput(writer);
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+  const bool is_there = ::stat(path.c_str(), &status) == 0;
+  if (!is_there && errno == ELOOP)
+    io::throwUnwritable(path, std::strerror(errno));
+  if (is_there && !S_ISREG(status.st_mode))
     io::throwUnwritable(path,
                         S_ISDIR(status.st_mode) ? "it is a directory"
                                                 : "it is not a regular file");

@@ -61,9 +61,11 @@ checkWritable(const std::string& path)
     return;
   if (isPacked(path))
     throwUnwritable(path, "packed files are read, but not written");
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
+  std::error_code error, ignored;
+  if (fs::is_directory(path, error))
     throwUnwritable(path, "it is a directory");
+  if (error == std::errc::too_many_symbolic_link_levels)
+    throwUnwritable(path, error.message());
   fs::path folder = fs::path(resolveLinks(path)).parent_path();
   if (folder.empty())
     folder = ".";

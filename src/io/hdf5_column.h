@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/hdf5_file.h"
+#include <pcl_uvol/common/export.h>
 
 #include <hdf5.h>
 #include <memory>
@@ -13,7 +14,7 @@ namespace pcl_uvol {
 namespace io {
 
 /** While it lives no other thread calls the library, which prints no errors. */
-class Hdf5Session {
+class PCL_UVOL_EXPORTS Hdf5Session {
 public:
   Hdf5Session()
       : lock_(mutex())

@@ -49,7 +49,8 @@ public:
   std::vector<double>
   readAttribute(const std::string& object, const std::string& name) const;
 
-  /** \brief The numbers of a small table; empty if it is not there, or holds none. */
+  /** \brief The numbers of a small table; empty if it is not there, or holds none.
+   * \throws IOError for chunks that are damaged */
   std::vector<double>
   readNumbers(const std::string& dataset) const;
 

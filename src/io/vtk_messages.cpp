@@ -44,8 +44,10 @@ public:
   void
   DisplayErrorText(const char* text) override
   {
-    if (error && error->empty())
-      *error = extractWords(text);
+    const std::string words = extractWords(text);
+    // The pipeline tells by addresses of objects that a part of it failed.
+    if (error && error->empty() && words.find("(0x") == std::string::npos)
+      *error = words;
   }
 
   /** Readers without an object at hand report damaged data as a generic warning. */
@@ -97,7 +99,7 @@ writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path)
   if (!messages.getError().empty())
     throwUnwritable(path, "VTK says: " + messages.getError());
   if (!written || writer.GetErrorCode() != 0)
-    throwUnwritable(path, "VTK could not write it, is the disk full?");
+    throwUnwritable(path, "VTK could not write it; the disk may be full");
 }
 
 } // namespace io

@@ -145,11 +145,17 @@ std::vector<ZipPart>
 ZipReader::read()
 {
   std::vector<ZipPart> parts;
-  for (const Entry& entry : listEntries())
-    if (entry.name.size() > ending_.size() &&
+  std::uint64_t packed = 0;
+  for (const Entry& entry : listEntries()) {
+    if (entry.name.size() <= ending_.size() ||
         entry.name.compare(
-            entry.name.size() - ending_.size(), ending_.size(), ending_) == 0)
-      parts.push_back(open(entry));
+            entry.name.size() - ending_.size(), ending_.size(), ending_) != 0)
+      continue;
+    if (entry.packed > file_->getSize() - packed) // one part under many names
+      fail();
+    packed += entry.packed;
+    parts.push_back(open(entry));
+  }
   return parts;
 }
 

@@ -5,6 +5,7 @@
 #include "io/memory_need.h"
 #include "io/point_stream.h"
 #include "io/scene_file.h"
+#include "point_files.h"
 #include "promises.h"
 #include "targets.h"
 #include <pcl_uvol/io/mesh.h>
@@ -23,13 +24,13 @@ using pcl_uvol::Dataset;
 using pcl_uvol::IOError;
 namespace fs = std::filesystem;
 
-/** A folder of this process, in memory where the system has such a place. */
+/** A folder of this thread, in memory where the system has such a place. */
 class Folder {
 public:
   Folder()
       : path_((fs::exists("/dev/shm") ? fs::path("/dev/shm")
                                       : fs::temp_directory_path()) /
-              ("uvol_fuzz." + std::to_string(::getpid())))
+              ("uvol_fuzz." + std::to_string(::gettid())))
   {
     fs::create_directories(path_);
   }
@@ -52,17 +53,10 @@ private:
   fs::path path_;
 };
 
-const Folder&
-folder()
-{
-  static const Folder made;
-  return made;
-}
-
 std::string
 writeBytes(const std::string& name, const std::uint8_t* bytes, std::size_t size)
 {
-  const std::string path = folder() / name;
+  const std::string path = fileNamed(name);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
   return path;
@@ -113,7 +107,7 @@ requireSameStream(const std::string& path,
 void
 requireRoundTrip(const Dataset& dataset)
 {
-  const std::string path = folder() / "again.pcd";
+  const std::string path = fileNamed("again.pcd");
   pcl_uvol::saveDataset(path, dataset);
   const Dataset again = pcl_uvol::loadDataset(path);
   require(again.cloud.data == dataset.cloud.data ||
@@ -136,6 +130,30 @@ requireForecast(const std::string& path, const Dataset& dataset)
 }
 
 void
+readVolume(const std::string& path)
+{
+  refusalOf<IOError>(
+      [&] {
+        const auto volume = pcl_uvol::loadVolume(path);
+        require(volume.values.size() ==
+                    volume.dims[0] * volume.dims[1] * volume.dims[2],
+                "a volume has a value per point");
+        for (const double spacing : volume.spacing)
+          require(spacing > 0.0, "distances are positive");
+      },
+      path);
+}
+
+} // namespace
+
+std::string
+fileNamed(const std::string& name)
+{
+  static thread_local const Folder made;
+  return made / name;
+}
+
+void
 readPoints(const std::string& path, bool has_stream)
 {
   Dataset dataset;
@@ -152,23 +170,6 @@ readPoints(const std::string& path, bool has_stream)
       dataset.cloud.fields.size() < most_fields)
     requireRoundTrip(dataset);
 }
-
-void
-readVolume(const std::string& path)
-{
-  refusalOf<IOError>(
-      [&] {
-        const auto volume = pcl_uvol::loadVolume(path);
-        require(volume.values.size() ==
-                    volume.dims[0] * volume.dims[1] * volume.dims[2],
-                "a volume has a value per point");
-        for (const double spacing : volume.spacing)
-          require(spacing > 0.0, "distances are positive");
-      },
-      path);
-}
-
-} // namespace
 
 void
 readPcd(const std::uint8_t* bytes, std::size_t size)
@@ -225,13 +226,37 @@ readMetaImage(const std::uint8_t* bytes, std::size_t size)
 }
 
 void
+readGadget(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("snap.0", bytes, size), true);
+}
+
+void
+readLas(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.las", bytes, size), true);
+}
+
+void
+readNpy(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.npy", bytes, size), true);
+}
+
+void
+readNpz(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.npz", bytes, size), true);
+}
+
+void
 readScene(const std::uint8_t* bytes, std::size_t size)
 {
   const std::string path = writeBytes("a.scene", bytes, size);
   refusalOf<IOError>(
       [&] {
         pcl_uvol::Report report;
-        pcl_uvol::loadScene(path, folder() / "", 1, report);
+        pcl_uvol::loadScene(path, fileNamed(""), 1, report);
       },
       path);
 }

@@ -34,6 +34,16 @@ readNrrd(const std::uint8_t* bytes, std::size_t size);
 void
 readMetaImage(const std::uint8_t* bytes, std::size_t size);
 void
+readGadget(const std::uint8_t* bytes, std::size_t size);
+void
+readHdf5(const std::uint8_t* bytes, std::size_t size);
+void
+readLas(const std::uint8_t* bytes, std::size_t size);
+void
+readNpy(const std::uint8_t* bytes, std::size_t size);
+void
+readNpz(const std::uint8_t* bytes, std::size_t size);
+void
 readScene(const std::uint8_t* bytes, std::size_t size);
 /** @} */
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 
 namespace {
 
@@ -86,6 +87,23 @@ TEST_P(Corpus, MutatedBreaksNoPromise)
           mutate(uvol_test::readFile(file), random),
           file.filename().string() + " with seed " + std::to_string(i));
   }
+}
+
+/** Readers and stages share nothing that threads of a user could spoil: tsan looks on.
+ */
+TEST_P(Corpus, BreaksNoPromiseInThreadsOfAUser)
+{
+  const auto files = listCorpus(GetParam());
+  std::vector<std::thread> threads;
+  for (std::size_t first = 0; first < 3; ++first)
+    threads.emplace_back([&files, first] {
+      for (std::size_t i = 0; i < files.size(); ++i) {
+        const fs::path& file = files[(first + i) % files.size()];
+        runOn(GetParam(), uvol_test::readFile(file), file.filename());
+      }
+    });
+  for (std::thread& thread : threads)
+    thread.join();
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz,

@@ -186,6 +186,14 @@ TEST_F(ArrayFiles, NpzBringsEveryFieldBack)
   EXPECT_EQ(0u, loadDataset(folder_ / "0.npz").cloud.width);
 }
 
+TEST_F(ArrayFiles, PartsOfAZipDoNotShareTheirBytes)
+{
+  const std::string path = save(
+      "a.npz",
+      readFile(PCL_UVOL_SOURCE_DIR "/tests/fuzz/corpus/npz/one_part_under_many_names"));
+  EXPECT_NE(std::string::npos, sentenceOf(path).find("truncated, damaged or no zip"));
+}
+
 /** A scan of three points in format `format`. */
 std::string
 las(int minor, int format, int point_bytes)

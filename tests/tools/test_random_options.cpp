@@ -2,8 +2,7 @@
 // Random command lines of every tool on valid and on strange clouds: exit code 0, 1 or
 // 2, one sentence where it fails, a report that is JSON, no file that was not asked
 // for.
-#include "common/printable.h"
-#include "support/environment.h"
+#include "sentences.h"
 
 #include <gtest/gtest.h>
 
@@ -161,26 +160,6 @@ writeClouds(const uvol_test::TemporaryFolder& folder)
   return files;
 }
 
-void
-expectSentences(const std::string& tool, const uvol_test::CommandResult& result)
-{
-  constexpr std::size_t most_bytes = 400; // with the path of a temporary folder
-  std::size_t errors = 0;
-  for (const std::string& line : split(result.err, '\n')) {
-    EXPECT_TRUE(pcl_uvol::isPrintable(line));
-    EXPECT_LE(line.size(), most_bytes);
-    const bool is_error = line.compare(0, tool.size() + 2, tool + ": ") == 0;
-    errors += is_error;
-    if (is_error || line.compare(0, 9, "Warning: ") == 0)
-      EXPECT_NE(std::string::npos, std::string(".?)").find(line.back())) << line;
-    else // the place in an expression
-      EXPECT_EQ(0, line.compare(0, 2, "  ")) << line;
-    for (const char* const word : {"std::", "vector::", "0x", "vtk", "exception"})
-      EXPECT_EQ(std::string::npos, line.find(word)) << line;
-  }
-  EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors);
-}
-
 /** What docs/reference/reports.md says: counts and times are numbers, warnings are
  * sentences, and no number stands in quotes. */
 void
@@ -252,7 +231,7 @@ private:
     const auto result = uvol_test::runCommand("timeout 20 " + line);
     EXPECT_TRUE(result.exit_code >= 0 && result.exit_code <= 2)
         << result.exit_code << result.err;
-    expectSentences(tool, result);
+    uvol_test::expectSentences(tool, result);
     if (result.exit_code == 0)
       expectReport(result.out);
     for (const std::string& name : folder_.list()) {

@@ -89,8 +89,17 @@ TEST_F(UvolInfo, NamesNeedNotBeUtf8)
   const std::string latin1 = "x,y,z,T \xb0\n0,0,0,1\n1,0,0,2\n0,1,0,3\n";
   const auto result = runOn(latin1, "-json");
   EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_TRUE(nlohmann::json::parse(result.out)["ranges"].contains("T_\xef\xbf\xbd"));
+  EXPECT_TRUE(nlohmann::json::parse(result.out)["ranges"].contains("T \xef\xbf\xbd"));
   expectTold(runOn(latin1), {"T \\xb0"});
+}
+
+TEST_F(UvolInfo, NamesMayDifferInABlank)
+{
+  const auto result =
+      runOn("x,y,z,a b,a_b\n0,0,0,1,3\n1,0,0,2,4\n0,1,0,3,5\n", "-json");
+  const auto ranges = nlohmann::json::parse(result.out)["ranges"];
+  EXPECT_EQ(2, ranges["a b"]["mean"]);
+  EXPECT_EQ(4, ranges["a_b"]["mean"]);
 }
 
 TEST_F(UvolInfo, RefusesWhatIsWrong)

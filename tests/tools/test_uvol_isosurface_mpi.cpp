@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <numeric>
+#include <sstream>
 
 namespace {
 
@@ -295,15 +296,84 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
 }
 
 /** mpirun ends the others, in the midst of it. */
-TEST_F(IsosurfaceMpi, LeavesNothingWhereAProcessIsKilled)
+/** One process of three meets a fault of the library of faults. */
+class FaultsOfARank : public IsosurfaceMpi {
+protected:
+  void
+  SetUp() override
+  {
+    IsosurfaceMpi::SetUp();
+    if (uvol_test::isSanitized())
+      GTEST_SKIP() << "a sanitizer has to be loaded first";
+    save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 3000, 4)));
+  }
+
+  CommandResult
+  runWith(const std::string& faults) const
+  {
+    const std::string arguments =
+        "uvol_isosurface_mpi in.pcd out.pvtp -iso 0.4 -field intensity";
+    return runCommand(
+        "cd " + folder_ / "" + " && timeout 30 env " + mpirun(2) + arguments +
+        " : -np 1 env LD_PRELOAD=" PCL_UVOL_FAULTS " UVOL_FAULTS=" + faults + ' ' +
+        arguments);
+  }
+
+  /** How often that process calls it. */
+  long
+  countCalls(const std::string& call) const
+  {
+    const std::string file = folder_ / "counts";
+    EXPECT_EQ(0, runWith("count=" + file).exit_code);
+    std::istringstream words(uvol_test::readFile(file));
+    std::string word;
+    long count = 0;
+    while (word != call && words >> word >> count)
+      ;
+    for (const std::string& name : folder_.list())
+      if (name != "in.pcd")
+        std::filesystem::remove(folder_ / name);
+    return count;
+  }
+
+  /** Ends within 30 s and leaves nothing, or all where it had done its work.
+   * \param moments spread over the calls of malloc */
+  void
+  meetAtMoments(const std::string& what, int moments, double first) const
+  {
+    const auto calls = static_cast<double>(countCalls("malloc"));
+    for (int i = 0; i < moments; ++i) {
+      const auto at = static_cast<long>(calls * (first + (0.98 - first) * i / moments));
+      SCOPED_TRACE(at);
+      const auto result = runWith("malloc:" + std::to_string(at) + what);
+      constexpr int timed_out = 124;
+      EXPECT_NE(timed_out, result.exit_code);
+      EXPECT_NE(0, result.exit_code);
+      // Nothing, or all: the list, and a piece of each process.
+      const auto left = folder_.list();
+      EXPECT_TRUE(left.size() == 1 || left.size() == 5) << left.size();
+      for (const std::string& name : left)
+        if (name != "in.pcd")
+          std::filesystem::remove(folder_ / name);
+    }
+  }
+};
+
+TEST_F(FaultsOfARank, KilledItLeavesNothing)
 {
-  save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 600000, 4)));
-  const std::string arguments =
-      "uvol_isosurface_mpi in.pcd out.pvtp -iso 0.4 -field intensity";
-  const auto result = runCommand("cd " + folder_ / "" + " && " + mpirun(2) + arguments +
-                                 " : -np 1 timeout -s KILL 0.4 " + arguments);
+  meetAtMoments(":9", 1, 0.9);
+}
+
+TEST_F(FaultsOfARank, KilledItLeavesNothing_long)
+{
+  meetAtMoments(":9", 20, 0.02);
+}
+
+TEST_F(FaultsOfARank, AFullDiskIsOneSentence)
+{
+  const auto result = runWith("write:1+");
   EXPECT_NE(0, result.exit_code);
-  EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list());
+  EXPECT_EQ(std::vector<std::string>{"in.pcd"}, folder_.list()) << result.err;
 }
 
 } // namespace

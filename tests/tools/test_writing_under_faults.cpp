@@ -46,7 +46,7 @@ TEST_F(WritingUnderFaults, FilesWithNamesAreComplete)
 {
   ASSERT_EQ(0, runCommand("uvol_generate '" + out_ + "' -n 50").exit_code);
   const std::string expected = readFile(out_);
-  for (const char* const faults : {"nameless", "link"}) {
+  for (const char* const faults : {"nameless", "linkat:1+"}) {
     fs::remove(out_);
     const auto result = generate(faults);
     EXPECT_EQ(0, result.exit_code) << faults << result.err;
@@ -58,14 +58,14 @@ TEST_F(WritingUnderFaults, FilesWithNamesAreComplete)
 TEST_F(WritingUnderFaults, SignalsTakeUnfinishedFilesAway)
 {
   writeFile(out_, "old");
-  EXPECT_NE(0, generate("nameless,term").exit_code);
+  EXPECT_NE(0, generate("nameless,fsync:1:15").exit_code);
   EXPECT_EQ("old", readFile(out_));
   EXPECT_EQ((std::vector<std::string>{"in.csv", "out.csv"}), folder_.list());
 }
 
 TEST_F(WritingUnderFaults, TheNextRunTakesAwayWhatAKilledOneLeft)
 {
-  EXPECT_NE(0, generate("nameless,kill").exit_code);
+  EXPECT_NE(0, generate("nameless,fsync:1:9").exit_code);
   const auto left = folder_.list();
   ASSERT_EQ(2u, left.size());
   EXPECT_EQ(0u, left[0].find(".out.csv.")) << left[0];

@@ -116,7 +116,7 @@ Fact::Fact(std::string name, const std::vector<Fact>& facts)
 {
   Json object = Json::object();
   for (const Fact& fact : facts)
-    object[fact.key_] = Json::parse(fact.json_);
+    object[fact.name_] = Json::parse(fact.json_);
   json_ = write(object);
 }
 

@@ -26,7 +26,8 @@ public:
    */
   Fact(std::string name, std::string text, const Members& members);
 
-  /** \brief Facts by their names, in JSON only. */
+  /** \brief Facts by their names, blanks and all, in JSON only: names of fields may
+   * differ in a blank. */
   Fact(std::string name, const std::vector<Fact>& facts);
 
   /** \brief The same fact for people only. */

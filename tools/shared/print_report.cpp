@@ -116,9 +116,10 @@ printReport(const Options& options,
   else
     printCounts(report, in_colour);
   for (const std::string& warning : report.warnings) {
+    const std::string line = "Warning: " + printable(warning) + '\n';
     const Colour colour(
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);
-    std::cerr << "Warning: " << printable(warning) << '\n';
+    std::cerr << line;
   }
 }
 

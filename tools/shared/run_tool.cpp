@@ -6,6 +6,9 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <pcl/console/print.h>
+#include <vtkLogger.h>
+
 #include <csignal>
 #include <iostream>
 #include <new>
@@ -40,6 +43,9 @@ withFile(const std::string& sentence)
 Outcome
 catchErrors(const char* tool, const std::function<int()>& body)
 {
+  // What VTK and PCL would tell of errors, the sentence of the error tells.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   // Writing beyond a limit or into a closed pipe shall be an error, not a sudden death.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -74,6 +80,9 @@ catchErrors(const char* tool, const std::function<int()>& body)
     return {1, withFile("There are not enough memory or threads for it.")};
   }
   catch (const std::exception& error) {
+    // TBB, which VTK's filters run on, tells of threads that it is not given.
+    if (std::string(error.what()).find("pthread_create") != std::string::npos)
+      return {1, withFile("There are not enough memory or threads for it.")};
     return {1, error.what()};
   }
 }
@@ -81,16 +90,23 @@ catchErrors(const char* tool, const std::function<int()>& body)
 int
 runTool(const char* tool, const std::function<int()>& body)
 {
-  const Outcome outcome = catchErrors(tool, body);
-  if (!outcome.sentence.empty())
-    printError(tool, outcome);
-  return outcome.exit_code;
+  try {
+    const Outcome outcome = catchErrors(tool, body);
+    if (!outcome.sentence.empty())
+      printError(tool, outcome);
+    return outcome.exit_code;
+  }
+  catch (const std::bad_alloc&) { // not even for the sentence
+    std::cerr << tool << ": There is not enough memory.\n";
+    return 1;
+  }
 }
 
 void
 printError(const char* tool, const Outcome& outcome)
 {
-  std::cerr << tool << ": " << pcl_uvol::printable(outcome.sentence) << '\n';
+  const std::string sentence = pcl_uvol::printable(outcome.sentence);
+  std::cerr << tool << ": " << sentence << '\n';
   if (!outcome.marked_lines.empty())
     std::cerr << outcome.marked_lines << '\n';
 }

@@ -281,7 +281,7 @@ runSeries(const char* tool, int argc, char** argv, int (*run)(int argc, char** a
     exit_code = runAll(tool, series, run);
     return exit_code;
   };
-  return runTool(tool, body);
+  return runTool(tool, std::ref(body)); // by reference: without memory
 }
 
 } // namespace uvol_tools

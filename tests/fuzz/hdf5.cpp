@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of HDF5 made of bytes: tables and attributes of any type and size under the
+// names that readers look for, and chunks whose packed bytes are any. They are written
+// by the library of HDF5, whose own headers stay whole: it does not survive them
+// damaged.
+#include "io/hdf5_column.h"
+#include "point_files.h"
+#include "random_cloud.h"
+#include "targets.h"
+
+#include <array>
+#include <hdf5.h>
+#include <string>
+#include <vector>
+
+namespace uvol_fuzz {
+
+namespace {
+
+constexpr std::size_t most_objects = 12, most_rows = 20, most_columns = 4;
+
+constexpr std::array<const char*, 5> groups{
+    {"/Header", "/PartType0", "/PartType4", "/particles", "/header"}};
+constexpr std::array<const char*, 16> tables{{"/PartType0/Coordinates",
+                                              "/PartType0/Masses",
+                                              "/PartType0/Density",
+                                              "/PartType4/Coordinates",
+                                              "/particles/xyz",
+                                              "/particles/h",
+                                              "/particles/itype",
+                                              "/particles/rho",
+                                              "/header/hfact",
+                                              "/header/massoftype",
+                                              "/x",
+                                              "/y",
+                                              "/z",
+                                              "/pos",
+                                              "/particles/x",
+                                              "/particles/a b"}};
+constexpr std::array<const char*, 6> attributes{{"NumPart_ThisFile",
+                                                 "NumPart_Total",
+                                                 "NumFilesPerSnapshot",
+                                                 "MassTable",
+                                                 "Redshift",
+                                                 "BoxSize"}};
+
+hid_t
+takeType(Bytes& bytes)
+{
+  const std::array<hid_t, 8> types{{H5T_IEEE_F32LE,
+                                    H5T_IEEE_F64LE,
+                                    H5T_IEEE_F32BE,
+                                    H5T_STD_I8LE,
+                                    H5T_STD_U16BE,
+                                    H5T_STD_I32LE,
+                                    H5T_STD_U64LE,
+                                    H5T_C_S1}};
+  return types[bytes.choose(types.size())];
+}
+
+class Hdf5Maker {
+public:
+  explicit Hdf5Maker(const std::string& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT))
+  {
+    for (const char* const group : groups)
+      H5Gclose(H5Gcreate2(file_, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  Hdf5Maker(const Hdf5Maker&) = delete;
+  Hdf5Maker&
+  operator=(const Hdf5Maker&) = delete;
+  ~Hdf5Maker()
+  {
+    H5Fclose(file_);
+  }
+
+  void
+  addAttribute(Bytes& bytes);
+  void
+  addTable(Bytes& bytes);
+
+private:
+  void
+  writeNumbers(hid_t table, Bytes& bytes, std::size_t count);
+  void
+  writeChunk(hid_t table, Bytes& bytes);
+
+  hid_t file_;
+};
+
+void
+Hdf5Maker::addAttribute(Bytes& bytes)
+{
+  const char* const name = attributes[bytes.choose(attributes.size())];
+  if (H5Aexists_by_name(file_, "/Header", name, H5P_DEFAULT) > 0)
+    return;
+  const hsize_t size = 1 + bytes.choose(7);
+  std::vector<double> numbers;
+  for (hsize_t i = 0; i < size; ++i)
+    numbers.push_back(bytes.flip() ? bytes.take<double>()
+                                   : static_cast<double>(bytes.choose(most_rows)));
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t made = H5Acreate_by_name(file_,
+                                       "/Header",
+                                       name,
+                                       takeType(bytes),
+                                       space,
+                                       H5P_DEFAULT,
+                                       H5P_DEFAULT,
+                                       H5P_DEFAULT);
+  H5Awrite(made, H5T_NATIVE_DOUBLE, numbers.data());
+  H5Aclose(made);
+  H5Sclose(space);
+}
+
+/** Packed bytes that no filter made. */
+void
+Hdf5Maker::writeChunk(hid_t table, Bytes& bytes)
+{
+  const std::array<hsize_t, 2> first{};
+  const auto mask = static_cast<std::uint32_t>(bytes.choose(8));
+  std::vector<std::uint8_t> packed(1 + bytes.choose(64));
+  for (std::uint8_t& byte : packed)
+    byte = bytes.take<std::uint8_t>();
+  H5Dwrite_chunk(table, H5P_DEFAULT, mask, first.data(), packed.size(), packed.data());
+}
+
+void
+Hdf5Maker::writeNumbers(hid_t table, Bytes& bytes, std::size_t count)
+{
+  std::vector<float> numbers(count);
+  const bool any_float = bytes.flip();
+  for (float& number : numbers)
+    number = any_float ? bytes.take<float>() : bytes.take<std::int8_t>();
+  H5Dwrite(table, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+}
+
+void
+Hdf5Maker::addTable(Bytes& bytes)
+{
+  const char* const name = tables[bytes.choose(tables.size())];
+  if (H5Lexists(file_, name, H5P_DEFAULT) > 0)
+    return;
+  const int rank = static_cast<int>(bytes.choose(4));
+  std::array<hsize_t, 3> sizes{
+      {bytes.choose(most_rows), 1 + bytes.choose(most_columns), 1}};
+  const hid_t space = H5Screate_simple(rank, sizes.data(), nullptr);
+  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  const bool has_chunks = bytes.flip() && rank > 0;
+  if (has_chunks) {
+    const std::array<hsize_t, 3> chunk{
+        {1 + bytes.choose(most_rows), 1 + bytes.choose(most_columns), 1}};
+    H5Pset_chunk(properties, rank, chunk.data());
+    if (bytes.flip())
+      H5Pset_shuffle(properties);
+    if (bytes.flip())
+      H5Pset_deflate(properties, 1);
+    if (bytes.flip())
+      H5Pset_fletcher32(properties);
+  }
+  const hid_t table = H5Dcreate2(
+      file_, name, takeType(bytes), space, H5P_DEFAULT, properties, H5P_DEFAULT);
+  if (table >= 0 && rank > 0 && sizes[0] > 0) {
+    if (bytes.choose(8) != 0)
+      writeNumbers(table, bytes, sizes[0] * (rank > 1 ? sizes[1] : 1));
+    if (has_chunks && rank < 3 && bytes.choose(4) == 0)
+      writeChunk(table, bytes);
+  }
+  if (table >= 0)
+    H5Dclose(table);
+  H5Pclose(properties);
+  H5Sclose(space);
+}
+
+} // namespace
+
+void
+readHdf5(const std::uint8_t* data, std::size_t size)
+{
+  Bytes bytes(data, size);
+  const std::string path = fileNamed("a.h5");
+  constexpr std::array<const char*, 4> insides{
+      {"", ":/particles", ":/particles/xyz", ":/x,y,z"}};
+  const char* const inside = insides[bytes.choose(insides.size())];
+  {
+    const pcl_uvol::io::Hdf5Session session;
+    Hdf5Maker file(path);
+    for (std::size_t i = 0; i < most_objects && bytes.size() > 0; ++i)
+      if (bytes.choose(3) == 0)
+        file.addAttribute(bytes);
+      else
+        file.addTable(bytes);
+  }
+  readPoints(path + inside, true);
+}
+
+} // namespace uvol_fuzz

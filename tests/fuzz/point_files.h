@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of points, and what is promised of those that are read.
+#pragma once
+
+#include <string>
+
+namespace uvol_fuzz {
+
+/** \brief A file of that name in a folder of this thread, which goes at its end. */
+std::string
+fileNamed(const std::string& name);
+
+/** \brief Reads points, whole and as a stream.
+ * \param path of the file, which may name something within it
+ * \throws BrokenPromise */
+void
+readPoints(const std::string& path, bool has_stream);
+
+} // namespace uvol_fuzz

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What tools tell people: sentences that are printable, short and free of the words of
+// programmers.
+#pragma once
+
+#include "common/printable.h"
+#include "support/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+namespace uvol_test {
+
+/** Reads all that a tool wrote to stderr: warnings, and one error unless it succeeded
+ * or a signal ended it. */
+inline void
+expectSentences(const std::string& tool, const CommandResult& result)
+{
+  constexpr std::size_t most_bytes = 400; // with the path of a temporary folder
+  constexpr int least_signal = 128;
+  std::size_t errors = 0;
+  std::istringstream lines(result.err);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_TRUE(pcl_uvol::isPrintable(line)) << line;
+    if (line.empty()) { // which the runtime of OpenMP begins with
+      EXPECT_NE(std::string::npos, result.err.find("\nlibgomp: ")) << result.err;
+      continue;
+    }
+    EXPECT_LE(line.size(), most_bytes) << line;
+    for (const char* const word : {"std::", "vector::", "0x", "vtk", "exception"})
+      EXPECT_EQ(std::string::npos, line.find(word)) << line;
+    // The runtime of OpenMP ends a program that gets no threads.
+    const bool is_error = line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
+                          line.compare(0, 9, "libgomp: ") == 0;
+    errors += is_error;
+    const bool is_sentence = line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
+                             line.compare(0, 9, "Warning: ") == 0;
+    const std::string marks = line.substr(0, 2); // the place in an expression
+    EXPECT_TRUE(is_sentence ? std::string(".?)").find(line.back()) != std::string::npos
+                            : is_error || marks == "  ")
+        << line;
+  }
+  if (result.exit_code >= 0 && result.exit_code < least_signal) {
+    EXPECT_EQ(result.exit_code == 0 ? 0u : 1u, errors) << result.err;
+  }
+}
+
+} // namespace uvol_test
