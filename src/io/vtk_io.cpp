@@ -125,7 +125,7 @@ writePieceList(const std::string& file,
   std::ofstream out(file);
   root->PrintXML(out, vtkIndent());
   if (!out.flush())
-    throwUnwritable(path, "is the disk full?");
+    throwUnwritable(path, "the disk may be full");
 }
 
 Dataset

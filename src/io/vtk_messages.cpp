@@ -97,7 +97,7 @@ writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path)
   if (!messages.getError().empty())
     throwUnwritable(path, "VTK says: " + messages.getError());
   if (!written || writer.GetErrorCode() != 0)
-    throwUnwritable(path, "VTK could not write it, is the disk full?");
+    throwUnwritable(path, "VTK could not write it; the disk may be full");
 }
 
 } // namespace io
