@@ -19,6 +19,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 RESULTS = HERE / "results"
 PAGE = HERE.parents[1] / "docs/benchmarks.md"
+DISCS = "splats:300000/radius:300/size:1200/depth"
 REPEATED = "--benchmark_repetitions=3 --benchmark_min_time=0.1"
 
 # Name: how its output is read, and the command.
@@ -117,30 +118,37 @@ def list_accuracy():
         yield (name, what, *(f"{largest_mean(rows, method):.2g}" for method in ("smooth", "linear", "marching_cubes")))
 
 
-def list_times():
-    def pair(name, what, ours, theirs, peer, key="real_ms"):
-        medians = load(name)["result"]
-        own, other = time_of(medians, ours, key), time_of(medians, theirs, key)
-        return name, what, format_time(own), f"{format_time(other)}: {peer}", f"{other / own:.2g}"
+# Row: its measurement, what is measured, what it is beside, and beginnings of the names of both benchmarks.
+ROWS = {
+    "nearest": ("nearest", "41 nearest of 4,000,000 samples at 54,982 isopoints, one thread", "FLANN", "uvolFinder",
+                "flannNearSurface"),
+    "neighborhoods": ("neighborhoods", "neighbours of 1,000,000 samples", "CGAL's Delaunay triangulation with TBB",
+                      "whole_job/uvol", "whole_job/cgal"),
+    "rendering": ("rendering", "picture of 544,000 points, 1024 x 1024, no graphics card", "VTK, the mere points",
+                  "imageSpace", "vtkPointMapper"),
+    "rays": ("ray_tracing", "rays on 300,000 discs, 1200 x 1200, light and shadow", "Embree, one pass",
+             f"rayTracer/{DISCS}:0", f"embree/userGeometry/{DISCS}:0"),
+    "mirrored_rays": ("ray_tracing", "the same with four mirrorings", "Embree, one pass", f"rayTracer/{DISCS}:4",
+                      f"embree/userGeometry/{DISCS}:4"),
+    "voronoi": ("voronoi", "discrete Voronoi diagram, 10,000 points, 256³", "the thesis", "transform", None),
+    "clusters": ("clusters", "clusters of 998,250 points, 6 attributes", "", None, None),
+    "file_to_file": ("file_to_file", "surface of 4,000,000 samples, from file to file", "", None, None),
+}
 
-    yield pair("nearest", "41 nearest of 4,000,000 samples at 54,982 isopoints, one thread", "uvolFinder", "flannNearSurface",
-               "FLANN", "cpu_ms")
-    yield pair("neighborhoods", "neighbours of 1,000,000 samples", "whole_job/uvol", "whole_job/cgal",
-               "CGAL's Delaunay triangulation with TBB")
-    yield pair("rendering", "picture of 544,000 points, 1024 x 1024, no graphics card", "imageSpace", "vtkPointMapper",
-               "VTK, the mere points")
-    yield pair("ray_tracing", "rays on 300,000 discs, 1200 x 1200, light and shadow", "rayTracer/splats:300000/radius:300/size:1200/depth:0",
-               "embree/userGeometry/splats:300000/radius:300/size:1200/depth:0", "Embree, one pass")
-    yield pair("ray_tracing", "the same with four mirrorings", "rayTracer/splats:300000/radius:300/size:1200/depth:4",
-               "embree/userGeometry/splats:300000/radius:300/size:1200/depth:4", "Embree, one pass")
-    voronoi = time_of(load("voronoi")["result"], "transform")
-    yield ("voronoi", "discrete Voronoi diagram, 10,000 points, 256³", format_time(voronoi), "139 s: the thesis",
-           f"{139000 / voronoi:.2g}")
-    clusters = load("clusters")["result"]
-    yield ("clusters", f"clusters of {clusters['points']:,} points, 6 attributes",
-           format_time(1000 * sum(clusters["seconds"].values())), "", "")
-    report = load("file_to_file")["result"]
-    yield ("file_to_file", "surface of 4,000,000 samples, from file to file", format_time(report["milliseconds"]["total"]), "", "")
+
+def list_times():
+    """Rows of the table: times on a quiet machine, and how the last run compares, whose machine had a load."""
+    quiet = json.loads((RESULTS / "quiet.json").read_text())
+    for row, (name, what, peer, ours, theirs) in ROWS.items():
+        known, run = quiet[row], load(name)
+        beside = f"{format_time(known['beside'])}: {peer}" if peer else ""
+        ratio = f"{known['beside'] / known['ours']:.2g}" if peer and peer != "the thesis" else ""
+        last = ""
+        if theirs:
+            key = "cpu_ms" if "one thread" in what else "real_ms"
+            last = f"{time_of(run['result'], theirs, key) / time_of(run['result'], ours, key):.2g}, load {run['load_before']:.0f}"
+        command = run["command"].replace("|", "\\|")
+        yield (what, format_time(known["ours"]), beside, ratio, known["machine"], last, f"`{command}`")
 
 
 def write_tables():
@@ -149,15 +157,13 @@ def write_tables():
              "|---|---|---|---|---|"]
     for name, what, *figures in list_accuracy():
         lines.append(f"| {what} | " + " | ".join(figures) + f" | `{load(name)['command']}` |")
-    lines += ["", "Times, medians of three; load is the number of processes that waited for a core when the run began: the times of a run "
-              "with a load of more than one are longer than they are on a quiet machine, ratios less so.", "",
-              "| what | ours | beside | times as long | load | command |", "|---|---|---|---|---|---|"]
-    for name, what, own, other, ratio in list_times():
-        command = load(name)["command"].replace("|", "\\|")
-        lines.append(f"| {what} | {own} | {other} | {ratio} | {load(name)['load_before']} | `{command}` |")
-    runs = [load(name) for name in MEASUREMENTS]
-    machines = sorted({run["machine"] for run in runs})
-    lines += ["", f"Measured {min(run['date'] for run in runs)} to {max(run['date'] for run in runs)} on {'; '.join(machines)}."]
+    machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
+    dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
+    lines += ["", "Times on machines A and B of the diary, two virtual cores each, and how many times as long the peer takes; in the last run "
+              f"({dates[-1]}, {'; '.join(machines)}) other programs waited for the cores, as many as the load says, which lengthens all times "
+              "and disturbs the ratio of programs that use several threads.", "",
+              "| what | ours | beside | times as long | machine | last run | command |", "|---|---|---|---|---|---|---|"]
+    lines += ["| " + " | ".join(row) + " |" for row in list_times()]
     return "\n".join(lines)
 
 
