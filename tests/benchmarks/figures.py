@@ -28,9 +28,9 @@ MEASUREMENTS = {
     "accuracy_waves": ("rows", "accuracy waves uniform 3 1e6"),
     "nearest": ("google", f"bench_nearest {REPEATED}"),
     "neighborhoods": ("google", f"bench_neighborhoods --benchmark_filter=/1000000/ {REPEATED}"),
-    "rendering": ("google", "xvfb-run -a bench_rendering --benchmark_filter=surface:0/width:1024.*(lines:0|1024)/real_time "
+    "rendering": ("google", "xvfb-run -a bench_rendering --benchmark_filter='surface:0/width:1024.*(lines:0|1024)/real_time' "
                   f"{REPEATED}"),
-    "ray_tracing": ("google", "bench_ray_tracing --benchmark_filter=(rayTracer|userGeometry)/splats:300000/radius:300 "
+    "ray_tracing": ("google", "bench_ray_tracing --benchmark_filter='(rayTracer|userGeometry)/splats:300000/radius:300' "
                     f"{REPEATED}"),
     "voronoi": ("google", f"bench_voronoi --benchmark_filter=transform/side:256/points:10000 {REPEATED}"),
     "clusters": ("words", "clusters 1e6"),
@@ -108,7 +108,8 @@ def time_of(medians, start, key="real_ms"):
 
 
 def format_time(milliseconds):
-    return f"{milliseconds:.3g} ms" if milliseconds < 1000 else f"{milliseconds / 1000:.2g} s"
+    seconds = milliseconds / 1000
+    return f"{milliseconds:.3g} ms" if seconds < 1 else f"{seconds:.2g} s" if seconds < 100 else f"{seconds:.0f} s"
 
 
 def list_accuracy():
@@ -147,23 +148,24 @@ def list_times():
         if theirs:
             key = "cpu_ms" if "one thread" in what else "real_ms"
             last = f"{time_of(run['result'], theirs, key) / time_of(run['result'], ours, key):.2g}, load {run['load_before']:.0f}"
-        command = run["command"].replace("|", "\\|")
-        yield (what, format_time(known["ours"]), beside, ratio, known["machine"], last, f"`{command}`")
+        yield (what, format_time(known["ours"]), beside, ratio, known["machine"], last)
 
 
 def write_tables():
     lines = ["Mean distance to the true surface, in spacings of the samples; the largest of three seeds.", "",
-             "| field | ours | thesis, along edges | marching cubes on a grid of as many exact values | command |",
-             "|---|---|---|---|---|"]
+             "| field | ours | thesis, along edges | marching cubes on a grid of as many exact values |",
+             "|---|---|---|---|"]
     for name, what, *figures in list_accuracy():
-        lines.append(f"| {what} | " + " | ".join(figures) + f" | `{load(name)['command']}` |")
+        lines.append(f"| {what} | " + " | ".join(figures) + " |")
     machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
     dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
     lines += ["", "Times on machines A and B of the diary, two virtual cores each, and how many times as long the peer takes; in the last run "
               f"({dates[-1]}, {'; '.join(machines)}) other programs waited for the cores, as many as the load says, which lengthens all times "
               "and disturbs the ratio of programs that use several threads.", "",
-              "| what | ours | beside | times as long | machine | last run | command |", "|---|---|---|---|---|---|---|"]
+              "| what | ours | beside | times as long | machine | last run |", "|---|---|---|---|---|---|"]
     lines += ["| " + " | ".join(row) + " |" for row in list_times()]
+    lines += ["", "The commands, in this order; those of Google Benchmark with `--benchmark_format=json`:", ""]
+    lines += [f"    {' && '.join(filter(None, (PREPARED.get(name), load(name)['command'])))}" for name in MEASUREMENTS]
     return "\n".join(lines)
 
 
