@@ -61,7 +61,7 @@ cat >>"$page" <<'EOF'
 <li><a href="measures.csv">measures.csv</a>: figures of two surfaces
 <li><a href="star.pcd">star.pcd</a>: the samples themselves
 </ul>
-<p>Your own data: <code>build/release/bin/uvol info data.csv</code> names its fields and suggests isovalues,
+<p>Your own data: <code>build/release/bin/uvol info data.csv</code> names its fields, with <code>-field NAME</code> it suggests isovalues,
 <code>build/release/bin/uvol isosurface data.csv surface.ply -field NAME -iso VALUE -png picture.png</code> draws a surface.</p>
 EOF
 
