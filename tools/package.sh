@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash tools/build.sh help lintian fakeroot dpkg-dev file man-db python3-numpy
+[ "${1:-}" != chroot ] || bash tools/install_dependencies.sh debootstrap
 
 configure=(cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON
   -DPCL_UVOL_BUILD_TESTS=OFF)

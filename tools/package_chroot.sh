@@ -40,9 +40,10 @@ for package in "$packages"/*.deb; do
   fi
 done
 
-# install NAME FURTHER_PACKAGES COMMAND: a package with its dependencies in a system of its own, used by a command
 echo "| package | packages that come with it | MB | of VTK | of Qt | of MPI |" >"$table"
 echo "|---|---|---|---|---|---|" >>"$table"
+
+# install NAME FURTHER_PACKAGES COMMAND: a package with its dependencies in a system of its own, used by a command
 install() {
   local root=$work/$1 list
   cp -a "$work/base" "$root"
