@@ -83,4 +83,13 @@ if(PCL_UVOL_BUILD_MPI)
       ${libraries_needed} "libpcl-uvol-mpi${soversion} ${same}" openmpi-bin)
   endif()
 endif()
+# The site of tools/docs.sh, once it is there.
+set(PCL_UVOL_DOCUMENTATION "" CACHE PATH "Folder of the built documentation, for the package pcl-uvol-doc")
+if(PCL_UVOL_DOCUMENTATION)
+  install(DIRECTORY ${PCL_UVOL_DOCUMENTATION}/ DESTINATION share/doc/pcl-uvol-doc/html COMPONENT documentation)
+  pcl_uvol_debian(documentation pcl-uvol-doc doc "surfaces from scattered samples: documentation"
+    "${purpose}\n This package has walkthroughs, the manual and the pages of the API, in HTML.")
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
+endif()
 include(CPack)

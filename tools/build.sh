@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what building needs and builds a preset, release unless $PRESET names another one. Shared by
 # tools/demo.sh, tools/check.sh and tests/run.sh.
-# usage: build.sh TARGET [PACKAGE...]: the target (all, tools; help builds nothing) and further packages
-# to install
+# usage: build.sh TARGET [PACKAGE...]: the target (all, tools, demo; help builds nothing) and further packages
+# to install. $CONFIGURE: further options for CMake.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=$1
@@ -15,5 +15,6 @@ bash tools/install_dependencies.sh \
   pybind11-dev python3-dev python3-numpy python3-pytest \
   libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
   libgtest-dev libgmock-dev "$@"
-cmake --preset "$preset"
+# shellcheck disable=SC2086 # options are words
+cmake --preset "$preset" ${CONFIGURE:-}
 cmake --build --preset "$preset" --target "$target"

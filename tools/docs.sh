@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the documentation into build/docs/site, without network once its packages are installed, and checks
-# every link of it. The API pages by Doxygen are at build/docs/site/api.
+# every link of it, and that public functions have their parameters documented. The API pages by Doxygen are at
+# build/docs/site/api.
 # usage: docs.sh [run]; run: also run every command of the walkthroughs, and renew their pictures. Needs the
 # tools (tools/build.sh tools) and for run $PCL_UVOL_DATA, the folder of data sets.
 set -euo pipefail
@@ -9,7 +10,7 @@ bin=${PCL_UVOL_BIN:-build/release/bin}
 bash tools/install_dependencies.sh mkdocs mkdocs-material doxygen python3
 
 if [ "${1:-}" = run ]; then
-  python3 docs/site/run_commands.py "$bin" --renew docs/start/*.md
+  python3 docs/site/run_commands.py "$bin" --renew docs/start/*.md docs/how/*.md
 fi
 rm -rf build/docs
 mkdir -p build/docs/source/benchmarks
@@ -21,5 +22,6 @@ sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' tests/benchmarks/README.md >build/docs/source/
 sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md
 mkdocs build --quiet --strict
 doxygen docs/site/Doxyfile
+python3 docs/site/check_api.py build/docs/doxygen_warnings.txt
 python3 docs/site/check_links.py build/docs/site
 echo "The documentation is build/docs/site/index.html."

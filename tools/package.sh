@@ -1,14 +1,18 @@
 #!/usr/bin/env bash
 # Makes Debian packages in build/package/deb, lets lintian check them, and uses what they hold: from a folder that
 # they are unpacked into the tools run, and a project of its own finds the library.
-# usage: package.sh
+# usage: package.sh [chroot]; chroot: then tools/package_chroot.sh installs each into a fresh system (as root)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 bash tools/build.sh help lintian fakeroot dpkg-dev file man-db python3-numpy
+[ "${1:-}" != chroot ] || bash tools/install_dependencies.sh debootstrap
 
-cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON \
-  -DPCL_UVOL_BUILD_TESTS=OFF
+configure=(cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_SKIP_INSTALL_RPATH=ON
+  -DPCL_UVOL_BUILD_TESTS=OFF)
+"${configure[@]}"
 cmake --build build/package
+PCL_UVOL_BIN=build/package/bin bash tools/docs.sh
+"${configure[@]}" -DPCL_UVOL_DOCUMENTATION="$PWD/build/docs/site"
 rm -rf build/package/deb
 (cd build/package && cpack -B deb >cpack.log) || { cat build/package/cpack.log; exit 1; }
 rm -rf build/package/deb/_CPack_Packages
@@ -32,3 +36,7 @@ cmake --build "$root/consumer"
 "$root/consumer/consumer"
 man --warnings -l "$root/usr/share/man/man1/uvol_isosurface.1.gz" >/dev/null
 ls -l build/package/deb/*.deb
+if [ "${1:-}" = chroot ]; then
+  unset LD_LIBRARY_PATH
+  bash tools/package_chroot.sh build/package/deb
+fi

@@ -104,6 +104,7 @@ run(int argc, char** argv)
   options.file("a", first);
   options.file("b", second);
   options.file("out", output, false);
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   if (!options.parse(argc, argv))
     return 0;

@@ -24,9 +24,12 @@ run(int argc, char** argv)
       "Gadget, writes pcd ply vtp csv npz;\n- is standard input or output.");
   options.file("in", input);
   options.file("out", output);
+  options.group("Input");
   options.text("where", "expr", where, "only the points for which it holds");
   reading.declare(options);
+  options.group("Fields");
   density.declare(options);
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))

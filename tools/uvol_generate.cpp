@@ -177,6 +177,7 @@ run(int argc, char** argv)
       "uvol_generate", "[in.nhdr|in.ply] out.pcd [options]", purpose);
   options.file("out", first);
   options.file("out", second, false);
+  options.group("Samples");
   options.integer("n", arguments.n, 1, 4000000000ULL, "number of points");
   options.text("field", "name", arguments.field, "analytic field (default radial)");
   options.choice("samples",
@@ -191,6 +192,7 @@ run(int argc, char** argv)
       "standard deviation of noise added to the scalar, or to points of a mesh");
   options.integer(
       "seed", arguments.seed, 0, ~std::uint64_t(0), "seed of all randomness");
+  options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   if (!options.parse(argc, argv))
     return 0;

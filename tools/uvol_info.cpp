@@ -269,6 +269,7 @@ run(int argc, char** argv)
                   "vtu vts h5, Gadget) or a volume (nrrd "
                   "nhdr vti mha mhd) holds.");
   options.file("in", arguments.input);
+  options.group("Input");
   options.text(
       "field",
       "name",

@@ -50,10 +50,12 @@ declare(Options& options, Arguments& arguments)
                   0,
                   std::numeric_limits<std::int32_t>::max(),
                   "of samples: leave out pieces of fewer triangles");
+  options.group("Input");
   options.text("samples",
                "file",
                arguments.samples,
                "of a mesh: the samples to look for inside of it");
+  options.group("Measures");
   options.flag(
       "pieces", arguments.with_pieces, "rows of the table for every piece as well");
   options.flag("flat",
@@ -62,6 +64,7 @@ declare(Options& options, Arguments& arguments)
   options.flag("check",
                arguments.is_checked,
                "look for triangles that go through one another as well");
+  options.group("Picture");
   options.output("png",
                  "out.png",
                  arguments.picture,

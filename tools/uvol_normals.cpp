@@ -77,6 +77,7 @@ run(int argc, char** argv)
       "nearest neighbours.\nNormals that the file has orient the new ones.");
   options.file("in", input);
   options.file("out", output);
+  options.group("Normals");
   options.integer("k", k, 2, 10000, "nearest neighbours besides the point");
   options.numbers("viewpoint",
                   "x,y,z",
@@ -85,6 +86,7 @@ run(int argc, char** argv)
                   "points without a normal look there (default 0,0,0)");
   options.numbers(
       "scale", "sx,sy,sz", 3, scale, "measure distances in a stretched space");
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   if (!options.parse(argc, argv))
     return 0;

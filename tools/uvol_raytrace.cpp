@@ -126,6 +126,7 @@ run(int argc, char** argv)
                   "the place of what the scene says.");
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Input");
   options.text("folder", "path", arguments.folder, "where the clouds of a scene lie");
   arguments.view.declareScene(options);
   arguments.view.declareExaggeration(options);

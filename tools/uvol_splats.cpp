@@ -71,7 +71,9 @@ run(int argc, char** argv)
       "estimated.");
   options.file("in", input);
   options.file("out", output);
+  options.group("Splats");
   splat_options.declare(options);
+  options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   if (!options.parse(argc, argv))
     return 0;

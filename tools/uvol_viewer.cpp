@@ -26,6 +26,7 @@ declare(uvol_tools::Options& options, Arguments& arguments)
 {
   constexpr double largest = std::numeric_limits<double>::max();
   options.file("in", arguments.input);
+  options.group("Input");
   options.text("field",
                "name",
                arguments.field,
@@ -35,6 +36,7 @@ declare(uvol_tools::Options& options, Arguments& arguments)
                  -largest,
                  largest,
                  "isovalue to start with (default the middle of the range)");
+  options.group("Picture");
   options.output("screenshot",
                  "out.png",
                  arguments.screenshot,

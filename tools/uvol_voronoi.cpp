@@ -34,6 +34,7 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output);
+  options.group("Grid");
   options.text("grid",
                "n|NxNxN",
                arguments.grid,
@@ -41,6 +42,7 @@ declare(Options& options, Arguments& arguments)
                "many boxes along x, y and z");
   options.integer(
       "margin", arguments.margin, 0, 1000, "more cubic cells around the box");
+  options.group("Method");
   options.choice("method",
                  {"transform", "cones"},
                  arguments.method,
@@ -58,6 +60,7 @@ declare(Options& options, Arguments& arguments)
                   3,
                   pcl_uvol::ConicSections::most_first_triangles,
                   "of the first ring; the thesis has 4");
+  options.group("Picture");
   options.output(
       "png", "out.png", arguments.picture, "draw slices, a colour per region");
   options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");

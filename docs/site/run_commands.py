@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
-picture below pictures/start/ that a page shows is made by them.
+picture (.png) below pictures/start/ and pictures/how/ that a page shows is made by them.
 
 usage: run_commands.py BIN_FOLDER [--renew] PAGE...; --renew copies the pictures beside the pages
 The commands find the tools in PATH and the data sets in $PCL_UVOL_DATA.
@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PICTURE = re.compile(r"\]\((\.\./pictures/start/([^)]+))\)")
+PICTURE = re.compile(r"\]\((\.\./pictures/(?:start|how)/([^)]+\.png))\)")
 
 
 def run_page(page, bin_folder, renew):

@@ -300,8 +300,8 @@ TextTable::findCoordinates()
   if (columns_.size() < 3)
     throwUnreadable(path_,
                     "it has " + std::to_string(columns_.size()) +
-                        " columns, and coordinates need three; are they separated by "
-                        "comma, semicolon, tab or blanks?");
+                        " columns, and coordinates need three, separated by "
+                        "comma, semicolon, tab or blanks");
   if (std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return axisOf(lowerCase(name)) >= 0;
       }))

@@ -25,7 +25,7 @@ constexpr float margin = 3.5f;
 struct Setup {
   const uvol_test::RadialCloud& radial = radialCloud(samples);
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
-  std::vector<pcl_uvol::Position> points;
+  std::vector<pcl_uvol::Position> points; ///< isopoints, as the input has them
 
   Setup()
   {
@@ -50,14 +50,18 @@ void
 uvolFinder(benchmark::State& state)
 {
   constexpr std::size_t batch = 8;
-  const auto& points = setup().points;
   const auto set = setup().extraction.getSamples();
+  // Samples are kept in a unit of their own.
+  std::vector<pcl_uvol::Position> points;
+  for (const pcl_uvol::Position& point : setup().points)
+    points.push_back(set->getUnit().apply(point));
+  const float spacing = set->getUnit().factor;
   for (auto _ : state) {
     pcl_uvol::NearestFinder finder(*set, k);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (i % batch == 0)
         finder.expect(&points[i], std::min(batch, points.size() - i));
-      benchmark::DoNotOptimize(finder.find(points[i], 1.0f).samples);
+      benchmark::DoNotOptimize(finder.find(points[i], spacing).samples);
     }
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(points.size()) *
@@ -75,11 +79,11 @@ flannNearSurface(benchmark::State& state)
   search.use_heap = flann::FLANN_False;
   for (auto _ : state) {
     std::vector<float> near_surface;
-    for (const auto& x : setup().extraction.getSamples()->getPositions()) {
+    for (const pcl::PointXYZI& p : *radial.cloud) {
       const double r =
-          std::hypot(x[0] - radial.center, x[1] - radial.center, x[2] - radial.center);
+          std::hypot(p.x - radial.center, p.y - radial.center, p.z - radial.center);
       if (std::abs(r - radial.radius) < margin)
-        near_surface.insert(near_surface.end(), {x[0], x[1], x[2]});
+        near_surface.insert(near_surface.end(), {p.x, p.y, p.z});
     }
     flann::KDTreeSingleIndex<flann::L2_3D<float>> index(
         flann::Matrix<float>(near_surface.data(), near_surface.size() / 3, 3),

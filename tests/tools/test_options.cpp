@@ -117,6 +117,22 @@ TEST(Options, HelpHasOneHeadingPerTitleAndRunLast)
   EXPECT_NE(std::string::npos, run);
 }
 
+TEST(Options, HelpStandsBelowAnOptionThatLeavesItNoRoom)
+{
+  std::string target;
+  const std::string fits(45, 'm'), too_long(46, 'm');
+  Options options("tool", "[options]", "Does something.");
+  options.text("map", fits, target, "one");
+  options.text("way", too_long, target, "two");
+  const char* const arguments[] = {"tool", "-h"};
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(options.parse(2, arguments));
+  const std::string help = testing::internal::GetCapturedStdout();
+  EXPECT_THAT(help, HasSubstr("  -map " + fits + "  one\n"));
+  EXPECT_THAT(help,
+              HasSubstr("  -way " + too_long + '\n' + std::string(30, ' ') + "two\n"));
+}
+
 TEST(NumberRanges, HaveBothEndsAndTheDigitsOfTheirSteps)
 {
   EXPECT_THAT(parseNumbers("iso", "0.1:0.1:0.6", 0),

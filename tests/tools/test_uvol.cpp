@@ -54,6 +54,15 @@ TEST(Uvol, BecomesTheTool)
   EXPECT_THAT(wrong.err, HasSubstr("uvol_isosurface: The argument <in> is missing"));
 }
 
+TEST(Uvol, ToolsExplainEveryOptionBelowAHeading)
+{
+  for (const auto& entry : std::filesystem::directory_iterator(tool_folder))
+    if (const std::string name = entry.path().filename(); name.rfind("uvol_", 0) == 0) {
+      const std::string help = runCommand(entry.path().string() + " -h all").out;
+      EXPECT_THAT(help, Not(HasSubstr("\nOptions:\n"))) << name;
+    }
+}
+
 TEST(Uvol, RefusesOtherToolsInOneSentence)
 {
   const auto result = runCommand(tool_folder + "/uvol isosurfase");

@@ -31,9 +31,9 @@ class Help:
             if line.endswith(":") and not line.startswith(" "):
                 self.groups.append((line[:-1], []))
             elif entry:
-                # The help starts in its column, or two blanks behind a long option.
+                # The help starts in its column, two blanks behind a long option, or in the next line.
                 option, _, words = line.strip().partition("  ")
-                if not words and len(line) > 30:
+                if not words and line[29:30] == " ":
                     option, words = line[2:30].strip(), line[30:]
                 self.groups[-1][1].append([option, words.strip()])
             elif line.strip():

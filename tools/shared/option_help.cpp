@@ -30,9 +30,16 @@ printWords(const std::string& text, std::size_t column)
   std::cout << '\n';
 }
 
+/** Help stands in its column, two blanks behind an option that reaches into it, and in
+ * the next line behind one that leaves it no room. */
 void
 printEntry(const std::string& left, const std::string& help)
 {
+  if (left.size() > line_length / 2) {
+    std::cout << "  " << left << '\n' << std::string(help_column + 2, ' ');
+    printWords(help, help_column + 2);
+    return;
+  }
   const std::size_t gap = left.size() < help_column ? help_column - left.size() : 2;
   std::cout << "  " << left << std::string(gap, ' ');
   printWords(help, 2 + left.size() + gap);

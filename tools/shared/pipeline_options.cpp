@@ -80,6 +80,7 @@ PipelineOptions::declare(Options& options)
                scratch_,
                "with -max-memory: where they wait, 24 bytes each (default: beside the "
                "output)");
+  options.group("Input");
   density.declare(options);
   options.number("outside-value",
                  outside_value,

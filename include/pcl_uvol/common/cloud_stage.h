@@ -46,6 +46,7 @@ protected:
 
   /** \brief Call work(cloud, indices): a view of the cloud, and the points to take.
    * \param stage name for the messages
+   * \param work called with a CloudView and pcl::Indices
    * \throws InvalidArgument without an input cloud, and for indices that are no points
    * of it */
   template <typename WorkT>

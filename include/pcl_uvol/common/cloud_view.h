@@ -75,6 +75,7 @@ checkIndices(const pcl::Indices& indices, std::size_t count, const char* stage);
 } // namespace detail
 
 /** \brief View of a cloud of a registered point type with x, y, z of any numeric type.
+ * \param cloud must outlive the view
  * \throws InvalidArgument for more points than PCL's indices can number */
 template <typename PointT>
 CloudView
@@ -96,6 +97,7 @@ viewOf(const pcl::PointCloud<PointT>& cloud)
 }
 
 /** \brief View of a cloud with fields known at run time only.
+ * \param cloud must outlive the view
  * \throws InvalidArgument as detail::makeView */
 PCL_UVOL_EXPORTS CloudView
 viewOf(const pcl::PCLPointCloud2& cloud);

@@ -43,6 +43,7 @@ struct PCL_UVOL_EXPORTS Dataset {
  * The origin of an axis is 0 where float holds every coordinate to 1e-7 of the extent
  * of that axis (of the cloud, for an axis that is flat beside it).
  * \param xyz three numbers per point
+ * \param dataset gets the fields
  * \throws InvalidArgument unless there are three per point, none beyond float */
 PCL_UVOL_EXPORTS void
 setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
@@ -50,6 +51,8 @@ setCoordinates(Dataset& dataset, const std::vector<double>& xyz);
 /** \brief Add a field of single numbers behind the others, or replace the one of that
  * name.
  * \param values one per point
+ * \param dataset gets the field
+ * \param name of the field
  * \throws InvalidArgument for another number of values, and for x, y and z @{ */
 PCL_UVOL_EXPORTS void
 setField(Dataset& dataset, const std::string& name, const std::vector<float>& values);

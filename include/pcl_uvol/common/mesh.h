@@ -22,7 +22,8 @@ struct Mesh {
 };
 
 /** \brief Unit normals of the vertices: means of their triangles', weighted by area; 0
- * for a vertex without any. */
+ * for a vertex without any.
+ * \param mesh whose triangles name vertices that it has */
 PCL_UVOL_EXPORTS std::vector<std::array<float, 3>>
 computeVertexNormals(const Mesh& mesh);
 

@@ -22,7 +22,8 @@ struct EnumWord {
   const char* word;
 };
 
-/** \brief The word that is written for a value. */
+/** \brief The word that is written for a value.
+ * \param value of an enumeration with listWords() */
 template <typename Enum>
 const char*
 toWord(Enum value)
@@ -34,6 +35,8 @@ toWord(Enum value)
 }
 
 /** \brief The value that a word stands for.
+ * \param word as toWord() writes it
+ * \param value stays as it is if there is none
  * \return whether there is one */
 template <typename Enum>
 bool
@@ -59,7 +62,8 @@ struct Member {
 template <typename Parameters, typename T>
 Member(const char*, T Parameters::*) -> Member<Parameters, T>;
 
-/** \brief Call visit(name, pointer to member) for each of them. */
+/** \brief Call visit(name, pointer to member) for each of them.
+ * \param visit called with a name and a pointer to a member */
 template <typename Parameters, typename Visit>
 void
 forEachMember(Visit&& visit)
@@ -85,7 +89,9 @@ areEqual(const T& a, const T& b)
 
 } // namespace detail
 
-/** \brief Two structs of parameters are equal where all their members are. @{ */
+/** \brief Two structs of parameters are equal where all their members are.
+ * \param a a struct
+ * \param b another one @{ */
 template <typename Parameters, typename = decltype(Parameters::listMembers())>
 bool
 operator==(const Parameters& a, const Parameters& b)

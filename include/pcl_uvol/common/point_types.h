@@ -124,7 +124,7 @@ struct EIGEN_ALIGN16 PointSplat {
 /** \brief Isopoints as PCL's own points with normals, for algorithms that PCL has
  * compiled for these: clustering, triangulation, registration. curvature is the mean
  * curvature.
- */
+ * \param isopoints of an extraction */
 PCL_UVOL_EXPORTS pcl::PointCloud<pcl::PointNormal>
 toPointNormal(const pcl::PointCloud<PointIso>& isopoints);
 

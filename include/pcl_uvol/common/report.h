@@ -32,23 +32,31 @@ struct PCL_UVOL_EXPORTS Report {
   /** Empty: nobody is told. */
   ProgressCallback progress;
 
-  /** \brief Add to the count of that name; a new name starts at 0. */
+  /** \brief Add to the count of that name; a new name starts at 0.
+   * \param name lower-case words joined by underscores
+   * \param value what is added */
   void
   count(const std::string& name, std::uint64_t value);
 
-  /** \brief Make that the count of that name, whatever it was. */
+  /** \brief Make that the count of that name, whatever it was.
+   * \param name as of count()
+   * \param value the new count */
   void
   setCount(const std::string& name, std::uint64_t value);
 
-  /** \brief The count of that name, 0 if there is none. */
+  /** \brief The count of that name, 0 if there is none.
+   * \param name as of count() */
   std::uint64_t
   getCount(const std::string& name) const;
 
-  /** \brief Add to the time of that step. */
+  /** \brief Add to the time of that step.
+   * \param step name of the step
+   * \param milliseconds_spent what is added */
   void
   time(const std::string& step, double milliseconds_spent);
 
-  /** \brief Append the counts, times and warnings of another stage. */
+  /** \brief Append the counts, times and warnings of another stage.
+   * \param other report of a stage that this one ran */
   void
   merge(const Report& other);
 };
@@ -57,14 +65,17 @@ struct PCL_UVOL_EXPORTS Report {
  * report, what is done of it to the report's progress. */
 class PCL_UVOL_EXPORTS StepTimer {
 public:
-  /** \param total work of the step, in any unit; 0: its progress is not told */
+  /** \param total work of the step, in any unit; 0: its progress is not told
+   * \param report gets the time; must outlive the timer
+   * \param step name of the step */
   StepTimer(Report& report, std::string step, std::uint64_t total = 0);
   StepTimer(const StepTimer&) = delete;
   StepTimer&
   operator=(const StepTimer&) = delete;
   ~StepTimer();
 
-  /** \brief More of the work is done; from any thread. */
+  /** \brief More of the work is done; from any thread.
+   * \param work what is done since the last call, in the unit of the total */
   void
   advance(std::uint64_t work);
 

@@ -43,6 +43,7 @@ struct PCL_UVOL_EXPORTS GradientParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static GradientParameters
   fromJson(const std::string& text);
@@ -138,6 +139,7 @@ public:
   /** \brief One output point per input point or index. A point without finite
    * coordinates or value gets NaN, as does an only sample, and the output is then not
    * dense.
+   * \param output a gradient for each point; its width is that of the indices
    * \throws InvalidArgument without an input cloud, for an unknown field, no usable
    * sample, or k out of range; the output is then untouched
    *

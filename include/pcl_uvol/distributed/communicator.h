@@ -33,11 +33,13 @@ public:
   virtual std::size_t
   rank() const = 0;
 
-  /** \brief Replace every number by its sum over all processes. */
+  /** \brief Replace every number by its sum over all processes.
+   * \param numbers as many on each process; become the sums */
   virtual void
   allReduce(std::vector<std::uint64_t>& numbers) = 0;
 
   /** \brief Send a message to each process.
+   * \param messages one for each process, this one among them
    * \return what each process sent to this one */
   virtual std::vector<Bytes>
   allToAll(std::vector<Bytes>&& messages) = 0;
@@ -46,7 +48,8 @@ public:
   void
   barrier();
 
-  /** \brief The message of every process. */
+  /** \brief The message of every process.
+   * \param message of this process */
   virtual std::vector<Bytes>
   allGather(const Bytes& message);
 

@@ -17,7 +17,9 @@ namespace pcl_uvol {
  * what() end with two more lines: the expression, and a caret under the place. */
 class PCL_UVOL_EXPORTS ExpressionError : public InvalidArgument {
 public:
-  /** \param place byte of the expression, at most its length */
+  /** \param place byte of the expression, at most its length
+   * \param sentence what is wrong and what helps
+   * \param expression as it was given */
   ExpressionError(const std::string& sentence,
                   const std::string& expression,
                   std::size_t place);
@@ -65,6 +67,9 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
  * What an expression gives is added as a float64 field of the expression's own text,
  * without blanks around it. It is NaN where a field that it needs is missing, and where
  * the result is no finite number.
+ * \param dataset gets the field
+ * \param expression name of a field, or what to compute
+ * \param options threads, and why there are no derivatives
  * \return the name of the field
  * \param report gets the time "derived_fields", and warnings that say where an
  * expression has no value
@@ -80,6 +85,9 @@ addDerivedField(Dataset& dataset,
  * see addDerivedField; = and == mean the same. NaN satisfies nothing but !=. A field
  * that is compared with a number is compared with the float nearest to it where the
  * field is float32.
+ * \param dataset loses the other points
+ * \param where the expression
+ * \param options as of addDerivedField()
  * \return the number of points removed
  * \throws as addDerivedField, and for an expression without a comparison */
 PCL_UVOL_EXPORTS std::size_t

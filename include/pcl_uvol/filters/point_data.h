@@ -20,6 +20,7 @@ namespace pcl_uvol {
  * called array_0, array_1, ... by their place; bits become uint8. Points of images and
  * rectilinear grids are computed. Notes name what a cloud cannot hold and is left out:
  * arrays of strings or variants, or of another number of tuples.
+ * \param data with points
  * \throws InvalidArgument for null, for coordinates beyond float and for more points
  * than PCL can number */
 PCL_UVOL_EXPORTS Dataset
@@ -28,11 +29,13 @@ toPointCloud(vtkDataSet* data);
 /** \brief A cloud as VTK data: a vertex per point, an array per field; normal_x,
  * normal_y, normal_z become the active normals, called Normals. Coordinates are double
  * if they were, or have an origin.
+ * \param dataset with x, y, z as float32
  * \throws InvalidArgument unless x, y, z are float32 and the data is complete */
 PCL_UVOL_EXPORTS vtkSmartPointer<vtkPolyData>
 fromPointCloud(const Dataset& dataset);
 
 /** \brief The same for a cloud of any layout; fields of equal names are told apart.
+ * \param cloud with x, y, z
  * \throws InvalidArgument without x, y, z, for coordinates beyond float, and for
  * incomplete data */
 PCL_UVOL_EXPORTS vtkSmartPointer<vtkPolyData>

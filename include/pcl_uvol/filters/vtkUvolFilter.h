@@ -50,12 +50,16 @@ protected:
               vtkInformationVector** inputs,
               vtkInformationVector* outputs) override;
 
-  /** \brief Fill the output. Exceptions of pcl_uvol become errors. */
+  /** \brief Fill the output. Exceptions of pcl_uvol become errors.
+   * \param run input, output, progress and report of this execution */
   virtual void
   Execute(pcl_uvol::FilterRun& run) = 0;
 
   /** \brief The field expression of an array chosen by SetInputArrayToProcess.
    * \param component -1 for the length of all of them
+   * \param index of the array, the first argument of SetInputArrayToProcess
+   * \param input the data set that has the array
+   * \param points arrays of the input that became fields
    * \throws InvalidArgument unless it is an array of numbers at points */
   std::string
   FieldToProcess(int index,

@@ -34,7 +34,9 @@ public:
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
   /** \brief Isovalues in units of the array, as those of vtkContourFilter. Default:
-   * one, 0. @{ */
+   * one, 0.
+   * \param i index of the isovalue, below GetNumberOfContours()
+   * \param value in units of the array @{ */
   void
   SetValue(int i, double value)
   {

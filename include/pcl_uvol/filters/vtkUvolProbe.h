@@ -44,7 +44,8 @@ public:
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
-  /** \brief The samples: any vtkPointSet, image or rectilinear grid. @{ */
+  /** \brief The samples: any vtkPointSet, image or rectilinear grid.
+   * \param output of the filter or reader that gives the samples @{ */
   void
   SetSourceConnection(vtkAlgorithmOutput* output)
   {

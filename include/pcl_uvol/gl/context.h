@@ -37,11 +37,13 @@ public:
 
   /** \brief Execute a task with this context current, and wait for its end. Tasks come
    * from any thread, one runs at a time; an exception of the task reaches the caller.
-   * A task may run another one. */
+   * A task may run another one.
+   * \param task what to execute */
   virtual void
   run(const std::function<void()>& task) = 0;
 
-  /** \brief Null if there is no such function. */
+  /** \brief Null if there is no such function.
+   * \param name of a function of OpenGL, as glDrawArrays */
   virtual Function
   getFunction(const char* name) const = 0;
 
@@ -97,11 +99,13 @@ enum class EglDevice {
 
 /** \brief A context of EGL without window or surface.
  * \param library to be loaded; "": libEGL.so.1
+ * \param device which renderer
  * \throws GlError if the library is missing or none of these devices has a context */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
 createEglContext(EglDevice device = EglDevice::Any, const std::string& library = "");
 
 /** \brief A context by name: "osmesa" or "egl" (a graphics card if there is one).
+ * \param name "osmesa" or "egl"
  * \throws InvalidArgument for another name, GlError as the above */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
 createHeadlessContext(const std::string& name);
@@ -113,6 +117,8 @@ findHardwareContext();
 /** \brief A context that somebody else owns, such as a window's. Tasks run on the
  * calling thread, and the caller sees to it that the context is current there: now, at
  * every use, and when what was made in it is destroyed.
+ * \param name what getName() tells
+ * \param find gives functions of OpenGL by their names
  * \throws GlError if no context is current or it is too old */
 PCL_UVOL_EXPORTS std::shared_ptr<GlContext>
 wrapCurrentContext(const std::string& name, const GlContext::FunctionFinder& find);

@@ -29,13 +29,19 @@ public:
   byRandom(std::size_t count, std::size_t folds);
 
   /** \brief Compact blocks of space, eight to a fold. Points without a place are in the
-   * first fold. \throws InvalidArgument for folds out of range, and as SampleSet::build
-   */
+   * first fold.
+   * \param cloud the samples
+   * \param folds how many, from 2 to the number of points
+   * \param threads 0: all cores
+   * \throws InvalidArgument for folds out of range, and as SampleSet::build */
   static Folds
   byBlocks(const CloudView& cloud, std::size_t folds, unsigned threads);
 
   /** \brief Points of the same value stay together: those of a drill hole, a dive, a
    * flight. Points without a value are in the first fold.
+   * \param cloud the samples
+   * \param field whose equal values stay together
+   * \param folds how many, from 2 to the number of values
    * \throws InvalidArgument for an unknown field and one of fewer values than folds */
   static Folds
   byField(const CloudView& cloud, const std::string& field, std::size_t folds);
@@ -47,7 +53,8 @@ public:
     return folds_;
   }
 
-  /** \brief Fold of a point. */
+  /** \brief Fold of a point.
+   * \param point index in the cloud */
   std::size_t
   operator[](std::size_t point) const
   {
@@ -76,7 +83,12 @@ struct FieldScore {
  * \param indices points to take part
  * \param most points of a fold that are tested: random ones; 0: all
  * \param report gets warnings of the model
- * \return one per field \throws InvalidArgument as FieldInterpolation::interpolate, and
+ * \param cloud the samples
+ * \param parameters of the model, with its fields
+ * \param folds of the points of the cloud
+ * \param threads 0: all cores
+ * \return one per field
+ * \throws InvalidArgument as FieldInterpolation::interpolate, and
  * for folds that leave no samples */
 PCL_UVOL_EXPORTS std::vector<FieldScore>
 crossValidate(const CloudView& cloud,
@@ -113,6 +125,9 @@ struct ModelChoice {
  *
  * \param report gets a warning for fewer than 10 samples, which are no choice: fit
  *
+ * \param cloud the samples
+ * \param indices points to take part
+ * \param threads 0: all cores
  * \throws InvalidArgument as FieldInterpolation::interpolate */
 PCL_UVOL_EXPORTS ModelChoice
 chooseModel(const CloudView& cloud,

@@ -152,6 +152,8 @@ public:
 
   /** \brief Interpolate at the points of a cloud. A query without a place gets NaN, and
    * so does one outside of the data, unless extrapolation was asked for.
+   * \param queries places to interpolate at, in the coordinates of the samples
+   * \param result values, standard errors, gradients and support of each query
    * \throws InvalidArgument without an input cloud, for an unknown field, a field
    * without a finite value, a parameter out of range; the result is then untouched
    *
@@ -171,7 +173,9 @@ public:
   }
   /** @} */
 
-  /** \brief The same at places in double, in the coordinates of the samples. */
+  /** \brief The same at places in double, in the coordinates of the samples.
+   * \param queries places, x, y, z each
+   * \param result as of interpolate() */
   void
   interpolateAt(const std::vector<std::array<double, 3>>& queries,
                 InterpolatedFields& result);

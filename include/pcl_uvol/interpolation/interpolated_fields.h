@@ -63,6 +63,8 @@ struct PCL_UVOL_EXPORTS InterpolatedFields {
  * (float64), `rho_error` (float64), `rho_gradient` (3 x float64), as far as there are,
  * and `support` (uint8, a FieldSupport). Where the points have a field of such a name
  * already, `rho_2`, `rho_2_error` and so on are appended.
+ * \param fields as interpolate() gives them
+ * \param points those that were asked for, in their order
  * \return the names of the appended fields
  * \throws InvalidArgument unless there is a value per point */
 PCL_UVOL_EXPORTS std::vector<std::string>

@@ -224,12 +224,14 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static InterpolationParameters
   fromJson(const std::string& text);
 };
 
-/** \throws InvalidArgument for a parameter out of its range */
+/** \throws InvalidArgument for a parameter out of its range
+ * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const InterpolationParameters& parameters);
 

@@ -46,13 +46,19 @@ struct PCL_UVOL_EXPORTS SaveOptions {
  *
  * Within a file of HDF5 a group or tables may be named: file.h5:/group,
  * file.h5:/group/pos, file.h5:/group/x,y,z. Of snapshots in several files any one is
- * named. \throws IOError in one sentence that names the file and, for text, the line */
+ * named.
+ * \param path of the file, or "-"
+ * \param options columns of coordinates, kind of particles
+ * \throws IOError in one sentence that names the file and, for text, the line */
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
 /** \brief Write points as .pcd, .ply, .vtp, .csv or .npz, by the ending of the name, or
  * to standard output: "-" is PLY, "-.csv" and the like another format. The file
  * appears whole or not at all; an empty cloud gives a valid file with zero points.
+ * \param path of the file, or "-"
+ * \param dataset what is written
+ * \param options text or binary, comments
  * \throws IOError */
 PCL_UVOL_EXPORTS void
 saveDataset(const std::string& path,
@@ -61,7 +67,9 @@ saveDataset(const std::string& path,
 
 /** \brief Throw IOError unless saveDataset knows the ending of that name, its folder
  * can be written to and the format holds fields of these types: to be called before
- * work whose result would be lost. */
+ * work whose result would be lost.
+ * \param path as saveDataset() will get it
+ * \param fields of the cloud */
 PCL_UVOL_EXPORTS void
 checkSavePath(const std::string& path,
               const std::vector<pcl::PCLPointField>& fields = {});
@@ -71,6 +79,8 @@ checkSavePath(const std::string& path,
  * returns, and removed when it throws. Where the file system has files without a name
  * that is one; elsewhere it is called .NAME.HOST.PID.part, and those of processes that
  * are gone are removed. Links are followed, also to a file that is not there yet.
+ * \param path of the file that shall appear
+ * \param writer called once
  * \throws IOError naming path (not the temporary) when it cannot be created or
  * completed */
 PCL_UVOL_EXPORTS void
@@ -83,7 +93,8 @@ PCL_UVOL_EXPORTS void
 removeUnfinishedFiles();
 
 /** \brief The file that a name stands for: its links followed, also to a file that is
- * not there yet; the name itself where its folder is not there. */
+ * not there yet; the name itself where its folder is not there.
+ * \param path may name no file */
 PCL_UVOL_EXPORTS std::string
 resolveLinks(const std::string& path);
 

@@ -11,12 +11,15 @@ namespace pcl_uvol {
 
 /** \brief Write the colours of an image as PNG, with opacity where a pixel is not
  * opaque. The file appears whole or not at all.
+ * \param path ends in .png
+ * \param image with its colours
  * \throws IOError */
 PCL_UVOL_EXPORTS void
 savePng(const std::string& path, const Image& image);
 
 /** \brief Throw IOError unless the name ends in .png and its folder can be written to:
- * to be called before work whose result would be lost. */
+ * to be called before work whose result would be lost.
+ * \param path as savePng() will get it */
 PCL_UVOL_EXPORTS void
 checkPngPath(const std::string& path);
 

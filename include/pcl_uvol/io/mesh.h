@@ -12,6 +12,7 @@
 namespace pcl_uvol {
 
 /** \brief Read a PLY mesh; polygons become fans of triangles.
+ * \param path of the file
  * \throws IOError in one sentence, also for a file without faces */
 PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
@@ -19,6 +20,7 @@ loadMesh(const std::string& path);
 /** \brief Read the vertices of a PLY file with all their fields, and its faces, as
  * saveMesh() writes them; polygons become fans of triangles.
  * \param[out] triangles stay empty for a file of points
+ * \param path of the file
  * \throws IOError in one sentence */
 PCL_UVOL_EXPORTS Dataset
 loadMesh(const std::string& path, std::vector<Triangle>& triangles);
@@ -28,6 +30,9 @@ loadMesh(const std::string& path, std::vector<Triangle>& triangles);
  * binary and in single precision, relative to the origin of the vertices; the others
  * hold all digits. The file appears whole or not at all.
  * \param vertices with any fields
+ * \param path of the file
+ * \param triangles of these vertices
+ * \param options text or binary, comments
  * \throws IOError, also for another ending */
 PCL_UVOL_EXPORTS void
 saveMesh(const std::string& path,
@@ -36,16 +41,19 @@ saveMesh(const std::string& path,
          const SaveOptions& options = {});
 
 /** \brief Throw IOError unless saveMesh() knows the ending of the name and its folder
- * can be written to. */
+ * can be written to.
+ * \param path as saveMesh() will get it */
 PCL_UVOL_EXPORTS void
 checkMeshPath(const std::string& path);
 
 /** \brief True for the endings .obj, .off and .stl, of files that hold no points
- * without triangles. */
+ * without triangles.
+ * \param path of a file that need not be there */
 PCL_UVOL_EXPORTS bool
 isMeshOnly(const std::string& path);
 
-/** \brief The vertices of a mesh with their normals, as points. */
+/** \brief The vertices of a mesh with their normals, as points.
+ * \param mesh whose triangles are left out */
 PCL_UVOL_EXPORTS Dataset
 toDataset(const Mesh& mesh);
 

@@ -20,7 +20,8 @@ struct PCL_UVOL_EXPORTS Volume {
   std::vector<float> values;                      ///< x runs fastest, then y, then z
   std::string name = "intensity";                 ///< of the scalar
 
-  /** \brief Trilinear interpolation; positions outside are taken to the border. */
+  /** \brief Trilinear interpolation; positions outside are taken to the border.
+   * \param position x, y, z in the coordinates of the volume */
   double
   sample(const std::array<double, 3>& position) const;
 
@@ -31,6 +32,7 @@ struct PCL_UVOL_EXPORTS Volume {
 
 /** \brief True if loadVolume is the one to read that file: by the ending of its name
  * (any case), for .vtk by its header as well.
+ * \param path of the file
  * \throws IOError for a .vtk file that cannot be opened */
 PCL_UVOL_EXPORTS bool
 isVolumeFile(const std::string& path);
@@ -38,6 +40,7 @@ isVolumeFile(const std::string& path);
 /** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip), .mha and .mhd (raw,
  * ascii, zipped), both with their data attached, beside them or in slices, .vti, and
  * structured points in .vtk. Axes that descend are turned.
+ * \param path of the file
  * \throws IOError in one sentence that names the file, also where the axes are not
  * parallel to x, y and z */
 PCL_UVOL_EXPORTS Volume

@@ -31,6 +31,9 @@ struct IsoEdge {
 using IsoEdges = std::vector<IsoEdge>;
 
 /** \brief Leave only the isopoints, and their edges, that keep says yes to.
+ * \param isopoints of an extraction
+ * \param edges one per isopoint
+ * \param keep asked once for each isopoint
  * \return how many went
  * \throws InvalidArgument if sizes disagree */
 PCL_UVOL_EXPORTS std::size_t
@@ -46,6 +49,8 @@ filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
  * \param isopoints as many points as edges; comes out without padding fields, and so
  * that viewOf() takes it
  * \param threads 0 (default) = all cores
+ * \param samples that the edges join
+ * \param edges one per isopoint
  * \throws InvalidArgument if sizes disagree or an edge points outside the samples */
 PCL_UVOL_EXPORTS void
 interpolateFields(const CloudView& samples,
@@ -53,7 +58,11 @@ interpolateFields(const CloudView& samples,
                   pcl::PCLPointCloud2& isopoints,
                   unsigned threads = 0);
 
-/** \brief The same for a cloud, which needs no positions. */
+/** \brief The same for a cloud, which needs no positions.
+ * \param samples that the edges join
+ * \param edges one per isopoint
+ * \param isopoints as many points as edges
+ * \param threads 0 (default) = all cores */
 PCL_UVOL_EXPORTS void
 interpolateFields(const pcl::PCLPointCloud2& samples,
                   const IsoEdges& edges,
@@ -63,6 +72,9 @@ interpolateFields(const pcl::PCLPointCloud2& samples,
 /** \brief The same for points that stand for one point of another cloud each: the
  * fields that they lack are copied.
  * \param sources index of the other point, one per point
+ * \param cloud that has the fields
+ * \param points get them
+ * \param threads 0 (default) = all cores
  * \throws InvalidArgument as interpolateFields */
 PCL_UVOL_EXPORTS void
 copyFields(const pcl::PCLPointCloud2& cloud,
@@ -72,7 +84,10 @@ copyFields(const pcl::PCLPointCloud2& cloud,
 
 /** \brief Warn of every field of the samples that gives way to one of the isopoints, a
  * column called error, say, before fields are carried along. Coordinates and normals
- * are meant to. */
+ * are meant to.
+ * \param samples fields of the samples
+ * \param isopoints fields of the isopoints
+ * \param report gets the warnings */
 PCL_UVOL_EXPORTS void
 warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
                      const std::vector<pcl::PCLPointField>& isopoints,

@@ -98,7 +98,8 @@ public:
   }
 
   /** \brief Where neighbours are looked for. Default: NeighborSource::KdTree.
-   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell */
+   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell
+   * \param source a tree of the samples or a discrete Voronoi diagram */
   void
   setNeighborSource(NeighborSource source, std::uint32_t voronoi_cells = 0)
   {
@@ -144,12 +145,19 @@ protected:
   IsosurfaceExtractionBase() = default;
   ~IsosurfaceExtractionBase() = default;
 
+  /** \brief The kernel of extract().
+   * \param cloud the samples
+   * \param indices of those to take
+   * \param isopoints what is found */
   void
   extractFrom(const CloudView& cloud,
               const pcl::Indices& indices,
               pcl::PointCloud<PointIso>& isopoints);
 
-  /** \brief As a cloud with all fields of the samples. */
+  /** \brief As a cloud with all fields of the samples.
+   * \param cloud the samples
+   * \param indices of those to take
+   * \param isopoints what is found */
   void
   extractFrom(const CloudView& cloud,
               const pcl::Indices& indices,
@@ -218,6 +226,7 @@ public:
    * Samples with a non-finite coordinate or scalar are left out, exact duplicates
    * merged (to the lower median of their values); both are counted. An isovalue outside
    * the range of the values gives no points and a warning in the report.
+   * \param isopoints what is found; its points replace those that were there
    * \throws InvalidArgument for a missing or empty cloud, an unknown field, no or a
    * non-finite isovalue, a bad scale, or no usable sample; isopoints are then untouched
    *
@@ -231,7 +240,8 @@ public:
   extract(pcl::PointCloud<PointIso>& isopoints);
 
   /** \brief The same with every field of the samples, see interpolateFields: the fields
-   * of PointIso come first. */
+   * of PointIso come first.
+   * \param isopoints what is found */
   void
   extract(pcl::PCLPointCloud2& isopoints);
 

@@ -83,13 +83,15 @@ struct PCL_UVOL_EXPORTS IsosurfaceParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static IsosurfaceParameters
   fromJson(const std::string& text);
 };
 
 /** \throws InvalidArgument without an isovalue, for one that is not finite in float and
- * for factors that are not finite and positive */
+ * for factors that are not finite and positive
+ * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfaceParameters& parameters);
 

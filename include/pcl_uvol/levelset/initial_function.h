@@ -44,7 +44,9 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   Eigen::Array3d second{0.0, 0.0, 0.0};
   double radius = 0.0; ///< of a sphere, > 0
 
-  /** \param radius > 0 \throws InvalidArgument */
+  /** \param radius > 0
+   * \param center in the coordinates of the cloud
+   * \throws InvalidArgument */
   static InitialFunction
   sphere(const Eigen::Vector3d& center, double radius);
 
@@ -53,11 +55,14 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   static InitialFunction
   box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-  /** \param normal to the outside, not 0 \throws InvalidArgument */
+  /** \param normal to the outside, not 0
+   * \param point any of the plane
+   * \throws InvalidArgument */
   static InitialFunction
   plane(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
 
-  /** \brief A scalar field of the cloud, in units of length; see ScalarField. */
+  /** \brief A scalar field of the cloud, in units of length; see ScalarField.
+   * \param name of the field */
   static InitialFunction
   field(const std::string& name);
 
@@ -70,7 +75,8 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   /** \brief Distance of a place to the shape, positive inside.
    *
    * \param scale factors per axis: the distance in the stretched space; that to a
-   * sphere is then one to first order, exact at its surface */
+   * sphere is then one to first order, exact at its surface
+   * \param x the place, in the coordinates of the cloud */
   double
   computeDistance(const Eigen::Vector3d& x,
                   const Eigen::Array3d& scale = Eigen::Array3d::Ones()) const;

@@ -52,6 +52,7 @@ constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
 
 /** \brief A cloud of the points' coordinates and the field `phi`, of which
  * IsosurfaceExtraction makes the zero level. \param phi one per point
+ * \param cloud of the samples
  * \throws InvalidArgument for another number */
 PCL_UVOL_EXPORTS pcl::PCLPointCloud2
 cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi);
@@ -275,7 +276,9 @@ public:
     return parameters_.band_width;
   }
 
-  /** \brief Told after every so many steps of evolve(); 0 (default): nobody is. */
+  /** \brief Told after every so many steps of evolve(); 0 (default): nobody is.
+   * \param steps between two calls
+   * \param snapshot what is told, see SnapshotCallback */
   void
   setSnapshotCallback(std::size_t steps, const SnapshotCallback& snapshot)
   {
@@ -285,10 +288,12 @@ public:
 
   /** \brief Evolve, and return phi for every point of the cloud.
    * \param phi in units of length; NaN for points that are not in the indices, or have
-   * no finite coordinates or value \throws InvalidArgument for a missing or empty
-   * cloud, an unknown field, an isovalue that is not finite, a parameter out of range,
-   * or fewer samples than a stencil has neighbours \throws NoLevelSet for an isovalue
-   * that the values do not enclose \throws Diverged if the function grows beyond
+   * no finite coordinates or value
+   * \throws InvalidArgument for a missing or empty cloud, an unknown field, an isovalue
+   * that is not finite, a parameter out of range, or fewer samples than a stencil has
+   * neighbours
+   * \throws NoLevelSet for an isovalue that the values do not enclose
+   * \throws Diverged if the function grows beyond
    * bounds; phi is then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
@@ -300,7 +305,8 @@ public:
   evolve(std::vector<float>& phi);
 
   /** \brief The same as a cloud of the points in the indices: x, y, z, phi and all
-   * other fields of the input, of which one called phi gives way, with a warning. */
+   * other fields of the input, of which one called phi gives way, with a warning.
+   * \param cloud what comes of it */
   void
   evolve(pcl::PCLPointCloud2& cloud);
 

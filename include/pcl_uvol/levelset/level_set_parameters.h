@@ -173,6 +173,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static LevelSetParameters
   fromJson(const std::string& text);

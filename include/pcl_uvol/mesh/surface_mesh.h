@@ -79,6 +79,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static SurfaceMeshParameters
   fromJson(const std::string& text);
@@ -86,7 +87,8 @@ struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
 
 /** \throws InvalidArgument as checkParameters(IsosurfaceParameters), for linear
  * interpolation, for neighbours of a Voronoi diagram, and for a length that is negative
- * or no number */
+ * or no number
+ * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const SurfaceMeshParameters& parameters);
 
@@ -112,7 +114,8 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   double smallest_angle = 180.0; ///< of all triangles, in degrees
   double cap_part = 0.0;         ///< of the area, in triangles with a vertex on a cap
 
-  /** \brief Add another mesh behind this one. */
+  /** \brief Add another mesh behind this one.
+   * \param other whose indices and pieces are shifted behind those here */
   void
   append(const SurfaceTriangles& other);
 };
@@ -134,7 +137,9 @@ makeSurfaceMesh(const CloudView& cloud,
 
 /** \brief The mesh in PCL's own type, with every field of the samples, see
  * interpolateFields(). \param samples that it was made of
- * \param report gets a warning for every field of the samples that is replaced */
+ * \param report gets a warning for every field of the samples that is replaced
+ * \param surface as extract() gives it
+ * \param threads 0: all cores */
 PCL_UVOL_EXPORTS pcl::PolygonMesh
 toPolygonMesh(const SurfaceTriangles& surface,
               const CloudView& samples,
@@ -175,6 +180,7 @@ public:
 
   /** \brief Make the meshes of all isovalues.
    *
+   * \param surface the meshes, one behind the other
    * \throws InvalidArgument as IsosurfaceExtraction::extract and checkParameters(); the
    * mesh is then untouched
    *
@@ -198,7 +204,8 @@ public:
         });
   }
 
-  /** \brief The same in PCL's own type, see toPolygonMesh(). */
+  /** \brief The same in PCL's own type, see toPolygonMesh().
+   * \param mesh what is found */
   void
   extract(pcl::PolygonMesh& mesh)
   {

@@ -36,24 +36,31 @@ public:
   std::size_t
   rank() const override;
 
-  /** \throws OtherRankFailed @{ */
+  /** \copydoc Communicator::allReduce
+   * \throws OtherRankFailed */
   void
   allReduce(std::vector<std::uint64_t>& numbers) override;
 
+  /** \copydoc Communicator::allToAll
+   * \throws OtherRankFailed */
   std::vector<Bytes>
   allToAll(std::vector<Bytes>&& messages) override;
 
+  /** \copydoc Communicator::allGather
+   * \throws OtherRankFailed */
   std::vector<Bytes>
   allGather(const Bytes& message) override;
 
-  /** A process that leaves its group by an exception has failed: the others of the
-   * group learn it at their next exchange, and all others at that after the groups. */
+  /** \copydoc Communicator::split
+   * A process that leaves its group by an exception has failed: the others of the
+   * group learn it at their next exchange, and all others at that after the groups.
+   * \throws OtherRankFailed */
   std::unique_ptr<Communicator>
   split(std::size_t color) override;
-  /** @} */
 
   /** \brief Tell the others how this process fares, where they call this function or
    * one of those above. Once one has failed nothing is told any more.
+   * \param has_failed whether this process has
    * \return the first process that failed, size() for none */
   std::size_t
   agree(bool has_failed);

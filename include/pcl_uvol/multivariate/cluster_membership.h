@@ -38,6 +38,7 @@ struct PCL_UVOL_EXPORTS MembershipParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static MembershipParameters
   fromJson(const std::string& text);
@@ -114,6 +115,7 @@ public:
   /** \brief Compute the membership of the points of the indices, in their order.
    *
    * Counts of the report: cluster_points, and if smoothed not_smoothed.
+   * \param values from 0 to 1, one for each point of the indices
    * \throws InvalidArgument without an input cloud, for another number of labels than
    * of points, a label that no point has, unknown fields, probabilities outside [0, 1];
    * values are then untouched */

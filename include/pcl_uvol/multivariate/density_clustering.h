@@ -52,6 +52,7 @@ struct PCL_UVOL_EXPORTS ClusteringParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static ClusteringParameters
   fromJson(const std::string& text);

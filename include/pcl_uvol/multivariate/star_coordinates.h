@@ -34,7 +34,8 @@ struct PCL_UVOL_EXPORTS Projection {
    * are 0. */
   std::array<std::vector<double>, 3> rows;
 
-  /** \brief Where m attributes come to lie. */
+  /** \brief Where m attributes come to lie.
+   * \param attributes m values, in the order of the attributes */
   std::array<float, 3>
   project(const float* attributes) const;
 };
@@ -81,6 +82,7 @@ struct PCL_UVOL_EXPORTS StarCoordinateParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static StarCoordinateParameters
   fromJson(const std::string& text);
@@ -182,6 +184,7 @@ public:
    * Counts of the report: missing_values, and with several clusters inseparable_pairs:
    * those with equal centres, which nothing keeps apart. Fewer than two clusters give a
    * warning.
+   * \param points where they come to lie
    * \throws InvalidArgument without an input cloud, for unknown or repeated attributes
    * or none, if no point has all of them, for another number of labels than of points,
    * a regularization out of range; points are then untouched */

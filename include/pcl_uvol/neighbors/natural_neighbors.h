@@ -45,7 +45,8 @@ public:
   }
 
   /** \brief Where candidates come from. Default: NeighborSource::KdTree.
-   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell */
+   * \param voronoi_cells of a diagram along its longest side; 0: 4 samples to a cell
+   * \param source a tree of the samples or a discrete Voronoi diagram */
   void
   setNeighborSource(NeighborSource source, std::uint32_t voronoi_cells = 0)
   {
@@ -60,6 +61,7 @@ public:
 
   /** \brief One row per point of the input cloud, sorted by (squared distance, index),
    * indices into the input cloud.
+   * \param graph the neighbours
    * \throws InvalidArgument without an input cloud or without a finite point */
   void
   compute(NeighborGraph& graph);

@@ -29,6 +29,10 @@ struct PCL_UVOL_EXPORTS GridShape {
 
   /** \brief Cubes, so many along the longest side of a box, and so many more on each
    * side as a margin; along the other axes as many as cover the box.
+   * \param low lower corner of the box
+   * \param high upper corner of the box
+   * \param cells_of_longest along its longest side, >= 1
+   * \param margin further cells at each side
    * \throws InvalidArgument for a box that is not finite, or more cells than
    * largest_side along an axis */
   static GridShape
@@ -38,6 +42,9 @@ struct PCL_UVOL_EXPORTS GridShape {
         std::uint32_t margin = 0);
 
   /** \brief Exactly so many cells, whatever their sides become.
+   * \param low lower corner of the box
+   * \param high upper corner of the box
+   * \param cells along each axis, >= 1
    * \throws InvalidArgument as cubes() */
   static GridShape
   boxes(const std::array<double, 3>& low,
@@ -57,7 +64,8 @@ struct PCL_UVOL_EXPORTS GridShape {
     return (std::uint64_t{cell[2]} * cells[1] + cell[1]) * cells[0] + cell[0];
   }
 
-  /** \brief The cell of a number. */
+  /** \brief The cell of a number.
+   * \param index number of the cell, below size() */
   GridCell
   cellOf(std::uint64_t index) const
   {
@@ -67,7 +75,8 @@ struct PCL_UVOL_EXPORTS GridShape {
              static_cast<std::uint16_t>(row / cells[1])}};
   }
 
-  /** \brief The centre of a cell. */
+  /** \brief The centre of a cell.
+   * \param cell along each axis, below cells */
   std::array<double, 3>
   centerOf(const GridCell& cell) const
   {
@@ -76,11 +85,14 @@ struct PCL_UVOL_EXPORTS GridShape {
              origin[2] + (cell[2] + 0.5) * spacing[2]}};
   }
 
-  /** \brief The cell of a place; places outside are taken to the border. */
+  /** \brief The cell of a place; places outside are taken to the border.
+   * \param place in the coordinates of the points */
   GridCell
   cellAt(const std::array<double, 3>& place) const;
 
-  /** \brief Between the centres of two cells, in units of the coordinates. */
+  /** \brief Between the centres of two cells, in units of the coordinates.
+   * \param a a cell
+   * \param b another cell */
   double
   distance(const GridCell& a, const GridCell& b) const;
 };
@@ -100,7 +112,9 @@ public:
   /** \brief Index of the site of every cell, by the distance between the centres of
    * cells; no_site everywhere if there is none.
    * \param sites distinct cells in the order of their numbers
-   * \param report gets times */
+   * \param report gets times
+   * \param shape the grid
+   * \param threads 0: all cores */
   virtual std::vector<std::uint32_t>
   find(const GridShape& shape,
        const std::vector<GridCell>& sites,
@@ -125,7 +139,10 @@ public:
 
 /** \brief Per cell the distance to its site, between the centres of cells, in units of
  * the coordinates.
- * \param nearest site of every cell, none of them no_site */
+ * \param nearest site of every cell, none of them no_site
+ * \param shape the grid
+ * \param sites cells, in the order of their numbers
+ * \param threads 0: all cores */
 PCL_UVOL_EXPORTS std::vector<float>
 siteDistances(const GridShape& shape,
               const std::vector<GridCell>& sites,
@@ -141,6 +158,9 @@ public:
    * \param use indices of the points to take; those with a non-finite coordinate are
    * left out and counted as "non_finite"
    * \param way how the nearest sites are found, say FeatureTransform
+   * \param shape the grid
+   * \param stride floats from one point to the next, >= 3
+   * \param threads 0: all cores
    * \throws InvalidArgument for a grid with more than 2^32 - 2 cells or a bad shape,
    * and if no point is left
    * \param report gets the counts "cells" and "sites", and times */
@@ -179,7 +199,8 @@ public:
     return nearest_;
   }
 
-  /** \brief The distance field: siteDistances of the diagram. */
+  /** \brief The distance field: siteDistances of the diagram.
+   * \param threads 0: all cores */
   std::vector<float>
   computeDistances(unsigned threads) const
   {
@@ -187,7 +208,8 @@ public:
   }
 
   /** \brief Sites whose Voronoi regions share a point, cell against cell: a row per
-   * site, ascending, without the site itself. */
+   * site, ascending, without the site itself.
+   * \param threads 0: all cores */
   NeighborGraph
   findAdjacentRegions(unsigned threads) const;
 

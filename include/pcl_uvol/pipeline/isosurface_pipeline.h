@@ -159,7 +159,10 @@ private:
  * of core or by another process: normals, filters, fields and warnings.
  * \param samples between which the edges lie
  * \param parameters with the field and the scale that were taken
- * \param report continued */
+ * \param report continued
+ * \param isopoints that were extracted
+ * \param edges one per isopoint
+ * \param threads 0: all cores */
 PCL_UVOL_EXPORTS IsosurfaceResult
 finishIsosurface(const Dataset& samples,
                  pcl::PointCloud<PointIso>&& isopoints,
@@ -174,7 +177,11 @@ finishIsosurface(const Dataset& samples,
  * errors are NaN: fits to phi know nothing of what became of the samples' noise
  * \param parameters of the isosurface that phi stands for; isopoints have its first
  * isovalue
- * \param report gets the counts and times of IsosurfaceExtraction */
+ * \param report gets the counts and times of IsosurfaceExtraction
+ * \param samples as LevelSetEvolution got them
+ * \param threads 0: all cores
+ * \param isopoints what is found
+ * \param edges one per isopoint */
 PCL_UVOL_EXPORTS void
 extractZeroLevel(const CloudView& samples,
                  const std::vector<float>& phi,

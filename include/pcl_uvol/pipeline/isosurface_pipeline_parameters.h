@@ -136,6 +136,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static IsosurfacePipelineParameters
   fromJson(const std::string& text);
@@ -146,7 +147,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
  * number; a hold-out test of one fold; a mesh with a bound of the error, without
  * bridged points, with other normals than those of the fits, and as
- * checkParameters(SurfaceMeshParameters) */
+ * checkParameters(SurfaceMeshParameters)
+ * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfacePipelineParameters& parameters);
 

@@ -19,7 +19,8 @@ struct BoundingSphere {
 
 /** \brief Clouds are drawn in their own unit of length, which is 1, but for those whose
  * radius is beyond 2^-20 to 2^20: a power of two brings it near 1, so that squares of
- * lengths are numbers in float. */
+ * lengths are numbers in float.
+ * \param bounds of the cloud */
 PCL_UVOL_EXPORTS double
 chooseLengthUnit(const BoundingSphere& bounds);
 
@@ -41,7 +42,10 @@ struct PCL_UVOL_EXPORTS Camera {
    * sphere fills that part of the image's smaller side.
    * \param from towards the eye, of any length
    * \param aspect width / height
-   * \param fill in (0, 1] */
+   * \param fill in (0, 1]
+   * \param sphere what shall be seen
+   * \param up direction that is upwards in the image, not along from
+   * \param vertical_fov field of view in degrees, in (0, 180) */
   static Camera
   fit(const BoundingSphere& sphere,
       const Eigen::Vector3d& from,
@@ -53,6 +57,11 @@ struct PCL_UVOL_EXPORTS Camera {
   /** \brief A camera by the name of its side: front, back, left, right, top, bottom,
    * iso (from the front, the right and above). x points to the right of the front view,
    * z upwards.
+   * \param sphere what shall be seen
+   * \param view name of the side
+   * \param vertical_fov field of view in degrees, in (0, 180)
+   * \param aspect width / height
+   * \param fill part of the smaller side of the image, in (0, 1]
    * \throws InvalidArgument for another name */
   static Camera
   fit(const BoundingSphere& sphere,

@@ -15,11 +15,13 @@ namespace pcl_uvol {
 /** \brief Four bytes as they lie in memory: red, green, blue, opacity. */
 using Rgba = std::uint32_t;
 
-/** \brief A channel, clamped to [0, 1] and rounded to 8 bits. */
+/** \brief A channel, clamped to [0, 1] and rounded to 8 bits.
+ * \param value of the channel */
 PCL_UVOL_EXPORTS std::uint8_t
 toByte(float value);
 
-/** \brief Rounded to 8 bits per channel, opaque. */
+/** \brief Rounded to 8 bits per channel, opaque.
+ * \param color channels from 0 to 1 */
 PCL_UVOL_EXPORTS Rgba
 toRgba(const Color& color);
 
@@ -52,18 +54,21 @@ public:
     return count_;
   }
 
-  /** \brief Colour at a position in [0, 1]. */
+  /** \brief Colour at a position in [0, 1].
+   * \param position taken to the nearer end outside of [0, 1] */
   Color
   at(double position) const;
 
   /** \brief Colour of a category, counted from 0; they repeat after size(). Negative
-   * ones, which mean "in no class" by custom, and NaN are grey. */
+   * ones, which mean "in no class" by custom, and NaN are grey.
+   * \param category a whole number */
   Color
   ofCategory(double category) const;
 
   /** \brief One colour per value.
    * \param low, high finite, low <= high; a range of one value gives the middle of the
-   * map */
+   * map
+   * \param values may be NaN, which is grey */
   std::vector<Rgba>
   apply(const std::vector<float>& values, double low, double high) const;
 

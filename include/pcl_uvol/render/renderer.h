@@ -23,7 +23,9 @@ public:
   }
 
   /** \brief Pixels, each in [1, largest_size], somewhat less in image space; default
-   * 1024 x 1024. */
+   * 1024 x 1024.
+   * \param width from left to right
+   * \param height from top to bottom */
   void
   setSize(int width, int height)
   {
@@ -59,7 +61,8 @@ protected:
   Renderer() = default;
   ~Renderer() = default;
 
-  /** \throws InvalidArgument for a size, or supersampling, out of its range */
+  /** \throws InvalidArgument for a size, or supersampling, out of its range
+   * \param largest pixels along a side */
   void
   checkPictureSize(int largest) const;
 

@@ -41,6 +41,7 @@ struct PCL_UVOL_EXPORTS SplatParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static SplatParameters
   fromJson(const std::string& text);
@@ -67,7 +68,8 @@ generateSplats(const CloudView& cloud,
 
 } // namespace detail
 
-/** \brief True if a cloud has the fields of splats. */
+/** \brief True if a cloud has the fields of splats.
+ * \param cloud whose fields are looked at */
 PCL_UVOL_EXPORTS bool
 hasSplats(const CloudView& cloud);
 
@@ -76,18 +78,25 @@ hasSplats(const CloudView& cloud);
 constexpr float most_splat_reach = 1e18f;
 
 /** \brief True for a splat that rays can meet: it is finite, has a normal and a radius
- * above 0, and lies within most_splat_reach. */
+ * above 0, and lies within most_splat_reach.
+ * \param splat of a cloud */
 PCL_UVOL_EXPORTS bool
 isDrawable(const PointSplat& splat);
 
 /** \brief The splats that a cloud holds; those that are not drawable, or without a
- * tangent, are left out, counted as "bad_splats" and named in a warning. */
+ * tangent, are left out, counted as "bad_splats" and named in a warning.
+ * \param cloud with the fields of PointSplat
+ * \param report gets the count and the warning */
 PCL_UVOL_EXPORTS Splats
 readSplats(const CloudView& cloud, Report& report);
 
 /** \brief The usable splats that a cloud holds, which may be none, else those generated
  * for all its points.
  * \param is_asked_for the user chose parameters: a warning tells where they go unused
+ * \param cloud with splats, or points of a surface
+ * \param parameters of splats that are generated
+ * \param threads 0: all cores
+ * \param report gets counts, times and warnings
  * \throws InvalidArgument as SplatGeneration::compute */
 PCL_UVOL_EXPORTS Splats
 findSplats(const CloudView& cloud,
@@ -167,6 +176,7 @@ public:
   /** \brief Cover the input. Counts of the report: points, non_finite, without_normal,
    * duplicates, splats, and widened (splats that are larger than delta or a rim allows,
    * to leave no hole).
+   * \param splats which cover the input
    * \throws InvalidArgument without an input cloud, without a finite point that has a
    * normal, for a delta or lambda out of range, an extent beyond float's squares; the
    * output is then untouched */

@@ -52,6 +52,7 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static SurfaceNormalParameters
   fromJson(const std::string& text);
@@ -149,7 +150,9 @@ public:
   }
 
   /** \brief Where points without a normal of their own are seen from. Default 0, 0, 0.
-   */
+   * \param x in the coordinates of the cloud
+   * \param y as x
+   * \param z as x */
   void
   setViewPoint(float x, float y, float z)
   {
@@ -163,6 +166,7 @@ public:
 
   /** \brief One output point per input point or index. A point with a non-finite
    * coordinate gets NaN, and the output is then not dense.
+   * \param output a normal for each point; its width is that of the indices
    * \throws InvalidArgument without an input cloud, without a finite point, for k < 2
    * or a bad scale; the output is then untouched */
   void

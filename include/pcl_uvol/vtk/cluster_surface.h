@@ -60,6 +60,7 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static ClusterSurfaceParameters
   fromJson(const std::string& text);
@@ -134,6 +135,7 @@ public:
    *
    * Counts of the report: members, non_finite, vertices, triangles, with a hull
    * split_pieces.
+   * \param surface vertices and triangles
    * \throws InvalidArgument without an input cloud, without a finite point, for a
    * distance or scale that is not finite or negative, a distance too small for the
    * grid, one point without a distance, too many cells, a hull of points that leave no

@@ -73,7 +73,8 @@ public:
     return 0;
   }
 
-  /** \brief Free what lies on the graphics card. */
+  /** \brief Free what lies on the graphics card.
+   * \param window whose resources they are */
   void
   ReleaseGraphicsResources(vtkWindow* window) override;
 

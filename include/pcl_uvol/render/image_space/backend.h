@@ -29,7 +29,9 @@ public:
 
   /** \brief Draw a frame.
    * \param report gets the time of every pass and the counts "background_iterations"
-   * and "occluded_iterations" */
+   * and "occluded_iterations"
+   * \param frame camera, points and settings
+   * \param image gets the pixels */
   virtual void
   render(const Frame& frame, Image& image, Report& report) = 0;
 };

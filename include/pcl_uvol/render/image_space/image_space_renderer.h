@@ -50,7 +50,9 @@ public:
     colored_ = false;
   }
 
-  /** \brief Values of the ends of the colour map; default: those of the field. */
+  /** \brief Values of the ends of the colour map; default: those of the field.
+   * \param low value of the first colour
+   * \param high value of the last colour, >= low */
   void
   setColorRange(double low, double high)
   {
@@ -164,6 +166,7 @@ public:
   using Cloud = typename CloudStage<PointT>::Cloud;
 
   /** \brief Draw the cloud.
+   * \param image gets the pixels, and the planes that were asked for
    * \throws InvalidArgument for a missing or empty cloud, a cloud without a finite
    * point, a bad camera, size or threshold, an unknown field */
   void
@@ -172,6 +175,7 @@ public:
   /** \brief Prepare the cloud and let somebody else draw it, into a window say. Camera,
    * size, supersampling and backend of this object are not used.
    * \param view made for getBounds()
+   * \param painter called once, with the prepared frame
    * \throws as render(), and what the painter throws */
   void
   draw(const View& view, const Painter& painter);

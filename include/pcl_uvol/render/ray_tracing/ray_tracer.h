@@ -78,6 +78,7 @@ public:
 
   /** \brief Draw: colour, and normals where they are asked for. Counts of the report:
    * primary_rays, secondary_rays, shadow_rays.
+   * \param image gets the pixels
    * \throws InvalidArgument without a scene, for a bad camera, size or setting; the
    * image is then untouched */
   void

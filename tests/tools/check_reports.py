@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs every tool with -json, by the commands of tests/bytes and some more, and holds the reports against the schema
+that the documentation has.
+
+usage: check_reports.py BIN_FOLDER REPOSITORY
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+# Kinds of reports that the commands of tests/bytes do not have.
+FURTHER = """
+uvol_isosurface noisy.pcd validated.ply -iso 0.3 -validate 3
+uvol_isosurface noisy.pcd both.ply -iso 0.2,0.3 -smooth -mu 0.5 -steps 5 -validate 2
+uvol_info probe_grid.nrrd
+"""
+
+
+def run(command, bin_folder, folder):
+    tool, *words = command.split()
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    result = subprocess.run([bin_folder / tool, *words, "-json"], cwd=folder, env=environment, capture_output=True,
+                            text=True)
+    if result.returncode != 0:
+        sys.exit(f"{command} failed: {result.stderr}")
+    return json.loads(result.stdout)
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    try:
+        import jsonschema
+    except ImportError:
+        print("check_reports.py: there is no module jsonschema (python3-jsonschema).", file=sys.stderr)
+        sys.exit(77)  # which ctest takes as skipped
+    bin_folder, root = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    schema = json.loads((root / "docs/reference/report.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    commands = (root / "tests/bytes/commands.txt").read_text() + FURTHER
+    commands = [line for line in commands.splitlines() if line and not line.startswith("#")]
+    failures, seen = [], set()
+    with tempfile.TemporaryDirectory() as folder:
+        for command in commands:
+            if not (bin_folder / command.split()[0]).exists():
+                continue  # a tool that is not built
+            report = run(command, bin_folder, folder)
+            seen.update(report)
+            for error in validator.iter_errors(report):
+                place = ".".join(str(part) for part in error.path)
+                failures.append(f"{command}: {place or 'the report'}: {error.message[:300]}")
+            if not list(validator.iter_errors(dict(report, unknown=1))):
+                failures.append(f"{command}: the schema takes keys that nobody knows.")
+    unseen = set(schema["properties"]) - seen - {"files", "further_numbers_per_point"}
+    failures += [f"No command here prints the key {key} of the schema." for key in sorted(unseen)]
+    sys.exit("\n".join(failures) or 0)
+
+
+if __name__ == "__main__":
+    main()
