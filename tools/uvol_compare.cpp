@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far two surfaces are apart, and how much their fields differ.
-#include "common/numbers.h"
 #include "mesh/surface_distance.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
@@ -8,7 +7,6 @@
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
-#include <filesystem>
 #include <sstream>
 
 namespace {
@@ -31,7 +29,7 @@ Surface
 loadSurface(const std::string& path, Report& report)
 {
   Surface surface;
-  if (pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) == ".ply") {
+  if (pcl_uvol::isMeshPath(path)) {
     const pcl_uvol::StepTimer timer(report, "read");
     surface.vertices = pcl_uvol::loadMesh(path, surface.triangles);
   }
