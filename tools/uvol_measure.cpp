@@ -2,6 +2,7 @@
 // Figures of surfaces: area, volume, axes, genus, integrals of fields, and the samples
 // inside; of a mesh, or of the isosurfaces of samples.
 #include "charts/line_plot.h"
+#include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
 #include "shared/measure_table.h"
@@ -9,7 +10,6 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
-#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/mesh.h>
@@ -222,10 +222,11 @@ run(int argc, char** argv)
   Options options(
       "uvol_measure",
       "surface-or-samples [out.csv] [options]",
-      "Measures a mesh, points with normals, or with -iso the isosurfaces of samples: "
-      "area, volume, centroid, axes,\ngenus, integrals of fields on the surface and "
-      "inside, and the samples inside. Writes a table as csv pcd ply\nvtp, a row per "
-      "isovalue. Of points genus and what is inside are not known.");
+      "Measures a mesh (ply vtp obj off stl), points with normals, or with -iso the "
+      "isosurfaces of samples: area,\nvolume, centroid, axes, genus, integrals of "
+      "fields on the surface and inside, and the samples inside. Writes a\ntable as "
+      "csv pcd ply vtp, a row per isovalue. Of points genus and what is inside are not "
+      "known.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;

@@ -6,6 +6,7 @@
 #include "mesh/curved_triangle.h"
 #include "mesh/surface_pieces.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/mesh.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +20,7 @@
 namespace pcl_uvol::detail {
 
 /** \brief \throws InvalidArgument for a vertex that is not finite or not there */
-void
+PCL_UVOL_EXPORTS void
 checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles);
 
 /** \brief A field of one number per vertex, if there is one of that name. */

@@ -189,6 +189,9 @@ measurePoints(const CloudView& points, unsigned threads, Report& report)
   const PointFans fans(*sorted.samples, sorted.corners, sorted.isovalues, threads);
   PointSurface made(sorted, fans, points.count);
   made.findPieces();
+  if (made.surface.list.pieces.empty())
+    throw InvalidArgument("The points of the surface are too few, or too far from one "
+                          "another, to tell its area.");
   const auto alone = static_cast<double>(std::count(
       made.surface.list.of_vertex.begin(), made.surface.list.of_vertex.end(), -1));
   if (const double part = alone / static_cast<double>(points.count); part > most_alone)

@@ -16,7 +16,8 @@ namespace pcl_uvol::detail {
  * what disagreement about triangles may make, as though it were random.
  * \param points with normals; and `isovalue`, if they have it: one is no neighbour of
  * another isovalue's
- * \throws InvalidArgument without normals, and without a finite point that has one */
+ * \throws InvalidArgument without normals, without a finite point that has one, and
+ * without a triangle */
 MeasuredSurface
 measurePoints(const CloudView& points, unsigned threads, Report& report);
 

@@ -98,7 +98,7 @@ ShownSurface::setMeshed(bool is_meshed)
 {
   if (field_.empty())
     throw InvalidArgument("A mesh is made of samples, and these are points of a "
-                          "surface: give -iso for the samples that it came from.");
+                          "surface: -field shows the isosurfaces of samples.");
   extract(isovalue_, is_meshed);
 }
 
@@ -107,7 +107,7 @@ ShownSurface::extract(double isovalue, bool is_meshed)
 {
   pcl_uvol::IsosurfacePipelineParameters parameters;
   if (is_meshed)
-    parameters.mesh.emplace();
+    parameters.mesh.emplace().open = true; // caps would hide the surface
   parameters.isosurface.field = field_;
   parameters.isosurface.isovalues = {isovalue};
   pipeline_.setParameters(parameters);
