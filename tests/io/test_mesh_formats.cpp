@@ -266,6 +266,36 @@ TEST(MeshFormats, DamagedMeshesAreRefusedInASentence)
   refuses("a.gltf", "{}", ".obj");
 }
 
+TEST(MeshFormats, AnyBytesAreAMeshOrAnError)
+{
+  const TemporaryFolder folder;
+  const Tetrahedron shape;
+  Random random(3);
+  for (const char* const name : {"a.obj", "a.off", "a.stl", "a.vtp"}) {
+    saveMesh(folder / name, shape.vertices, shape.triangles);
+    const std::string bytes = readFile(folder / name);
+    for (std::size_t i = 0; i < 600; ++i) {
+      std::string other = bytes;
+      const auto at = static_cast<std::size_t>(random.uniform() *
+                                               static_cast<double>(bytes.size()));
+      if (i % 3 == 0)
+        other.resize(at);
+      else
+        other[at] = i % 3 == 1 ? static_cast<char>(random.uniform() * 128.0)
+                               : "0123456789-./ #"[i % 15];
+      writeFile(folder / name, other);
+      try {
+        const Mesh mesh = loadMesh(folder / name);
+        for (const Triangle& triangle : mesh.triangles)
+          for (const std::uint32_t vertex : triangle)
+            EXPECT_LT(vertex, mesh.vertices.size()) << name << ": " << other;
+      }
+      catch (const IOError&) {
+      }
+    }
+  }
+}
+
 TEST(MeshFormats, PolygonsOfVtpFilesAreChecked)
 {
   const TemporaryFolder folder;
