@@ -42,7 +42,8 @@ expectShapes(unsigned first, unsigned last)
     for (const MeshField& field : {sphereField(9.0),
                                    torusField(12.0, 8.0),
                                    twoSpheresField(3.0),
-                                   shellField(3.0)})
+                                   shellField(3.0),
+                                   gyroidField()})
       expectShape(field, seed);
 }
 
