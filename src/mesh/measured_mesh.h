@@ -38,9 +38,10 @@ struct MeasuredSurface {
   std::vector<std::uint32_t> sources; ///< by vertex the one of the input that it is
   std::vector<SurfaceCorner> corners; ///< by vertex
   std::vector<Triangle> triangles;    ///< none of a surface that is given as points
-  std::vector<Eigen::AlignedBox3d> bounds; ///< by piece
-  std::vector<SurfaceIntegrals>
-      integrals;              ///< by piece, relative to the centre of its bounds
+  /** By piece; integrals are relative to the centre of its bounds. @{ */
+  std::vector<Eigen::AlignedBox3d> bounds;
+  std::vector<SurfaceIntegrals> integrals;
+  /** @} */
   std::vector<double> shares; ///< by vertex, in the area
 };
 
@@ -54,10 +55,14 @@ void
 findBounds(MeasuredSurface& surface);
 
 /** \brief Measure a mesh of manifold pieces. Vertices at which several fans of
- * triangles meet have a copy for each: see sources. \param vertices with normals and
- * `cap`, if they have these fields \param curved bend triangles as the normals tell, if
- * there are any \throws InvalidArgument for a vertex that is not finite or not there,
- * without triangles, and for triangles that are no oriented manifold */
+ * triangles meet have a copy for each: see sources.
+ *
+ * \param vertices with normals and `cap`, if they have these fields
+ *
+ * \param curved bend triangles as the normals tell, if there are any
+ *
+ * \throws InvalidArgument for a vertex that is not finite or not there, without
+ * triangles, and for triangles that are no oriented manifold */
 MeasuredSurface
 measureMesh(const CloudView& vertices,
             const std::vector<Triangle>& triangles,

@@ -17,8 +17,10 @@ namespace {
  * what it makes on spheres and tori. */
 constexpr double disagreement = 0.2;
 
-/** More points without a triangle are worth a warning. */
-constexpr double most_alone = 0.05;
+/** More points without a triangle, or with neighbours that look to the other side, are
+ * worth a warning. @{ */
+constexpr double most_alone = 0.05, most_contrary = 0.05;
+/** @} */
 
 /** Corners and isovalues of points, in the order of samples. */
 struct SortedPoints {
@@ -199,6 +201,15 @@ measurePoints(const CloudView& points, unsigned threads, Report& report)
         std::to_string(std::lround(100.0 * part)) +
         " % of the points have no part in the area: they have no normal, stand at the "
         "place of another one, or too few others are around.");
+  const double contrary = static_cast<double>(fans.countContrary()) /
+                          static_cast<double>(sorted.samples->size());
+  if (contrary > most_contrary)
+    report.warnings.push_back(
+        std::to_string(std::lround(100.0 * contrary)) +
+        " % of the points stand among others that look to the other side: unless "
+        "sheets "
+        "of the surface lie closer together than its points, orient the normals, or "
+        "areas count twice.");
   made.surface.corners = std::move(*corners);
   findBounds(made.surface);
   made.integrate();

@@ -28,6 +28,10 @@ constexpr std::size_t few_neighbors = 24, many_neighbors = 128;
  * holes in the surface: in clumps of isopoints the spacing is small. */
 constexpr float most_spacings = 4.0f;
 
+/** Sine of the angle to the tangent plane below which a neighbour lies beside a point.
+ */
+constexpr float beside = 0.3f;
+
 /** What a point knows of the surface around it. */
 struct Surroundings {
   /** A triangle and the distance of its circumcentre. */
@@ -37,6 +41,7 @@ struct Surroundings {
   };
   std::vector<Corner> corners;
   bool is_surrounded = false;
+  bool is_contrary = false; ///< of its nearest neighbours some look to the other side
   float spacing = 0.0f;
 };
 
@@ -61,6 +66,7 @@ public:
     few_.expect(&samples_.getPositions()[first], count);
   }
 
+  /** \param typical_distance about that of a neighbour */
   Surroundings
   find(std::uint32_t point, float typical_distance)
   {
@@ -72,6 +78,7 @@ public:
     if (neighbors_.empty())
       return found;
     found.is_surrounded = cell_.isBounded();
+    found.is_contrary = isContrary(point);
     found.spacing = spacing();
     cell_.forCorners([&](const Eigen::Vector2f& corner, auto before, auto next) {
       if (before != next)
@@ -81,6 +88,25 @@ public:
   }
 
 private:
+  /** Whether neighbours on the other side lie among the others, not above or below. */
+  bool
+  isContrary(std::uint32_t point) const
+  {
+    const float sq_spacing = spacing() * spacing();
+    const Eigen::Vector3f normal = corners_[point].normal.cast<float>();
+    const auto count =
+        std::count_if(others_.begin(), others_.end(), [&](const auto& other) {
+          const Eigen::Vector3f offset = placeOf(other.second) - placeOf(point);
+          return other.first <= sq_spacing &&
+                 std::abs(offset.dot(normal)) <= beside * offset.norm();
+        });
+    const auto near =
+        std::count_if(neighbors_.begin(), neighbors_.end(), [&](const auto& neighbor) {
+          return neighbor.first <= sq_spacing;
+        });
+    return count > 0 && 3 * count >= near;
+  }
+
   /** Whether no farther point can cut the cell. */
   bool
   isCertain() const
@@ -112,21 +138,24 @@ private:
   gather(const NearestFinder::Row& row, std::uint32_t point)
   {
     neighbors_.clear();
+    others_.clear();
     sq_reach_ = 0.0f;
     is_all_ = row.size == samples_.size();
     for (std::size_t i = 0; i < row.size; ++i) {
       sq_reach_ = std::max(sq_reach_, row.sq_dists[i]);
-      if (row.samples[i] != point && isBeside(row.samples[i], point))
-        neighbors_.emplace_back(row.sq_dists[i], row.samples[i]);
+      if (row.samples[i] == point || !isOfOneSurface(row.samples[i], point))
+        continue;
+      const bool is_beside =
+          corners_[row.samples[i]].normal.dot(corners_[point].normal) > 0.0;
+      (is_beside ? neighbors_ : others_).emplace_back(row.sq_dists[i], row.samples[i]);
     }
     std::sort(neighbors_.begin(), neighbors_.end());
   }
 
   bool
-  isBeside(std::uint32_t a, std::uint32_t b) const
+  isOfOneSurface(std::uint32_t a, std::uint32_t b) const
   {
-    return corners_[a].normal.dot(corners_[b].normal) > 0.0 &&
-           (isovalues_.empty() || areEqual(isovalues_[a], isovalues_[b]));
+    return isovalues_.empty() || areEqual(isovalues_[a], isovalues_[b]);
   }
 
   /** Spacing s of points with 1 / s^2 points per area, k of them in a circle of radius
@@ -150,6 +179,7 @@ private:
   const std::vector<double>& isovalues_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_;
+  std::vector<std::pair<float, std::uint32_t>> others_; // that look to the other side
   float sq_reach_ = 0.0f; // of the points that neighbours were chosen from
   bool is_all_ = false;
   PlanarCell cell_;
@@ -191,6 +221,10 @@ PointFans::PointFans(const SampleSet& samples,
       around[i] = finder.find(static_cast<std::uint32_t>(i), typical_distance);
     }
   });
+  contrary_ = static_cast<std::size_t>(
+      std::count_if(around.begin(), around.end(), [](const Surroundings& own) {
+        return own.is_contrary;
+      }));
   parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       on_rim_[i] = !around[i].is_surrounded;

@@ -48,6 +48,14 @@ public:
     return on_rim_[point] != 0;
   }
 
+  /** \brief How many points have a quarter or more of their nearest neighbours beside
+   * them looking to the other side: these may belong to the same surface. */
+  std::size_t
+  countContrary() const
+  {
+    return contrary_;
+  }
+
   /** \brief Whether all three corners know of a triangle of one of them. */
   bool
   isAgreedOn(std::uint32_t first, const FanTriangle& others) const;
@@ -55,6 +63,7 @@ public:
 private:
   std::vector<std::vector<FanTriangle>> fans_;
   std::vector<std::uint8_t> on_rim_;
+  std::size_t contrary_ = 0;
 };
 
 } // namespace pcl_uvol::detail

@@ -204,6 +204,30 @@ TEST(PointMeasures, PointsAloneHaveNoPartAndAreTold)
   EXPECT_THROW(measures.compute(), InvalidArgument);
 }
 
+TEST(PointMeasures, NormalsOfAnySideAreTold)
+{
+  MeasuredShape shape = scatterSphere(3000, 11);
+  for (std::size_t i = 0; i < shape.normals.size(); i += 2)
+    shape.normals[i] = -shape.normals[i];
+  SurfaceMeasures measures;
+  measures.setInputSurface(std::make_shared<Dataset>(shape.toDataset()), {});
+  measures.compute();
+  ASSERT_FALSE(measures.getReport().warnings.empty());
+  EXPECT_NE(std::string::npos,
+            measures.getReport().warnings[0].find("look to the other side"));
+  // Sheets that lie as far apart as their points are no such case.
+  MeasuredShape shell = scatterSphere(3000, 12);
+  MeasuredShape inner = scatterSphere(3000, 13);
+  for (std::size_t i = 0; i < inner.places.size(); ++i) {
+    inner.places[i] *= 0.93;
+    inner.normals[i] = -inner.normals[i];
+  }
+  shell.append(inner);
+  measures.setInputSurface(std::make_shared<Dataset>(shell.toDataset()), {});
+  measures.compute();
+  EXPECT_TRUE(measures.getReport().warnings.empty());
+}
+
 TEST(PointFans, LatticesAreRingedByTrianglesAndEndAtTheirBorder)
 {
   // A hexagonal lattice, whose triangles all points agree on.
