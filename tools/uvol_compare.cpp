@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far two surfaces are apart, and how much their fields differ.
-#include "common/numbers.h"
+#include "mesh/measured_mesh.h"
 #include "mesh/surface_distance.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
-#include <filesystem>
 #include <sstream>
 
 namespace {
@@ -31,7 +31,7 @@ Surface
 loadSurface(const std::string& path, Report& report)
 {
   Surface surface;
-  if (pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) == ".ply") {
+  if (pcl_uvol::isMeshPath(path)) {
     const pcl_uvol::StepTimer timer(report, "read");
     surface.vertices = pcl_uvol::loadMesh(path, surface.triangles);
   }
@@ -39,6 +39,13 @@ loadSurface(const std::string& path, Report& report)
     surface.vertices = uvol_tools::loadPoints(path, report);
   if (surface.vertices.cloud.width == 0)
     throw pcl_uvol::InvalidArgument("'" + path + "' holds no points.");
+  try {
+    pcl_uvol::detail::checkTriangles(pcl_uvol::viewOf(surface.vertices.cloud),
+                                     surface.triangles);
+  }
+  catch (const pcl_uvol::InvalidArgument& error) {
+    throw pcl_uvol::IOError("Cannot use '" + path + "': " + error.message());
+  }
   return surface;
 }
 
@@ -98,9 +105,10 @@ run(int argc, char** argv)
   Options options(
       "uvol_compare",
       "a.ply b.ply [out.ply] [options]",
-      "Measures how far surfaces, meshes or points, are apart both ways, and how much "
-      "the fields differ that both\nhave. Writes a with the field distance, negative "
-      "inside of b, which uvol_render draws by -color distance.");
+      "Measures how far surfaces, meshes (ply vtp obj off stl) or points, are apart "
+      "both ways, and how much the fields\ndiffer that both have. Writes a with the "
+      "field distance, negative inside of b, which uvol_render draws by\n-color "
+      "distance.");
   options.file("a", first);
   options.file("b", second);
   options.file("out", output, false);

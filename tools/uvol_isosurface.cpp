@@ -195,24 +195,27 @@ loadSamples(const Options& options,
   return samples;
 }
 
-/** Measure a mesh and look for intersections, as asked for, and give its vertices their
- * share of the area. */
+/** Measure the surface and look for intersections, as asked for, and give its points
+ * their share of the area and their piece. */
 Facts
-measureMesh(const Options& options,
-            const Arguments& arguments,
-            const std::shared_ptr<const pcl_uvol::Dataset>& samples,
-            IsosurfaceResult& result)
+measureResult(const Options& options,
+              const Arguments& arguments,
+              const std::shared_ptr<const pcl_uvol::Dataset>& samples,
+              IsosurfaceResult& result)
 {
   const bool is_measured = arguments.getMesh().isMeasured();
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.find_intersections = arguments.getMesh().isChecked();
-  if (result.triangles.empty() || (!is_measured && !parameters.find_intersections))
+  const bool is_mesh = !result.triangles.empty();
+  if (result.surface.cloud.width == 0 ||
+      arguments.parameters.mesh.has_value() != is_mesh ||
+      (!is_measured && !parameters.find_intersections))
     return {};
   const auto vertices = std::make_shared<pcl_uvol::Dataset>(std::move(result.surface));
   const pcl_uvol::SurfaceFigures figures =
       uvol_tools::measureSurface(vertices,
                                  result.triangles,
-                                 is_measured ? samples : nullptr,
+                                 is_measured && is_mesh ? samples : nullptr,
                                  arguments.parameters.isosurface.isovalues,
                                  parameters,
                                  options.threads(),
@@ -221,6 +224,8 @@ measureMesh(const Options& options,
   if (!is_measured)
     return {};
   setField(result.surface, "area", figures.vertex_areas);
+  if (!is_mesh)
+    setField(result.surface, "piece", figures.piece_of);
   return uvol_tools::describeMeasures(figures);
 }
 
@@ -263,7 +268,7 @@ runInMemory(const Options& options,
         arguments.picture.addMemoryNeed(isopoints, forecast);
       });
   IsosurfaceResult result = pipeline.run();
-  figures = measureMesh(options, arguments, samples, result);
+  figures = measureResult(options, arguments, samples, result);
   return result;
 }
 

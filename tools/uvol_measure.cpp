@@ -2,7 +2,7 @@
 // Figures of surfaces: area, volume, axes, genus, integrals of fields, and the samples
 // inside; of a mesh, or of the isosurfaces of samples.
 #include "charts/line_plot.h"
-#include "common/numbers.h"
+#include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
 #include "shared/measure_table.h"
@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -75,13 +74,6 @@ declare(Options& options, Arguments& arguments)
                "with -png: the column of the table that is drawn (default volume)");
 }
 
-bool
-isPly(const std::string& path)
-{
-  return pcl_uvol::lowerCase(std::filesystem::path(path).extension().string()) ==
-         ".ply";
-}
-
 void
 check(const Options& options, Arguments& arguments)
 {
@@ -91,9 +83,6 @@ check(const Options& options, Arguments& arguments)
     if (options.given(name) && !has_isovalues)
       throw UsageError(std::string("-") + name +
                        " is for isosurfaces of samples, which need -iso.");
-  if (!has_isovalues && !isPly(arguments.input))
-    throw UsageError("Surfaces are read as .ply with triangles; isosurfaces of samples "
-                     "need -iso.");
   if (has_isovalues) {
     arguments.finish();
     if (options.given("samples"))
@@ -122,17 +111,25 @@ struct Surface {
 };
 
 Surface
-loadSurface(const Arguments& arguments, Report& report)
+loadSurface(const Options& options, const Arguments& arguments, Report& report)
 {
   Surface surface;
-  {
+  if (pcl_uvol::isMeshPath(arguments.input)) {
     const pcl_uvol::StepTimer timer(report, "read");
     *surface.vertices = pcl_uvol::loadMesh(arguments.input, surface.triangles);
   }
+  else
+    *surface.vertices = uvol_tools::loadPoints(arguments.input, report);
+  const auto& fields = surface.vertices->cloud.fields;
+  if (surface.triangles.empty() && pcl_uvol::findField(fields, "normal_x") == nullptr)
+    throw UsageError("'" + arguments.input +
+                     "' has neither triangles nor normals: isosurfaces of samples need "
+                     "-iso.");
   if (surface.triangles.empty())
-    throw pcl_uvol::InvalidArgument(
-        "'" + arguments.input +
-        "' has points and no triangles: give -iso to measure isosurfaces of samples.");
+    for (const char* const name : {"samples", "flat", "check"})
+      if (options.given(name))
+        throw UsageError(std::string("-") + name + " needs triangles, and '" +
+                         arguments.input + "' has points only.");
   if (!arguments.samples.empty())
     surface.samples =
         std::make_shared<Dataset>(uvol_tools::loadPoints(arguments.samples, report));
@@ -228,9 +225,11 @@ run(int argc, char** argv)
   Options options(
       "uvol_measure",
       "surface-or-samples [out.csv] [options]",
-      "Measures a mesh, or with -iso the isosurfaces of samples: area, volume, "
-      "centroid, axes, genus, integrals of\nfields on the surface and inside, and the "
-      "samples inside. Writes a table as csv pcd ply vtp, a row per isovalue.");
+      "Measures a mesh (ply vtp obj off stl), points with normals, or with -iso the "
+      "isosurfaces of samples: area,\nvolume, centroid, axes, genus, integrals of "
+      "fields on the surface and inside, and the samples inside. Writes a\ntable as "
+      "csv pcd ply vtp, a row per isovalue. Of points genus and what is inside are not "
+      "known.");
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
@@ -241,7 +240,7 @@ run(int argc, char** argv)
   report.progress = std::ref(bar);
   const Surface surface = options.given("iso")
                               ? extractSurface(options, arguments, memory, report)
-                              : loadSurface(arguments, report);
+                              : loadSurface(options, arguments, report);
   pcl_uvol::SurfaceMeasuresParameters parameters;
   parameters.curved = !arguments.is_flat;
   parameters.find_intersections = arguments.is_checked;

@@ -53,18 +53,23 @@ Dataset
 readPcd(const std::string& path);
 
 /** \brief Vertices, and faces as fans of triangles. */
-struct PlyMesh {
+struct LoadedMesh {
   Dataset vertices;
   std::vector<Triangle> triangles;
 };
 
 /** \throws IOError for a face that names a vertex that is not there */
-PlyMesh
+LoadedMesh
 readPlyMesh(const std::string& path);
 
 /** \brief Text with a header line; the separator is found in it. */
 Dataset
 readText(const std::string& path, const LoadOptions& options);
+
+/** \brief The polygons of a .vtp as fans of triangles; lines and strips are passed
+ * over. \throws IOError for a polygon that names a point that is not there */
+std::vector<Triangle>
+readVtpTriangles(const std::string& path);
 
 /** \brief .vtk, .vtp, .vtu or .vts. */
 Dataset

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes from PLY files, and into files of several formats.
+// Meshes from and into files of several formats.
 #include "common/records.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/mesh_readers.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -14,14 +15,38 @@
 
 namespace pcl_uvol {
 
+namespace io {
+namespace {
+
+LoadedMesh
+readMesh(const std::string& path)
+{
+  const std::string ending = getEnding(path);
+  if (ending == ".obj")
+    return readObj(path);
+  if (ending == ".off")
+    return readOff(path);
+  if (ending == ".stl")
+    return readStl(path);
+  if (ending == ".vtp")
+    return {readVtk(path), readVtpTriangles(path)};
+  if (InputFile(path).head(3) != "ply")
+    throwUnreadable(path,
+                    "meshes are read from .ply, .vtp, .obj, .off and .stl, and this is "
+                    "none");
+  return readPlyMesh(path);
+}
+
+} // namespace
+} // namespace io
+
 Mesh
 loadMesh(const std::string& path)
 {
-  const io::InputFile file(path);
-  if (file.head(3) != "ply")
-    io::throwUnreadable(path, "meshes are read from PLY files, and this is none");
   std::vector<Triangle> triangles;
   const Dataset vertices = loadMesh(path, triangles);
+  if (triangles.empty())
+    io::throwUnreadable(path, "it has no faces");
   const CloudView cloud = io::reading(path, [&] { return viewOf(vertices.cloud); });
   Mesh mesh;
   mesh.origin = vertices.origin;
@@ -29,8 +54,6 @@ loadMesh(const std::string& path)
   for (std::size_t i = 0; i < cloud.count; ++i)
     std::copy_n(cloud.xyz(i), 3, mesh.vertices[i].begin());
   mesh.triangles = std::move(triangles);
-  if (mesh.triangles.empty())
-    io::throwUnreadable(path, "it has no faces");
   return mesh;
 }
 
@@ -38,7 +61,7 @@ Dataset
 loadMesh(const std::string& path, std::vector<Triangle>& triangles)
 {
   return io::reading(path, [&] {
-    io::PlyMesh mesh = io::readPlyMesh(path);
+    io::LoadedMesh mesh = io::readMesh(path);
     triangles = std::move(mesh.triangles);
     return std::move(mesh.vertices);
   });
@@ -71,10 +94,16 @@ saveMesh(const std::string& path,
 void
 checkMeshPath(const std::string& path)
 {
-  const std::string ending = io::getEnding(path);
-  if (ending != ".ply" && ending != ".vtp" && !isMeshOnly(path))
+  if (!isMeshPath(path))
     io::throwUnwritable(path, "meshes are written as .ply, .vtp, .obj, .off or .stl");
   io::checkWritable(path);
+}
+
+bool
+isMeshPath(const std::string& path)
+{
+  const std::string ending = io::getEnding(path);
+  return ending == ".ply" || ending == ".vtp" || isMeshOnly(path);
 }
 
 bool

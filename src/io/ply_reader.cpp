@@ -528,11 +528,11 @@ openPly(const std::string& path)
       path, std::move(info), cursor->tell().offset, swapped);
 }
 
-PlyMesh
+LoadedMesh
 readPlyMesh(const std::string& path)
 {
   FileCursor::Place behind_vertices;
-  PlyMesh mesh{readWhole(openPly(path), &behind_vertices), {}};
+  LoadedMesh mesh{readWhole(openPly(path), &behind_vertices), {}};
   FileCursor cursor(path);
   Header header;
   const Element* const face =

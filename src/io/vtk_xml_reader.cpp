@@ -3,6 +3,7 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/encoded_bytes.h"
+#include "io/formats.h"
 #include "io/vtk_messages.h"
 #include "io/vtk_readers.h"
 #include "io/vtk_xml_tags.h"
@@ -133,6 +134,65 @@ ArrayReader::read(const ArrayTag& array, std::uint64_t tuples, std::uint8_t* byt
     readBlocks(path_, source, encoding_, count * size, bytes);
   if (encoding_.big_endian)
     swapBytes(bytes, size, count);
+}
+
+/** The whole numbers of an array of the polygons of a piece.
+ * \param count of them */
+std::vector<double>
+readPolygonNumbers(const std::string& path,
+                   ArrayReader& reader,
+                   const Piece& piece,
+                   const std::string& name,
+                   std::uint64_t count)
+{
+  const auto array = std::find_if(
+      piece.polygons.begin(), piece.polygons.end(), [&](const ArrayTag& tag) {
+        return tag.name == name && tag.type && tag.components == 1;
+      });
+  if (array == piece.polygons.end())
+    throwUnreadable(path, "its polygons have no " + name);
+  reader.check(*array, count);
+  const std::size_t size = datatypeSize(array->type->datatype);
+  std::vector<std::uint8_t> bytes(count * size);
+  reader.read(*array, count, bytes.data());
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at < bytes.size(); at += size)
+    numbers.push_back(FieldComponent{at, array->type->datatype}.read(bytes.data()));
+  return numbers;
+}
+
+/** Adds the fans of the polygons of a piece.
+ * \param first of its points among all */
+void
+addPolygons(const std::string& path,
+            ArrayReader& reader,
+            const Piece& piece,
+            std::uint64_t first,
+            std::vector<Triangle>& triangles)
+{
+  const std::vector<double> ends =
+      readPolygonNumbers(path, reader, piece, "offsets", piece.polygon_count);
+  double begin = 0.0;
+  for (const double end : ends) {
+    if (!(end >= begin && end <= 0x1p53))
+      throwUnreadable(path, "its polygons do not follow one another");
+    begin = end;
+  }
+  const std::vector<double> corners = readPolygonNumbers(
+      path, reader, piece, "connectivity", static_cast<std::uint64_t>(begin));
+  const auto vertex = [&](std::size_t corner) {
+    if (!(corners[corner] >= 0.0 &&
+          corners[corner] < static_cast<double>(piece.points)))
+      throwUnreadable(path, "a polygon names a point that is not there");
+    return static_cast<std::uint32_t>(first +
+                                      static_cast<std::uint64_t>(corners[corner]));
+  };
+  std::size_t start = 0;
+  for (const double end : ends) {
+    for (std::size_t k = start + 2; k < static_cast<std::size_t>(end); ++k)
+      triangles.push_back({vertex(start), vertex(k - 1), vertex(k)});
+    start = static_cast<std::size_t>(end);
+  }
 }
 
 /** A file that is cut off may have lost nothing but its end. */
@@ -360,6 +420,24 @@ Assembler::assemble()
 }
 
 } // namespace
+
+std::vector<Triangle>
+readVtpTriangles(const std::string& path)
+{
+  checkEnd(path);
+  const VtkMessages messages; // of unpacking
+  TagCollector tags(path);
+  tags.collect();
+  ArrayReader reader(path, tags);
+  std::vector<Triangle> triangles;
+  std::uint64_t first = 0;
+  for (const Piece& piece : tags.pieces) {
+    if (piece.polygon_count > 0)
+      addPolygons(path, reader, piece, first, triangles);
+    first += piece.points;
+  }
+  return triangles;
+}
 
 VtkContent
 readVtkXml(const std::string& path)

@@ -112,6 +112,8 @@ TagCollector::takePiece(const XmlTag& tag)
     throwUnreadable(path_, "a piece has no extent");
   else
     piece.points = countIn(tag, "NumberOfPoints", 0);
+  if (kind == "PolyData")
+    piece.polygon_count = countIn(tag, "NumberOfPolys", 0);
   pieces.push_back(std::move(piece));
 }
 
@@ -120,7 +122,7 @@ TagCollector::takeArray(const XmlTag& tag)
 {
   const std::string& section = scanner_.getOpen()[3];
   has_cell_data = has_cell_data || section == "CellData";
-  if (section != "PointData" && section != "Points")
+  if (section != "PointData" && section != "Points" && section != "Polys")
     return;
   // Of several steps of time the first one counts.
   if (const std::string* const step = tag.find("TimeStep"); step && *step != "0")
@@ -139,7 +141,9 @@ TagCollector::takeArray(const XmlTag& tag)
   array.format = format ? *format : "ascii";
   array.offset = countIn(tag, "offset", 0);
   Piece& piece = pieces.back();
-  auto& arrays = section == "Points" ? piece.coordinates : piece.arrays;
+  auto& arrays = section == "Points"  ? piece.coordinates
+                 : section == "Polys" ? piece.polygons
+                                      : piece.arrays;
   arrays.push_back(std::move(array));
   if (!tag.empty)
     array_ = &arrays.back();

@@ -40,6 +40,8 @@ struct Piece {
   Extent extent{};
   std::vector<ArrayTag> arrays;      ///< of its points
   std::vector<ArrayTag> coordinates; ///< one
+  std::uint64_t polygon_count = 0;
+  std::vector<ArrayTag> polygons; ///< "connectivity" and "offsets"
 };
 
 /** \brief Takes the tags of a file. */

@@ -72,16 +72,16 @@ triangleQuadrature()
 }
 
 void
-SurfaceIntegrals::add(const SurfaceIntegrals& other)
+SurfaceIntegrals::add(const SurfaceIntegrals& other, double part)
 {
-  area += other.area;
-  area_moment += other.area_moment;
-  area_products += other.area_products;
-  volume += other.volume;
-  moment += other.moment;
-  products += other.products;
-  area_error += other.area_error;
-  volume_error += other.volume_error;
+  area += part * other.area;
+  area_moment += part * other.area_moment;
+  area_products += part * other.area_products;
+  volume += part * other.volume;
+  moment += part * other.moment;
+  products += part * other.products;
+  area_error += part * other.area_error;
+  volume_error += part * other.volume_error;
 }
 
 SurfaceIntegrals

@@ -45,9 +45,10 @@ struct PCL_UVOL_EXPORTS SurfaceIntegrals {
   double area_error = 0.0, volume_error = 0.0;
   /** @} */
 
-  /** \brief Add another surface, whose places are relative to the same centre. */
+  /** \brief Add another surface, whose places are relative to the same centre.
+   * \param part of it that counts */
   void
-  add(const SurfaceIntegrals& other);
+  add(const SurfaceIntegrals& other, double part = 1.0);
 
   /** \brief The same relative to another centre.
    * \param offset from that one to this one */

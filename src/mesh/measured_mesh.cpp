@@ -15,6 +15,12 @@ namespace pcl_uvol::detail {
 
 namespace {
 
+Eigen::Vector3d
+placeOf(const CloudView& vertices, std::size_t vertex)
+{
+  return Eigen::Map<const Eigen::Vector3f>(vertices.xyz(vertex)).cast<double>();
+}
+
 /** Leaves out triangles that name a vertex twice, gives every fan of triangles a vertex
  * of its own, and finds the pieces. \param sources one per vertex, and then one per
  * copy \throws InvalidArgument */
@@ -38,35 +44,56 @@ findManifoldPieces(std::vector<Triangle>& triangles,
   return findPieces(triangles, sources.size());
 }
 
-/** Unit normals of the vertices: their own; without, means of the triangles'. */
-std::vector<Eigen::Vector3d>
-readNormals(const CloudView& vertices,
-            const std::vector<Triangle>& triangles,
-            bool& has_normals)
+/** Means of the normals of the triangles. */
+void
+addTriangleNormals(const std::vector<Triangle>& triangles,
+                   std::vector<SurfaceCorner>& corners)
 {
-  std::vector<Eigen::Vector3d> normals;
-  std::array<std::optional<ScalarField>, 3> parts = {findScalar(vertices, "normal_x"),
-                                                     findScalar(vertices, "normal_y"),
-                                                     findScalar(vertices, "normal_z")};
-  has_normals = parts[0] && parts[1] && parts[2];
-  if (has_normals) {
-    for (std::size_t i = 0; i < vertices.count; ++i) {
-      const std::uint8_t* const point = vertices.point(i);
-      const Eigen::Vector3d normal(
-          parts[0]->read(point), parts[1]->read(point), parts[2]->read(point));
-      normals.push_back(normal.allFinite() ? normal.stableNormalized()
-                                           : Eigen::Vector3d::Zero());
-    }
-    return normals;
-  }
   Mesh mesh;
-  for (std::size_t i = 0; i < vertices.count; ++i)
-    mesh.vertices.push_back(
-        {vertices.xyz(i)[0], vertices.xyz(i)[1], vertices.xyz(i)[2]});
+  for (const SurfaceCorner& corner : corners) {
+    const Eigen::Vector3f place = corner.place.cast<float>();
+    mesh.vertices.push_back({place[0], place[1], place[2]});
+  }
   mesh.triangles = triangles;
-  for (const auto& normal : computeVertexNormals(mesh))
-    normals.emplace_back(normal[0], normal[1], normal[2]);
-  return normals;
+  const auto normals = computeVertexNormals(mesh);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    corners[i].normal = Eigen::Vector3d(normals[i][0], normals[i][1], normals[i][2]);
+}
+
+bool
+isAgainstNormals(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c)
+{
+  return (b.place - a.place)
+             .cross(c.place - a.place)
+             .dot(a.normal + b.normal + c.normal) < 0.0;
+}
+
+void
+integrate(MeasuredSurface& surface, bool curved)
+{
+  const std::vector<SurfaceCorner>& corners = surface.corners;
+  surface.integrals.resize(surface.list.pieces.size());
+  surface.shares.assign(corners.size(), 0.0);
+  std::vector<double> against(surface.list.pieces.size()); // areas
+  for (const Triangle& triangle : surface.triangles) {
+    const auto piece = static_cast<std::size_t>(surface.list.of_vertex[triangle[0]]);
+    const SurfaceCorner &a = corners[triangle[0]], &b = corners[triangle[1]],
+                        &c = corners[triangle[2]];
+    const CurvedTriangle bent({a, b, c}, surface.bounds[piece].center());
+    std::array<double, 3> own;
+    const SurfaceIntegrals added =
+        curved ? bent.integrate(own) : bent.integrateFlat(own);
+    surface.integrals[piece].add(added);
+    if (isAgainstNormals(a, b, c))
+      against[piece] += added.area;
+    for (std::size_t i = 0; i < 3; ++i)
+      surface.shares[triangle[i]] += own[i];
+  }
+  // Where some triangles are folded over others, the surface is counted three times.
+  for (std::size_t i = 0; i < against.size(); ++i) {
+    SurfaceIntegrals& all = surface.integrals[i];
+    all.area_error += 2.0 * std::min(against[i], all.area - against[i]);
+  }
 }
 
 } // namespace
@@ -119,67 +146,63 @@ listMeasuredFields(const std::vector<pcl::PCLPointField>& fields)
   return names;
 }
 
-MeasuredMesh::MeasuredMesh(const CloudView& vertices,
-                           const std::vector<Triangle>& triangles)
-    : triangles_(triangles)
-    , sources_(vertices.count)
+std::optional<std::vector<SurfaceCorner>>
+readCorners(const CloudView& vertices)
 {
-  if (triangles.empty())
-    throw InvalidArgument(
-        "The surface has no triangles: areas and volumes are those of a mesh.");
+  const std::array<std::optional<ScalarField>, 3> parts = {
+      findScalar(vertices, "normal_x"),
+      findScalar(vertices, "normal_y"),
+      findScalar(vertices, "normal_z")};
+  if (!parts[0] || !parts[1] || !parts[2])
+    return std::nullopt;
+  std::vector<SurfaceCorner> corners;
+  for (std::size_t i = 0; i < vertices.count; ++i) {
+    const std::uint8_t* const point = vertices.point(i);
+    const Eigen::Vector3d normal(
+        parts[0]->read(point), parts[1]->read(point), parts[2]->read(point));
+    corners.push_back(
+        {placeOf(vertices, i),
+         normal.allFinite() ? normal.stableNormalized() : Eigen::Vector3d::Zero()});
+  }
+  return corners;
+}
+
+void
+findBounds(MeasuredSurface& surface)
+{
+  surface.bounds.resize(surface.list.pieces.size());
+  for (std::size_t i = 0; i < surface.corners.size(); ++i)
+    if (const std::int32_t piece = surface.list.of_vertex[i]; piece >= 0)
+      surface.bounds[static_cast<std::size_t>(piece)].extend(surface.corners[i].place);
+}
+
+MeasuredSurface
+measureMesh(const CloudView& vertices,
+            const std::vector<Triangle>& triangles,
+            bool curved)
+{
   checkTriangles(vertices, triangles);
-  std::iota(sources_.begin(), sources_.end(), 0u);
-  list_ = findManifoldPieces(triangles_, sources_);
-  const std::vector<Eigen::Vector3d> normals =
-      readNormals(vertices, triangles, has_normals_);
+  MeasuredSurface surface;
+  surface.triangles = triangles;
+  surface.sources.resize(vertices.count);
+  std::iota(surface.sources.begin(), surface.sources.end(), 0u);
+  surface.list = findManifoldPieces(surface.triangles, surface.sources);
+  std::optional<std::vector<SurfaceCorner>> corners = readCorners(vertices);
+  const bool has_normals = corners.has_value();
+  if (!has_normals) {
+    corners.emplace(vertices.count);
+    for (std::size_t i = 0; i < vertices.count; ++i)
+      (*corners)[i].place = placeOf(vertices, i);
+    addTriangleNormals(triangles, *corners);
+  }
   const std::optional<ScalarField> cap = findScalar(vertices, "cap");
-  for (const std::uint32_t source : sources_) {
-    const float* const place = vertices.xyz(source);
-    corners_.push_back({Eigen::Vector3d(place[0], place[1], place[2]),
-                        normals[source],
-                        cap && cap->read(vertices.point(source)) != 0.0});
+  for (const std::uint32_t source : surface.sources) {
+    surface.corners.push_back((*corners)[source]);
+    surface.corners.back().is_on_cap = cap && cap->read(vertices.point(source)) != 0.0;
   }
-  bounds_.resize(list_.pieces.size());
-  for (std::size_t i = 0; i < corners_.size(); ++i)
-    if (list_.of_vertex[i] >= 0)
-      bounds_[static_cast<std::size_t>(list_.of_vertex[i])].extend(corners_[i].place);
-}
-
-std::vector<SurfaceIntegrals>
-MeasuredMesh::integrate(bool curved, std::vector<double>& shares) const
-{
-  std::vector<SurfaceIntegrals> integrals(list_.pieces.size());
-  std::vector<double> against(list_.pieces.size()); // areas
-  shares.assign(corners_.size(), 0.0);
-  for (const Triangle& triangle : triangles_) {
-    const auto piece = static_cast<std::size_t>(list_.of_vertex[triangle[0]]);
-    const CurvedTriangle bent(
-        {corners_[triangle[0]], corners_[triangle[1]], corners_[triangle[2]]},
-        bounds_[piece].center());
-    std::array<double, 3> own;
-    const SurfaceIntegrals added =
-        curved ? bent.integrate(own) : bent.integrateFlat(own);
-    integrals[piece].add(added);
-    if (isAgainstNormals(triangle))
-      against[piece] += added.area;
-    for (std::size_t i = 0; i < 3; ++i)
-      shares[triangle[i]] += own[i];
-  }
-  // Where some triangles are folded over others, the surface is counted three times.
-  for (std::size_t i = 0; i < integrals.size(); ++i)
-    integrals[i].area_error +=
-        2.0 * std::min(against[i], integrals[i].area - against[i]);
-  return integrals;
-}
-
-bool
-MeasuredMesh::isAgainstNormals(const Triangle& triangle) const
-{
-  const SurfaceCorner &a = corners_[triangle[0]], &b = corners_[triangle[1]],
-                      &c = corners_[triangle[2]];
-  return (b.place - a.place)
-             .cross(c.place - a.place)
-             .dot(a.normal + b.normal + c.normal) < 0.0;
+  findBounds(surface);
+  integrate(surface, curved && has_normals);
+  return surface;
 }
 
 } // namespace pcl_uvol::detail

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangle mesh with what it takes to measure it: normals, pieces, bounds.
+// Pieces of triangle meshes, and the integrals over them.
 #pragma once
 
 #include "common/scalar_field.h"
 #include "mesh/curved_triangle.h"
 #include "mesh/surface_pieces.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/mesh.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +20,7 @@
 namespace pcl_uvol::detail {
 
 /** \brief \throws InvalidArgument for a vertex that is not finite or not there */
-void
+PCL_UVOL_EXPORTS void
 checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles);
 
 /** \brief A field of one number per vertex, if there is one of that name. */
@@ -31,69 +32,40 @@ findScalar(const CloudView& vertices, const char* name);
 std::vector<std::string>
 listMeasuredFields(const std::vector<pcl::PCLPointField>& fields);
 
-/** \brief A mesh of manifold pieces. Vertices at which several fans of triangles meet
- * have a copy for each: see getSources(). */
-class MeasuredMesh {
-public:
-  /** \param vertices with normals and `cap`, if they have these fields
-   * \throws InvalidArgument for a vertex that is not finite or not there, without
-   * triangles, and for triangles that are no oriented manifold */
-  MeasuredMesh(const CloudView& vertices, const std::vector<Triangle>& triangles);
-
-  const PieceList&
-  getPieces() const
-  {
-    return list_;
-  }
-
-  const std::vector<Triangle>&
-  getTriangles() const
-  {
-    return triangles_;
-  }
-
-  /** \brief By vertex the one of the input that it is. */
-  const std::vector<std::uint32_t>&
-  getSources() const
-  {
-    return sources_;
-  }
-
-  const std::vector<SurfaceCorner>&
-  getCorners() const
-  {
-    return corners_;
-  }
-
-  /** \brief Whether the input has normals; those of triangles stand in for them. */
-  bool
-  hasNormals() const
-  {
-    return has_normals_;
-  }
-
-  const Eigen::AlignedBox3d&
-  getBounds(std::size_t piece) const
-  {
-    return bounds_[piece];
-  }
-
-  /** \brief Integrals over every piece, relative to the centre of its bounds.
-   * \param curved bend triangles as their normals tell
-   * \param[out] shares of the vertices in the area */
-  std::vector<SurfaceIntegrals>
-  integrate(bool curved, std::vector<double>& shares) const;
-
-private:
-  bool
-  isAgainstNormals(const Triangle& triangle) const;
-
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> sources_;
-  PieceList list_;
-  std::vector<SurfaceCorner> corners_;
-  std::vector<Eigen::AlignedBox3d> bounds_;
-  bool has_normals_ = false;
+/** \brief A surface in pieces, and integrals over each. */
+struct MeasuredSurface {
+  PieceList list;
+  std::vector<std::uint32_t> sources; ///< by vertex the one of the input that it is
+  std::vector<SurfaceCorner> corners; ///< by vertex
+  std::vector<Triangle> triangles;    ///< none of a surface that is given as points
+  /** By piece; integrals are relative to the centre of its bounds. @{ */
+  std::vector<Eigen::AlignedBox3d> bounds;
+  std::vector<SurfaceIntegrals> integrals;
+  /** @} */
+  std::vector<double> shares; ///< by vertex, in the area
 };
+
+/** \brief The place of a point with its unit normal: 0 where that is not finite;
+ * nothing for a cloud without normals. */
+std::optional<std::vector<SurfaceCorner>>
+readCorners(const CloudView& vertices);
+
+/** \brief The boxes around the vertices of pieces. */
+void
+findBounds(MeasuredSurface& surface);
+
+/** \brief Measure a mesh of manifold pieces. Vertices at which several fans of
+ * triangles meet have a copy for each: see sources.
+ *
+ * \param vertices with normals and `cap`, if they have these fields
+ *
+ * \param curved bend triangles as the normals tell, if there are any
+ *
+ * \throws InvalidArgument for a vertex that is not finite or not there, without
+ * triangles, and for triangles that are no oriented manifold */
+MeasuredSurface
+measureMesh(const CloudView& vertices,
+            const std::vector<Triangle>& triangles,
+            bool curved);
 
 } // namespace pcl_uvol::detail

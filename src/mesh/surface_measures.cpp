@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "mesh/inner_samples.h"
 #include "mesh/measured_mesh.h"
+#include "mesh/measured_points.h"
 #include "mesh/self_intersections.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
@@ -31,7 +32,7 @@ SurfaceMeasuresParameters::fromJson(const std::string& text)
 namespace {
 
 using detail::findScalar;
-using detail::MeasuredMesh;
+using detail::MeasuredSurface;
 using detail::SurfaceIntegrals;
 
 /** Of a figure: one that is known no better is hardly one. */
@@ -113,24 +114,22 @@ describeSize(const SurfaceIntegrals& integrals, PieceMeasures& piece)
 /** Measures one mesh. */
 class Measurement {
 public:
-  Measurement(const MeasuredMesh& mesh,
+  Measurement(MeasuredSurface surface,
               const CloudView& vertices,
-              const std::array<double, 3>& origin,
-              bool curved)
-      : mesh_(mesh)
+              const std::array<double, 3>& origin)
+      : surface_(std::move(surface))
       , vertices_(vertices)
       , origin_(origin[0], origin[1], origin[2])
   {
-    integrals_ = mesh.integrate(curved && mesh.hasNormals(), shares_);
     const VertexErrors errors(vertices);
     forVertices([&](std::size_t piece, std::size_t vertex) {
-      const double share = shares_[vertex];
+      const double share = surface_.shares[vertex];
       area_ += share;
-      if (!errors.add(mesh.getSources()[vertex], share, integrals_[piece]) &&
-          !mesh.getCorners()[vertex].is_on_cap)
+      if (!errors.add(surface_.sources[vertex], share, surface_.integrals[piece]) &&
+          !surface_.corners[vertex].is_on_cap)
         without_error_ += share;
     });
-    for (std::size_t i = 0; i < integrals_.size(); ++i)
+    for (std::size_t i = 0; i < surface_.integrals.size(); ++i)
       figures.pieces.push_back(describePiece(i));
     describeFields();
     nameIsovalues();
@@ -155,8 +154,8 @@ public:
     // Copies of a vertex are one again, whose piece is that of the first.
     figures.piece_of.resize(vertices_.count);
     figures.vertex_areas.assign(vertices_.count, 0.0);
-    for (std::size_t k = 0; k < shares_.size(); ++k)
-      figures.vertex_areas[mesh_.getSources()[k]] += shares_[k];
+    for (std::size_t k = 0; k < surface_.shares.size(); ++k)
+      figures.vertex_areas[surface_.sources[k]] += surface_.shares[k];
   }
 
   /** Find the samples within the pieces. \param origin of theirs */
@@ -168,8 +167,8 @@ public:
   {
     const Eigen::Vector3d offset =
         origin_ - Eigen::Vector3d(origin[0], origin[1], origin[2]);
-    detail::ClosedMesh closed{{}, mesh_.getTriangles(), figures.piece_of};
-    for (const detail::SurfaceCorner& corner : mesh_.getCorners())
+    detail::ClosedMesh closed{{}, surface_.triangles, figures.piece_of};
+    for (const detail::SurfaceCorner& corner : surface_.corners)
       closed.places.push_back(corner.place + offset);
     detail::measureInside(closed, samples, threads, figures.pieces, report);
   }
@@ -208,7 +207,7 @@ public:
     for (const PieceMeasures& all : figures.isovalues)
       if (all.volume.value < -all.volume.error) {
         report.warnings.push_back(
-            "The triangles look to the side that the surface encloses: volumes are "
+            "The surface looks to the side that it encloses: volumes are "
             "negative.");
         break;
       }
@@ -227,19 +226,20 @@ private:
   describePiece(std::size_t i) const
   {
     PieceMeasures piece;
-    const SurfacePiece& counted = mesh_.getPieces().pieces[i];
+    const SurfacePiece& counted = surface_.list.pieces[i];
     piece.isovalue = std::numeric_limits<double>::quiet_NaN();
     piece.vertices = counted.vertices;
     piece.triangles = counted.triangles;
     piece.rims = counted.rims;
-    piece.genus = counted.genus;
-    const Eigen::AlignedBox3d& bounds = mesh_.getBounds(i);
+    if (counted.triangles > 0)
+      piece.genus = counted.genus;
+    const Eigen::AlignedBox3d& bounds = surface_.bounds[i];
     for (int axis = 0; axis < 3; ++axis) {
       piece.low[static_cast<std::size_t>(axis)] = bounds.min()[axis] + origin_[axis];
       piece.high[static_cast<std::size_t>(axis)] = bounds.max()[axis] + origin_[axis];
     }
-    describeSize(integrals_[i], piece);
-    describeShape(integrals_[i], bounds.center() + origin_, piece);
+    describeSize(surface_.integrals[i], piece);
+    describeShape(surface_.integrals[i], bounds.center() + origin_, piece);
     return piece;
   }
 
@@ -251,11 +251,11 @@ private:
       const ScalarField field(vertices_.fields, name);
       std::vector<double> areas(figures.pieces.size()), sums(figures.pieces.size());
       forVertices([&](std::size_t piece, std::size_t vertex) {
-        const double value = field.read(vertices_.point(mesh_.getSources()[vertex]));
+        const double value = field.read(vertices_.point(surface_.sources[vertex]));
         if (!std::isfinite(value))
           return;
-        areas[piece] += shares_[vertex];
-        sums[piece] += shares_[vertex] * value;
+        areas[piece] += surface_.shares[vertex];
+        sums[piece] += surface_.shares[vertex] * value;
       });
       for (std::size_t i = 0; i < figures.pieces.size(); ++i) {
         PieceMeasures& piece = figures.pieces[i];
@@ -275,8 +275,7 @@ private:
     if (field) {
       std::map<double, std::size_t> order;
       forVertices([&](std::size_t piece, std::size_t vertex) {
-        const double isovalue =
-            field->read(vertices_.point(mesh_.getSources()[vertex]));
+        const double isovalue = field->read(vertices_.point(surface_.sources[vertex]));
         if (!std::isfinite(isovalue))
           return;
         rank[piece] = order.emplace(isovalue, order.size()).first->second;
@@ -294,13 +293,13 @@ private:
     std::vector<std::int32_t> number(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       sorted.push_back(figures.pieces[places[i]]);
-      integrals.push_back(integrals_[places[i]]);
-      centers_.push_back(mesh_.getBounds(places[i]).center());
+      integrals.push_back(surface_.integrals[places[i]]);
+      centers_.push_back(surface_.bounds[places[i]].center());
       number[places[i]] = static_cast<std::int32_t>(i);
     }
     figures.pieces = std::move(sorted);
-    integrals_ = std::move(integrals);
-    for (const std::int32_t piece : mesh_.getPieces().of_vertex)
+    surface_.integrals = std::move(integrals);
+    for (const std::int32_t piece : surface_.list.of_vertex)
       figures.piece_of.push_back(piece < 0 ? -1
                                            : number[static_cast<std::size_t>(piece)]);
   }
@@ -319,8 +318,9 @@ private:
       all.vertices += piece.vertices;
       all.triangles += piece.triangles;
       all.rims += piece.rims;
-      all.genus += piece.genus;
-      integrals.add(integrals_[i].shifted(centers_[i] + origin_ - center));
+      if (piece.genus)
+        all.genus = all.genus.value_or(0) + *piece.genus;
+      integrals.add(surface_.integrals[i].shifted(centers_[i] + origin_ - center));
       if (piece.rims == 0)
         detail::addInside(piece, all);
     }
@@ -361,18 +361,16 @@ private:
   void
   forVertices(const Visit& visit) const
   {
-    for (std::size_t i = 0; i < shares_.size(); ++i)
-      if (mesh_.getPieces().of_vertex[i] >= 0)
-        visit(static_cast<std::size_t>(mesh_.getPieces().of_vertex[i]), i);
+    for (std::size_t i = 0; i < surface_.shares.size(); ++i)
+      if (surface_.list.of_vertex[i] >= 0)
+        visit(static_cast<std::size_t>(surface_.list.of_vertex[i]), i);
   }
 
-  const MeasuredMesh& mesh_;
+  MeasuredSurface surface_;
   const CloudView& vertices_;
   Eigen::Vector3d origin_;
   double area_ = 0.0, without_error_ = 0.0; // of it, where no vertex tells its error
-  std::vector<double> shares_;              // by vertex
-  std::vector<SurfaceIntegrals> integrals_; // by piece
-  std::vector<Eigen::Vector3d> centers_;    // by piece, that these are relative to
+  std::vector<Eigen::Vector3d> centers_;    // by piece, that integrals are relative to
 };
 
 } // namespace
@@ -384,9 +382,16 @@ SurfaceMeasures::compute()
     throw InvalidArgument("SurfaceMeasures has no surface: call setInputSurface.");
   startReport();
   const StepTimer timer(report_, "measures");
+  if (triangles_.empty() && samples_)
+    throw InvalidArgument(
+        "Samples inside are found by triangles, and the surface has none.");
   const CloudView vertices = viewOf(vertices_->cloud);
-  const MeasuredMesh mesh(vertices, triangles_);
-  Measurement measurement(mesh, vertices, vertices_->origin, parameters_.curved);
+  Measurement measurement(
+      triangles_.empty()
+          ? detail::measurePoints(vertices, threads_, report_)
+          : detail::measureMesh(vertices, triangles_, parameters_.curved),
+      vertices,
+      vertices_->origin);
   if (samples_) {
     const CloudView samples = viewOf(samples_->cloud);
     measurement.lookInside(samples, samples_->origin, threads_, report_);

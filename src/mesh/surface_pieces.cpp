@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/surface_pieces.h"
 
+#include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 
 #include <algorithm>
@@ -10,35 +11,6 @@
 namespace pcl_uvol::detail {
 
 namespace {
-
-/** Disjoint sets of vertices; the lowest one stands for its set. */
-class Sets {
-public:
-  explicit Sets(std::size_t count)
-      : parent_(count)
-  {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-
-  std::uint32_t
-  find(std::uint32_t item)
-  {
-    while (parent_[item] != item)
-      item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-
-  void
-  join(std::uint32_t a, std::uint32_t b)
-  {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /** Closed lines of half edges without a twin, added to the pieces of their vertices. */
 void
@@ -56,6 +28,13 @@ countRims(const HalfEdges& edges, std::size_t count, PieceList& list)
   }
 }
 
+/** What pieces are sorted by. */
+std::uint32_t
+sizeOf(const SurfacePiece& piece)
+{
+  return piece.triangles > 0 ? piece.triangles : piece.vertices;
+}
+
 } // namespace
 
 PieceList
@@ -69,7 +48,7 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
         std::to_string(defects.vertices) +
         " vertices at which it is no manifold: this is a defect of the program, please "
         "report it together with the samples.");
-  Sets sets(vertices);
+  DisjointSets sets(vertices);
   for (const Triangle& triangle : triangles) {
     sets.join(triangle[0], triangle[1]);
     sets.join(triangle[1], triangle[2]);
@@ -103,17 +82,23 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
     piece.genus =
         static_cast<std::uint32_t>((2 - std::int64_t{piece.rims} - euler) / 2);
   }
-  // Large ones first.
+  sortPieces(list);
+  return list;
+}
+
+void
+sortPieces(PieceList& list)
+{
   std::vector<std::uint32_t> first(list.pieces.size());
-  for (std::size_t i = vertices; i-- > 0;)
+  for (std::size_t i = list.of_vertex.size(); i-- > 0;)
     if (list.of_vertex[i] >= 0)
       first[static_cast<std::size_t>(list.of_vertex[i])] =
           static_cast<std::uint32_t>(i);
   std::vector<std::size_t> order(list.pieces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::make_pair(list.pieces[b].triangles, first[a]) <
-           std::make_pair(list.pieces[a].triangles, first[b]);
+    return std::make_pair(sizeOf(list.pieces[b]), first[a]) <
+           std::make_pair(sizeOf(list.pieces[a]), first[b]);
   });
   std::vector<std::int32_t> place(order.size());
   std::vector<SurfacePiece> sorted;
@@ -125,7 +110,6 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
   for (std::int32_t& piece : list.of_vertex)
     if (piece >= 0)
       piece = place[static_cast<std::size_t>(piece)];
-  return list;
 }
 
 std::size_t

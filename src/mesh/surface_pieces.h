@@ -13,9 +13,13 @@ namespace pcl_uvol::detail {
 /** \brief The connected pieces of triangles. */
 struct PieceList {
   std::vector<std::int32_t> of_vertex; ///< among pieces; -1 without a triangle
-  std::vector<SurfacePiece> pieces;    ///< by falling number of triangles, of equal
-                                       ///< ones by their first vertex; isovalue 0
+  std::vector<SurfacePiece> pieces;    ///< in the order of sortPieces(); isovalue 0
 };
+
+/** \brief Put pieces in the order of falling numbers of triangles, or where there are
+ * none of vertices, and equal ones in that of their first vertices. */
+void
+sortPieces(PieceList& list);
 
 /** \brief \throws std::logic_error unless the triangles are an oriented manifold */
 PCL_UVOL_EXPORTS PieceList

@@ -3,6 +3,7 @@
 
 #include "common/parallel.h"
 #include "neighbors/nearest_finder.h"
+#include "neighbors/planar_cell.h"
 
 #include <Eigen/Geometry>
 
@@ -60,103 +61,6 @@ constexpr float lonely_distance = 6.0f;
 /** Cosine of the angle to the mean direction: a point beyond it lies on the other side.
  */
 constexpr float opposite = -0.2f;
-
-/** A cell in the tangent plane, around the origin. */
-class Cell {
-public:
-  /** A square of twice that side. */
-  void
-  reset(float distance)
-  {
-    corners_ = {{{-distance, -distance}, border},
-                {{distance, -distance}, border},
-                {{distance, distance}, border},
-                {{-distance, distance}, border}};
-    sq_extent_ = 2.0f * distance * distance;
-  }
-
-  /** Squared distance of the farthest corner. */
-  float
-  sqExtent() const
-  {
-    return sq_extent_;
-  }
-
-  /** Cut off what is nearer to a neighbour.
-   * \param index of it */
-  void
-  cut(const Eigen::Vector2f& neighbor, std::uint32_t index)
-  {
-    const float limit = 0.5f * neighbor.squaredNorm();
-    const auto beyond = [&](const Corner& corner) {
-      return corner.position.dot(neighbor) - limit;
-    };
-    if (std::none_of(corners_.begin(), corners_.end(), [&](const Corner& corner) {
-          return beyond(corner) > 0.0f;
-        }))
-      return;
-    kept_.clear();
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const Corner& here = corners_[i];
-      const Corner& next = corners_[i + 1 < corners_.size() ? i + 1 : 0];
-      const float a = beyond(here), b = beyond(next);
-      if (a <= 0.0f)
-        kept_.push_back(here);
-      if ((a <= 0.0f) != (b <= 0.0f)) {
-        const Eigen::Vector2f crossing =
-            here.position + a / (a - b) * (next.position - here.position);
-        // Leaving, the cut goes on from there; coming back, the old edge does.
-        kept_.push_back({crossing, a > 0.0f ? here.edge : index});
-      }
-    }
-    corners_.swap(kept_);
-    sq_extent_ = 0.0f;
-    for (const Corner& corner : corners_)
-      sq_extent_ = std::max(sq_extent_, corner.position.squaredNorm());
-  }
-
-  /** Call visit(corner, first) for all corners but those on the border; first: the
-   * lower index of the two neighbours that meet there. */
-  template <typename Visit>
-  void
-  forCorners(const Visit& visit) const
-  {
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const Corner& before = corners_[(i + corners_.size() - 1) % corners_.size()];
-      if (before.edge != border && corners_[i].edge != border)
-        visit(corners_[i].position, std::min(before.edge, corners_[i].edge));
-    }
-  }
-
-  /** True if a condition holds for all neighbours that cut it. */
-  template <typename Condition>
-  bool
-  allNeighbors(const Condition& condition) const
-  {
-    return std::all_of(corners_.begin(), corners_.end(), [&](const Corner& corner) {
-      return condition(corner.edge);
-    });
-  }
-
-  bool
-  isBounded() const
-  {
-    return std::none_of(corners_.begin(), corners_.end(), [](const Corner& corner) {
-      return corner.edge == border;
-    });
-  }
-
-private:
-  static constexpr std::uint32_t border = 0xffffffff;
-
-  struct Corner {
-    Eigen::Vector2f position;
-    std::uint32_t edge; ///< to the next corner: index of a neighbour, or the square's
-  };
-
-  std::vector<Corner> corners_, kept_;
-  float sq_extent_ = 0.0f;
-};
 
 /** Footprints of one point after another; one object per thread. */
 class FootprintFinder {
@@ -323,9 +227,9 @@ private:
     bool on_rim = !cell_.isBounded();
     const float sq_spacing = spacing() * spacing();
     float sq_all = 0.0f, sq_first = 0.0f;
-    cell_.forCorners([&](const Eigen::Vector2f& corner, std::uint32_t first) {
+    cell_.forCorners([&](const Eigen::Vector2f& corner, auto before, auto next) {
       const float sq_dist = corner.squaredNorm();
-      const bool is_first = point < first;
+      const bool is_first = point < std::min(before, next);
       if (sq_dist <= (is_first ? std::min(sq_all, sq_first) : sq_all))
         return;
       if (sq_dist > most_spacings * most_spacings * sq_spacing ||
@@ -384,7 +288,7 @@ private:
   Eigen::Vector3f here_, normal_, axes_[2];
   std::size_t looked_at_ = 0;             ///< neighbours
   std::vector<Eigen::Vector2f> in_plane_; ///< of them, those on the same side
-  Cell cell_;
+  detail::PlanarCell cell_;
 };
 
 /** Median of the distances of the 16th neighbours of points. */

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of scattered samples: ours, marching tetrahedra in CGAL's Delaunay
 // triangulation, and VTK's marching cubes (flying edges) on a grid of as many exact
-// values, in one run: time, triangles, shape, and the figures measured of them.
+// values, in one run: time, triangles, shape, distance to the true surface, and the
+// figures measured of them.
 // usage: meshes [n [seed]]
+#include "mesh/triangle_tree.h"
 #include "support/smooth_fields.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/mesh/surface_measures.h>
@@ -53,11 +55,12 @@ struct PlainMesh {
   }
 };
 
-/** A field with the figures of its isosurface, higher inside. */
+/** A field with the figures of its isosurface. */
 struct Solid {
   SmoothField field;
   double area, volume;
   pcl_uvol::Outside outside;
+  std::vector<Place> places; // all over the isosurface
 };
 
 PlainMesh
@@ -217,6 +220,30 @@ smallestAngleOf(const PlainMesh& mesh)
   return smallest;
 }
 
+/** Hausdorff's distance to the true surface: the largest from a place on a triangle to
+ * that, or from a place there to the triangles. */
+double
+hausdorffDistance(const PlainMesh& mesh, const Solid& solid)
+{
+  constexpr int steps = 4; // along an edge
+  PlainMesh on_triangles;
+  std::vector<Place> corners;
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
+    corners.push_back(mesh.placeOf(i));
+  for (const Triangle& triangle : mesh.triangles)
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j)
+        on_triangles.addVertex((i * corners[triangle[0]] + j * corners[triangle[1]] +
+                                (steps - i - j) * corners[triangle[2]]) /
+                               steps);
+  double largest = uvol_test::quantile(
+      uvol_test::deviations(solid.field, on_triangles.vertices), 1.0);
+  const pcl_uvol::detail::TriangleTree tree(corners, mesh.triangles);
+  for (const Place& place : solid.places)
+    largest = std::max(largest, tree.find(place).distance);
+  return largest;
+}
+
 /** Area and volume as parts of the true ones, and how many pieces and handles. */
 void
 printFigures(const PlainMesh& mesh, const Solid& solid)
@@ -229,11 +256,14 @@ printFigures(const PlainMesh& mesh, const Solid& solid)
     measures.setParameters({curved, false});
     const auto figures = measures.compute();
     const pcl_uvol::PieceMeasures& all = figures.isovalues[0];
-    if (!curved)
-      std::printf(" %zu | %u |", figures.pieces.size(), all.genus);
-    std::printf(" %+.1e | %+.1e |",
-                all.area.value / solid.area - 1.0,
-                std::abs(all.volume.value) / solid.volume - 1.0);
+    if (!curved && all.genus)
+      std::printf(" %zu | %u |", figures.pieces.size(), *all.genus);
+    if (!curved && !all.genus) // points have no triangles, bent or flat
+      std::printf(" | | %zu | | | |", figures.pieces.size());
+    if (curved || all.genus)
+      std::printf(" %+.1e | %+.1e |",
+                  all.area.value / solid.area - 1.0,
+                  std::abs(all.volume.value) / solid.volume - 1.0);
   }
 }
 
@@ -260,12 +290,28 @@ printRow(const std::string& name,
               mesh.vertices.size(),
               mesh.triangles.size(),
               uvol_test::quantile(away, 0.999));
-  if (!mesh.triangles.empty()) {
-    std::printf(" %.2g |", smallestAngleOf(mesh));
-    printFigures(mesh, solid);
-  }
+  if (!mesh.triangles.empty())
+    std::printf(
+        " %.1e | %.2g |", hausdorffDistance(mesh, solid), smallestAngleOf(mesh));
+  printFigures(mesh, solid);
   std::printf("\n");
   std::fflush(stdout);
+}
+
+/** Places all over a torus; without a hole, a sphere. */
+std::vector<Place>
+listPlaces(double large, double small)
+{
+  constexpr int around = 1500, across = 500;
+  std::vector<Place> places;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double u = 2.0 * M_PI * i / around, v = 2.0 * M_PI * j / across;
+      const double radius = large + small * std::cos(v);
+      places.emplace_back(
+          radius * std::cos(u), radius * std::sin(u), small * std::sin(v));
+    }
+  return places;
 }
 
 std::vector<Solid>
@@ -278,11 +324,13 @@ listSolids(std::size_t n)
   return {{radial,
            4.0 * M_PI * radius * radius,
            4.0 / 3.0 * M_PI * std::pow(radius, 3),
-           pcl_uvol::Outside::Higher},
+           pcl_uvol::Outside::Higher,
+           listPlaces(0.0, radius)},
           {torus,
            4.0 * M_PI * M_PI * large * small,
            2.0 * M_PI * M_PI * large * small * small,
-           pcl_uvol::Outside::Lower}};
+           pcl_uvol::Outside::Lower,
+           listPlaces(large, small)}};
 }
 
 } // namespace
@@ -293,9 +341,10 @@ main(int argc, char** argv)
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   std::printf(
-      "| field | mesh | ms | vertices | triangles | 99.9 %% within | smallest "
-      "angle | pieces | handles | area, flat | volume, flat | area, bent | "
-      "volume, bent |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| field | mesh | ms | vertices | triangles | 99.9 %% within | Hausdorff "
+      "distance | smallest angle | pieces | handles | area, flat | volume, flat | "
+      "area, bent | "
+      "volume, bent |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Solid& solid : listSolids(n)) {
     const Cloud::Ptr samples =
         uvol_test::sampleSmoothField(solid.field, n, seed, false);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes in the formats of modelling and printing, read back by the formats' own rules.
 #include "random_dataset.h"
+#include "tools/tool_test.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/mesh.h>
 
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <tuple>
 
 namespace {
 
@@ -143,6 +145,195 @@ TEST(MeshFormats, VtpAndPlyKeepFields)
   }
   EXPECT_NE(std::string::npos, readFile(folder / "a.vtp").find("NumberOfPolys=\"4\""));
   EXPECT_EQ(shape.triangles, loadMesh(folder / "a.ply").triangles);
+}
+
+TEST(MeshFormats, WhatIsWrittenIsReadAgain)
+{
+  const TemporaryFolder folder;
+  const Tetrahedron shape;
+  for (const char* const name : {"a.ply", "a.vtp", "a.obj", "a.off"}) {
+    saveMesh(folder / name, shape.vertices, shape.triangles);
+    std::vector<Triangle> triangles;
+    const Dataset read = loadMesh(folder / name, triangles);
+    EXPECT_EQ(shape.triangles, triangles) << name;
+    for (std::size_t vertex = 0; vertex < 4; ++vertex)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(coordinateOf(shape.vertices, axis, vertex),
+                  coordinateOf(read, axis, vertex))
+            << name;
+    if (name != std::string("a.off")) {
+      EXPECT_EQ(fieldOf(shape.vertices, "normal_y"), fieldOf(read, "normal_y")) << name;
+    }
+    EXPECT_TRUE(isMeshPath(folder / name));
+  }
+  // Corners at one place are one vertex again.
+  saveMesh(folder / "a.stl", shape.vertices, shape.triangles);
+  const Mesh stl = loadMesh(folder / "a.stl");
+  EXPECT_EQ(4u, stl.vertices.size());
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {2, 1, 3}}),
+            stl.triangles);
+  EXPECT_FALSE(isMeshPath("a.pcd"));
+}
+
+TEST(MeshFormats, OtherProgramsWriteOtherLines)
+{
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& name,
+                        const std::string& text,
+                        std::vector<Triangle>& triangles) {
+    writeFile(folder / name, text);
+    return loadMesh(folder / name, triangles);
+  };
+  const std::vector<Triangle> square = {{0, 1, 2}, {0, 2, 3}};
+  std::vector<Triangle> triangles;
+  // Groups, textures, and numbers that count from the last vertex.
+  Dataset mesh = read("a.obj",
+                      "# Blender\no Plane\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1.0\n"
+                      "vt 0 0\nvn 0 0 2\nusemtl None\ns off\n"
+                      "f 1/1/1 2/1/1 -2/1/-1 -1/1/1 # a square\n",
+                      triangles);
+  EXPECT_EQ(square, triangles);
+  EXPECT_EQ((std::vector<double>{2, 2, 2, 2}), fieldOf(mesh, "normal_z"));
+  // Normals of edges that are sharp are those of faces.
+  mesh = read("b.obj",
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 -1\n"
+              "f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n",
+              triangles);
+  EXPECT_EQ(square, triangles);
+  EXPECT_EQ(3u, mesh.cloud.fields.size());
+  read("c.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/2 2/3 3/4 4/1\n", triangles);
+  EXPECT_EQ(square, triangles);
+
+  read("a.off",
+       "OFF 4 1 0 # counts\n0 0 0\n1 0 0\n\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n",
+       triangles);
+  EXPECT_EQ(square, triangles);
+  read("b.off",
+       "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 0 0 1\n0 1 0 0 0 0 1\n3 0 1 2",
+       triangles);
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}}), triangles);
+
+  const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 "
+                            "0\nvertex -0 1 0\nendloop\nendfacet\n";
+  mesh = read("a.stl", "solid two\n" + facet + facet + "endsolid two\n", triangles);
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}}), triangles);
+  EXPECT_EQ(3u, mesh.cloud.width);
+  EXPECT_FALSE(mesh.double_coordinates);
+}
+
+TEST(MeshFormats, DamagedMeshesAreRefusedInASentence)
+{
+  const TemporaryFolder folder;
+  const auto refuses =
+      [&](const std::string& name, const std::string& text, const std::string& words) {
+        writeFile(folder / name, text);
+        try {
+          std::vector<Triangle> triangles;
+          loadMesh(folder / name, triangles);
+          ADD_FAILURE() << text;
+        }
+        catch (const IOError& error) {
+          EXPECT_NE(std::string::npos, std::string(error.what()).find(words))
+              << error.what();
+        }
+      };
+  const std::string corner = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  refuses("a.obj", "v 0 0\n", "line 1");
+  refuses("a.obj", "v 0 0 x\n", "'x' is no number");
+  refuses("a.obj", corner + "f 1 2\n", "fewer than three corners");
+  refuses("a.obj", corner + "f 1 2 4\n", "not there");
+  refuses("a.obj", corner + "f 1 2 0\n", "'0' is no number");
+  refuses("a.obj", corner + "f 1 2 -4\n", "'-4' is no number");
+  refuses("a.obj", corner + "vn 0 0 1\nf 1//1 2//1 3//2\n", "normal");
+  refuses("a.obj", std::string("v 0 0 0\0", 8), "no text");
+  refuses("a.off", "ply\n", "begin with OFF");
+  refuses("a.off", "OFF\n3\n", "numbers of vertices and faces");
+  refuses("a.off", "OFF\n3 x 0\n", "'x'");
+  refuses("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "ends within its vertices");
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
+  refuses("a.off", off, "ends within its faces");
+  refuses("a.off", off + "3 0 1 3\n", "not there");
+  refuses("a.off", off + "4 0 1 2\n", "promises");
+  refuses("a.off", off + "2 0 1\n", "promises");
+  refuses("a.stl", "solid a\nfacet normal 0 0 1\n", "endsolid");
+  refuses("a.stl", "solid a\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n", "1 corners");
+  refuses("a.stl", "solid a\nfacet\nvertex 0 nan 0\n", "not finite");
+  refuses("a.stl", "vertex 0 0 0", "endsolid");
+  const Tetrahedron shape;
+  saveMesh(folder / "a.stl", shape.vertices, shape.triangles);
+  const std::string bytes = readFile(folder / "a.stl");
+  refuses("a.stl", bytes.substr(0, bytes.size() - 1), "4 triangles and has 3");
+  refuses("a.gltf", "{}", ".obj");
+}
+
+TEST(MeshFormats, AnyBytesAreAMeshOrAnError)
+{
+  const TemporaryFolder folder;
+  const Tetrahedron shape;
+  Random random(3);
+  for (const char* const name : {"a.obj", "a.off", "a.stl", "a.vtp"}) {
+    saveMesh(folder / name, shape.vertices, shape.triangles);
+    const std::string bytes = readFile(folder / name);
+    for (std::size_t i = 0; i < 600; ++i) {
+      std::string other = bytes;
+      const auto at = static_cast<std::size_t>(random.uniform() *
+                                               static_cast<double>(bytes.size()));
+      if (i % 3 == 0)
+        other.resize(at);
+      else
+        other[at] = i % 3 == 1 ? static_cast<char>(random.uniform() * 128.0)
+                               : "0123456789-./ #"[i % 15];
+      writeFile(folder / name, other);
+      try {
+        const Mesh mesh = loadMesh(folder / name);
+        for (const Triangle& triangle : mesh.triangles)
+          for (const std::uint32_t vertex : triangle)
+            EXPECT_LT(vertex, mesh.vertices.size()) << name << ": " << other;
+      }
+      catch (const IOError&) {
+      }
+    }
+  }
+}
+
+TEST(MeshFormats, PolygonsOfVtpFilesAreChecked)
+{
+  const TemporaryFolder folder;
+  const auto file = [](const std::string& corners, const std::string& ends) {
+    return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"4\" "
+           "NumberOfPolys=\"2\"><Points><DataArray type=\"Float32\" "
+           "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 0"
+           "</DataArray></Points><Polys>" +
+           (corners.empty() ? corners
+                            : "<DataArray type=\"Int64\" Name=\"connectivity\" "
+                              "format=\"ascii\">" +
+                                  corners + "</DataArray>") +
+           "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">" + ends +
+           "</DataArray></Polys></Piece></PolyData></VTKFile>\n";
+  };
+  const auto sentence = [&](const std::string& corners, const std::string& ends) {
+    writeFile(folder / "a.vtp", file(corners, ends));
+    try {
+      loadMesh(folder / "a.vtp");
+      return std::string();
+    }
+    catch (const IOError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ("", sentence("0 1 2 3 0 2 3", "4 7"));
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {0, 2, 3}}),
+            loadMesh(folder / "a.vtp").triangles);
+  for (const auto& [corners, ends, words] :
+       {std::tuple{"0 1 2 3 0 2 4", "4 7", "not there"},
+        {"0 1 2 3 0 2 -1", "4 7", "not there"},
+        {"0 1 2 3 0 2 3", "7 4", "follow one another"},
+        {"0 1 2", "3 9", "a.vtp"},
+        {"", "4 7", "no connectivity"},
+        {"0 1 2", "3", "a.vtp"}}) {
+    const std::string told = sentence(corners, ends);
+    EXPECT_NE(std::string::npos, told.find(words)) << told;
+  }
 }
 
 TEST(MeshFormats, EmptyMeshesAreValidFiles)

@@ -364,7 +364,12 @@ TEST(SurfaceMeasures, RefusesWhatIsNoSurface)
   };
   MeasuredShape shape = box;
   shape.triangles.clear();
-  refuses(shape, "no triangles");
+  refuses(shape, "neither triangles nor normals");
+  shape.normals.assign(shape.places.size(), Eigen::Vector3d::Zero());
+  refuses(shape, "No point");
+  measures.setInputSamples(std::make_shared<Dataset>(shape.toDataset()));
+  refuses(shape, "none");
+  measures.setInputSamples(nullptr);
   shape = box;
   shape.triangles[3][1] = 8;
   refuses(shape, "vertex 8");

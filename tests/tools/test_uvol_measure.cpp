@@ -4,6 +4,7 @@
 #include "support/environment.h"
 #include "support/png.h"
 #include "tools/tool_test.h"
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
 #include <gtest/gtest.h>
@@ -130,6 +131,57 @@ TEST_F(MeasureTool, MeasuresMeshesAsTheSamplesTheyCameFrom)
             0.999 * measured["volume"].get<double>());
 }
 
+TEST_F(MeasureTool, MeasuresIsopointsWithoutAMesh)
+{
+  const std::string points = folder_ / "points.csv";
+  const CommandResult made = runCommand("uvol_isosurface " + in_ + " " + points +
+                                        " -field rho -iso 0.3,0.5 -measure -json");
+  ASSERT_EQ(0, made.exit_code) << made.err;
+  const Json told = Json::parse(made.out)["surfaces"];
+  const pcl_uvol::Dataset surface = pcl_uvol::loadDataset(points);
+  const auto areas = fieldOf(surface, "area"), pieces = fieldOf(surface, "piece");
+  double sums[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    sums[static_cast<std::size_t>(pieces.at(i))] += areas[i];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double radius = i == 0 ? 0.7 : 0.5;
+    const double area = told["area"][i], volume = told["volume"][i];
+    EXPECT_NEAR(area, sums[i], 1e-9);
+    EXPECT_NEAR(
+        4.0 * M_PI * radius * radius, area, told["area_error"][i].get<double>());
+    EXPECT_NEAR(4.0 / 3.0 * M_PI * std::pow(radius, 3),
+                volume,
+                told["volume_error"][i].get<double>());
+    EXPECT_LT(told["volume_error"][i].get<double>(), 0.01 * volume);
+    EXPECT_TRUE(told["genus"][i].is_null());
+  }
+  const Json measured = reportOf(points)["surfaces"];
+  EXPECT_EQ(told["area"], measured["area"]);
+  // Pieces that wait on the disk are not measured.
+  EXPECT_EQ(2,
+            runCommand("uvol_isosurface " + in_ + " " + points +
+                       " -field rho -iso 0.3 -measure -max-memory 1G")
+                .exit_code);
+}
+
+TEST_F(MeasureTool, MeasuresMeshesOfAllFormats)
+{
+  double flat = 0.0;
+  for (const char* const name : {"m.ply", "m.vtp", "m.obj", "m.off", "m.stl"}) {
+    const std::string mesh = folder_ / name;
+    ASSERT_EQ(
+        0,
+        runCommand("uvol_isosurface " + in_ + " " + mesh + " -field rho -iso 0.3 -mesh")
+            .exit_code);
+    const Json surfaces = reportOf(mesh + " -flat")["surfaces"];
+    if (flat == 0.0)
+      flat = surfaces["volume"];
+    EXPECT_NEAR(flat, surfaces["volume"].get<double>(), 1e-6) << name;
+    EXPECT_EQ(0, surfaces["genus"]) << name;
+    EXPECT_EQ(0, surfaces["rims"]) << name;
+  }
+}
+
 TEST_F(MeasureTool, TellsPeople)
 {
   const CommandResult result = run("-field rho -iso 0.5");
@@ -199,12 +251,10 @@ TEST_F(MeasureTool, RefusesWhatIsNoSurface)
   ASSERT_EQ(0,
             runCommand("uvol_isosurface " + in_ + " " + points + " -field rho -iso 0.3")
                 .exit_code);
-  refuses(points, "no triangles");
   refuses(points + " -iso 0.3 -measure", "-measure");
-  const CommandResult result = runCommand("uvol_isosurface " + in_ + " " + points +
-                                          " -field rho -iso 0.3 -measure");
-  EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("-mesh"));
+  for (const char* const option : {"-flat", "-check", "-samples x.ply"})
+    refuses(points + " " + option, "needs triangles");
+  refuses(in_, "neither triangles nor normals");
 }
 
 } // namespace

@@ -247,6 +247,30 @@ TEST_F(UvolViewer, KeysSwitchPasses)
   open.type('+');
 }
 
+TEST_F(UvolViewer, MShowsAMeshAndThePointsAgain)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-color", "mean_curvature"});
+  const Image points = open.shoot();
+  open.type('m');
+  EXPECT_GT(open.surface.getTriangles().size(), 1000u);
+  const Image mesh = open.shoot();
+  EXPECT_NEAR(covered(points), covered(mesh), 0.1 * covered(points));
+  EXPECT_TRUE(points.color != mesh.color);
+  open.type('c'); // one colour
+  EXPECT_TRUE(mesh.color != open.shoot().color);
+  const std::size_t triangles = open.surface.getTriangles().size();
+  open.slide(0.3);
+  EXPECT_LT(open.surface.getTriangles().size(), triangles / 2);
+  open.type('m');
+  EXPECT_TRUE(open.surface.getTriangles().empty());
+
+  pcl_uvol::Dataset sphere;
+  pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);
+  OpenWindow of_points(sphere, "", {});
+  of_points.type('m'); // tells that there are no samples
+  EXPECT_FALSE(of_points.surface.isMeshed());
+}
+
 TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
 {
   OpenWindow open(makeVolume(), "intensity", {"-color", "mean_curvature"});

@@ -45,9 +45,14 @@ std::string
 describeSize(const PieceMeasures& surface, std::int64_t pieces)
 {
   std::string text = "area " + describe(surface.area);
-  text += surface.rims > 0 ? ", open at " + plural(surface.rims, "rim")
-                           : ", volume " + describe(surface.volume);
-  text += ", " + plural(pieces, "piece") + ", genus " + std::to_string(surface.genus);
+  if (surface.rims == 0)
+    text += ", volume " + describe(surface.volume);
+  else
+    text +=
+        surface.triangles == 0 ? ", open" : ", open at " + plural(surface.rims, "rim");
+  text += ", " + plural(pieces, "piece");
+  if (surface.genus)
+    text += ", genus " + std::to_string(*surface.genus);
   if (!surface.inside.empty())
     text += ", " + plural(surface.samples, "sample") + " inside";
   return text;
@@ -153,7 +158,7 @@ MeasureTable::addRow(const PieceMeasures& measures, double piece)
   put("vertices", measures.vertices);
   put("triangles", measures.triangles);
   put("rims", measures.rims);
-  put("genus", measures.genus);
+  put("genus", measures.genus ? static_cast<double>(*measures.genus) : none);
   putMeasure("area", measures.area);
   putMeasure("volume", measures.volume);
   for (int axis = 0; axis < 3; ++axis)

@@ -37,9 +37,9 @@ MeshOptions::declare(Options& options)
   options.flag(
       "measure",
       is_measured_,
-      "with -mesh: tell area, volume, integrals of fields and the samples "
-      "inside, as uvol_measure does; vertices get their share of the area as a "
-      "field");
+      "tell area, volume and integrals of fields, with -mesh also of the samples "
+      "inside, as uvol_measure does; points get their share of the area and the number "
+      "of their piece as fields");
   options.flag("check",
                is_checked_,
                "with -mesh: look for triangles that go through one another");
@@ -50,7 +50,7 @@ MeshOptions::finish(const Options& options, const std::string& output) const
 {
   if (!is_asked_for_ && !pcl_uvol::isMeshOnly(output)) {
     for (const char* const name :
-         {"remesh", "edge-length", "open", "drop-pieces", "measure", "check"})
+         {"remesh", "edge-length", "open", "drop-pieces", "check"})
       if (options.given(name))
         throw UsageError(std::string("-") + name + " needs -mesh.");
     return std::nullopt;

@@ -100,7 +100,7 @@ PipelineOptions::needsAllSamples() const
 {
   return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
-         parameters.validation.folds > 0 || parameters.mesh ||
+         parameters.validation.folds > 0 || parameters.mesh || mesh_.isMeasured() ||
          parameters.isosurface.neighbors != NeighborSource::KdTree ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
@@ -127,7 +127,7 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
-        "auto, -validate, -mesh, "
+        "auto, -validate, -mesh, -measure, "
         "-neighbors voronoi or exact and derivatives as fields, which need all samples "
         "in "
         "memory.");

@@ -69,6 +69,12 @@ ColorChoice::next()
   chosen_ = (chosen_ + 1) % fields_.size();
 }
 
+bool
+ColorChoice::hasScale() const
+{
+  return isScalar(getField());
+}
+
 void
 ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
                    pcl_uvol::ImageSpaceRendererBase& renderer,

@@ -27,6 +27,10 @@ public:
     return fields_[chosen_];
   }
 
+  /** \brief Whether numbers of a field have colours, which the bar's table holds. */
+  bool
+  hasScale() const;
+
   /** \brief Choose the next field, one colour among them, and start over at the end. */
   void
   next();

@@ -67,6 +67,7 @@ describeKeys()
   for (const PassKey& key : pass_keys)
     text += std::string(1, key.key) + "  " + key.help + " on or off\n";
   return text + "c  colour by the next field\n"
+                "m  mesh of the isosurface instead of its points, or back\n"
                 "+ -  next isovalue (or drag the slider)\n"
                 "r  whole surface in view\n"
                 "s  save a picture\n"

@@ -90,13 +90,32 @@ ShownSurface::setIsoValue(double isovalue)
          << ", the range of " << field_ << ", and is not " << isovalue << ".";
     throw InvalidArgument(text.str());
   }
+  extract(isovalue, is_meshed_);
+}
+
+void
+ShownSurface::setMeshed(bool is_meshed)
+{
+  if (field_.empty())
+    throw InvalidArgument("A mesh is made of samples, and these are points of a "
+                          "surface: -field shows the isosurfaces of samples.");
+  extract(isovalue_, is_meshed);
+}
+
+void
+ShownSurface::extract(double isovalue, bool is_meshed)
+{
   pcl_uvol::IsosurfacePipelineParameters parameters;
+  if (is_meshed)
+    parameters.mesh.emplace().open = true; // caps would hide the surface
   parameters.isosurface.field = field_;
   parameters.isosurface.isovalues = {isovalue};
   pipeline_.setParameters(parameters);
   pcl_uvol::IsosurfaceResult result = pipeline_.run();
   report_ = std::move(result.report);
   isovalue_ = isovalue;
+  is_meshed_ = is_meshed;
+  triangles_ = std::move(result.triangles);
   cloud_.reset();
   if (result.surface.cloud.width > 0)
     cloud_ = pcl::make_shared<Cloud>(std::move(result.surface.cloud));

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace uvol_tools {
 
@@ -48,6 +49,24 @@ public:
   void
   setIsoValue(double isovalue);
 
+  /** \brief Make meshes of isosurfaces from now on, or points again.
+   * \throws InvalidArgument for a surface given as points */
+  void
+  setMeshed(bool is_meshed);
+
+  bool
+  isMeshed() const
+  {
+    return is_meshed_;
+  }
+
+  /** \brief Of a mesh, whose vertices are the points of the cloud. */
+  const std::vector<pcl_uvol::Triangle>&
+  getTriangles() const
+  {
+    return triangles_;
+  }
+
   /** \brief Null where an isosurface has no points. */
   const Cloud::ConstPtr&
   getCloud() const
@@ -74,11 +93,16 @@ public:
   }
 
 private:
+  void
+  extract(double isovalue, bool is_meshed);
+
   Cloud::ConstPtr samples_, cloud_;
   std::array<double, 3> origin_;
   std::string field_;
   std::array<double, 2> range_{{0.0, 0.0}};
   double isovalue_ = 0.0;
+  bool is_meshed_ = false;
+  std::vector<pcl_uvol::Triangle> triangles_;
   pcl_uvol::IsosurfacePipeline pipeline_;
   pcl_uvol::Report report_;
 };

@@ -3,13 +3,17 @@
 
 #include "viewer/keys.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/filters/point_data.h>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkObjectFactory.h>
 #include <vtkPNGWriter.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
@@ -121,6 +125,12 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   renderer_->SetGradientBackground(background.kind ==
                                    pcl_uvol::Background::Kind::Gradient);
   renderer_->AddViewProp(prop_);
+  mesh_actor_->SetMapper(mesh_);
+  mesh_actor_->VisibilityOff();
+  mesh_actor_->GetProperty()->SetEdgeVisibility(1);
+  mesh_actor_->GetProperty()->SetEdgeColor(0.3, 0.3, 0.3);
+  mesh_actor_->GetProperty()->SetColor(0.8, 0.8, 0.8);
+  renderer_->AddViewProp(mesh_actor_);
   window_->SetMultiSamples(0); // the prop smooths its borders itself
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
@@ -202,8 +212,36 @@ void
 ViewerWindow::showSurface()
 {
   prop_->setInputCloud(surface_.getCloud());
-  renderer_->ResetCameraClippingRange();
   applyColor();
+  showMesh();
+  renderer_->ResetCameraClippingRange();
+}
+
+void
+ViewerWindow::showMesh()
+{
+  const bool has_mesh = !surface_.getTriangles().empty();
+  mesh_actor_->SetVisibility(has_mesh);
+  prop_->SetVisibility(!has_mesh);
+  if (!has_mesh)
+    return;
+  const auto data = pcl_uvol::fromPointCloud(*surface_.getCloud());
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : surface_.getTriangles())
+    triangles->InsertNextCell({a, b, c});
+  data->SetVerts(nullptr);
+  data->SetPolys(triangles);
+  mesh_->SetInputData(data);
+}
+
+void
+ViewerWindow::switchMesh()
+{
+  surface_.setMeshed(!surface_.isMeshed());
+  showSurface();
+  show(surface_.getTriangles().empty()
+           ? std::string()
+           : std::to_string(surface_.getTriangles().size()) + " triangles");
 }
 
 void
@@ -211,6 +249,12 @@ ViewerWindow::applyColor()
 {
   if (surface_.getCloud())
     colors_->apply(*surface_.getCloud(), prop_->renderer(), *bar_);
+  const std::string& field = colors_->getField();
+  mesh_->SetScalarVisibility(colors_->hasScale());
+  mesh_->SetScalarModeToUsePointFieldData();
+  mesh_->SelectColorArray(field.c_str());
+  mesh_->SetLookupTable(bar_->GetLookupTable());
+  mesh_->UseLookupTableScalarRangeOn();
 }
 
 void
@@ -250,6 +294,8 @@ ViewerWindow::press(char key)
       show("");
     else if (key == 'c')
       nextColor();
+    else if (key == 'm')
+      switchMesh();
     else if (key == '+' || key == '-')
       stepIsoValue(key == '+' ? 1 : -1);
     else if (key == 'r')

@@ -7,7 +7,9 @@
 #include "viewer/shown_surface.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
 
+#include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
@@ -75,6 +77,14 @@ private:
   void
   showSurface();
 
+  /** Show the triangles of the surface, coloured, instead of its points, if it has any.
+   */
+  void
+  showMesh();
+
+  void
+  switchMesh();
+
   /** Colour by the current field. */
   void
   applyColor();
@@ -107,6 +117,8 @@ private:
   std::optional<ColorChoice> colors_;
   std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
+  vtkNew<vtkPolyDataMapper> mesh_;
+  vtkNew<vtkActor> mesh_actor_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderWindowInteractor> interactor_;

@@ -11,14 +11,16 @@
 
 namespace pcl_uvol {
 
-/** \brief Read a PLY mesh; polygons become fans of triangles.
+/** \brief Read a mesh as the other loadMesh() does, places and faces only.
  * \param path of the file
  * \throws IOError in one sentence, also for a file without faces */
 PCL_UVOL_EXPORTS Mesh
 loadMesh(const std::string& path);
 
-/** \brief Read the vertices of a PLY file with all their fields, and its faces, as
- * saveMesh() writes them; polygons become fans of triangles.
+/** \brief Read the vertices of a .ply, .vtp, .obj, .off or .stl with all their fields,
+ * and its faces, as saveMesh() writes them; polygons become fans of triangles. Vertices
+ * of an .obj have normals where all faces name the same one at each; corners of an .stl
+ * at one place become one vertex.
  * \param[out] triangles stay empty for a file of points
  * \param path of the file
  * \throws IOError in one sentence */
@@ -45,6 +47,12 @@ saveMesh(const std::string& path,
  * \param path as saveMesh() will get it */
 PCL_UVOL_EXPORTS void
 checkMeshPath(const std::string& path);
+
+/** \brief True for the endings of files that may hold a mesh: .ply, .vtp, and those of
+ * isMeshOnly().
+ * \param path of a file that need not be there */
+PCL_UVOL_EXPORTS bool
+isMeshPath(const std::string& path);
 
 /** \brief True for the endings .obj, .off and .stl, of files that hold no points
  * without triangles.

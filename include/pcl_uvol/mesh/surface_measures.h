@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -75,8 +76,10 @@ struct InnerFieldMeasures {
 struct PCL_UVOL_EXPORTS PieceMeasures {
   double isovalue; ///< NaN where the vertices have no field of that name
   std::uint32_t vertices = 0, triangles = 0;
-  std::uint32_t rims = 0;  ///< closed lines along which it is open
-  std::uint32_t genus = 0; ///< handles, of several pieces together
+  /** Closed lines along which it is open; of points: 1 where it is open. */
+  std::uint32_t rims = 0;
+  /** Handles, of several pieces together; none given for points. */
+  std::optional<std::uint32_t> genus;
   Measure area;
   /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
    * NaN where it is open. */
@@ -110,7 +113,7 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
   std::vector<TriangleIntersection> intersections; ///< if asked for: ascending
 };
 
-/** \brief Area, volume, moments and integrals of meshes.
+/** \brief Area, volume, moments and integrals of meshes, and of points with normals.
  *
  * \code
  * pcl_uvol::SurfaceMeasures measures;
@@ -126,6 +129,13 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * theorem. The error of a figure adds up what all vertices may be off by, as though all
  * were off to one side, and what the bent triangles leave out; that is the larger part
  * without normals.
+ *
+ * Without triangles a surface is measured by those that its points would have in a
+ * Delaunay triangulation of their tangent planes, of which each counts its Voronoi
+ * cell: within 2e-5 on spheres and tori of 15,000 isopoints, and within 5e-4 of 2,500.
+ * What lies inside is not looked at, and handles are not counted. A mesh is more
+ * accurate.
+ *
  * Where caps meet the surface, or one another, triangles cut the corner, which counts
  * as an error as well.
  *
@@ -159,8 +169,9 @@ public:
    *
    * Warnings of the report name pieces that are open, whose volume is not known,
    * figures with large errors, a surface that looks inwards, and triangles that
-   * intersect. \throws InvalidArgument without a surface or triangles, for a vertex
-   * that is not finite or not there, and for triangles that are no oriented manifold */
+   * intersect. \throws InvalidArgument without a surface, for a vertex of a triangle
+   * that is not finite or not there, for triangles that are no oriented manifold, and
+   * without triangles for points that have no normals, or with samples */
   SurfaceFigures
   compute();
 
