@@ -55,6 +55,10 @@ PipelineOptions::declare(Options& options)
   options.flag("drop-bridged",
                parameters.drop_bridged,
                "leave out isopoints in gaps of the sampling");
+  options.flag("fill-gaps",
+               parameters.fill_gaps,
+               "predict samples between lines or sheets of samples by kriging, up to "
+               "the range of the variogram, and extract from both");
   options.integer(
       "validate",
       parameters.validation.folds,
@@ -98,7 +102,7 @@ PipelineOptions::needsAllSamples() const
 {
   return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
-         parameters.validation.folds > 0 || parameters.mesh ||
+         parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
          parameters.isosurface.neighbors == NeighborSource::Voronoi ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
@@ -125,7 +129,7 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
-        "auto, -validate, -mesh, "
+        "auto, -validate, -fill-gaps, -mesh, "
         "-neighbors voronoi and derivatives as fields, which need all samples in "
         "memory.");
   if (!parameters.mesh)
