@@ -46,6 +46,10 @@ constexpr double farthest_gaps = 4.0;
  * these. */
 constexpr double crossing_edge = 8.0;
 
+/** Of the isopoints: samples all around leave a few beside some emptiness, which are no
+ * gaps. */
+constexpr double least_gaps = 0.1;
+
 using Place = std::array<double, 3>;
 
 Position
@@ -217,12 +221,12 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
   const auto support = field_->interpolate(places, threads, own).support;
   const auto thin = findThin(places, threads, nullptr);
   const CloudView cloud = viewOf(samples_->cloud);
-  bool has_gaps = false;
+  std::size_t in_gaps = 0;
   std::vector<double> lengths;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (thin[i] == 0 && support[i] == FieldSupport::Measured)
       continue;
-    has_gaps = true;
+    ++in_gaps;
     const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edges[i].first)),
         b(cloud.xyz(edges[i].second));
     const double length = ((b - a) * parameters.scale).matrix().cast<double>().norm();
@@ -230,9 +234,11 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
       lengths.push_back(length);
   }
   double width = 0.0;
-  if (has_gaps && std::isfinite(sampling_.across))
+  if (static_cast<double>(in_gaps) < least_gaps * static_cast<double>(roots.size()))
+    lengths.clear();
+  else if (std::isfinite(sampling_.across))
     width = static_cast<double>(sampling_.across);
-  else if (!lengths.empty()) {
+  if (width == 0.0 && !lengths.empty()) {
     std::sort(lengths.begin(), lengths.end());
     width = lengths[lengths.size() / 4];
   }

@@ -18,6 +18,9 @@ constexpr double slope_step = 1.0;
  * reaches across a gap. */
 constexpr double longest_edge = 2.0;
 
+/** Of the variance: where less is explained, most of a value is chance. */
+constexpr float least_confidence = 0.5f;
+
 /** A place, and those to both sides along the axes. */
 constexpr std::size_t star = 7;
 
@@ -54,6 +57,32 @@ slopeAt(const InterpolatedFields& field,
         (2.0 * step);
   const double length = gradient.matrix().norm();
   return {gradient / length, length, (isovalue - field.values[first]) / length};
+}
+
+/** Says so where the samples explain less than half of the variance at most isopoints
+ * between predicted ones. */
+void
+warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
+            const std::vector<float>& confidence,
+            Report& report)
+{
+  std::vector<float> of_predicted;
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    if (isopoints[i].support == static_cast<std::uint8_t>(IsoSupport::Predicted))
+      of_predicted.push_back(confidence[i]);
+  if (of_predicted.empty())
+    return;
+  const auto middle =
+      of_predicted.begin() + static_cast<std::ptrdiff_t>(of_predicted.size() / 2);
+  std::nth_element(of_predicted.begin(), middle, of_predicted.end());
+  if (*middle >= least_confidence)
+    return;
+  report.warnings.push_back(
+      "Between the samples the surface is a guess: at half of the isopoints there, "
+      "kriging explains no more than " +
+      std::to_string(static_cast<int>(100.0f * *middle)) +
+      " % of the variance (field confidence). A hold-out test tells how good it is "
+      "(-validate).");
 }
 
 } // namespace
@@ -140,6 +169,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   };
   choice.filter(isopoints, keep);
   report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
+  warnOfDoubt(isopoints, choice.confidence, report);
 }
 
 } // namespace pcl_uvol::detail

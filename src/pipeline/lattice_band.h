@@ -4,6 +4,8 @@
 // anywhere.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +28,7 @@ struct NodeValue {
 };
 
 /** \brief Follows isosurfaces and collects the nodes around them. */
-class LatticeBand {
+class PCL_UVOL_EXPORTS LatticeBand {
 public:
   /** \brief Tells the field at some nodes, in their order. */
   using Evaluate =
