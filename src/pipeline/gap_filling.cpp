@@ -50,6 +50,9 @@ constexpr double crossing_edge = 8.0;
  * gaps. */
 constexpr double least_gaps = 0.1;
 
+/** Beyond it along an axis, which takes a stray sample, no surface is followed. */
+constexpr double farthest_node = (1 << 20) - 4;
+
 using Place = std::array<double, 3>;
 
 Position
@@ -95,10 +98,13 @@ public:
   nodeAt(const PointIso& point) const
   {
     LatticeNode node;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      node[axis] = static_cast<std::int32_t>(std::floor(
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double steps =
           (static_cast<double>(point.data[axis]) * factor(axis) - origin_[axis]) /
-          spacing_));
+          spacing_;
+      node[axis] =
+          static_cast<std::int32_t>(std::clamp(std::floor(steps), 0.0, farthest_node));
+    }
     return node;
   }
 
