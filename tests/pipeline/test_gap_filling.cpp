@@ -215,8 +215,11 @@ TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
       uvol_test::runPipeline(samples, makeParameters(true)).report.warnings.empty());
   uvol_test::Random random(9);
   std::vector<float> noise;
-  for (std::size_t i = 0; i < samples->cloud.width; ++i)
-    noise.push_back(static_cast<float>(random.uniform() - 0.5));
+  const CloudView view = viewOf(samples->cloud);
+  const ScalarField height(view.fields, "intensity");
+  for (std::size_t i = 0; i < view.count; ++i)
+    noise.push_back(static_cast<float>(height.read(view.point(i)) +
+                                       4.0 * (random.uniform() - 0.5)));
   setField(*samples, "intensity", noise);
   const auto result = uvol_test::runPipeline(samples, makeParameters(true));
   std::string all;
