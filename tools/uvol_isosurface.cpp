@@ -108,6 +108,27 @@ describeValidation(const pcl_uvol::ValidationScore& score,
                          {"side_beyond_error", number(score.side_beyond_error)}})};
 }
 
+Fact
+describeGaps(const pcl_uvol::GapFilling& gaps)
+{
+  std::ostringstream text;
+  text.precision(3);
+  if (gaps.predicted == 0)
+    text << "none found to fill";
+  else
+    text << gaps.predicted << " samples predicted, " << gaps.spacing
+         << " apart, up to the range " << gaps.range
+         << " of a spherical variogram (nugget " << gaps.nugget << ", sill "
+         << gaps.sill << ")";
+  return {"gaps",
+          text.str(),
+          Fact::Members{{"predicted", {static_cast<double>(gaps.predicted)}},
+                        {"spacing", {gaps.spacing}},
+                        {"range", {gaps.range}},
+                        {"nugget", {gaps.nugget}},
+                        {"sill", {gaps.sill}}}};
+}
+
 /** As MemoryGuard::describe() for a run within a bound. */
 Fact
 describeBound(const Options& options, const Arguments& arguments)
@@ -362,6 +383,8 @@ run(int argc, char** argv)
       describeErrors(result.errors)};
   if (result.sampling)
     facts.push_back(uvol_tools::describeSampling(*result.sampling));
+  if (result.gaps)
+    facts.push_back(describeGaps(*result.gaps));
   const auto of_isovalue = [&](std::size_t i) {
     return isovalues.size() > 1 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
                                 : "";

@@ -175,8 +175,8 @@ class Extractor:
 
     def extract(self, *, iso, field="", scale=(1.0, 1.0, 1.0), outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
-                normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, validate=0,
-                validate_by="random", mesh=False, threads=0, progress=None):
+                normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
+                validate=0, validate_by="random", mesh=False, threads=0, progress=None):
         """Extract the isosurfaces of a field: see `isosurface`.
 
         Returns
@@ -204,6 +204,7 @@ class Extractor:
             "normal_neighbors": normal_neighbors,
             "max_error": max_error,
             "drop_bridged": drop_bridged,
+            "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
             "mesh": dict(mesh) if isinstance(mesh, dict) else ({} if mesh else None),
         }
@@ -270,6 +271,11 @@ def isosurface(points, fields=None, **options):
         Leave out isopoints of a larger estimated error, in units of length.
     drop_bridged : bool
         Leave out isopoints in gaps of the sampling.
+    fill_gaps : bool
+        Predict samples between lines or sheets of samples by kriging, up to the range of
+        the variogram, and extract from both: isopoints there have support 4, their
+        `error` is the standard deviation over the slope, and `confidence` the part of
+        the variance that the samples explain. `report["gaps"]` tells what was done.
     validate : int
         Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
         or the name of a field.

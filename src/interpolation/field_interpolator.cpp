@@ -352,6 +352,24 @@ FieldInterpolator::interpolate(const QueryLattice& lattice,
     group.model->tell(report);
 }
 
+std::optional<Variogram>
+FieldInterpolator::findVariogram(std::size_t field) const
+{
+  for (const Group& group : groups_)
+    for (std::size_t f = 0; f < group.fields.size(); ++f)
+      if (group.fields[f] == field) {
+        const Variogram* const found = group.model->findVariogram(f);
+        if (!found)
+          break;
+        const double factor = group.frames[f].factor * group.frames[f].factor;
+        return Variogram{found->kind,
+                         found->nugget / factor,
+                         found->sill / factor,
+                         group.sampled.samples->getUnit().toInput(found->range)};
+      }
+  return std::nullopt;
+}
+
 std::vector<std::array<double, 3>>
 placesOf(const CloudView& cloud)
 {

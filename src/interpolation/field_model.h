@@ -13,6 +13,8 @@
 
 namespace pcl_uvol::detail {
 
+struct Variogram;
+
 /** \brief Samples and the fields there. */
 struct SampledFields {
   SampleSet::ConstPtr samples;
@@ -51,6 +53,14 @@ public:
   evaluate(const Query* queries,
            std::size_t count,
            const Estimates& estimates) const = 0;
+
+  /** \brief The variogram of a field, in the space of the samples and in the field's
+   * frame; null where the model has none. */
+  virtual const Variogram*
+  findVariogram(std::size_t) const
+  {
+    return nullptr;
+  }
 
   /** \brief Add what the user should know of all answers so far. */
   virtual void

@@ -33,12 +33,11 @@ public:
   void
   tell(Report& report) const override;
 
-  /** \brief Of every field, in the space of the samples after the metric, and in the
-   * field's frame. */
-  const std::vector<Variogram>&
-  getVariograms() const
+  /** \brief After the metric. */
+  const Variogram*
+  findVariogram(std::size_t field) const override
   {
-    return variograms_;
+    return &variograms_[field];
   }
 
 private:

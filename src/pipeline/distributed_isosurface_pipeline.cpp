@@ -30,6 +30,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");
+  if (parameters.fill_gaps)
+    throw InvalidArgument(
+        "Gaps are not filled in samples of several processes: no one sees them all.");
   if (parameters.validation.folds > 0)
     throw InvalidArgument(
         "A hold-out test is not offered for samples of several processes.");

@@ -115,10 +115,10 @@ runPipelineOutOfCore(PointSource& points,
 {
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
-      parameters.validation.folds > 0 ||
+      parameters.fill_gaps || parameters.validation.folds > 0 ||
       parameters.isosurface.neighbors != NeighborSource::KdTree)
     throw InvalidArgument(
-        "Level sets, an automatic scale, hold-out tests, meshes and "
+        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps and "
         "neighbours from Voronoi diagrams need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;

@@ -5,7 +5,7 @@
 #include "common/scalar_field.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
-#include <pcl_uvol/interpolation/field_interpolation.h>
+#include "pipeline/gap_filling.h"
 
 #include <pcl/conversions.h>
 
@@ -28,10 +28,6 @@ constexpr std::size_t spacing_samples = 6;
 
 /** Local spacings from the surface up to which a sample has a side of it. */
 constexpr double covered_spacings = 2.0;
-
-/** Samples that the field at a place is kriged from, an eighth from each octant: the
- * nearest ones may all lie on one line. */
-constexpr std::size_t kriged_samples = 16;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -130,20 +126,14 @@ interpolateLeftOut(const CloudView& cloud,
                    const IsosurfaceParameters& isosurface,
                    unsigned threads)
 {
-  InterpolationParameters parameters;
-  parameters.fields = {isosurface.field};
-  parameters.model = InterpolationModel::Kriging;
-  parameters.kriging.octants = true;
-  parameters.kriging.k = kriged_samples;
-  parameters.gradients = parameters.errors = false;
-  parameters.scale = isosurface.scale;
   std::vector<std::array<double, 3>> places;
   for (const int index : division.left_out) {
     const float* const xyz = cloud.xyz(static_cast<std::size_t>(index));
     places.push_back({xyz[0], xyz[1], xyz[2]});
   }
   Report report;
-  return detail::FieldInterpolator(cloud, division.rest, parameters, threads, report)
+  return detail::FieldInterpolator(
+             cloud, division.rest, detail::gapKriging(isosurface), threads, report)
       .interpolate(places, threads, report)
       .values;
 }

@@ -258,10 +258,14 @@ judgeSurface(const Surface& surface,
 } // namespace
 
 void
-IsopointChoice::addFields(Dataset& surface) const
+IsopointChoice::addFields(bool is_chosen, Dataset& surface) const
 {
-  setField(surface, "method", toNumbers(method));
-  setField(surface, "orientation", toNumbers(orientation));
+  if (is_chosen) {
+    setField(surface, "method", toNumbers(method));
+    setField(surface, "orientation", toNumbers(orientation));
+  }
+  if (!confidence.empty())
+    setField(surface, "confidence", confidence);
 }
 
 IsosurfaceParameters

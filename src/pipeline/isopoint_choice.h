@@ -21,6 +21,7 @@ namespace pcl_uvol {
 struct IsopointChoice {
   std::vector<IsoMethod> method;
   std::vector<IsoOrientation> orientation;
+  std::vector<float> confidence; ///< empty where no gaps were to be filled
 
   /** \brief Leave only what filterIsopoints will leave. */
   template <typename Keep>
@@ -30,16 +31,21 @@ struct IsopointChoice {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < isopoints.size(); ++i)
       if (keep(isopoints[i])) {
+        if (!confidence.empty())
+          confidence[kept] = confidence[i];
         method[kept] = method[i];
         orientation[kept++] = orientation[i];
       }
     method.resize(kept);
     orientation.resize(kept);
+    if (!confidence.empty())
+      confidence.resize(kept);
   }
 
-  /** \brief Add the fields `method` and `orientation`. */
+  /** \brief Add the fields `method` and `orientation`, if isopoints were chosen one by
+   * one, and `confidence`, if there is any. */
   void
-  addFields(Dataset& surface) const;
+  addFields(bool is_chosen, Dataset& surface) const;
 };
 
 /** \brief What an extraction has to do so that isopoints can be chosen: bounds of the

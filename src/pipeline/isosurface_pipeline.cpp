@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
 #include "neighbors/sampling.h"
+#include "pipeline/gap_filling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/zero_level.h"
@@ -56,13 +57,16 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsopointChoice& choice,
               Report& report)
 {
-  std::size_t guesses = 0, known = 0;
+  std::size_t guesses = 0, known = 0, predicted = 0;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     const auto support = static_cast<IsoSupport>(isopoints[i].support);
     known += support != IsoSupport::Unknown;
+    predicted += support == IsoSupport::Predicted;
     guesses += support == IsoSupport::Bridged || support == IsoSupport::Rim ||
                choice.orientation[i] == IsoOrientation::Bisector;
   }
+  if (predicted > 0)
+    report.count("predicted", predicted);
   if (2 * guesses <= known || known == 0)
     return;
   report.warnings.push_back(
@@ -70,7 +74,8 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
       " % of the isopoints lie between lines of samples or beside gaps: where the "
       "surface crosses a line is known, how it runs from there is a guess. A hold-out "
       "test tells how good it is, a scale that fits the samples may help, bridged "
-      "isopoints can go (-validate, -scale, -drop-bridged).");
+      "isopoints can go, gaps can be filled by kriging (-validate, -scale, "
+      "-drop-bridged, -fill-gaps).");
 }
 
 /** Isopoints follow one another by isovalue. */
@@ -177,10 +182,142 @@ IsosurfacePipeline::resolveParameters() const
   return parameters;
 }
 
+namespace {
+
+/** Float holds some isovalues, such as 3e50, as infinite or as zero: the field of that
+ * name is double then. \param isopoints one per point of the surface */
+void
+keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
+              const std::vector<double>& isovalues,
+              Dataset& surface,
+              Report& report)
+{
+  const auto is_held = [](double isovalue) {
+    const auto rounded = static_cast<float>(isovalue);
+    return std::isfinite(rounded) && (rounded != 0.0f || isovalue == 0.0);
+  };
+  if (std::all_of(isovalues.begin(), isovalues.end(), is_held))
+    return;
+  std::map<float, double> by_rounded;
+  for (const double isovalue : isovalues)
+    if (!by_rounded.emplace(static_cast<float>(isovalue), isovalue).second)
+      report.warnings.push_back(
+          "Isovalues that are equal in float cannot be told apart by the field "
+          "isovalue: extract them one at a time.");
+  std::vector<double> values;
+  for (const PointIso& point : isopoints)
+    values.push_back(by_rounded.at(point.isovalue));
+  setField(surface, "isovalue", values);
+}
+
+/** See finishIsosurface. \param gaps of the samples; null if they were not filled */
+IsosurfaceResult
+finish(const Dataset& samples,
+       pcl::PointCloud<PointIso>&& isopoints,
+       IsoEdges&& edges,
+       const IsosurfacePipelineParameters& parameters,
+       const detail::FilledGaps* gaps,
+       unsigned threads,
+       Report&& report)
+{
+  const CloudView view = viewOf(samples.cloud);
+  IsopointChoice choice =
+      chooseIsopoints(view, edges, parameters, threads, isopoints, report);
+  if (gaps)
+    gaps->judge(parameters, threads, isopoints, edges, choice, report);
+  if (!parameters.mesh) // which tells of its caps and folds itself
+    warnOfGuesses(isopoints, choice, report);
+  dropIsopoints(isopoints, edges, choice, parameters, report);
+  report.setCount("isopoints", isopoints.size());
+  IsosurfaceResult result;
+  result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
+  result.surface.origin = samples.origin;
+  result.surface.double_coordinates = samples.double_coordinates;
+  {
+    const StepTimer timer(report, "fields");
+    pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
+    keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
+    choice.addFields(parameters.isosurface.interpolation == Interpolation::Auto,
+                     result.surface);
+    warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
+    interpolateFields(view, edges, result.surface.cloud, threads);
+  }
+  result.edges = std::move(edges);
+  result.field = parameters.isosurface.field;
+  result.scale = parameters.isosurface.scale;
+  result.errors = summarizeErrors(isopoints);
+  result.report = std::move(report);
+  return result;
+}
+
+} // namespace
+
+IsosurfaceResult
+finishIsosurface(const Dataset& samples,
+                 pcl::PointCloud<PointIso>&& isopoints,
+                 IsoEdges&& edges,
+                 const IsosurfacePipelineParameters& parameters,
+                 unsigned threads,
+                 Report&& report)
+{
+  return finish(samples,
+                std::move(isopoints),
+                std::move(edges),
+                parameters,
+                nullptr,
+                threads,
+                std::move(report));
+}
+
+pcl::Indices
+IsosurfacePipeline::listPoints() const
+{
+  if (indices_)
+    return *indices_;
+  pcl::Indices all(samples_->cloud.width);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+IsosurfaceResult
+IsosurfacePipeline::runFilled()
+{
+  IsosurfacePipelineParameters parameters = parameters_;
+  parameters.isosurface = resolveParameters();
+  parameters.automatic_scale = false; // it is filled in now
+  startReport();
+  if (parameters.validation.folds > 0) // a field that is none fails early
+    makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
+  const detail::FilledGaps gaps(
+      samples_, listPoints(), parameters.isosurface, threads_, report_);
+  IsosurfacePipeline of_filled;
+  of_filled.gaps_ = &gaps;
+  of_filled.setInput(gaps.getSamples());
+  of_filled.setIndices(gaps.getIndices());
+  of_filled.setNumberOfThreads(threads_);
+  of_filled.setProgressCallback(report_.progress);
+  IsosurfacePipelineParameters of_result = parameters;
+  of_result.fill_gaps = false;
+  of_result.validation = {};
+  of_filled.setParameters(of_result);
+  IsosurfaceResult result = of_filled.run();
+  report_.merge(result.report);
+  result.report = std::move(report_);
+  result.gaps = gaps.getSummary();
+  if (!parameters.smooth && !parameters.mesh)
+    result.sampling = gaps.getSampling();
+  if (parameters.validation.folds > 0)
+    result.validation = validate(parameters, result.report);
+  report_ = result.report;
+  return result;
+}
+
 IsosurfaceResult
 IsosurfacePipeline::run()
 {
   checkParameters(parameters_);
+  if (parameters_.fill_gaps)
+    return runFilled();
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.isosurface = resolveParameters();
   startReport();
@@ -194,12 +331,13 @@ IsosurfacePipeline::run()
   SurfaceTriangles found = parameters.smooth
                                ? extractLevelSets(parameters.isosurface, level_sets)
                                : extract(withErrors(parameters), report_);
-  IsosurfaceResult result = finishIsosurface(*samples_,
-                                             std::move(found.vertices),
-                                             std::move(found.edges),
-                                             parameters,
-                                             threads_,
-                                             std::move(report_));
+  IsosurfaceResult result = finish(*samples_,
+                                   std::move(found.vertices),
+                                   std::move(found.edges),
+                                   parameters,
+                                   gaps_,
+                                   threads_,
+                                   std::move(report_));
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);
     setField(result.surface,
@@ -210,7 +348,7 @@ IsosurfacePipeline::run()
     result.smallest_angle = found.smallest_angle;
   }
   result.level_sets = std::move(level_sets);
-  if (!parameters.smooth && !parameters.mesh) {
+  if (!parameters.smooth && !parameters.mesh && !gaps_) {
     const StepTimer timer(result.report, "sampling");
     result.sampling = summarizeSampling(*extraction_.getSamples(), threads_);
   }
@@ -242,19 +380,13 @@ mergeLater(Report& report, Report stage)
 SurfaceTriangles
 IsosurfacePipeline::extract(const IsosurfaceParameters& parameters, Report& report)
 {
-  if (parameters_.mesh) {
-    pcl::Indices all;
-    if (!indices_) {
-      all.resize(samples_->cloud.width);
-      std::iota(all.begin(), all.end(), 0);
-    }
+  if (parameters_.mesh)
     return detail::makeSurfaceMesh(viewOf(samples_->cloud),
-                                   indices_ ? *indices_ : all,
+                                   listPoints(),
                                    {parameters, *parameters_.mesh},
                                    parameters.isovalues,
                                    threads_,
                                    report);
-  }
   extraction_.setParameters(parameters);
   extraction_.setNumberOfThreads(threads_);
   extraction_.setProgressCallback(report.progress);
@@ -343,16 +475,10 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
                              Report& report) const
 {
   const CloudView cloud = viewOf(samples_->cloud);
-  pcl::Indices use;
-  if (indices_)
-    use = *indices_;
-  else
-    for (std::size_t i = 0; i < cloud.count; ++i)
-      use.push_back(static_cast<int>(i));
   const Folds folds = makeFolds(cloud, parameters.validation, threads_);
   std::vector<ValidationScore> scores;
   for (const auto& of_isovalue :
-       holdOut(samples_, use, parameters, folds, threads_, report))
+       holdOut(samples_, listPoints(), parameters, folds, threads_, report))
     scores.push_back(scoreHeldOut(of_isovalue));
   if (std::any_of(scores.begin(), scores.end(), [](const ValidationScore& score) {
         return score.side.predicted < score.side.base;
@@ -362,72 +488,6 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
         "by "
         "the surface than by always saying the same: it does not follow the field.");
   return scores;
-}
-
-namespace {
-
-/** Float holds some isovalues, such as 3e50, as infinite or as zero: the field of that
- * name is double then. \param isopoints one per point of the surface */
-void
-keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
-              const std::vector<double>& isovalues,
-              Dataset& surface,
-              Report& report)
-{
-  const auto is_held = [](double isovalue) {
-    const auto rounded = static_cast<float>(isovalue);
-    return std::isfinite(rounded) && (rounded != 0.0f || isovalue == 0.0);
-  };
-  if (std::all_of(isovalues.begin(), isovalues.end(), is_held))
-    return;
-  std::map<float, double> by_rounded;
-  for (const double isovalue : isovalues)
-    if (!by_rounded.emplace(static_cast<float>(isovalue), isovalue).second)
-      report.warnings.push_back(
-          "Isovalues that are equal in float cannot be told apart by the field "
-          "isovalue: extract them one at a time.");
-  std::vector<double> values;
-  for (const PointIso& point : isopoints)
-    values.push_back(by_rounded.at(point.isovalue));
-  setField(surface, "isovalue", values);
-}
-
-} // namespace
-
-IsosurfaceResult
-finishIsosurface(const Dataset& samples,
-                 pcl::PointCloud<PointIso>&& isopoints,
-                 IsoEdges&& edges,
-                 const IsosurfacePipelineParameters& parameters,
-                 unsigned threads,
-                 Report&& report)
-{
-  const CloudView view = viewOf(samples.cloud);
-  IsopointChoice choice =
-      chooseIsopoints(view, edges, parameters, threads, isopoints, report);
-  if (!parameters.mesh) // which tells of its caps and folds itself
-    warnOfGuesses(isopoints, choice, report);
-  dropIsopoints(isopoints, edges, choice, parameters, report);
-  report.setCount("isopoints", isopoints.size());
-  IsosurfaceResult result;
-  result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
-  result.surface.origin = samples.origin;
-  result.surface.double_coordinates = samples.double_coordinates;
-  {
-    const StepTimer timer(report, "fields");
-    pcl::toPCLPointCloud2(isopoints, result.surface.cloud);
-    keepIsovalues(isopoints, parameters.isosurface.isovalues, result.surface, report);
-    if (parameters.isosurface.interpolation == Interpolation::Auto)
-      choice.addFields(result.surface);
-    warnOfReplacedFields(view.fields, result.surface.cloud.fields, report);
-    interpolateFields(view, edges, result.surface.cloud, threads);
-  }
-  result.edges = std::move(edges);
-  result.field = parameters.isosurface.field;
-  result.scale = parameters.isosurface.scale;
-  result.errors = summarizeErrors(isopoints);
-  result.report = std::move(report);
-  return result;
 }
 
 } // namespace pcl_uvol

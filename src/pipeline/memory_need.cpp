@@ -3,6 +3,7 @@
 
 #include "levelset/memory_need.h"
 #include "neighbors/exact_neighbors.h"
+#include "pipeline/gap_filling.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -16,6 +17,10 @@ namespace {
 /** A mesh has twice as many vertices as there are isopoints before it is remeshed, each
  * with two triangles, their neighbours and the cells beside it. */
 constexpr double mesh_bytes_per_isopoint = 1500.0;
+
+/** A node of the lattice that gaps are filled on: in tables, as a sample of the
+ * surface, and in a tree; as many as there may be. */
+constexpr double bytes_per_gap_node = 300.0;
 
 /** One surface after the other from a level set of its own; isopoints remain. */
 void
@@ -45,6 +50,9 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
   surfaces.resize(parameters.isosurface.isovalues.size());
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     forecast.hold(ExactNeighbors::bytesPerSample() * points);
+  if (parameters.fill_gaps) // a copy of the samples with more behind them
+    forecast.hold(point_step * points +
+                  bytes_per_gap_node * static_cast<double>(detail::most_gap_nodes));
   if (parameters.smooth)
     addLevelSets(parameters.level_set, surfaces, points, forecast);
   else

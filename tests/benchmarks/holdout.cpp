@@ -222,12 +222,15 @@ struct Method {
   const char* name;
   Interpolation interpolation;
   NormalMethod normals;
+  bool fill_gaps = false;
 };
 
-const Method methods[] = {{"auto", Interpolation::Auto, NormalMethod::Auto},
-                          {"fit", Interpolation::Fit, NormalMethod::Fit},
-                          {"linear, edge", Interpolation::Linear, NormalMethod::Edge},
-                          {"linear, pca", Interpolation::Linear, NormalMethod::Pca}};
+const Method methods[] = {
+    {"auto, filled", Interpolation::Auto, NormalMethod::Auto, true},
+    {"auto", Interpolation::Auto, NormalMethod::Auto},
+    {"fit", Interpolation::Fit, NormalMethod::Fit},
+    {"linear, edge", Interpolation::Linear, NormalMethod::Edge},
+    {"linear, pca", Interpolation::Linear, NormalMethod::Pca}};
 
 void
 printCase(const Case& data, std::size_t folds_at_most)
@@ -255,6 +258,7 @@ printCase(const Case& data, std::size_t folds_at_most)
   for (const Method& method : methods) {
     parameters.isosurface.interpolation = method.interpolation;
     parameters.normals = method.normals;
+    parameters.fill_gaps = method.fill_gaps;
     pcl_uvol::Report report;
     const auto told =
         pcl_uvol::holdOut(samples, all, parameters, folds, 0, report).front();

@@ -56,6 +56,10 @@ PipelineOptions::declare(Options& options)
   options.flag("drop-bridged",
                parameters.drop_bridged,
                "leave out isopoints in gaps of the sampling");
+  options.flag("fill-gaps",
+               parameters.fill_gaps,
+               "predict samples between lines or sheets of samples by kriging, up to "
+               "the range of the variogram, and extract from both");
   options.integer(
       "validate",
       parameters.validation.folds,
@@ -100,8 +104,8 @@ PipelineOptions::needsAllSamples() const
 {
   return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
-         parameters.validation.folds > 0 || parameters.mesh || mesh_.isMeasured() ||
-         parameters.isosurface.neighbors != NeighborSource::KdTree ||
+         parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
+         mesh_.isMeasured() || parameters.isosurface.neighbors != NeighborSource::KdTree ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
 }
@@ -127,9 +131,8 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
-        "auto, -validate, -mesh, -measure, "
-        "-neighbors voronoi or exact and derivatives as fields, which need all samples "
-        "in "
+        "auto, -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact and "
+        "derivatives as fields, which need all samples in "
         "memory.");
   if (!parameters.mesh)
     return;

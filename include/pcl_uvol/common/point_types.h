@@ -19,7 +19,8 @@ enum class IsoSupport : std::uint8_t {
   Unknown = 0,  ///< not examined: linear interpolation
   Measured = 1, ///< samples all around
   Bridged = 2,  ///< in a gap of the sampling that its edge reaches across
-  Rim = 3       ///< beside a wide cone without samples: border of a gap or of the cloud
+  Rim = 3,      ///< beside a wide cone without samples: border of a gap or of the cloud
+  Predicted = 4 ///< in a gap that was filled with predicted samples, see GapFilling
 };
 
 /** \brief One point of an isosurface. Lengths are in units of the coordinates.

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ namespace pcl_uvol {
 namespace detail {
 
 struct QueryLattice;
+struct Variogram;
 
 /** \brief Of the queries of a lattice so many are answered at a time. */
 constexpr std::size_t lattice_block = std::size_t{1} << 18;
@@ -63,6 +65,11 @@ public:
               unsigned threads,
               Report& report,
               const TakeAnswers& take) const;
+
+  /** \brief The variogram of a field, in its units and those of the stretched space;
+   * none where the model has none. */
+  std::optional<Variogram>
+  findVariogram(std::size_t field) const;
 
   /** \brief The fields, in the order of the answers. */
   const std::vector<std::string>&

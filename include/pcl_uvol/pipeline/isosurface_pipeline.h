@@ -61,6 +61,25 @@ struct ValidationScore {
   /** @} */
 };
 
+/** \brief How gaps of the sampling were filled: around the isosurfaces, by samples that
+ * ordinary kriging predicts. Lengths are in units of the stretched space.
+ *
+ * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
+ * deviation of the kriging over the slope of the kriged field, and `confidence` the
+ * part of the field's variance that the samples explain there: 1 - deviation^2 /
+ * (nugget + sill), 1 for all other isopoints. */
+struct GapFilling {
+  std::size_t predicted = 0; ///< samples; 0: there was no gap
+  double spacing = 0.0;      ///< between them
+  /** Of the spherical variogram; no predicted sample is farther from a measured one. */
+  double range = 0.0;
+  double nugget = 0.0, sill = 0.0; ///< of the variogram, in squared units of the field
+};
+
+namespace detail {
+class FilledGaps;
+}
+
 /** \brief What comes out. */
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
@@ -71,9 +90,10 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    * among pieces, and `cap`, 1 where a vertex closes the samples' box. */
   Dataset surface;
   std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
-  std::vector<SurfacePiece> pieces;   ///< with a mesh: see SurfaceTriangles
-  double smallest_angle = 0.0;        ///< with a mesh: of all triangles, in degrees
-  IsoEdges edges;                     ///< one per isopoint, indices into the samples
+  std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
+  double smallest_angle = 0.0;      ///< with a mesh: of all triangles, in degrees
+  IsoEdges edges;                   ///< one per isopoint, indices into the samples;
+                                    ///< those beyond the last one are predicted samples
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
@@ -84,6 +104,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** What the samples are like in the stretched space; none with a level set or a mesh,
    * and where they are not in memory all at once. */
   std::optional<SamplingSummary> sampling;
+  std::optional<GapFilling> gaps;          ///< if they were to be filled
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
   /** Counts, times and warnings of IsosurfaceExtraction or SurfaceMesh,
    * LevelSetEvolution and SurfaceNormalEstimation, and "removed_by_error" and
@@ -147,12 +168,20 @@ private:
   extractLevelSets(const IsosurfaceParameters& parameters,
                    std::vector<LevelSetSummary>& summaries);
 
+  /** The points to take. */
+  pcl::Indices
+  listPoints() const;
+
+  IsosurfaceResult
+  runFilled();
+
   std::vector<ValidationScore>
   validate(const IsosurfacePipelineParameters& parameters, Report& report) const;
 
   std::shared_ptr<const Dataset> samples_;
   pcl::IndicesPtr indices_;
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction_;
+  const detail::FilledGaps* gaps_ = nullptr; ///< of the input, which has them filled
 };
 
 /** \brief The second half of the way, for isopoints that were extracted elsewhere, out

@@ -30,15 +30,17 @@ enum class NormalMethod {
 /** \brief How an isopoint was placed: the field `method`. */
 enum class IsoMethod : std::uint8_t {
   Linear = 1, ///< on its edge
-  Fit = 2     ///< on the zero level of a fit
+  Fit = 2,    ///< on the zero level of a fit
+  Kriging = 3 ///< on the isosurface of the kriged field, see GapFilling
 };
 
 /** \brief How an isopoint was oriented: the field `orientation`. */
 enum class IsoOrientation : std::uint8_t {
-  Edge = 1,    ///< along its edge
-  Fit = 2,     ///< by the gradient of its fit
-  Pca = 3,     ///< by principal components of the isopoints around
-  Bisector = 4 ///< between its edge and the mean of the edges of the isopoints around
+  Edge = 1,     ///< along its edge
+  Fit = 2,      ///< by the gradient of its fit
+  Pca = 3,      ///< by principal components of the isopoints around
+  Bisector = 4, ///< between its edge and the mean of the edges of the isopoints around
+  Kriging = 5   ///< by the slope of the kriged field, see GapFilling
 };
 
 constexpr std::array<EnumWord<NormalMethod>, 4>
@@ -111,6 +113,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   std::optional<double> max_error;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
+  /** Predict samples in gaps of the sampling, between lines of samples above all, and
+   * extract from both, see GapFilling. The field is one of single numbers. */
+  bool fill_gaps = false;
   ValidationParameters validation;
   /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
    * that nothing joins. */
@@ -128,6 +133,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"normal_neighbors", &Own::normal_neighbors},
                            Member{"max_error", &Own::max_error},
                            Member{"drop_bridged", &Own::drop_bridged},
+                           Member{"fill_gaps", &Own::fill_gaps},
                            Member{"validation", &Own::validation},
                            Member{"mesh", &Own::mesh});
   }

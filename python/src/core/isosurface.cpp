@@ -131,6 +131,15 @@ describe(const IsosurfaceResult& result)
     sampling["across"] = result.sampling->across;
     report["sampling"] = sampling;
   }
+  if (result.gaps) {
+    py::dict gaps;
+    gaps["predicted"] = result.gaps->predicted;
+    gaps["spacing"] = result.gaps->spacing;
+    gaps["range"] = result.gaps->range;
+    gaps["nugget"] = result.gaps->nugget;
+    gaps["sill"] = result.gaps->sill;
+    report["gaps"] = gaps;
+  }
   if (!result.pieces.empty()) {
     report["pieces"] = toList(result.pieces);
     report["smallest_angle"] = result.smallest_angle;

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/gap_filling.h"
+
+#include "common/parallel.h"
+#include "common/printable.h"
+#include "common/random.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "neighbors/nearest_finder.h"
+#include "neighbors/sampling.h"
+#include "pipeline/lattice_band.h"
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::size_t block_places = 256;
+
+/** Samples that the field between others is kriged from. */
+constexpr std::size_t kriged_samples = 16;
+
+/** Predicted samples to the width of a gap: fewer, and a hold-out test tells more of
+ * the samples left out wrongly (tests/benchmarks). */
+constexpr double samples_per_gap = 2.0;
+
+/** Of the spacing of the lattice: its nodes are moved so far along each axis, at most,
+ * since edges slip between samples on a lattice. */
+constexpr double jitter = 0.25;
+
+/** Of that spacing: no sample is predicted nearer to a measured one. */
+constexpr double nearest_part = 0.5;
+
+/** Widths of a gap that samples are predicted within of a measured one, at most: gaps
+ * are not equally wide, and beyond there is nothing but the variogram. */
+constexpr double farthest_gaps = 4.0;
+
+/** Of the spacing along lines: edges that are so many times as long reach across. Where
+ * nothing is seen to lie beside a line, the gaps are as wide as the lower quartile of
+ * these. */
+constexpr double crossing_edge = 8.0;
+
+/** Of the isopoints: samples all around leave a few beside some emptiness, which are no
+ * gaps. */
+constexpr double least_gaps = 0.1;
+
+/** Beyond it along an axis, which takes a stray sample, no surface is followed. */
+constexpr double farthest_node = (1 << 20) - 4;
+
+using Place = std::array<double, 3>;
+
+Position
+toFloat(const Place& place)
+{
+  return {{static_cast<float>(place[0]),
+           static_cast<float>(place[1]),
+           static_cast<float>(place[2])}};
+}
+
+/** Where nodes lie; lengths are those of the stretched space. */
+class Lattice {
+public:
+  Lattice(double spacing, const Eigen::Array3f& scale, const SampleSet& samples)
+      : spacing_(spacing)
+      , scale_(scale)
+  {
+    const KdTree& tree = samples.getTree();
+    const KdBox box = tree.getBox(tree.getRoot());
+    for (int axis = 0; axis < 3; ++axis)
+      origin_[static_cast<std::size_t>(axis)] =
+          samples.getUnit().toInput(static_cast<double>(box.low[axis]));
+  }
+
+  /** \brief In the original space, rounded to float as positions are. */
+  Place
+  placeOf(const LatticeNode& node) const
+  {
+    std::uint64_t hash = 0;
+    for (const std::int32_t coordinate : node)
+      hash = mixBits(hash ^ static_cast<std::uint64_t>(coordinate));
+    Place place;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double shift = jitter * (2.0 * uniformAt(hash, axis, 0) - 1.0);
+      const double stretched =
+          origin_[axis] + spacing_ * (static_cast<double>(node[axis]) + shift);
+      place[axis] = static_cast<double>(static_cast<float>(stretched / factor(axis)));
+    }
+    return place;
+  }
+
+  LatticeNode
+  nodeAt(const PointIso& point) const
+  {
+    LatticeNode node;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double steps =
+          (static_cast<double>(point.data[axis]) * factor(axis) - origin_[axis]) /
+          spacing_;
+      node[axis] =
+          static_cast<std::int32_t>(std::clamp(std::floor(steps), 0.0, farthest_node));
+    }
+    return node;
+  }
+
+private:
+  double
+  factor(std::size_t axis) const
+  {
+    return static_cast<double>(scale_[static_cast<Eigen::Index>(axis)]);
+  }
+
+  double spacing_;
+  Eigen::Array3f scale_;
+  Place origin_{};
+};
+
+/** Copy points of a cloud behind its others. */
+void
+appendCopies(const std::vector<std::uint32_t>& sources, pcl::PCLPointCloud2& cloud)
+{
+  const std::size_t before = cloud.width, step = cloud.point_step;
+  checkSize(before + sources.size(), step);
+  resizePoints(cloud, before + sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    std::copy_n(&cloud.data[sources[i] * step], step, &cloud.data[(before + i) * step]);
+}
+
+void
+checkField(const Dataset& samples, const std::string& field)
+{
+  const pcl::PCLPointField* const stored = findField(samples.cloud.fields, field);
+  if (!stored || stored->count > 1)
+    throw InvalidArgument("Gaps are filled in fields of single numbers, and " +
+                          quoteText(field) + " is none; the fields are " +
+                          describeFields(samples.cloud.fields) + ".");
+}
+
+} // namespace
+
+InterpolationParameters
+gapKriging(const IsosurfaceParameters& isosurface)
+{
+  InterpolationParameters parameters;
+  parameters.fields = {isosurface.field};
+  parameters.model = InterpolationModel::Kriging;
+  parameters.kriging.octants = true;
+  parameters.kriging.k = kriged_samples;
+  parameters.gradients = parameters.errors = false;
+  parameters.scale = isosurface.scale;
+  return parameters;
+}
+
+FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
+                       const pcl::Indices& use,
+                       const IsosurfaceParameters& parameters,
+                       unsigned threads,
+                       Report& report)
+    : samples_(samples)
+    , indices_(std::make_shared<pcl::Indices>(use))
+{
+  const StepTimer timer(report, "gaps");
+  checkField(*samples, parameters.field);
+  InterpolationParameters kriging = gapKriging(parameters);
+  kriging.extrapolate = kriging.errors = true;
+  Report own; // of samples that the extraction tells of as well
+  field_ = std::make_unique<FieldInterpolator>(
+      viewOf(samples->cloud), use, kriging, threads, own);
+  const Variogram variogram = *field_->findVariogram(0);
+  summary_.range = variogram.range;
+  summary_.nugget = variogram.nugget;
+  summary_.sill = variogram.sill;
+
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud({samples, &samples->cloud});
+  extraction.setIndices(indices_);
+  extraction.setParameters(parameters);
+  extraction.setInterpolation(Interpolation::Linear);
+  extraction.setNumberOfThreads(threads);
+  pcl::PointCloud<PointIso> roots;
+  extraction.extract(roots);
+  measured_ = extraction.getSamples();
+  sampling_ = summarizeSampling(*measured_, threads);
+  findSpacing(roots, extraction.getEdges(), parameters, threads);
+  filled_ = samples;
+  if (summary_.spacing > 0.0)
+    predict(roots, parameters, threads, report);
+}
+
+std::vector<std::uint8_t>
+FilledGaps::findThin(const std::vector<Place>& places,
+                     unsigned threads,
+                     std::vector<double>* distances) const
+{
+  std::vector<std::uint8_t> thin(places.size());
+  if (distances)
+    distances->resize(places.size());
+  const LengthUnit& unit = measured_->getUnit();
+  parallelBlocks(places.size(), block_places, threads, [&](auto begin, auto end) {
+    NearestFinder nearest(*measured_, 1);
+    SamplingFinder local(*measured_);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto row = nearest.find(unit.apply(toFloat(places[i])), 1.0f);
+      thin[i] = local.find(row.samples[0]).dimension != LocalDimension::Volume;
+      if (distances)
+        (*distances)[i] = unit.toInput(std::sqrt(static_cast<double>(row.sq_dists[0])));
+    }
+  });
+  return thin;
+}
+
+void
+FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
+                        const IsoEdges& edges,
+                        const IsosurfaceParameters& parameters,
+                        unsigned threads)
+{
+  std::vector<Place> places;
+  for (const PointIso& root : roots)
+    places.push_back({root.x, root.y, root.z});
+  Report own;
+  const auto support = field_->interpolate(places, threads, own).support;
+  const auto thin = findThin(places, threads, nullptr);
+  const CloudView cloud = viewOf(samples_->cloud);
+  std::size_t in_gaps = 0;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    if (thin[i] == 0 && support[i] == FieldSupport::Measured)
+      continue;
+    ++in_gaps;
+    const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edges[i].first)),
+        b(cloud.xyz(edges[i].second));
+    const double length = ((b - a) * parameters.scale).matrix().cast<double>().norm();
+    if (length > crossing_edge * static_cast<double>(sampling_.along))
+      lengths.push_back(length);
+  }
+  double width = 0.0;
+  if (static_cast<double>(in_gaps) < least_gaps * static_cast<double>(roots.size()))
+    lengths.clear();
+  else if (std::isfinite(sampling_.across))
+    width = static_cast<double>(sampling_.across);
+  if (width == 0.0 && !lengths.empty()) {
+    std::sort(lengths.begin(), lengths.end());
+    width = lengths[lengths.size() / 4];
+  }
+  summary_.spacing = width / samples_per_gap;
+  reach_ = std::min(summary_.range, farthest_gaps * width);
+}
+
+void
+FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
+                    const IsosurfaceParameters& parameters,
+                    unsigned threads,
+                    Report& report)
+{
+  Report own;
+  std::vector<std::pair<LatticeNode, double>> nodes;
+  for (bool is_complete = false; !is_complete;) {
+    const Lattice lattice(summary_.spacing, parameters.scale, *measured_);
+    const auto evaluate = [&](const std::vector<LatticeNode>& asked) {
+      std::vector<NodeValue> values(asked.size(), {nan, false});
+      std::vector<Place> places;
+      for (const LatticeNode& node : asked)
+        places.push_back(lattice.placeOf(node));
+      std::vector<double> distances;
+      const auto thin = findThin(places, threads, &distances);
+      std::vector<std::size_t> near;
+      std::vector<Place> near_places;
+      for (std::size_t i = 0; i < asked.size(); ++i)
+        if (distances[i] <= reach_) {
+          near.push_back(i);
+          near_places.push_back(places[i]);
+        }
+      const InterpolatedFields field = field_->interpolate(near_places, threads, own);
+      for (std::size_t j = 0; j < near.size(); ++j) {
+        const std::size_t i = near[j];
+        const bool is_gap = thin[i] != 0 || field.support[j] != FieldSupport::Measured;
+        values[i] = {field.values[j],
+                     is_gap && distances[i] >= nearest_part * summary_.spacing};
+      }
+      return values;
+    };
+    LatticeBand band(evaluate, most_gap_nodes);
+    is_complete = true;
+    auto root = roots.begin();
+    for (const double isovalue : parameters.isovalues) {
+      std::vector<LatticeNode> seeds;
+      for (; root != roots.end() && root->isovalue == static_cast<float>(isovalue);
+           ++root)
+        seeds.push_back(lattice.nodeAt(*root));
+      is_complete = is_complete && band.follow(seeds, isovalue);
+    }
+    if (is_complete)
+      nodes = band.listNodes();
+    else
+      summary_.spacing *= 2.0;
+  }
+  summary_.predicted = nodes.size();
+  if (nodes.empty())
+    return;
+  report.count("predicted_samples", nodes.size());
+
+  const Lattice lattice(summary_.spacing, parameters.scale, *measured_);
+  const ScalarField field(samples_->cloud.fields, parameters.field);
+  const CloudView cloud = viewOf(samples_->cloud);
+  std::vector<double> values(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    values[i] = field.read(cloud.point(i));
+  NearestFinder nearest(*measured_, 1);
+  std::vector<std::uint32_t> sources;
+  for (const auto& [node, value] : nodes) {
+    const Position place = toFloat(lattice.placeOf(node));
+    const auto row = nearest.find(measured_->getUnit().apply(place), 1.0f);
+    sources.push_back(measured_->getInputIndex(row.samples[0]));
+    values.push_back(value);
+    indices_->push_back(static_cast<int>(values.size() - 1));
+  }
+  auto filled = std::make_shared<Dataset>(*samples_);
+  appendCopies(sources, filled->cloud);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Place place = lattice.placeOf(nodes[i].first);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      putCoordinate(place[axis],
+                    axis,
+                    &filled->cloud.data[(cloud.count + i) * filled->cloud.point_step]);
+  }
+  setField(*filled, parameters.field, values); // double: integers hold no estimates
+  filled_ = filled;
+}
+
+} // namespace pcl_uvol::detail

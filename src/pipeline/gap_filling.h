@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples that kriging predicts where measured ones are missing, around the isosurfaces
+// that run through there, and what isopoints between them are worth.
+#pragma once
+
+#include "interpolation/variogram.h"
+#include "neighbors/sample_set.h"
+#include "pipeline/isopoint_choice.h"
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_parameters.h>
+#include <pcl_uvol/neighbors/sampling_summary.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <pcl/types.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace pcl_uvol::detail {
+
+/** \brief Nodes of the lattice that gaps are filled on, at most: a surface that needs
+ * more gets a coarser one. */
+constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
+
+/** \brief Kriging as it bridges gaps: from 16 samples, an eighth of them from each
+ * octant, since the nearest ones may all lie on one line. Without errors and gradients.
+ */
+InterpolationParameters
+gapKriging(const IsosurfaceParameters& isosurface);
+
+/** \brief The samples with those that were predicted behind them.
+ *
+ * A surface is followed from the isopoints that lack support through the kriged field,
+ * on a jittered lattice of half the spacing of the lines or sheets. The lattice's nodes
+ * around it become samples where measured ones lack, no farther from the nearest
+ * measured one than the range of the variogram and than a few of these spacings. */
+class PCL_UVOL_EXPORTS FilledGaps {
+public:
+  /** \param use the points to take
+   * \throws InvalidArgument for a field that is not one of single numbers, and as
+   * FieldInterpolation */
+  FilledGaps(const std::shared_ptr<const Dataset>& samples,
+             const pcl::Indices& use,
+             const IsosurfaceParameters& parameters,
+             unsigned threads,
+             Report& report);
+
+  /** \brief All samples; other fields of predicted ones are those of the nearest
+   * measured one. */
+  const std::shared_ptr<const Dataset>&
+  getSamples() const
+  {
+    return filled_;
+  }
+
+  /** \brief The points to take, the predicted ones among them. */
+  const pcl::IndicesPtr&
+  getIndices() const
+  {
+    return indices_;
+  }
+
+  const GapFilling&
+  getSummary() const
+  {
+    return summary_;
+  }
+
+  /** \brief The sampling of the measured ones. */
+  const SamplingSummary&
+  getSampling() const
+  {
+    return sampling_;
+  }
+
+  /** \brief Mark isopoints that rest on predicted samples and tell their errors and the
+   * confidence of all.
+   *
+   * With Interpolation::Auto, isopoints that lack support of measured samples are put
+   * onto the kriged surface, or back to their edge where this is a short one between
+   * measured samples, and have the normals of the kriged field; those that lie farther
+   * than a spacing from its surface, at edges that reach across, are removed. */
+  void
+  judge(const IsosurfacePipelineParameters& parameters,
+        unsigned threads,
+        pcl::PointCloud<PointIso>& isopoints,
+        IsoEdges& edges,
+        IsopointChoice& choice,
+        Report& report) const;
+
+private:
+  class Places;
+
+  void
+  findSpacing(const pcl::PointCloud<PointIso>& roots,
+              const IsoEdges& edges,
+              const IsosurfaceParameters& parameters,
+              unsigned threads);
+
+  void
+  predict(const pcl::PointCloud<PointIso>& roots,
+          const IsosurfaceParameters& parameters,
+          unsigned threads,
+          Report& report);
+
+  /** Whether a place may lie in a gap: its nearest measured sample is one of a line or
+   * a sheet, or alone. */
+  std::vector<std::uint8_t>
+  findThin(const std::vector<std::array<double, 3>>& places,
+           unsigned threads,
+           std::vector<double>* distances) const;
+
+  std::shared_ptr<const Dataset> samples_, filled_;
+  pcl::IndicesPtr indices_;
+  SampleSet::ConstPtr measured_;
+  SamplingSummary sampling_;
+  std::unique_ptr<FieldInterpolator> field_;
+  double reach_ = 0.0; ///< from the nearest measured sample
+  GapFilling summary_;
+};
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isopoints between samples some of which kriging has predicted.
+#include "pipeline/gap_filling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl_uvol::detail {
+
+namespace {
+
+/** Of the spacing of predicted samples: slopes of the kriged field are those between
+ * places so far to both sides, since its gradient jumps at samples. */
+constexpr double slope_step = 1.0;
+
+/** Spacings of predicted samples: an edge between measured samples that is longer
+ * reaches across a gap. */
+constexpr double longest_edge = 2.0;
+
+/** Of the variance: where less is explained, most of a value is chance. */
+constexpr float least_confidence = 0.5f;
+
+/** A place, and those to both sides along the axes. */
+constexpr std::size_t star = 7;
+
+using Eigen::Array3d;
+
+Array3d
+rootOf(const CloudView& cloud, const IsoEdge& edge)
+{
+  const auto at = [&](std::uint32_t sample) {
+    return Array3d(Eigen::Map<const Eigen::Array3f>(cloud.xyz(sample)).cast<double>());
+  };
+  return at(edge.first) +
+         static_cast<double>(edge.t) * (at(edge.second) - at(edge.first));
+}
+
+/** The kriged field at an isopoint; by the coordinates of the stretched space. */
+struct Slope {
+  Array3d direction; ///< of steepest ascent, a unit vector
+  double length;     ///< of the gradient
+  double offset;     ///< from the isopoint to the isosurface, along the direction
+};
+
+/** \param first of the star's answers */
+Slope
+slopeAt(const InterpolatedFields& field,
+        std::size_t first,
+        double step,
+        double isovalue)
+{
+  Array3d gradient;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    gradient[static_cast<Eigen::Index>(axis)] =
+        (field.values[first + 2 * axis + 2] - field.values[first + 2 * axis + 1]) /
+        (2.0 * step);
+  const double length = gradient.matrix().norm();
+  return {gradient / length, length, (isovalue - field.values[first]) / length};
+}
+
+/** Says so where the samples explain less than half of the variance at most isopoints
+ * between predicted ones. */
+void
+warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
+            const std::vector<float>& confidence,
+            Report& report)
+{
+  std::vector<float> of_predicted;
+  for (std::size_t i = 0; i < isopoints.size(); ++i)
+    if (isopoints[i].support == static_cast<std::uint8_t>(IsoSupport::Predicted))
+      of_predicted.push_back(confidence[i]);
+  if (of_predicted.empty())
+    return;
+  const auto middle =
+      of_predicted.begin() + static_cast<std::ptrdiff_t>(of_predicted.size() / 2);
+  std::nth_element(of_predicted.begin(), middle, of_predicted.end());
+  if (*middle >= least_confidence)
+    return;
+  report.warnings.push_back(
+      "Between the samples the surface is a guess: at half of the isopoints there, "
+      "kriging explains no more than " +
+      std::to_string(static_cast<int>(100.0f * *middle)) +
+      " % of the variance (field confidence). A hold-out test tells how good it is "
+      "(-validate).");
+}
+
+} // namespace
+
+void
+FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
+                  unsigned threads,
+                  pcl::PointCloud<PointIso>& isopoints,
+                  IsoEdges& edges,
+                  IsopointChoice& choice,
+                  Report& report) const
+{
+  choice.confidence.assign(isopoints.size(), 1.0f);
+  if (summary_.predicted == 0)
+    return;
+  const CloudView cloud = viewOf(filled_->cloud);
+  const bool is_auto = parameters.isosurface.interpolation == Interpolation::Auto;
+  const Array3d scale = parameters.isosurface.scale.cast<double>();
+  const double step = slope_step * summary_.spacing;
+  std::vector<std::array<double, 3>> roots, places;
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    const Array3d root = is_auto ? rootOf(cloud, edges[i])
+                                 : Array3d(isopoints[i].getArray3fMap().cast<double>());
+    roots.push_back({root[0], root[1], root[2]});
+    places.push_back(roots.back());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1.0, 1.0}) {
+        places.push_back(roots.back());
+        places.back()[axis] += sign * step / scale[static_cast<Eigen::Index>(axis)];
+      }
+  }
+  Report own;
+  const InterpolatedFields field = field_->interpolate(places, threads, own);
+  const auto thin = findThin(roots, threads, nullptr);
+  const double variance = summary_.nugget + summary_.sill;
+  const std::size_t measured = samples_->cloud.width;
+  const PointIso* const first = isopoints.data();
+  std::vector<std::uint8_t> stays(isopoints.size(), 1);
+  for (std::size_t i = 0; i < isopoints.size(); ++i) {
+    PointIso& point = isopoints[i];
+    const IsoEdge& edge = edges[i];
+    const bool is_predicted = edge.first >= measured || edge.second >= measured;
+    if (!is_predicted && thin[i] == 0 &&
+        field.support[star * i] == FieldSupport::Measured)
+      continue;
+    const Slope slope =
+        slopeAt(field, star * i, step, static_cast<double>(point.isovalue));
+    if (!(slope.length > 0.0))
+      continue;
+    const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
+        b(cloud.xyz(edge.second));
+    const bool is_in_gap =
+        is_predicted || ((b - a).cast<double>() * scale).matrix().norm() >
+                            longest_edge * summary_.spacing;
+    const Array3d covector = slope.direction * scale;
+    if (is_in_gap) {
+      point.support = static_cast<std::uint8_t>(IsoSupport::Predicted);
+      const double deviation = field.errors[star * i];
+      point.error =
+          static_cast<float>(deviation / (slope.length * covector.matrix().norm()));
+      choice.confidence[i] = static_cast<float>(
+          std::clamp(1.0 - deviation * deviation / variance, 0.0, 1.0));
+    }
+    if (!is_auto)
+      continue;
+    stays[i] = !is_in_gap || std::abs(slope.offset) <= summary_.spacing;
+    Array3d place(roots[i][0], roots[i][1], roots[i][2]);
+    if (is_in_gap)
+      place += slope.offset * slope.direction / scale;
+    else
+      point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
+    point.getArray3fMap() = place.cast<float>();
+    point.mean_curvature = std::numeric_limits<float>::quiet_NaN();
+    choice.method[i] = is_in_gap ? IsoMethod::Kriging : IsoMethod::Linear;
+    if (parameters.normals != NormalMethod::Auto)
+      continue;
+    const double side = parameters.isosurface.outside == Outside::Lower ? -1.0 : 1.0;
+    point.getNormalVector3fMap() =
+        (side * covector.matrix().normalized()).cast<float>();
+    choice.orientation[i] = IsoOrientation::Kriging;
+  }
+  const auto keep = [&](const PointIso& point) {
+    return stays[static_cast<std::size_t>(&point - first)] != 0;
+  };
+  choice.filter(isopoints, keep);
+  report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
+  warnOfDoubt(isopoints, choice.confidence, report);
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gaps between lines of samples, filled by kriging: the surface there, what is told of
+// it, and that nothing else changes.
+#include "common/scalar_field.h"
+#include "pipeline/gap_filling.h"
+#include "pipeline/run_pipeline.h"
+#include "support/environment.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+
+constexpr double pi = 3.14159265358979323846;
+
+/** A wavy floor, in units of the depth of the profiles. */
+double
+floorAt(double x, double y)
+{
+  return 0.5 + 0.1 * std::sin(2.0 * pi * x) * std::cos(pi * y);
+}
+
+/** Profiles of 60 samples each at random places of the unit square: the height above
+ * the floor, and the number of the profile.
+ * \param unit of length */
+std::shared_ptr<Dataset>
+makeProfiles(std::size_t count, float unit = 1.0f)
+{
+  uvol_test::Random random(3);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  std::vector<std::int32_t> numbers;
+  for (std::size_t profile = 0; profile < count; ++profile) {
+    const double x = random.uniform(), y = random.uniform();
+    for (int i = 0; i < 60; ++i) {
+      const double z = (i + 0.3 * random.uniform()) / 60.0;
+      pcl::PointXYZI point;
+      point.x = unit * static_cast<float>(x);
+      point.y = unit * static_cast<float>(y);
+      point.z = unit * static_cast<float>(z);
+      point.intensity = static_cast<float>(z - floorAt(x, y));
+      cloud.push_back(point);
+      numbers.push_back(static_cast<std::int32_t>(profile));
+    }
+  }
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  setField(*samples, "profile", numbers);
+  return samples;
+}
+
+IsosurfacePipelineParameters
+makeParameters(bool fills)
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "intensity";
+  parameters.isosurface.isovalues = {0.0};
+  parameters.fill_gaps = fills;
+  return parameters;
+}
+
+pcl::PointCloud<PointIso>
+isopointsOf(const IsosurfaceResult& result)
+{
+  pcl::PointCloud<PointIso> points;
+  pcl::fromPCLPointCloud2(result.surface.cloud, points);
+  return points;
+}
+
+bool
+isPredicted(const PointIso& point)
+{
+  return point.support == static_cast<std::uint8_t>(IsoSupport::Predicted);
+}
+
+TEST(GapFilling, FollowsTheFloorBetweenProfiles)
+{
+  const auto samples = makeProfiles(80);
+  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  ASSERT_TRUE(result.gaps);
+  EXPECT_GT(result.gaps->predicted, 500u);
+  EXPECT_EQ(result.gaps->predicted, result.report.getCount("predicted_samples"));
+  std::vector<double> deviations;
+  double cosines = 0.0;
+  std::size_t within = 0;
+  for (const PointIso& point : isopointsOf(result))
+    if (isPredicted(point)) {
+      const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
+      deviations.push_back(std::abs(static_cast<double>(point.z) - floorAt(x, y)));
+      within += deviations.back() <= static_cast<double>(point.error);
+      cosines -= static_cast<double>(point.normal_z);
+    }
+  ASSERT_GT(deviations.size(), 200u);
+  const auto count = static_cast<double>(deviations.size());
+  std::sort(deviations.begin(), deviations.end());
+  EXPECT_LT(deviations[deviations.size() / 2], 0.02);
+  EXPECT_LT(deviations[deviations.size() * 9 / 10], 0.07);
+  EXPECT_GT(static_cast<double>(within) / count, 0.9);
+  EXPECT_GT(cosines / count, 0.85); // to lower values, downwards
+}
+
+TEST(GapFilling, TellsProfilesThatWereLeftOut)
+{
+  const auto samples = makeProfiles(80);
+  auto parameters = makeParameters(true);
+  parameters.validation.folds = 3;
+  parameters.validation.by = ValidateBy::Field;
+  parameters.validation.field = "profile";
+  const auto filled = uvol_test::runPipeline(samples, parameters);
+  parameters.fill_gaps = false;
+  const auto as_it_is = uvol_test::runPipeline(samples, parameters);
+  ASSERT_EQ(1u, filled.validation.size());
+  const ValidationScore &a = filled.validation[0], &b = as_it_is.validation[0];
+  EXPECT_GE(a.side.predicted, b.side.predicted - 0.02);
+  EXPECT_GE(a.side.predicted, a.side.nearest);
+  EXPECT_GE(10 * a.covered, 9 * b.covered);
+}
+
+TEST(GapFilling, LeavesDenseSamplesAsTheyAre)
+{
+  uvol_test::Random random(5);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (std::size_t i = 0; i < 8000; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(2.0 * random.uniform() - 1.0);
+    point.intensity = 0.6f - point.getVector3fMap().norm();
+    cloud.push_back(point);
+  }
+  auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  const auto filled = uvol_test::runPipeline(samples, makeParameters(true));
+  const auto as_it_is = uvol_test::runPipeline(samples, makeParameters(false));
+  ASSERT_TRUE(filled.gaps);
+  EXPECT_EQ(0u, filled.gaps->predicted);
+  const auto a = isopointsOf(filled), b = isopointsOf(as_it_is);
+  ASSERT_EQ(b.size(), a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(b[i].getVector3fMap(), a[i].getVector3fMap());
+    EXPECT_EQ(b[i].getNormalVector3fMap(), a[i].getNormalVector3fMap());
+    EXPECT_EQ(b[i].error, a[i].error);
+  }
+}
+
+TEST(GapFilling, PredictsNothingBeyondTheRange)
+{
+  const auto samples = makeProfiles(12);
+  pcl::Indices all(samples->cloud.width);
+  std::iota(all.begin(), all.end(), 0);
+  Report report;
+  const detail::FilledGaps gaps(
+      samples, all, makeParameters(true).isosurface, 0, report);
+  const CloudView cloud = viewOf(gaps.getSamples()->cloud);
+  ASSERT_EQ(all.size() + gaps.getSummary().predicted, cloud.count);
+  ASSERT_EQ(cloud.count, gaps.getIndices()->size());
+  ASSERT_GT(gaps.getSummary().predicted, 0u);
+  for (std::size_t i = all.size(); i < cloud.count; ++i) {
+    float nearest = INFINITY;
+    for (std::size_t j = 0; j < all.size(); ++j)
+      nearest = std::min(nearest,
+                         (Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i)) -
+                          Eigen::Map<const Eigen::Vector3f>(cloud.xyz(j)))
+                             .norm());
+    EXPECT_LE(static_cast<double>(nearest), 1.000001 * gaps.getSummary().range);
+    EXPECT_GE(static_cast<double>(nearest), 0.499999 * gaps.getSummary().spacing);
+  }
+}
+
+TEST(GapFilling, TellsConfidenceOfAllIsopoints)
+{
+  const auto result = uvol_test::runPipeline(makeProfiles(30), makeParameters(true));
+  const auto points = isopointsOf(result);
+  const CloudView view = viewOf(result.surface.cloud);
+  const ScalarField confidence(view.fields, "confidence"),
+      method(view.fields, "method"), profile(view.fields, "profile");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double value = confidence.read(view.point(i));
+    EXPECT_TRUE(isPredicted(points[i]) ? value >= 0.0 && value < 1.0 : value == 1.0);
+    EXPECT_EQ(isPredicted(points[i]) ? 3.0 : 1.0, method.read(view.point(i)));
+    const double number = profile.read(view.point(i));
+    EXPECT_TRUE(number >= 0.0 && number < 30.0);
+  }
+}
+
+TEST(GapFilling, DependsNeitherOnThreadsNorOnUnits)
+{
+  const auto one = uvol_test::runPipeline(makeProfiles(30), makeParameters(true), 1);
+  const auto several =
+      uvol_test::runPipeline(makeProfiles(30), makeParameters(true), 3);
+  EXPECT_EQ(one.surface.cloud.data, several.surface.cloud.data);
+  const float unit = 0x1p20f;
+  const auto large =
+      uvol_test::runPipeline(makeProfiles(30, unit), makeParameters(true));
+  const auto a = isopointsOf(one), b = isopointsOf(large);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LE((b[i].getVector3fMap() / unit - a[i].getVector3fMap()).norm(), 1e-5f);
+    EXPECT_EQ(a[i].support, b[i].support);
+  }
+}
+
+TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
+{
+  const auto samples = makeProfiles(30);
+  EXPECT_TRUE(
+      uvol_test::runPipeline(samples, makeParameters(true)).report.warnings.empty());
+  uvol_test::Random random(9);
+  std::vector<float> noise;
+  const CloudView view = viewOf(samples->cloud);
+  const ScalarField height(view.fields, "intensity");
+  for (std::size_t i = 0; i < view.count; ++i)
+    noise.push_back(static_cast<float>(height.read(view.point(i)) +
+                                       4.0 * (random.uniform() - 0.5)));
+  setField(*samples, "intensity", noise);
+  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  std::string all;
+  for (const std::string& warning : result.report.warnings)
+    all += warning;
+  EXPECT_NE(std::string::npos, all.find("confidence")) << all;
+}
+
+TEST(GapFilling, RefusesWhatItCannotFill)
+{
+  auto parameters = makeParameters(true);
+  parameters.isosurface.field = "|x,y,z|";
+  EXPECT_THROW(uvol_test::runPipeline(makeProfiles(12), parameters), InvalidArgument);
+}
+
+} // namespace
