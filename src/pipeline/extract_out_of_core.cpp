@@ -115,10 +115,11 @@ runPipelineOutOfCore(PointSource& points,
 {
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
-      parameters.validation.folds > 0 ||
+      parameters.validation.folds > 0 || (parameters.periodic > 0.0).any() ||
       parameters.isosurface.neighbors == NeighborSource::Voronoi)
-    throw InvalidArgument("Level sets, an automatic scale, hold-out tests, meshes and "
-                          "Voronoi grids need all samples in memory.");
+    throw InvalidArgument(
+        "Level sets, an automatic scale, hold-out tests, meshes, boxes "
+        "that repeat and Voronoi grids need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

@@ -5,6 +5,7 @@
 #include "neighbors/sampling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/periodic_surface.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -29,7 +30,8 @@ shareCloud(const std::shared_ptr<const Dataset>& samples)
   return {samples, &samples->cloud};
 }
 
-/** Leaves out what max_error and drop_bridged do not want. */
+/** Leaves out what belongs to images, and what max_error and drop_bridged do not want.
+ */
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
@@ -37,10 +39,16 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report)
 {
-  const auto drop = [&](const char* name, const auto& keep) {
+  const auto filter = [&](const auto& keep) {
     choice.filter(isopoints, keep);
-    report.count(name, filterIsopoints(isopoints, edges, keep));
+    return filterIsopoints(isopoints, edges, keep);
   };
+  const auto drop = [&](const char* name, const auto& keep) {
+    report.count(name, filter(keep));
+  };
+  const PeriodicBox box{{}, sidesOf(parameters)};
+  if (isPeriodic(box.sides) && !parameters.mesh)
+    filter([&](const PointIso& point) { return box.holds(point.data); });
   if (parameters.max_error)
     drop("removed_by_error",
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
@@ -137,6 +145,10 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
+  checkPeriodic(sidesOf(parameters));
+  if (isPeriodic(sidesOf(parameters)) && parameters.validation.folds > 0)
+    throw InvalidArgument("A hold-out test goes without a box that repeats: images of "
+                          "samples that are left out would tell what they are.");
   if (!parameters.mesh)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
@@ -184,6 +196,40 @@ IsosurfacePipeline::run()
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.isosurface = resolveParameters();
   startReport();
+  return isPeriodic(sidesOf(parameters)) ? runInBox(std::move(parameters))
+                                         : runOnSamples(std::move(parameters));
+}
+
+IsosurfaceResult
+IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
+{
+  parameters.automatic_scale = false; // it is filled in
+  const PeriodicBox box = findPeriodicBox(*samples_, sidesOf(parameters), report_);
+  std::shared_ptr<PeriodicSamples> images;
+  {
+    const StepTimer timer(report_, "images");
+    images = std::make_shared<PeriodicSamples>(
+        makeImages(*samples_, indices_, box, parameters, threads_));
+  }
+  // Images go beyond all faces: caps would close the surface where it is cut.
+  if (parameters.mesh && (parameters.periodic > 0.0).all())
+    parameters.mesh->open = true;
+  IsosurfacePipeline inner;
+  inner.setInput(std::shared_ptr<const Dataset>(images, &images->samples));
+  inner.setIndices(indicesWithImages(*images, indices_));
+  inner.setParameters(parameters);
+  inner.setNumberOfThreads(threads_);
+  inner.report_ = std::move(report_);
+  IsosurfaceResult result = inner.runOnSamples(parameters);
+  result.report.setCount("images", images->image_of.size());
+  returnToBox(*samples_, *images, box, result);
+  report_ = result.report;
+  return result;
+}
+
+IsosurfaceResult
+IsosurfacePipeline::runOnSamples(IsosurfacePipelineParameters parameters)
+{
   std::vector<LevelSetSummary> level_sets;
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
