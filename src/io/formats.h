@@ -16,7 +16,7 @@ namespace io {
 
 class RecordSource;
 
-enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz };
+enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz, Netcdf };
 
 /** \brief The format of the points in a file, by the ending of its name; snapshots of
  * other endings are known by their first bytes.
@@ -66,7 +66,7 @@ readPlyMesh(const std::string& path);
 Dataset
 readText(const std::string& path, const LoadOptions& options);
 
-/** \brief .vtk, .vtp, .vtu or .vts. */
+/** \brief .vtk, .vtp, .vtu or .vts, lists of such files, and what VTK itself reads. */
 Dataset
 readVtk(const std::string& path);
 /** @} */
@@ -112,6 +112,10 @@ openNpy(const std::string& path);
 
 std::unique_ptr<RecordSource>
 openNpz(const std::string& path);
+
+/** Not there where the build lacks the library of NetCDF. */
+std::unique_ptr<RecordSource>
+openNetcdf(const std::string& path);
 /** @} */
 
 /** \brief True for a binary snapshot of Gadget.

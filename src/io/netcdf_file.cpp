@@ -165,8 +165,8 @@ NetcdfFile::readSlab(const NetcdfVariable& variable,
 {
   const Hdf5Session session;
   if (!variable.is_text)
-    return check(nc_get_vara_double(
-        *file_, variable.id, start.data(), counts.data(), numbers));
+    return check(
+        nc_get_vara_double(*file_, variable.id, start.data(), counts.data(), numbers));
   std::vector<char> letters(count);
   check(nc_get_vara_text(
       *file_, variable.id, start.data(), counts.data(), letters.data()));

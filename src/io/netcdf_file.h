@@ -78,7 +78,7 @@ private:
            double* numbers) const;
 
   std::string path_;
-  std::shared_ptr<const int> file_; ///< closes it
+  std::shared_ptr<const int> file_;  ///< closes it
   std::vector<std::uint64_t> sizes_; ///< by dimension
   std::vector<NetcdfVariable> variables_;
 };

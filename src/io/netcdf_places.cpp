@@ -5,6 +5,8 @@
 #include "common/printable.h"
 #include "io/files.h"
 
+#include <pcl/PCLPointField.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -167,13 +169,47 @@ findPlaces(const NetcdfFile& file)
 }
 
 void
+SampleVariable::findPacking()
+{
+  const auto first = [&](const char* attribute, double otherwise) {
+    const auto numbers = file_->readNumbers(variable_, attribute);
+    return numbers.empty() ? otherwise : numbers[0];
+  };
+  using Type = pcl::PCLPointField;
+  const bool is_floating =
+      variable_.datatype == Type::FLOAT32 || variable_.datatype == Type::FLOAT64;
+  datatype_ =
+      variable_.is_text ? static_cast<std::uint8_t>(Type::FLOAT32) : variable_.datatype;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  lowest_ = -infinity;
+  highest_ = infinity;
+  if (variable_.is_text ||
+      (!is_floating && !file_->readText(variable_, "flag_meanings").empty()))
+    return;
+  factor_ = first("scale_factor", 1.0);
+  offset_ = first("add_offset", 0.0);
+  for (const char* const attribute : {"_FillValue", "missing_value"})
+    for (const double number : file_->readNumbers(variable_, attribute))
+      missing_.push_back(number);
+  const auto range = file_->readNumbers(variable_, "valid_range");
+  lowest_ = range.size() == 2 ? range[0] : first("valid_min", -infinity);
+  highest_ = range.size() == 2 ? range[1] : first("valid_max", infinity);
+  const bool is_packed = factor_ != 1.0 || offset_ != 0.0;
+  const bool has_gaps =
+      !missing_.empty() || std::isfinite(lowest_) || std::isfinite(highest_);
+  if (is_packed || (has_gaps && !is_floating))
+    datatype_ = Type::FLOAT64;
+}
+
+void
 SampleVariable::unpack(std::size_t count, double* numbers) const
 {
   for (std::size_t i = 0; i < count; ++i) {
     double& number = numbers[i];
     if (variable_.is_text)
-      number = number >= '0' && number <= '9' ? number - '0'
-                                              : std::numeric_limits<double>::quiet_NaN();
+      number = number >= '0' && number <= '9'
+                   ? number - '0'
+                   : std::numeric_limits<double>::quiet_NaN();
     else if (std::find(missing_.begin(), missing_.end(), number) != missing_.end() ||
              !(number >= lowest_ && number <= highest_))
       number = std::numeric_limits<double>::quiet_NaN();
@@ -312,19 +348,7 @@ SampleSpace::open(const NetcdfVariable& variable) const
   result.file_ = file_;
   result.variable_ = variable;
   result.keep_ = instances_;
-  const auto first = [&](const char* attribute, double otherwise) {
-    const auto numbers = file_->readNumbers(variable, attribute);
-    return numbers.empty() ? otherwise : numbers[0];
-  };
-  result.factor_ = first("scale_factor", 1.0);
-  result.offset_ = first("add_offset", 0.0);
-  for (const char* const attribute : {"_FillValue", "missing_value"})
-    for (const double number : file_->readNumbers(variable, attribute))
-      result.missing_.push_back(number);
-  const auto range = file_->readNumbers(variable, "valid_range");
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  result.lowest_ = range.size() == 2 ? range[0] : first("valid_min", -infinity);
-  result.highest_ = range.size() == 2 ? range[1] : first("valid_max", infinity);
+  result.findPacking();
   if (variable.dimensions == dimensions_)
     return result;
   std::uint64_t stride = 1;
@@ -393,10 +417,10 @@ mapPlaces(const SampleSpace& space,
     return maps;
   const std::string unit =
       height ? printable(space.getFile().readText(*height, "units")) : "";
-  text << (height ? std::string("z is ") + (maps[2].factor < 0.0 ? "minus " : "") +
-                        printable(height->name) +
-                        (unit.empty() ? "" : " in " + unit) + "."
-                  : "z is 0.");
+  text << (height
+               ? std::string("z is ") + (maps[2].factor < 0.0 ? "minus " : "") +
+                     printable(height->name) + (unit.empty() ? "" : " in " + unit) + "."
+               : "z is 0.");
   notes.push_back(text.str());
   return maps;
 }

@@ -34,6 +34,14 @@ public:
   void
   read(std::uint64_t first, std::size_t count, double* numbers) const;
 
+  /** \brief The pcl::PCLPointField type of its numbers. Integers that are packed, or of
+   * which some are missing, become double, but for flags; texts become float. */
+  std::uint8_t
+  getDatatype() const
+  {
+    return datatype_;
+  }
+
   /** \brief Bytes of what is kept of it. */
   std::uint64_t
   heldBytes() const
@@ -46,10 +54,13 @@ private:
 
   /** How the index along a dimension follows from the number of a sample. */
   struct Axis {
-    std::uint64_t below = 1, size = 1; ///< (sample / below) % size
+    std::uint64_t below = 1, size = 1;                     ///< (sample / below) % size
     const std::vector<std::uint64_t>* instances = nullptr; ///< or by a list
     std::uint64_t stride = 1;                              ///< in the variable
   };
+
+  void
+  findPacking();
 
   void
   unpack(std::size_t count, double* numbers) const;
@@ -59,6 +70,7 @@ private:
   std::vector<Axis> axes_;
   std::vector<double> held_; ///< all numbers of a variable that repeat; else none
   bool is_held_ = false;
+  std::uint8_t datatype_ = 0;
   double factor_ = 1.0, offset_ = 0.0;
   std::vector<double> missing_;
   double lowest_, highest_; ///< numbers in the file that are valid

@@ -2,8 +2,7 @@
 // Samples in files of NetCDF that follow the CF conventions: profiles, trajectories and
 // rectilinear grids. All of these are variables over some of the dimensions of the
 // samples; each number counts for all samples that have its indices.
-#include "common/printable.h"
-#include "common/scalar_field.h"
+#include "io/column_source.h"
 #include "io/formats.h"
 #include "io/netcdf_file.h"
 #include "io/netcdf_places.h"
@@ -11,9 +10,7 @@
 #include <pcl/PCLPointField.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 namespace pcl_uvol {
@@ -61,9 +58,8 @@ putNumbers(std::uint8_t datatype,
 /** A variable, for all samples. */
 class VariableColumn : public FileColumn {
 public:
-  VariableColumn(SampleVariable variable, std::uint8_t datatype)
+  explicit VariableColumn(SampleVariable variable)
       : variable_(std::move(variable))
-      , datatype_(datatype)
   {
   }
 
@@ -72,7 +68,7 @@ public:
   {
     numbers_.resize(count);
     variable_.read(first, count, numbers_.data());
-    putNumbers(datatype_, numbers_, tuples);
+    putNumbers(variable_.getDatatype(), numbers_, tuples);
   }
 
   std::uint64_t
@@ -83,7 +79,6 @@ public:
 
 private:
   SampleVariable variable_;
-  std::uint8_t datatype_;
   std::vector<double> numbers_;
 };
 
@@ -118,23 +113,6 @@ private:
   std::vector<double> numbers_;
 };
 
-/** Integers that are packed numbers, or lack some, become double. */
-std::uint8_t
-datatypeOf(const NetcdfFile& file, const NetcdfVariable& variable)
-{
-  if (variable.is_text)
-    return Type::FLOAT32; // digits, or none
-  const bool is_packed = !file.readNumbers(variable, "scale_factor").empty() ||
-                         !file.readNumbers(variable, "add_offset").empty();
-  const bool has_gaps = !file.readNumbers(variable, "_FillValue").empty() ||
-                        !file.readNumbers(variable, "missing_value").empty();
-  if (variable.datatype == Type::FLOAT32 || variable.datatype == Type::FLOAT64)
-    return is_packed ? static_cast<std::uint8_t>(Type::FLOAT64) : variable.datatype;
-  const bool is_flag = !file.readText(variable, "flag_meanings").empty();
-  return is_packed || (has_gaps && !is_flag) ? static_cast<std::uint8_t>(Type::FLOAT64)
-                                             : variable.datatype;
-}
-
 /** Of texts only those whose letters are digits, as flags of quality are. */
 bool
 isOfUse(const SampleSpace& space, const NetcdfVariable& variable)
@@ -151,12 +129,6 @@ isOfUse(const SampleSpace& space, const NetcdfVariable& variable)
   });
 }
 
-std::unique_ptr<FileColumn>
-makeZeros()
-{
-  return makeConstant(0.0);
-}
-
 } // namespace
 
 std::unique_ptr<RecordSource>
@@ -170,24 +142,23 @@ openNetcdf(const std::string& path)
   std::vector<NamedColumn> columns;
   constexpr const char* axes[] = {"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const NetcdfVariable* const variable = places.axes[axis];
-    columns.push_back(
-        {{axes[axis]},
-         Type::FLOAT64,
-         1,
-         variable ? std::make_unique<CoordinateColumn>(space.open(*variable), maps[axis])
-                  : makeZeros()});
+    std::unique_ptr<FileColumn> column = makeConstant(0.0);
+    if (const NetcdfVariable* const variable = places.axes[axis])
+      column = std::make_unique<CoordinateColumn>(space.open(*variable), maps[axis]);
+    columns.push_back({{axes[axis]}, Type::FLOAT64, 1, std::move(column)});
   }
   for (const NetcdfVariable& variable : file->getVariables()) {
-    const bool is_taken =
-        variable.name == "x" || variable.name == "y" || variable.name == "z";
-    if (is_taken || !isOfUse(space, variable))
+    const bool is_axis = std::any_of(std::begin(axes), std::end(axes), [&](auto name) {
+      return variable.name == name;
+    });
+    if (is_axis || !isOfUse(space, variable))
       continue;
-    const std::uint8_t datatype = datatypeOf(*file, variable);
+    SampleVariable numbers = space.open(variable);
+    const std::uint8_t datatype = numbers.getDatatype();
     columns.push_back({{variable.name},
                        datatype,
                        1,
-                       std::make_unique<VariableColumn>(space.open(variable), datatype)});
+                       std::make_unique<VariableColumn>(std::move(numbers))});
   }
   return std::make_unique<ColumnSource>(
       space.size(), std::move(columns), std::move(notes));

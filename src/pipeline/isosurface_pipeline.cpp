@@ -221,7 +221,9 @@ IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
   inner.setNumberOfThreads(threads_);
   inner.report_ = std::move(report_);
   IsosurfaceResult result = inner.runOnSamples(parameters);
-  result.report.setCount("images", images->image_of.size());
+  const std::size_t count = images->image_of.size();
+  result.report.setCount("samples", result.report.getCount("samples") - count);
+  result.report.setCount("images", count);
   returnToBox(*samples_, *images, box, result);
   report_ = result.report;
   return result;

@@ -20,6 +20,10 @@ namespace {
  * caps there, and a level set knows less of the field where it ends. */
 constexpr double reach_of_fits = 3.0, reach_of_meshes = 5.0, reach_of_level_sets = 8.0;
 
+/** Part of the distance of the samples that a vertex lies between: so near to a face it
+ * moves into it, as slivers would be cut there. */
+constexpr float near_face = 0.01f;
+
 float
 readFloat(const pcl::PCLPointCloud2& cloud, std::size_t point, std::size_t offset)
 {
@@ -55,10 +59,16 @@ cutAtFace(std::size_t axis, double coordinate, double sign, IsosurfaceResult& re
 {
   pcl::PCLPointCloud2& cloud = result.surface.cloud;
   std::vector<double> heights(cloud.width);
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    heights[i] =
-        sign *
-        (static_cast<double>(readFloat(cloud, i, axis * sizeof(float))) - coordinate);
+  const std::size_t length = findField(cloud.fields, "edge_length")->offset;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const auto place = static_cast<double>(readFloat(cloud, i, axis * sizeof(float)));
+    heights[i] = sign * (place - coordinate);
+    if (std::abs(heights[i]) <
+        static_cast<double>(near_face * readFloat(cloud, i, length))) {
+      heights[i] = 0.0;
+      putCoordinate(coordinate, axis, &cloud.data[i * cloud.point_step]);
+    }
+  }
   detail::PlaneCut cut = detail::cutByPlane(heights, result.triangles);
   pcl::PCLPointCloud2 vertices;
   vertices.height = 1;
@@ -180,6 +190,22 @@ movePoints(const PeriodicSamples& images, const PeriodicBox& box, Dataset& surfa
   }
 }
 
+/** Of points in the box only. */
+void
+countSupport(IsosurfaceResult& result)
+{
+  const pcl::PCLPointCloud2& cloud = result.surface.cloud;
+  const ScalarField field(cloud.fields, "support");
+  std::array<std::uint64_t, 4> counts{};
+  for (std::size_t i = 0; i < cloud.width; ++i)
+    ++counts.at(
+        static_cast<std::size_t>(field.read(&cloud.data[i * cloud.point_step])));
+  for (const auto& [name, support] :
+       {std::pair("bridged", IsoSupport::Bridged), std::pair("rim", IsoSupport::Rim)})
+    if (result.report.getCount(name) > 0)
+      result.report.setCount(name, counts.at(static_cast<std::size_t>(support)));
+}
+
 } // namespace
 
 PeriodicSamples
@@ -230,6 +256,7 @@ returnToBox(const Dataset& samples,
 {
   if (!result.triangles.empty())
     cutMesh(images.box, result);
+  countSupport(result);
   movePoints(images, box, result.surface);
   result.surface.origin = samples.origin;
   for (IsoEdge& edge : result.edges) {
