@@ -43,6 +43,17 @@ isAmong(const char* const (&endings)[count], const std::string& ending)
   return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
 }
 
+/** What is no file, and no Exodus, which is NetCDF in one of its formats, is told
+ * before libraries print what they think of it. */
+void
+checkBeginning(const std::string& path)
+{
+  const std::string head = InputFile(path).head(4);
+  if (isAmong(exodus_endings, getEnding(path)) && head.rfind("CDF", 0) != 0 &&
+      head != "\x89HDF")
+    throwUnreadable(path, "it is no Exodus: it does not begin as NetCDF or HDF5 do");
+}
+
 vtkSmartPointer<vtkAlgorithm>
 makeReader(const std::string& path)
 {
@@ -216,7 +227,7 @@ isReadByVtk(const std::string& path)
 VtkContent
 readByVtk(const std::string& path)
 {
-  InputFile(path).head(1); // what is no file is told as of other formats
+  checkBeginning(path);
   const VtkMessages messages;
   const auto reader = makeReader(path);
   const std::string note = updateAtLastTime(*reader);

@@ -293,13 +293,6 @@ TEST_P(Netcdf, AnswersDamagedFilesByASentence)
   const std::size_t step = std::max<std::size_t>(bytes.size() / 97, 1);
   for (std::size_t size = 0; size < bytes.size(); size += step)
     load(bytes.substr(0, size));
-  if (GetParam() != 0)
-    return; // what the library of HDF5 does with bytes that changed is its own
-  for (std::size_t i = 4; i < bytes.size(); i += 3) {
-    std::string changed = bytes;
-    changed[i] = static_cast<char>(changed[i] ^ 0x7f);
-    load(changed);
-  }
   {
     NetcdfWriter file(path("c.nc"), GetParam());
     const int samples = file.dimension("n", 2);
