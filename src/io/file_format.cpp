@@ -32,7 +32,8 @@ constexpr struct {
                      {".exii", FileFormat::Vtk},    {".case", FileFormat::Vtk},
                      {".foam", FileFormat::Vtk},    {".pvd", FileFormat::Vtk},
                      {".vtm", FileFormat::Vtk},     {".pvtu", FileFormat::Vtk},
-                     {".pvtp", FileFormat::Vtk},    {".pvts", FileFormat::Vtk}};
+                     {".pvtp", FileFormat::Vtk},    {".pvts", FileFormat::Vtk},
+                     {".p3d", FileFormat::Plot3d}};
 
 /** What usually makes a file that is read of one that is not. */
 constexpr struct {
@@ -85,8 +86,8 @@ throwUnknown(const std::string& path, const std::string& ending)
       path,
       describeEnding(ending) + (nearest.empty() ? "" : ", but " + nearest + " is") +
           "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, Exodus, EnSight, "
-          "OpenFOAM, files of HDF5 and snapshots of Gadget");
+          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, PLOT3D, Exodus, "
+          "EnSight, OpenFOAM, files of HDF5 and snapshots of Gadget");
 }
 
 FileFormat
@@ -98,6 +99,8 @@ formatOf(const std::string& path)
   for (const auto& known : known_endings)
     if (ending == known.ending)
       return known.format;
+  if (isPlot3d(path))
+    return FileFormat::Plot3d;
   if (isGadget(path)) // a missing file matters more than its ending
     return FileFormat::Gadget;
   if (isHdf5(path))

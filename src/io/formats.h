@@ -16,7 +16,19 @@ namespace io {
 
 class RecordSource;
 
-enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz, Netcdf };
+enum class FileFormat {
+  Pcd,
+  Ply,
+  Text,
+  Vtk,
+  Gadget,
+  Hdf5,
+  Las,
+  Npy,
+  Npz,
+  Netcdf,
+  Plot3d
+};
 
 /** \brief The format of the points in a file, by the ending of its name; snapshots of
  * other endings are known by their first bytes.
@@ -117,6 +129,15 @@ openNpz(const std::string& path);
 std::unique_ptr<RecordSource>
 openNetcdf(const std::string& path);
 /** @} */
+
+/** \brief Grids of PLOT3D, and their solutions where these stand beside them.
+ * \throws IOError */
+std::unique_ptr<RecordSource>
+openPlot3d(const std::string& path);
+
+/** \brief True for names as grids of PLOT3D have them: grid.p3d, combxyz.bin. */
+bool
+isPlot3d(const std::string& path);
 
 /** \brief True for a binary snapshot of Gadget.
  * \throws IOError */
