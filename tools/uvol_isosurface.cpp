@@ -341,7 +341,8 @@ run(int argc, char** argv)
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
-      "ply csv txt vtk vtp vtu vts h5 and snapshots of Gadget, writes pcd ply vtp csv, "
+      "ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others (uvol "
+      "--list-formats), writes pcd ply vtp csv, "
       "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);

@@ -136,7 +136,7 @@ openNetcdf(const std::string& path)
 {
   const auto file = std::make_shared<const NetcdfFile>(path);
   const PlaceVariables places = findPlaces(*file);
-  const SampleSpace space(file, places);
+  const SampleSpace space(file, places.list());
   std::vector<std::string> notes;
   const std::array<AxisMap, 3> maps = mapPlaces(space, places, notes);
   std::vector<NamedColumn> columns;

@@ -2,6 +2,7 @@
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
+#include "neighbors/periodic_box.h"
 #include "neighbors/sampling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
@@ -198,35 +199,6 @@ IsosurfacePipeline::run()
   startReport();
   return isPeriodic(sidesOf(parameters)) ? runInBox(std::move(parameters))
                                          : runOnSamples(std::move(parameters));
-}
-
-IsosurfaceResult
-IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
-{
-  parameters.automatic_scale = false; // it is filled in
-  const PeriodicBox box = findPeriodicBox(*samples_, sidesOf(parameters), report_);
-  std::shared_ptr<PeriodicSamples> images;
-  {
-    const StepTimer timer(report_, "images");
-    images = std::make_shared<PeriodicSamples>(
-        makeImages(*samples_, indices_, box, parameters, threads_));
-  }
-  // Images go beyond all faces: caps would close the surface where it is cut.
-  if (parameters.mesh && (parameters.periodic > 0.0).all())
-    parameters.mesh->open = true;
-  IsosurfacePipeline inner;
-  inner.setInput(std::shared_ptr<const Dataset>(images, &images->samples));
-  inner.setIndices(indicesWithImages(*images, indices_));
-  inner.setParameters(parameters);
-  inner.setNumberOfThreads(threads_);
-  inner.report_ = std::move(report_);
-  IsosurfaceResult result = inner.runOnSamples(parameters);
-  const std::size_t count = images->image_of.size();
-  result.report.setCount("samples", result.report.getCount("samples") - count);
-  result.report.setCount("images", count);
-  returnToBox(*samples_, *images, box, result);
-  report_ = result.report;
-  return result;
 }
 
 IsosurfaceResult

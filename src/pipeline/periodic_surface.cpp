@@ -6,7 +6,9 @@
 #include "mesh/plane_cut.h"
 #include "mesh/surface_pieces.h"
 #include "mesh/working_mesh.h"
+#include "neighbors/periodic_box.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -206,8 +208,15 @@ countSupport(IsosurfaceResult& result)
       result.report.setCount(name, counts.at(static_cast<std::size_t>(support)));
 }
 
-} // namespace
-
+/** Samples with the images that the stages need.
+ *
+ * Isopoints come from a box whose faces lie in the widest gaps between the coordinates,
+ * so that they do not depend on where the samples' box was put; meshes, which are cut
+ * at its faces, from that box.
+ *
+ * \param use null: all samples
+ *
+ * \param parameters with the field and the scale that are taken */
 PeriodicSamples
 makeImages(const Dataset& samples,
            const pcl::IndicesPtr& use,
@@ -237,6 +246,7 @@ makeImages(const Dataset& samples,
                            threads);
 }
 
+/** The samples to use among those with images. */
 pcl::IndicesPtr
 indicesWithImages(const PeriodicSamples& images, const pcl::IndicesPtr& use)
 {
@@ -248,6 +258,8 @@ indicesWithImages(const PeriodicSamples& images, const pcl::IndicesPtr& use)
   return all;
 }
 
+/** Bring a surface back to the box of the samples: a mesh is cut at its faces, points
+ * lie in it already; coordinates and edges become those of the samples. */
 void
 returnToBox(const Dataset& samples,
             const PeriodicSamples& images,
@@ -263,6 +275,37 @@ returnToBox(const Dataset& samples,
     edge.first = images.sourceOf(edge.first);
     edge.second = images.sourceOf(edge.second);
   }
+}
+
+} // namespace
+
+IsosurfaceResult
+IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
+{
+  parameters.automatic_scale = false; // it is filled in
+  const PeriodicBox box = findPeriodicBox(*samples_, sidesOf(parameters), report_);
+  std::shared_ptr<PeriodicSamples> images;
+  {
+    const StepTimer timer(report_, "images");
+    images = std::make_shared<PeriodicSamples>(
+        makeImages(*samples_, indices_, box, parameters, threads_));
+  }
+  // Images go beyond all faces: caps would close the surface where it is cut.
+  if (parameters.mesh && (parameters.periodic > 0.0).all())
+    parameters.mesh->open = true;
+  IsosurfacePipeline inner;
+  inner.setInput(std::shared_ptr<const Dataset>(images, &images->samples));
+  inner.setIndices(indicesWithImages(*images, indices_));
+  inner.setParameters(parameters);
+  inner.setNumberOfThreads(threads_);
+  inner.report_ = std::move(report_);
+  IsosurfaceResult result = inner.runOnSamples(parameters);
+  const std::size_t count = images->image_of.size();
+  result.report.setCount("samples", result.report.getCount("samples") - count);
+  result.report.setCount("images", count);
+  returnToBox(*samples_, *images, box, result);
+  report_ = result.report;
+  return result;
 }
 
 } // namespace pcl_uvol
