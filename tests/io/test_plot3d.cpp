@@ -151,8 +151,9 @@ TEST(Plot3d, AllLayoutsAreKnownByTheirSizes)
       EXPECT_EQ(numberOf(grid, 3, at), valueAt(found, "Density", point));
       EXPECT_EQ(numberOf(grid, 5, at), valueAt(found, "Momentum[1]", point));
       EXPECT_EQ(numberOf(grid, 7, at), valueAt(found, "StagnationEnergy", point));
-      if (layout.blanked)
+      if (layout.blanked) {
         EXPECT_EQ(static_cast<double>(at % 2), valueAt(found, "iblank", point));
+      }
     }
   }
 }

@@ -83,7 +83,8 @@ TEST(SampleMap, KeepsAWindowInTime)
   EXPECT_EQ(400u, map.size());
   map.forgetBefore(12.0);
   EXPECT_EQ(200u, map.size());
-  for (const Point& point : *map.getSamples())
+  const auto left = map.getSamples();
+  for (const Point& point : *left)
     EXPECT_GE(point.x, 11.0f);
   map.forget();
   EXPECT_EQ(0u, map.size());
@@ -136,7 +137,8 @@ TEST(SampleMap, FlatAndSinglePlacesAreThinned)
     map.append(*cloud, 0.0);
     EXPECT_GE(map.size(), least);
     EXPECT_LE(map.size(), 75u);
-    for (const Point& point : *map.getSamples())
+    const auto left = map.getSamples();
+    for (const Point& point : *left)
       EXPECT_TRUE(std::isfinite(point.x));
   }
   parameters.most_samples = 1; // on both sides of the cubes' corner at 0
