@@ -304,6 +304,12 @@ IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
   result.report.setCount("samples", result.report.getCount("samples") - count);
   result.report.setCount("images", count);
   returnToBox(*samples_, *images, box, result);
+  for (std::size_t i = 0; parameters.mesh && i < result.isopoints.size(); ++i) {
+    result.isopoints[i] = 0;
+    for (const SurfacePiece& piece : result.pieces)
+      if (piece.isovalue == parameters.isosurface.isovalues[i])
+        result.isopoints[i] += piece.vertices;
+  }
   report_ = result.report;
   return result;
 }

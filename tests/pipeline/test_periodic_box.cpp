@@ -246,6 +246,7 @@ TEST(PeriodicBox, MeshesEndInTheFaces)
       runPipeline(makeSamples(6000, gyroid, {{1.5, 2.5, 4.0}}), parameters);
   EXPECT_NEAR(areaOf(mesh), areaOf(moved), 0.01 * areaOf(mesh));
   EXPECT_EQ(mesh.edges.size(), mesh.surface.cloud.width);
+  EXPECT_EQ(mesh.isopoints, std::vector<std::size_t>{mesh.edges.size()});
 }
 
 /** Squared distances of the nearest samples among all images, by brute force. */
