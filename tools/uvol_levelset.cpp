@@ -320,7 +320,7 @@ run(int argc, char** argv)
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
-  report.count("points", dataset.cloud.width);
+  const std::size_t points = dataset.cloud.width;
   const auto sides = arguments.periodic.findSides(dataset, report);
   parameters.scale = scale.resolveScale(pcl_uvol::viewOf(dataset.cloud));
   uvol_tools::BoxedSamples boxed(
@@ -368,6 +368,7 @@ run(int argc, char** argv)
     writeTable(arguments.table, summary);
   if (!arguments.plot.empty())
     writePlot(arguments.plot, summary);
+  report.count("points", points);
   total.reset();
   uvol_tools::Facts facts = {{"input", arguments.input},
                              {"output", arguments.output},
