@@ -11,7 +11,7 @@ shift
 
 bash tools/install_dependencies.sh \
   build-essential cmake ninja-build ccache \
-  libpcl-dev libvtk9-dev libflann-dev liblz4-dev zlib1g-dev nlohmann-json3-dev libmuparser-dev libbz2-dev libzstd-dev \
+  libpcl-dev libvtk9-dev libflann-dev liblz4-dev zlib1g-dev nlohmann-json3-dev libmuparser-dev libbz2-dev libzstd-dev libnetcdf-dev \
   pybind11-dev python3-dev python3-numpy python3-pytest \
   libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
   libgtest-dev libgmock-dev "$@"

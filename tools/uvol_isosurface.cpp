@@ -204,14 +204,26 @@ loadSamples(const Options& options,
           forecast.run(uvol_tools::DensityOptions::getMemoryNeed(points, step));
         addFieldsNeed(arguments, points, step, forecast);
       });
-  arguments.density.addField(*samples, options.threads(), report);
-  if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
-    arguments.parameters.isosurface.field = "sph_density";
-  uvol_tools::addField(
-      *samples, arguments.parameters.isosurface.field, options, report);
-  if (std::isfinite(arguments.outside_value))
-    addOuterLayer(options, arguments, *samples, report);
-  arguments.picture.addColorOfSamples(options, *samples, report);
+  const auto sides = arguments.periodic.findSides(*samples, report);
+  arguments.parameters.periodic = Eigen::Array3d(sides.data());
+  const auto add_fields = [&](pcl_uvol::Dataset& points) {
+    arguments.density.addField(points, options.threads(), report);
+    if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
+      arguments.parameters.isosurface.field = "sph_density";
+    uvol_tools::addField(
+        points, arguments.parameters.isosurface.field, options, report);
+    if (std::isfinite(arguments.outside_value))
+      addOuterLayer(options, arguments, points, report);
+    arguments.picture.addColorOfSamples(options, points, report);
+  };
+  if (arguments.hasFieldsOfNeighbors())
+    uvol_tools::addFieldsInBox(*samples,
+                               sides,
+                               arguments.density.findReach(*samples),
+                               options.threads(),
+                               add_fields);
+  else
+    add_fields(*samples);
   checkOutput(arguments, *samples);
   return samples;
 }
@@ -250,7 +262,8 @@ measureResult(const Options& options,
   return uvol_tools::describeMeasures(figures);
 }
 
-/** \param[out] figures of the mesh, where it is measured */
+/** \param[out] figures of the box that repeats, and of the mesh, where it is measured
+ */
 IsosurfaceResult
 runInMemory(const Options& options,
             Arguments& arguments,
@@ -289,7 +302,17 @@ runInMemory(const Options& options,
         arguments.picture.addMemoryNeed(isopoints, forecast);
       });
   IsosurfaceResult result = pipeline.run();
-  figures = measureResult(options, arguments, samples, result);
+  if ((resolved.periodic > 0.0).any()) {
+    Report own; // the pipeline has told of samples outside
+    figures.push_back(uvol_tools::describeBox(
+        pcl_uvol::findPeriodicBox(
+            *samples,
+            {{resolved.periodic[0], resolved.periodic[1], resolved.periodic[2]}},
+            own),
+        samples->origin));
+  }
+  for (const Fact& fact : measureResult(options, arguments, samples, result))
+    figures.push_back(fact);
   return result;
 }
 
@@ -341,7 +364,8 @@ run(int argc, char** argv)
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
-      "ply csv txt vtk vtp vtu vts h5 and snapshots of Gadget, writes pcd ply vtp csv, "
+      "ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others (uvol "
+      "--list-formats), writes pcd ply vtp csv, "
       "meshes as ply vtp obj off "
       "stl.");
   arguments.declare(options);

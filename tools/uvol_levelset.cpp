@@ -9,6 +9,7 @@
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
+#include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/scale_option.h"
@@ -38,6 +39,7 @@ using uvol_tools::UsageError;
 
 struct Arguments {
   std::string input, output, scale, mu = "auto", table, plot, start_field;
+  uvol_tools::PeriodicOption periodic;
   LevelSetParameters parameters;
   std::vector<double> iso, sphere, box, plane;
   std::uint64_t k = parameters.k, steps = parameters.max_steps, snapshots = 0;
@@ -121,6 +123,7 @@ declare(Options& options, Arguments& arguments)
                "sx,sy,sz|auto",
                arguments.scale,
                "measure distances in a stretched space; auto: equal spread per axis");
+  arguments.periodic.declare(options);
   options.group("Output");
   options.integer("snapshots",
                   arguments.snapshots,
@@ -215,10 +218,12 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
 pcl_uvol::Dataset
 makeZeroLevel(const pcl_uvol::Dataset& samples,
               const LevelSetParameters& parameters,
+              const std::array<double, 3>& sides,
               unsigned threads,
               const std::vector<float>& phi)
 {
   pcl_uvol::IsosurfacePipelineParameters how;
+  how.periodic = Eigen::Array3d(sides.data());
   how.isosurface.isovalues = {parameters.isovalue};
   how.isosurface.scale = parameters.scale;
   how.isosurface.interpolation =
@@ -293,6 +298,7 @@ run(int argc, char** argv)
     return 0;
   LevelSetParameters parameters = makeParameters(options, arguments);
   const uvol_tools::ScaleOption scale(arguments.scale);
+  arguments.periodic.check();
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
     pcl_uvol::checkTablePath(arguments.table);
@@ -314,11 +320,15 @@ run(int argc, char** argv)
   report.progress = std::ref(bar);
   auto total = std::make_unique<StepTimer>(report, "total");
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
+  const std::size_t points = dataset.cloud.width;
+  const auto sides = arguments.periodic.findSides(dataset, report);
+  parameters.scale = scale.resolveScale(pcl_uvol::viewOf(dataset.cloud));
+  uvol_tools::BoxedSamples boxed(
+      dataset, sides, parameters.scale, options.threads(), report);
   uvol_tools::addField(dataset, parameters.field, options, report);
   uvol_tools::addField(dataset, parameters.initial.field_name, options, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
-  parameters.scale = scale.resolveScale(view);
   parameters.initial = shift(parameters.initial, dataset.origin);
   if (parameters.field.empty())
     parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
@@ -343,11 +353,12 @@ run(int argc, char** argv)
       [&](const pcl_uvol::LevelSetSummary& so_far, const std::vector<float>& phi) {
         pcl_uvol::saveDataset(
             snapshotPath(arguments.output, so_far.steps.size()),
-            makeZeroLevel(dataset, parameters, options.threads(), phi),
+            makeZeroLevel(dataset, parameters, sides, options.threads(), phi),
             {});
       });
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   evolution.evolve(result.cloud);
+  boxed.dropImages(result);
   report.merge(evolution.getReport());
   const pcl_uvol::LevelSetSummary& summary = evolution.getSummary();
 
@@ -358,11 +369,12 @@ run(int argc, char** argv)
     writeTable(arguments.table, summary);
   if (!arguments.plot.empty())
     writePlot(arguments.plot, summary);
-  report.count("points", view.count);
+  report.count("points", points);
   total.reset();
   uvol_tools::Facts facts = {{"input", arguments.input},
                              {"output", arguments.output},
                              {"field", parameters.field}};
+  boxed.tell(facts);
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

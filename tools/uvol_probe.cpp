@@ -7,6 +7,7 @@
 #include "shared/interpolation_options.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
+#include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/probe_picture.h"
 #include "shared/probe_run.h"
@@ -18,6 +19,7 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -42,6 +44,7 @@ using Kind = uvol_tools::QueryOptions::Kind;
 struct Arguments {
   std::string input, output, where;
   uvol_tools::InputOptions reading;
+  uvol_tools::PeriodicOption periodic;
   uvol_tools::QueryOptions queries;
   uvol_tools::InterpolationOptions model;
   uvol_tools::ProbePicture picture;
@@ -63,6 +66,7 @@ declare(Options& options, Arguments& arguments)
                arguments.where,
                "use only the samples for which it holds: \"experiment=1 && T>4\"");
   arguments.reading.declare(options);
+  arguments.periodic.declare(options);
   options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   arguments.picture.declare(options);
@@ -73,6 +77,7 @@ check(const Options& options, Arguments& arguments)
 {
   arguments.queries.finish(options);
   arguments.model.finish(options);
+  arguments.periodic.check();
   arguments.reading.makeLoadOptions(); // what is wrong is told before files are read
   const Kind kind = arguments.queries.getKind();
   arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line);
@@ -171,12 +176,17 @@ forecastMemory(const Arguments& arguments, double fields, const QuerySize& queri
   };
 }
 
-/** The box of the samples, as they are told. */
+/** The box of the samples, as they are told.
+ * \param sides of a box that repeats and begins where coordinates do, or 0 */
 pcl_uvol::detail::Bounds
-findBounds(const Dataset& samples)
+findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 {
   auto bounds = pcl_uvol::detail::boundsOf(pcl_uvol::viewOf(samples.cloud));
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (sides[axis] > 0.0) {
+      bounds.low[axis] = 0.0;
+      bounds.high[axis] = sides[axis];
+    }
     bounds.low[axis] += samples.origin[axis];
     bounds.high[axis] += samples.origin[axis];
   }
@@ -219,11 +229,16 @@ run(int argc, char** argv)
   Dataset samples =
       uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
+  const uvol_tools::BoxedSamples boxed(samples,
+                                       arguments.periodic.findSides(samples, report),
+                                       Eigen::Array3f::Ones(),
+                                       options.threads(),
+                                       report);
   InterpolationParameters parameters =
       arguments.model.resolve(options, samples, report);
   std::optional<Slice> lattice;
   if (kind != Kind::None && kind != Kind::Points)
-    lattice = arguments.queries.makeLattice(findBounds(samples));
+    lattice = arguments.queries.makeLattice(findBounds(samples, boxed.getSides()));
   memory.checkCloud(
       samples,
       forecastMemory(arguments,
@@ -232,14 +247,16 @@ run(int argc, char** argv)
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
   pcl::Indices indices(view.count);
   std::iota(indices.begin(), indices.end(), 0);
+  pcl::Indices own = indices; // images of samples left out would tell what they are
+  if (boxed.isPeriodic())
+    own.resize(boxed.countOwn());
 
   Facts facts = {{"input", arguments.input}};
   if (!arguments.output.empty())
     facts.emplace_back("output", arguments.output);
   if (parameters.model == InterpolationModel::Auto) {
     const StepTimer timer(report, "choice");
-    const auto choice =
-        chooseModel(view, indices, parameters, options.threads(), report);
+    const auto choice = chooseModel(view, own, parameters, options.threads(), report);
     parameters.model = choice.scores.front().model;
     facts.emplace_back("model", toWord(parameters.model));
     for (const Fact& fact : uvol_tools::describe(choice))
@@ -248,13 +265,13 @@ run(int argc, char** argv)
   else
     facts.emplace_back("model", toWord(parameters.model));
   if (arguments.model.hasValidation())
-    for (const Fact& fact : arguments.model.validate(
-             samples, indices, parameters, options.threads(), report))
+    for (const Fact& fact :
+         arguments.model.validate(samples, own, parameters, options.threads(), report))
       facts.push_back(fact);
   if (kind != Kind::None) {
     const FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
-    AnswerSummary summary(view, indices, interpolator.getNames());
+    AnswerSummary summary(view, own, interpolator.getNames());
     const Facts found = uvol_tools::runProbe({options,
                                               arguments.queries,
                                               lattice,
@@ -264,6 +281,7 @@ run(int argc, char** argv)
                                               load,
                                               arguments.ascii,
                                               samples,
+                                              boxed.getSides(),
                                               parameters,
                                               interpolator},
                                              summary,
@@ -272,6 +290,7 @@ run(int argc, char** argv)
     addRanges(summary, facts);
     summary.warn(report);
   }
+  boxed.tell(facts);
   total.reset();
   facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);

@@ -176,7 +176,7 @@ class Extractor:
     def extract(self, *, iso, field="", scale=(1.0, 1.0, 1.0), outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
-                validate=0, validate_by="random", mesh=False, threads=0, progress=None):
+                validate=0, validate_by="random", mesh=False, periodic=None, threads=0, progress=None):
         """Extract the isosurfaces of a field: see `isosurface`.
 
         Returns
@@ -207,6 +207,7 @@ class Extractor:
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
             "mesh": dict(mesh) if isinstance(mesh, dict) else ({} if mesh else None),
+            "periodic": [0.0, 0.0, 0.0] if periodic is None else _parameters.numbers(periodic, "periodic"),
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 
@@ -281,6 +282,9 @@ def isosurface(points, fields=None, **options):
         or the name of a field.
     mesh : bool or dict
         Make closed triangle meshes; parameters as those of `Surface.mesh`.
+    periodic : sequence of 3 floats, optional
+        Sides of the box that the samples repeat in, 0 along an axis for none: neighbours
+        are seen across its faces, where a mesh is cut.
     threads : int
         0: all cores. The result does not depend on it.
     progress : bool or callable, optional

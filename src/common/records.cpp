@@ -162,6 +162,7 @@ RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
   }
   header_.notes = info.notes;
   header_.has_coordinates = info.has_coordinates;
+  header_.box = info.box;
   const Fields fields = namedFields(info.fields, header_.notes);
   bool doubles = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -369,6 +370,7 @@ withoutCloud(const Dataset& dataset)
   Dataset result;
   result.origin = dataset.origin;
   result.double_coordinates = dataset.double_coordinates;
+  result.box = dataset.box;
   return result;
 }
 

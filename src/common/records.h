@@ -87,6 +87,7 @@ struct PCL_UVOL_EXPORTS RecordInfo {
   std::optional<bool> double_coordinates; ///< unset: the types of x, y, z tell
   bool has_coordinates = true;
   std::optional<std::array<double, 3>> origin; ///< unset: the coordinates tell
+  std::array<double, 3> box{{0.0, 0.0, 0.0}};  ///< as Dataset::box
 };
 
 /** \brief From records, in native byte order, to the points of a dataset: coordinates

@@ -42,6 +42,14 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openNpy(path);
   case FileFormat::Npz:
     return openNpz(path);
+  case FileFormat::Plot3d:
+    return openPlot3d(path);
+  case FileFormat::Netcdf:
+#ifdef PCL_UVOL_HAS_NETCDF
+    return openNetcdf(path);
+#else
+    throwUnreadable(path, "this build does not read NetCDF, whose library it lacks");
+#endif
   default:
     return nullptr;
   }

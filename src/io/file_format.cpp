@@ -25,7 +25,15 @@ constexpr struct {
                      {".npy", FileFormat::Npy},     {".npz", FileFormat::Npz},
                      {".h5", FileFormat::Hdf5},     {".hdf5", FileFormat::Hdf5},
                      {".hdf", FileFormat::Hdf5},    {".he5", FileFormat::Hdf5},
-                     {".h5part", FileFormat::Hdf5}, {".vtkhdf", FileFormat::Hdf5}};
+                     {".h5part", FileFormat::Hdf5}, {".vtkhdf", FileFormat::Hdf5},
+                     {".nc", FileFormat::Netcdf},   {".nc4", FileFormat::Netcdf},
+                     {".cdf", FileFormat::Netcdf},  {".ex2", FileFormat::Vtk},
+                     {".exo", FileFormat::Vtk},     {".e", FileFormat::Vtk},
+                     {".exii", FileFormat::Vtk},    {".case", FileFormat::Vtk},
+                     {".foam", FileFormat::Vtk},    {".pvd", FileFormat::Vtk},
+                     {".vtm", FileFormat::Vtk},     {".pvtu", FileFormat::Vtk},
+                     {".pvtp", FileFormat::Vtk},    {".pvts", FileFormat::Vtk},
+                     {".p3d", FileFormat::Plot3d}};
 
 /** What usually makes a file that is read of one that is not. */
 constexpr struct {
@@ -35,25 +43,15 @@ constexpr struct {
     {".laz", "laszip -i in.laz -o out.las unpacks it"},
     {".e57", "pdal translate in.e57 out.las converts it"},
     {".bgeo", "splashsurf convert in.bgeo out.vtk converts it"},
-    {".ex2", "meshio convert in.ex2 out.vtu converts it, and so does ParaView"},
-    {".exo", "meshio convert in.exo out.vtu converts it, and so does ParaView"},
-    {".e", "meshio convert in.e out.vtu converts it, and so does ParaView"},
     {".cgns", "meshio convert in.cgns out.vtu converts it, and so does ParaView"},
     {".msh", "meshio convert in.msh out.vtu converts it"},
     {".xdmf", "meshio convert in.xdmf out.vtu converts it"},
-    {".case", "ParaView saves its data as .vtu"},
-    {".foam", "foamToVTK writes .vtu files of it"},
-    {".pvd", "name one of the files that it lists"},
-    {".pvtu", "name one of the files that it lists"},
-    {".vtm", "name one of the files that it lists"},
-    {".pvtp", "uvol_isosurface_mpi reads it, or name one of the files that it lists"},
     {".vtr", "ParaView saves its data as .vts"},
     {".vti", "uvol_generate in.vti out.pcd makes points of a volume"},
     {".nrrd", "uvol_generate in.nrrd out.pcd makes points of a volume"},
     {".nhdr", "uvol_generate in.nhdr out.pcd makes points of a volume"},
     {".mha", "uvol_generate in.mha out.pcd makes points of a volume"},
     {".mhd", "uvol_generate in.mhd out.pcd makes points of a volume"},
-    {".nc", "a few lines of Python's xarray write it as .csv or .npz"},
     {".obj", "meshio convert in.obj out.ply converts it"},
     {".off", "meshio convert in.off out.ply converts it"},
     {".stl", "meshio convert in.stl out.ply converts it"},
@@ -84,12 +82,12 @@ throwUnknown(const std::string& path, const std::string& ending)
     if (ending == known.ending)
       throwUnreadable(path, describeEnding(ending) + "; " + known.way);
   const std::string nearest = findSimilar(listLoadedEndings(), ending);
-  throwUnreadable(path,
-                  describeEnding(ending) +
-                      (nearest.empty() ? "" : ", but " + nearest + " is") +
-                      "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-                      ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, files of HDF5 "
-                      "and snapshots of Gadget");
+  throwUnreadable(
+      path,
+      describeEnding(ending) + (nearest.empty() ? "" : ", but " + nearest + " is") +
+          "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
+          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, PLOT3D, Exodus, "
+          "EnSight, OpenFOAM, files of HDF5 and snapshots of Gadget");
 }
 
 FileFormat
@@ -101,6 +99,8 @@ formatOf(const std::string& path)
   for (const auto& known : known_endings)
     if (ending == known.ending)
       return known.format;
+  if (isPlot3d(path))
+    return FileFormat::Plot3d;
   if (isGadget(path)) // a missing file matters more than its ending
     return FileFormat::Gadget;
   if (isHdf5(path))

@@ -16,7 +16,19 @@ namespace io {
 
 class RecordSource;
 
-enum class FileFormat { Pcd, Ply, Text, Vtk, Gadget, Hdf5, Las, Npy, Npz };
+enum class FileFormat {
+  Pcd,
+  Ply,
+  Text,
+  Vtk,
+  Gadget,
+  Hdf5,
+  Las,
+  Npy,
+  Npz,
+  Netcdf,
+  Plot3d
+};
 
 /** \brief The format of the points in a file, by the ending of its name; snapshots of
  * other endings are known by their first bytes.
@@ -71,7 +83,7 @@ readText(const std::string& path, const LoadOptions& options);
 std::vector<Triangle>
 readVtpTriangles(const std::string& path);
 
-/** \brief .vtk, .vtp, .vtu or .vts. */
+/** \brief .vtk, .vtp, .vtu or .vts, lists of such files, and what VTK itself reads. */
 Dataset
 readVtk(const std::string& path);
 /** @} */
@@ -117,7 +129,20 @@ openNpy(const std::string& path);
 
 std::unique_ptr<RecordSource>
 openNpz(const std::string& path);
+
+/** Not there where the build lacks the library of NetCDF. */
+std::unique_ptr<RecordSource>
+openNetcdf(const std::string& path);
 /** @} */
+
+/** \brief Grids of PLOT3D, and their solutions where these stand beside them.
+ * \throws IOError */
+std::unique_ptr<RecordSource>
+openPlot3d(const std::string& path);
+
+/** \brief True for names as grids of PLOT3D have them: grid.p3d, combxyz.bin. */
+bool
+isPlot3d(const std::string& path);
 
 /** \brief True for a binary snapshot of Gadget.
  * \throws IOError */

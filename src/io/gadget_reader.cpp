@@ -349,17 +349,20 @@ openGadget(const std::string& path, const LoadOptions& options)
   const std::size_t kind =
       chooseKind(path, listGadgetKinds(counts), options.particles, notes);
   noteHeader({header.omega > 0.0 ? header.redshift : 0.0,
-              header.omega > 0.0 ? header.hubble : 1.0,
-              header.box},
+              header.omega > 0.0 ? header.hubble : 1.0},
              notes);
+  std::unique_ptr<RecordSource> source;
   if (parts.size() == 1)
-    return SnapshotFile(path, kind).open(notes);
-  return std::make_unique<PartsSource>(
-      parts.size(),
-      [parts, kind, notes](std::size_t i) {
-        return SnapshotFile(parts[i], kind).open(notes);
-      },
-      [&](std::size_t i) { return parts[i]; });
+    source = SnapshotFile(path, kind).open(notes);
+  else
+    source = std::make_unique<PartsSource>(
+        parts.size(),
+        [parts, kind, notes](std::size_t i) {
+          return SnapshotFile(parts[i], kind).open(notes);
+        },
+        [&](std::size_t i) { return parts[i]; });
+  source->setBox(toBox({header.box}));
+  return source;
 }
 
 } // namespace io

@@ -93,16 +93,18 @@ openGadgetFamily(const Hdf5File& file, const LoadOptions& options)
   const std::size_t kind =
       chooseKind(path, listGadgetKinds(total), options.particles, notes);
   const double omega = number("Omega0", number("Omega_m", 0.0));
-  noteHeader({number("Redshift", 0.0),
-              omega > 0.0 ? number("HubbleParam", 1.0) : 1.0,
-              number("BoxSize", 0.0)},
+  noteHeader({number("Redshift", 0.0), omega > 0.0 ? number("HubbleParam", 1.0) : 1.0},
              notes);
+  std::unique_ptr<RecordSource> source;
   if (parts.size() == 1)
-    return openKind(path, kind, std::move(notes));
-  return std::make_unique<PartsSource>(
-      parts.size(),
-      [parts, kind, notes](std::size_t i) { return openKind(parts[i], kind, notes); },
-      [&](std::size_t i) { return parts[i]; });
+    source = openKind(path, kind, std::move(notes));
+  else
+    source = std::make_unique<PartsSource>(
+        parts.size(),
+        [parts, kind, notes](std::size_t i) { return openKind(parts[i], kind, notes); },
+        [&](std::size_t i) { return parts[i]; });
+  source->setBox(toBox(file.readAttribute("/Header", "BoxSize")));
+  return source;
 }
 
 /** The groups of a file, the outer ones first. */

@@ -25,6 +25,13 @@ public:
     return info_;
   }
 
+  /** \brief Tell the sides of the box that the file names. */
+  void
+  setBox(const std::array<double, 3>& box)
+  {
+    info_.box = box;
+  }
+
   /** \brief The number of the record that read() begins with. */
   std::uint64_t
   tell() const

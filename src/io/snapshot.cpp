@@ -6,6 +6,7 @@
 #include "io/files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -97,20 +98,25 @@ listSnapshotFiles(const std::string& path, std::size_t count)
   return files;
 }
 
+std::array<double, 3>
+toBox(const std::vector<double>& sides)
+{
+  std::array<double, 3> box{};
+  for (std::size_t axis = 0; axis < 3 && !sides.empty(); ++axis) {
+    const double side = sides[sides.size() < 3 ? 0 : axis];
+    box[axis] = std::isfinite(side) && side > 0.0 ? side : 0.0;
+  }
+  return box;
+}
+
 void
 noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes)
 {
-  std::ostringstream text;
   if (header.redshift > 1e-9 || (header.hubble > 0.0 && header.hubble != 1.0)) {
+    std::ostringstream text;
     text << "Numbers are those of the file, whose units hold factors of the redshift "
          << header.redshift << " and of the Hubble parameter " << header.hubble << ".";
     notes.push_back(text.str());
-  }
-  if (header.box > 0.0) {
-    std::ostringstream box;
-    box << "The header names a box of " << header.box
-        << ": should it repeat, neighbours across its faces are not seen.";
-    notes.push_back(box.str());
   }
 }
 

@@ -44,10 +44,14 @@ listSnapshotFiles(const std::string& path, std::size_t count);
 struct CosmologyHeader {
   double redshift = 0.0;
   double hubble = 1.0;
-  double box = 0.0; ///< side of the box; 0: none
 };
 
-/** \brief Sentences on comoving units and on boxes that repeat. */
+/** \brief The sides of a box, of one number for all of them, or of three; 0 where
+ * they are none. */
+std::array<double, 3>
+toBox(const std::vector<double>& sides);
+
+/** \brief A sentence on comoving units. */
 void
 noteHeader(const CosmologyHeader& header, std::vector<std::string>& notes);
 

@@ -3,6 +3,7 @@
 #include "common/records.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/vtk_data_reader.h"
 #include "io/vtk_messages.h"
 #include "io/vtk_readers.h"
 #include "io/xml_scanner.h"
@@ -131,8 +132,10 @@ writePieceList(const std::string& file,
 Dataset
 readVtk(const std::string& path)
 {
-  const auto content =
-      getEnding(path) == ".vtk" ? readVtkLegacy(path) : readVtkXml(path);
+  const auto content = isReadByVtk(path)           ? readByVtk(path)
+                       : isFileList(path)          ? readFileList(path)
+                       : getEnding(path) == ".vtk" ? readVtkLegacy(path)
+                                                   : readVtkXml(path);
   Dataset dataset = toPointCloud(content.data);
   dataset.notes.insert(dataset.notes.end(), content.notes.begin(), content.notes.end());
   return dataset;

@@ -20,8 +20,6 @@ constexpr double farthest_move = 0.5;
 /** Cosine of 60 degrees, which no triangle may exceed by the last move. */
 constexpr double least_agreement = 0.5;
 
-constexpr double degrees = 180.0 / 3.14159265358979323846;
-
 /** The samples that a vertex lies between, and where the values between them are the
  * isovalue; where both are on one side, by the fits, the end that is nearer to it. */
 IsoEdge
@@ -143,14 +141,9 @@ private:
 double
 smallestAngleOf(const WorkingMesh& mesh, const Triangle& triangle)
 {
-  double smallest = 180.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& tip = mesh.vertices[triangle[i]].foot.place;
-    const Eigen::Vector3d u = mesh.vertices[triangle[(i + 1) % 3]].foot.place - tip,
-                          v = mesh.vertices[triangle[(i + 2) % 3]].foot.place - tip;
-    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * degrees);
-  }
-  return smallest;
+  return smallestAngle({{mesh.vertices[triangle[0]].foot.place,
+                         mesh.vertices[triangle[1]].foot.place,
+                         mesh.vertices[triangle[2]].foot.place}});
 }
 
 void

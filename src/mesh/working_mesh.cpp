@@ -3,9 +3,29 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pcl_uvol::detail {
+
+namespace {
+
+constexpr double degrees = 180.0 / 3.14159265358979323846;
+
+} // namespace
+
+double
+smallestAngle(const std::array<Eigen::Vector3d, 3>& corners)
+{
+  double smallest = 180.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d u = corners[(i + 1) % 3] - corners[i],
+                          v = corners[(i + 2) % 3] - corners[i];
+    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * degrees);
+  }
+  return smallest;
+}
 
 double
 WorkingMesh::agreementOf(const Triangle& triangle) const

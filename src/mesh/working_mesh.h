@@ -49,4 +49,8 @@ struct WorkingMesh {
   dropUnused();
 };
 
+/** \brief Of the angles of a triangle, in degrees. */
+double
+smallestAngle(const std::array<Eigen::Vector3d, 3>& corners);
+
 } // namespace pcl_uvol::detail

@@ -27,6 +27,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.mesh)
     throw InvalidArgument("A mesh is not offered for samples of several processes: its "
                           "cells would have to be joined across their borders.");
+  if ((parameters.periodic > 0.0).any())
+    throw InvalidArgument(
+        "A box that repeats is not offered for samples of several processes.");
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");

@@ -116,10 +116,11 @@ runPipelineOutOfCore(PointSource& points,
   checkParameters(parameters);
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
       parameters.fill_gaps || parameters.validation.folds > 0 ||
+      (parameters.periodic > 0.0).any() ||
       parameters.isosurface.neighbors != NeighborSource::KdTree)
     throw InvalidArgument(
-        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps and "
-        "neighbours from Voronoi diagrams need all samples in memory.");
+        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps, boxes that "
+        "repeat and neighbours from Voronoi diagrams need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

@@ -2,10 +2,12 @@
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
+#include "neighbors/periodic_box.h"
 #include "neighbors/sampling.h"
 #include "pipeline/gap_filling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/periodic_surface.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -30,7 +32,8 @@ shareCloud(const std::shared_ptr<const Dataset>& samples)
   return {samples, &samples->cloud};
 }
 
-/** Leaves out what max_error and drop_bridged do not want. */
+/** Leaves out what belongs to images, and what max_error and drop_bridged do not want.
+ */
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsoEdges& edges,
@@ -38,10 +41,16 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report)
 {
-  const auto drop = [&](const char* name, const auto& keep) {
+  const auto filter = [&](const auto& keep) {
     choice.filter(isopoints, keep);
-    report.count(name, filterIsopoints(isopoints, edges, keep));
+    return filterIsopoints(isopoints, edges, keep);
   };
+  const auto drop = [&](const char* name, const auto& keep) {
+    report.count(name, filter(keep));
+  };
+  const PeriodicBox box{{}, sidesOf(parameters)};
+  if (isPeriodic(box.sides) && !parameters.mesh)
+    filter([&](const PointIso& point) { return box.holds(point.data); });
   if (parameters.max_error)
     drop("removed_by_error",
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
@@ -142,6 +151,10 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
+  checkPeriodic(sidesOf(parameters));
+  if (isPeriodic(sidesOf(parameters)) && parameters.validation.folds > 0)
+    throw InvalidArgument("A hold-out test goes without a box that repeats: images of "
+                          "samples that are left out would tell what they are.");
   if (!parameters.mesh)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
@@ -321,6 +334,13 @@ IsosurfacePipeline::run()
   IsosurfacePipelineParameters parameters = parameters_;
   parameters.isosurface = resolveParameters();
   startReport();
+  return isPeriodic(sidesOf(parameters)) ? runInBox(std::move(parameters))
+                                         : runOnSamples(std::move(parameters));
+}
+
+IsosurfaceResult
+IsosurfacePipeline::runOnSamples(IsosurfacePipelineParameters parameters)
+{
   std::vector<LevelSetSummary> level_sets;
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);

@@ -9,6 +9,7 @@
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_uvol {
 
@@ -38,6 +39,19 @@ addLevelSets(const LevelSetParameters& parameters,
   }
 }
 
+/** Points with images over points: layers of some samples on both sides of an even
+ * cube, as thick as makeImages() makes them. */
+double
+imagesFactor(const IsosurfacePipelineParameters& parameters, double points)
+{
+  const double layers = parameters.smooth ? 16.0 : parameters.mesh ? 10.0 : 6.0;
+  double factor = 1.0;
+  for (const double side : parameters.periodic)
+    if (side > 0.0)
+      factor *= std::min(3.0, 1.0 + layers / std::cbrt(std::max(points, 1.0)));
+  return factor;
+}
+
 } // namespace
 
 void
@@ -48,6 +62,10 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
               MemoryForecast& forecast)
 {
   surfaces.resize(parameters.isosurface.isovalues.size());
+  if ((parameters.periodic > 0.0).any()) {
+    points *= imagesFactor(parameters, points);
+    forecast.hold(point_step * points); // the samples with images
+  }
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     forecast.hold(ExactNeighbors::bytesPerSample() * points);
   if (parameters.fill_gaps) // a copy of the samples with more behind them

@@ -169,7 +169,8 @@ TEST_F(Gadget, ComovingUnitsAndBoxesAreTold)
   layout.hubble = 0.7;
   layout.box = 100.0;
   EXPECT_FALSE(hasNote(loadDataset(save("a", layout)), "redshift"));
-  EXPECT_TRUE(hasNote(loadDataset(save("a", layout)), "box of 100"));
+  EXPECT_EQ((std::array<double, 3>{{100.0, 100.0, 100.0}}),
+            loadDataset(save("a", layout)).box);
   layout.omega = 0.3;
   EXPECT_TRUE(hasNote(loadDataset(save("b", layout)),
                       "redshift 2 and of the Hubble parameter 0.7"));

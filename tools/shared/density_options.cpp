@@ -7,6 +7,7 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace uvol_tools {
@@ -36,6 +37,24 @@ DensityOptions::getMemoryNeed(double points, double step)
   need.kept = field * points;
   need.peak = std::max(sums, field + step + field) * points;
   return need;
+}
+
+double
+DensityOptions::findReach(const pcl_uvol::Dataset& dataset) const
+{
+  constexpr double kernel_end = 2.0; // of the cubic spline, in smoothing lengths
+  if (!is_asked_for_ || length_ > 0.0)
+    return is_asked_for_ ? kernel_end * length_ : 0.0;
+  const std::string name = pcl_uvol::findSphFields(dataset.cloud.fields).length_field;
+  if (name.empty())
+    return 0.0;
+  const pcl_uvol::ScalarField field(dataset.cloud.fields, name);
+  double longest = 0.0;
+  for (std::size_t i = 0; i < dataset.cloud.width; ++i)
+    longest = std::fmax(longest,
+                        field.read(&dataset.cloud.data[i * dataset.cloud.point_step]));
+  return std::isfinite(longest) ? kernel_end * pcl_uvol::lengthFactorOf(name) * longest
+                                : 0.0;
 }
 
 void

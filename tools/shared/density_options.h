@@ -28,6 +28,11 @@ public:
            unsigned threads,
            pcl_uvol::Report& report) const;
 
+  /** \brief How far the kernels of the samples reach, where the option or a field
+   * tells; 0: not known, or not asked for. */
+  double
+  findReach(const pcl_uvol::Dataset& dataset) const;
+
   /** \brief Bytes of adding it to so many points of such a step, on top of them. */
   static pcl_uvol::MemoryNeed
   getMemoryNeed(double points, double step);

@@ -86,6 +86,7 @@ PipelineOptions::declare(Options& options)
                "output)");
   options.group("Input");
   density.declare(options);
+  periodic.declare(options);
   options.number("outside-value",
                  outside_value,
                  std::numeric_limits<double>::lowest(),
@@ -102,10 +103,17 @@ PipelineOptions::declare(Options& options)
 bool
 PipelineOptions::needsAllSamples() const
 {
-  return density.isAskedFor() || std::isfinite(outside_value) || parameters.smooth ||
+  return hasFieldsOfNeighbors() || periodic.isAskedFor() ||
+         std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
          parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
-         mesh_.isMeasured() || parameters.isosurface.neighbors != NeighborSource::KdTree ||
+         mesh_.isMeasured() || parameters.isosurface.neighbors != NeighborSource::KdTree;
+}
+
+bool
+PipelineOptions::hasFieldsOfNeighbors() const
+{
+  return density.isAskedFor() ||
          pcl_uvol::mayHaveDerivative(parameters.isosurface.field) ||
          picture.hasColorOfSamples();
 }
@@ -130,10 +138,14 @@ PipelineOptions::checkCombinations(const Options& options) const
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
-        "-max-memory goes without -density, -outside-value, -smooth, -where, -scale "
-        "auto, -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi or exact and "
-        "derivatives as fields, which need all samples in "
+        "-max-memory goes without -density, -outside-value, -periodic, -smooth, "
+        "-where, -scale auto, -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi "
+        "or exact and derivatives as fields, which need all samples in "
         "memory.");
+  if (periodic.isAskedFor() &&
+      (std::isfinite(outside_value) || options.given("validate")))
+    throw UsageError("-periodic goes without -outside-value and -validate: there is no "
+                     "outside, and images would tell what was left out.");
   if (!parameters.mesh)
     return;
   if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||
@@ -166,6 +178,7 @@ PipelineOptions::finish(const Options& options)
   if (std::isfinite(outside_value) && !options.given("interpolation") &&
       !parameters.mesh)
     parameters.isosurface.interpolation = pcl_uvol::Interpolation::Linear;
+  periodic.check();
   checkCombinations(options);
   if (!parameters.mesh)
     pcl_uvol::checkSavePath(output);

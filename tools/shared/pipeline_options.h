@@ -6,6 +6,7 @@
 #include "shared/density_options.h"
 #include "shared/isosurface_options.h"
 #include "shared/mesh_options.h"
+#include "shared/periodic_option.h"
 #include "shared/surface_picture.h"
 
 #include <cstdint>
@@ -20,6 +21,7 @@ struct PipelineOptions : IsosurfaceOptions {
   bool ascii = false;
   SurfacePicture picture;
   DensityOptions density;
+  PeriodicOption periodic;
   double outside_value = std::numeric_limits<double>::quiet_NaN(); ///< unset
 
   void
@@ -34,6 +36,10 @@ struct PipelineOptions : IsosurfaceOptions {
   /** \brief Whether something asks for all samples at once. */
   bool
   needsAllSamples() const;
+
+  /** \brief Whether fields are added that a sample has from those around it. */
+  bool
+  hasFieldsOfNeighbors() const;
 
   const MeshOptions&
   getMesh() const

@@ -3,11 +3,13 @@
 
 #include "common/scalar_field.h"
 #include "io/lattice_file.h"
+#include "neighbors/periodic_box.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -44,7 +46,7 @@ public:
 
 private:
   InterpolatedFields
-  answer(const std::vector<Place>& queries);
+  answer(std::vector<Place> queries);
 
   Facts
   writePoints(const InterpolatedFields& answers,
@@ -100,8 +102,13 @@ putNumbers(const pcl_uvol::PutNumbers& put,
 }
 
 InterpolatedFields
-Runner::answer(const std::vector<Place>& queries)
+Runner::answer(std::vector<Place> queries)
 {
+  const pcl_uvol::PeriodicBox box{{}, probe_.sides};
+  for (Place& query : queries)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (box.sides[axis] > 0.0 && std::isfinite(query[axis]))
+        query[axis] = box.toBox(query[axis], axis);
   InterpolatedFields answers =
       probe_.interpolator.interpolate(queries, probe_.options.threads(), report_);
   summary_.add(answers);

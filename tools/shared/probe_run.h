@@ -9,6 +9,7 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,8 @@ struct Probe {
   pcl_uvol::LoadOptions load; ///< of the samples and of points like them
   bool ascii;
   const pcl_uvol::Dataset& samples;
+  /** Of the box that they repeat in, which begins where coordinates do; 0: none. */
+  std::array<double, 3> sides;
   const pcl_uvol::InterpolationParameters& parameters;
   const pcl_uvol::detail::FieldInterpolator& interpolator;
 };

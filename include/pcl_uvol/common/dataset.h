@@ -32,6 +32,9 @@ struct PCL_UVOL_EXPORTS Dataset {
   bool double_coordinates = false;
   /** False: the file has none, and x, y, z are 0; see LoadOptions. */
   bool has_coordinates = true;
+  /** Sides of the box that the file names, 0: none. Whether it repeats the user knows,
+   * see IsosurfacePipelineParameters::periodic. */
+  std::array<double, 3> box{{0.0, 0.0, 0.0}};
   /** One sentence each: what reading had to decide (columns taken as coordinates, list
    * properties left out, ...). */
   std::vector<std::string> notes;

@@ -160,6 +160,15 @@ public:
   estimateMemory() const;
 
 private:
+  /** Of samples in a box that repeats. */
+  IsosurfaceResult
+  runInBox(IsosurfacePipelineParameters parameters);
+
+  /** Of samples as they are, all that belong to them among them.
+   * \param parameters with the field and the scale that are taken */
+  IsosurfaceResult
+  runOnSamples(IsosurfacePipelineParameters parameters);
+
   /** Isopoints are vertices without triangles. */
   SurfaceTriangles
   extract(const IsosurfaceParameters& parameters, Report& report);
@@ -186,7 +195,8 @@ private:
 
 /** \brief The second half of the way, for isopoints that were extracted elsewhere, out
  * of core or by another process: normals, filters, fields and warnings.
- * \param samples between which the edges lie
+ * \param samples between which the edges lie; with a box that repeats they count from
+ * its low corner, and isopoints outside of it are left out
  * \param parameters with the field and the scale that were taken
  * \param report continued
  * \param isopoints that were extracted

@@ -120,6 +120,11 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
    * that nothing joins. */
   std::optional<MeshingParameters> mesh;
+  /** Sides of the box that the samples repeat in, in units of length; 0, the default:
+   * they do not along that axis. Neighbours are seen across its faces. It lies where
+   * the samples do, at 0, about 0, or at the lowest of them; isopoints lie in it, their
+   * edges may join samples across its faces, and a mesh is cut there. */
+  Eigen::Array3d periodic{0.0, 0.0, 0.0};
 
   static auto
   listMembers()
@@ -135,7 +140,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"drop_bridged", &Own::drop_bridged},
                            Member{"fill_gaps", &Own::fill_gaps},
                            Member{"validation", &Own::validation},
-                           Member{"mesh", &Own::mesh});
+                           Member{"mesh", &Own::mesh},
+                           Member{"periodic", &Own::periodic});
   }
 
   std::string
@@ -151,7 +157,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
 /** \throws InvalidArgument for what can be told without samples: see
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number; a hold-out test of one fold; a mesh with a bound of the error, without
+ * number; a hold-out test of one fold, or in a box that repeats; sides of such a box
+ * that are negative or not finite; a mesh with a bound of the error, without
  * bridged points, with other normals than those of the fits, and as
  * checkParameters(SurfaceMeshParameters)
  * \param parameters to be checked before samples are there */

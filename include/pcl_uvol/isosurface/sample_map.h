@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples of a robot's sensors as they come in: a window in time, a bound on their
+// number, and surfaces of what is there, extracted beside further samples.
+#pragma once
+
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+
+#include <pcl/point_cloud.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <future>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace pcl_uvol {
+
+/** \brief What a SampleMap keeps. */
+struct PCL_UVOL_EXPORTS SampleMapParameters {
+  /** Samples that are older than the newest by more are forgotten, in the unit of the
+   * stamps, from 0. NaN, the default: none. */
+  double window = std::numeric_limits<double>::quiet_NaN();
+  /** Samples at most, from 1. Beyond it they are thinned: of those in one cube the
+   * newest stays. */
+  std::size_t most_samples = 100000;
+  /** Side of the cubes, in units of length, from 0; it grows until three quarters of
+   * the bound, or fewer, are left. 0: that of so many cubes in the samples' box. */
+  double cube = 0.0;
+
+  static auto
+  listMembers()
+  {
+    using Own = SampleMapParameters;
+    return std::make_tuple(Member{"window", &Own::window},
+                           Member{"most_samples", &Own::most_samples},
+                           Member{"cube", &Own::cube});
+  }
+
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static SampleMapParameters
+  fromJson(const std::string& text);
+};
+
+/** \throws InvalidArgument for a window or a side below 0, and for a bound of 0 */
+PCL_UVOL_EXPORTS void
+checkParameters(const SampleMapParameters& parameters);
+
+namespace detail {
+
+/** \brief The samples that stay when there are too many, ascending.
+ *
+ * \param cloud the newest samples last; those without a finite position go
+ *
+ * \param most samples that may stay, from 1
+ *
+ * \param cube see SampleMapParameters */
+PCL_UVOL_EXPORTS std::vector<std::uint32_t>
+thinByCubes(const CloudView& cloud, std::size_t most, double cube);
+
+} // namespace detail
+
+/** \brief Isopoints of the samples that a SampleMap held at one moment. */
+template <typename PointT>
+struct SampleMapSurface {
+  pcl::PointCloud<PointIso> isopoints;
+  IsoEdges edges; ///< with indices into samples
+  typename pcl::PointCloud<PointT>::ConstPtr samples;
+  Report report;
+};
+
+/** \brief Samples that come in and go, and their isosurfaces at any moment.
+ *
+ * \code
+ * pcl_uvol::SampleMap<pcl::PointXYZI> map;
+ * map.append(cloud, stamp); // again and again
+ * auto surface = map.extractInBackground(parameters); // while more samples come
+ * show(surface.get().isopoints);
+ * \endcode
+ * All calls may come from any thread. The tree is built anew for each extraction: what
+ * comes out is that of a fresh cloud of the same samples.
+ *
+ * \tparam PointT any registered point type with x, y, z */
+template <typename PointT>
+class SampleMap {
+public:
+  using Cloud = pcl::PointCloud<PointT>;
+
+  /** \throws InvalidArgument as checkParameters() */
+  explicit SampleMap(const SampleMapParameters& parameters = {})
+      : parameters_(parameters)
+  {
+    checkParameters(parameters);
+  }
+
+  SampleMapParameters
+  getParameters() const
+  {
+    return parameters_;
+  }
+
+  /** \brief Add samples; old ones go as the parameters say.
+   *
+   * \param stamp their time, in any order
+   *
+   * \throws InvalidArgument for a stamp that is not finite */
+  void
+  append(const Cloud& cloud, double stamp)
+  {
+    if (!(std::abs(stamp) <= std::numeric_limits<double>::max()))
+      throw InvalidArgument("Samples need a finite stamp.");
+    const std::lock_guard<std::mutex> lock(mutex_);
+    newest_ = samples_.empty() ? stamp : std::max(newest_, stamp);
+    for (const PointT& point : cloud)
+      samples_.push_back(point);
+    stamps_.resize(samples_.size(), stamp);
+    dropOld(newest_ - parameters_.window);
+    if (samples_.size() > parameters_.most_samples)
+      keep(detail::thinByCubes(
+          viewOf(samples_), parameters_.most_samples, parameters_.cube));
+  }
+
+  /** \brief Forget all samples. */
+  void
+  forget()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    samples_.clear();
+    stamps_.clear();
+  }
+
+  /** \brief Forget samples of an earlier time. */
+  void
+  forgetBefore(double stamp)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    dropOld(stamp);
+  }
+
+  std::size_t
+  size() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return samples_.size();
+  }
+
+  /** \brief A copy of the samples, those that came last behind the others. */
+  typename Cloud::Ptr
+  getSamples() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::make_shared<Cloud>(samples_);
+  }
+
+  /** \brief Extract the isosurfaces of the samples that are there now.
+   *
+   * \param threads 0 (default) = all cores
+   *
+   * \throws InvalidArgument as IsosurfaceExtraction::extract */
+  SampleMapSurface<PointT>
+  extract(const IsosurfaceParameters& parameters, unsigned threads = 0) const
+  {
+    return extractFrom(getSamples(), parameters, threads);
+  }
+
+  /** \brief The same in a thread of its own, while samples come and go: those that are
+   * there at the time of the call count. get() throws what extract() does. */
+  std::future<SampleMapSurface<PointT>>
+  extractInBackground(const IsosurfaceParameters& parameters,
+                      unsigned threads = 0) const
+  {
+    return std::async(std::launch::async,
+                      [samples = getSamples(), parameters, threads] {
+                        return extractFrom(samples, parameters, threads);
+                      });
+  }
+
+private:
+  static SampleMapSurface<PointT>
+  extractFrom(const typename Cloud::ConstPtr& samples,
+              const IsosurfaceParameters& parameters,
+              unsigned threads)
+  {
+    IsosurfaceExtraction<PointT> extraction;
+    extraction.setInputCloud(samples);
+    extraction.setParameters(parameters);
+    extraction.setNumberOfThreads(threads);
+    SampleMapSurface<PointT> surface;
+    extraction.extract(surface.isopoints);
+    surface.edges = extraction.getEdges();
+    surface.report = extraction.getReport();
+    surface.samples = samples;
+    return surface;
+  }
+
+  /** \param stamp NaN: none is too old */
+  void
+  dropOld(double stamp)
+  {
+    std::vector<std::uint32_t> young;
+    for (std::size_t i = 0; i < stamps_.size(); ++i)
+      if (!(stamps_[i] < stamp))
+        young.push_back(static_cast<std::uint32_t>(i));
+    if (young.size() < stamps_.size())
+      keep(young);
+  }
+
+  /** \param indices ascending */
+  void
+  keep(const std::vector<std::uint32_t>& indices)
+  {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      samples_[i] = samples_[indices[i]];
+      stamps_[i] = stamps_[indices[i]];
+    }
+    samples_.resize(indices.size());
+    stamps_.resize(indices.size());
+  }
+
+  const SampleMapParameters parameters_;
+  mutable std::mutex mutex_;
+  Cloud samples_;              // guarded by mutex_, as what follows
+  std::vector<double> stamps_; // by sample
+  double newest_ = 0.0;
+};
+
+} // namespace pcl_uvol

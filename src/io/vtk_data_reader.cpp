@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/vtk_data_reader.h"
+
+#include "common/printable.h"
+#include "io/files.h"
+#include "io/vtk_messages.h"
+#include "io/xml_scanner.h"
+
+#include <vtkAppendFilter.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataSet.h>
+#include <vtkExodusIIReader.h>
+#include <vtkGenericEnSightReader.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkOpenFOAMReader.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+namespace pcl_uvol {
+namespace io {
+namespace {
+
+constexpr const char* exodus_endings[] = {".ex2", ".exo", ".e", ".exii"};
+constexpr const char* list_endings[] = {".pvd", ".vtm", ".pvtu", ".pvtp", ".pvts"};
+/** Lists may name lists, but not without end. */
+constexpr std::size_t most_lists = 8;
+
+template <std::size_t count>
+bool
+isAmong(const char* const (&endings)[count], const std::string& ending)
+{
+  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
+}
+
+/** What is no file, and no Exodus, which is NetCDF in one of its formats, is told
+ * before libraries print what they think of it. */
+void
+checkBeginning(const std::string& path)
+{
+  const std::string head = InputFile(path).head(4);
+  if (isAmong(exodus_endings, getEnding(path)) && head.rfind("CDF", 0) != 0 &&
+      head != "\x89HDF")
+    throwUnreadable(path, "it is no Exodus: it does not begin as NetCDF or HDF5 do");
+}
+
+vtkSmartPointer<vtkAlgorithm>
+makeReader(const std::string& path)
+{
+  const std::string ending = getEnding(path);
+  if (ending == ".case") {
+    auto reader = vtkSmartPointer<vtkGenericEnSightReader>::New();
+    reader->SetCaseFileName(path.c_str());
+    reader->ReadAllVariablesOn();
+    return reader;
+  }
+  if (ending == ".foam") {
+    auto reader = vtkSmartPointer<vtkOpenFOAMReader>::New();
+    reader->SetFileName(path.c_str());
+    reader->CreateCellToPointOn();
+    reader->UpdateInformation();
+    reader->EnableAllCellArrays();
+    reader->EnableAllPointArrays();
+    return reader;
+  }
+  auto reader = vtkSmartPointer<vtkExodusIIReader>::New();
+  reader->SetFileName(path.c_str());
+  reader->SetApplyDisplacements(0); // coordinates stay those of the file
+  reader->UpdateInformation();
+  reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
+  return reader;
+}
+
+/** Points and their data, without the cells. */
+vtkSmartPointer<vtkPolyData>
+takePoints(vtkDataSet& data)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(data.GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) {
+    double place[3];
+    data.GetPoint(i, place);
+    points->SetPoint(i, place);
+  }
+  result->SetPoints(points);
+  result->GetPointData()->ShallowCopy(data.GetPointData());
+  return result;
+}
+
+/** All points behind one another. */
+class PointJoiner {
+public:
+  void
+  add(vtkDataSet& data)
+  {
+    if (data.GetNumberOfPoints() == 0)
+      return;
+    for (int i = 0; i < data.GetPointData()->GetNumberOfArrays(); ++i)
+      if (const char* const name = data.GetPointData()->GetArrayName(i))
+        names_.insert(name);
+    blocks_.push_back(takePoints(data));
+  }
+
+  /** \throws IOError without a point */
+  VtkContent
+  join(const std::string& path) const
+  {
+    if (blocks_.empty())
+      throwUnreadable(path, "it has no points");
+    vtkNew<vtkAppendFilter> append;
+    append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+    for (const auto& block : blocks_)
+      append->AddInputData(block);
+    append->Update();
+    VtkContent content{append->GetOutput(), {}};
+    for (const std::string& name : names_)
+      if (content.data->GetPointData()->HasArray(name.c_str()) == 0)
+        content.notes.push_back("The field " + quoteText(name) +
+                                " is left out: not all of the parts have it.");
+    return content;
+  }
+
+private:
+  std::vector<vtkSmartPointer<vtkPolyData>> blocks_;
+  std::set<std::string> names_;
+};
+
+/** Read the last of several times. \return what to say of it */
+std::string
+updateAtLastTime(vtkAlgorithm& reader)
+{
+  reader.UpdateInformation();
+  vtkInformation* const about = reader.GetOutputInformation(0);
+  auto* const key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+  const int times = about->Has(key) != 0 ? about->Length(key) : 0;
+  if (times == 0) {
+    reader.Update();
+    return "";
+  }
+  const double last = about->Get(key, times - 1);
+  reader.UpdateTimeStep(last);
+  std::ostringstream text;
+  text << "Of " << times << " times the last one is read, " << last << '.';
+  return times > 1 ? text.str() : "";
+}
+
+/** A file of a list. */
+struct ListedFile {
+  std::string path, time;
+};
+
+std::vector<ListedFile>
+listFiles(const std::string& path)
+{
+  XmlScanner scanner(path);
+  XmlTag tag;
+  std::vector<ListedFile> files;
+  const auto folder = std::filesystem::path(path).parent_path();
+  while (scanner.next(tag)) {
+    if (tag.closes || (tag.name != "DataSet" && tag.name != "Piece"))
+      continue;
+    const std::string* const name = tag.find(tag.name == "Piece" ? "Source" : "file");
+    const std::string* const time = tag.find("timestep");
+    if (name && !name->empty())
+      files.push_back({(folder / *name).string(), time ? *time : ""});
+  }
+  if (!scanner.getOpen().empty())
+    throwUnreadable(path, "it is truncated or no list of files");
+  if (files.empty())
+    throwUnreadable(path, "it lists no files");
+  return files;
+}
+
+/** \param lists that are open, to notice one that names itself */
+void
+addFiles(const std::string& path,
+         std::vector<std::string>& lists,
+         PointJoiner& points,
+         std::vector<std::string>& notes)
+{
+  if (lists.size() >= most_lists)
+    throwUnreadable(lists.front(), "its lists name one another without end");
+  lists.push_back(path);
+  std::vector<ListedFile> files = listFiles(path);
+  const std::string first = files.front().time;
+  const std::size_t all = files.size();
+  files.erase(std::remove_if(files.begin(),
+                             files.end(),
+                             [&](const ListedFile& f) { return f.time != first; }),
+              files.end());
+  if (files.size() < all)
+    notes.push_back("Of the times that " + quoteText(path) + " lists the first one, " +
+                    printable(first) + ", is read.");
+  for (const ListedFile& file : files) {
+    if (isFileList(file.path)) {
+      addFiles(file.path, lists, points, notes);
+      continue;
+    }
+    const VtkContent content = getEnding(file.path) == ".vtk" ? readVtkLegacy(file.path)
+                                                              : readVtkXml(file.path);
+    points.add(*content.data);
+  }
+  lists.pop_back();
+}
+
+} // namespace
+
+bool
+isReadByVtk(const std::string& path)
+{
+  const std::string ending = getEnding(path);
+  return ending == ".case" || ending == ".foam" || isAmong(exodus_endings, ending);
+}
+
+VtkContent
+readByVtk(const std::string& path)
+{
+  checkBeginning(path);
+  const VtkMessages messages;
+  const auto reader = makeReader(path);
+  const std::string note = updateAtLastTime(*reader);
+  PointJoiner points;
+  auto* const output = reader->GetOutputDataObject(0);
+  if (auto* const data = vtkDataSet::SafeDownCast(output))
+    points.add(*data);
+  else if (auto* const blocks = vtkCompositeDataSet::SafeDownCast(output)) {
+    const auto iterator =
+        vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal();
+         iterator->GoToNextItem())
+      if (auto* const block =
+              vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
+        points.add(*block);
+  }
+  if (!messages.getError().empty())
+    throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
+  VtkContent content = points.join(path);
+  if (!note.empty())
+    content.notes.push_back(note);
+  return content;
+}
+
+bool
+isFileList(const std::string& path)
+{
+  return isAmong(list_endings, getEnding(path));
+}
+
+VtkContent
+readFileList(const std::string& path)
+{
+  PointJoiner points;
+  std::vector<std::string> lists, notes;
+  addFiles(path, lists, points, notes);
+  VtkContent content = points.join(path);
+  content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
+  return content;
+}
+
+} // namespace io
+} // namespace pcl_uvol

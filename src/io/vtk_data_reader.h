@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of files that VTK's own readers take, and of files that list others.
+#pragma once
+
+#include "io/vtk_readers.h"
+
+#include <string>
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief True for the endings of Exodus, EnSight and OpenFOAM. */
+bool
+isReadByVtk(const std::string& path);
+
+/** \brief The points of all blocks at the last time, with the fields that all blocks
+ * have.
+ *
+ * VTK believes what the file says: not for files of strangers.
+ *
+ * \throws IOError */
+VtkContent
+readByVtk(const std::string& path);
+
+/** \brief True for the endings of files that list others: .pvd, .vtm, .pvtu, .pvtp and
+ * .pvts. */
+bool
+isFileList(const std::string& path);
+
+/** \brief The points of all files that a list names, with the fields that all of them
+ * have; of a series over time those of the first time.
+ *
+ * \throws IOError for a list that names itself, and for one of its files that cannot be
+ * read */
+VtkContent
+readFileList(const std::string& path);
+
+} // namespace io
+} // namespace pcl_uvol

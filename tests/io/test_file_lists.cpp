@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that list others, and those that VTK's own readers take.
+#include "random_dataset.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <filesystem>
+
+using namespace pcl_uvol;
+using namespace uvol_test;
+
+namespace {
+
+class FileLists : public testing::Test {
+protected:
+  FileLists()
+  {
+    std::filesystem::create_directory(folder_ / "parts");
+    for (int i = 0; i < 3; ++i) {
+      std::vector<FieldSpec> fields{{"f", Type::FLOAT32}, {"id", Type::INT32}};
+      if (i == 1)
+        fields.push_back({"extra", Type::FLOAT64});
+      parts_.push_back(makeDataset(fields, 5 + i, 40 + i));
+      saveDataset(part(i), parts_.back());
+    }
+  }
+
+  std::string
+  part(int i) const
+  {
+    return folder_ / ("parts/" + std::to_string(i) + ".vtp");
+  }
+
+  std::string
+  save(const std::string& name, const std::string& content) const
+  {
+    writeFile(folder_ / name, "<VTKFile>" + content + "</VTKFile>\n");
+    return folder_ / name;
+  }
+
+  TemporaryFolder folder_;
+  std::vector<Dataset> parts_;
+};
+
+TEST_F(FileLists, JoinTheirFiles)
+{
+  for (const auto& path : {save("a.vtm",
+                                "<vtkMultiBlockDataSet><Block index=\"0\">"
+                                "<DataSet index=\"0\" file=\"parts/0.vtp\"/>"
+                                "<DataSet index=\"1\" file=\"parts/1.vtp\"/></Block>"
+                                "</vtkMultiBlockDataSet>"),
+                           save("a.pvtp",
+                                "<PPolyData><Piece Source=\"parts/0.vtp\"/>"
+                                "<Piece Source=\"parts/1.vtp\"/></PPolyData>")}) {
+    const Dataset both = loadDataset(path);
+    ASSERT_EQ(11u, both.cloud.width);
+    ASSERT_EQ(1u, both.notes.size());
+    EXPECT_NE(std::string::npos, both.notes[0].find("'extra' is left out"));
+    for (std::size_t i = 0; i < 11; ++i) {
+      const Dataset& from = parts_[i < 5 ? 0 : 1];
+      const std::size_t row = i < 5 ? i : i - 5;
+      for (const char* const name : {"f", "id"}) {
+        const double a = ScalarField(both.cloud.fields, name)
+                             .read(&both.cloud.data[i * both.cloud.point_step]),
+                     b = ScalarField(from.cloud.fields, name)
+                             .read(&from.cloud.data[row * from.cloud.point_step]);
+        EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << name << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST_F(FileLists, OfSeveralTimesTheFirstIsRead)
+{
+  save("inner.vtm", "<Block><DataSet file=\"parts/2.vtp\"/></Block>");
+  const Dataset first = loadDataset(
+      save("a.pvd",
+           "<Collection><DataSet timestep=\"0.5\" file=\"inner.vtm\"/>"
+           "<DataSet timestep=\"0.5\" part=\"1\" file=\"parts/0.vtp\"/>"
+           "<DataSet timestep=\"1.5\" file=\"parts/1.vtp\"/></Collection>"));
+  EXPECT_EQ(12u, first.cloud.width);
+  ASSERT_FALSE(first.notes.empty());
+  EXPECT_NE(std::string::npos, first.notes[0].find("0.5, is read"));
+}
+
+TEST_F(FileLists, SayWhatIsWrong)
+{
+  for (const auto& [name, content, text] :
+       {std::tuple("a.pvd", "<Collection></Collection>", "lists no files"),
+        std::tuple("b.vtm", "<DataSet file=\"b.vtm\"/>", "without end"),
+        std::tuple("c.pvtu", "<Piece Source=\"none.vtu\"/>", "none.vtu"),
+        std::tuple("d.vtm", "<Block><DataSet file=\"parts/0.vtp\"/>", "d.vtm")})
+    EXPECT_NE(std::string::npos,
+              messageOf<IOError>([&] { loadDataset(save(name, content)); }).find(text))
+        << name;
+  writeFile(folder_ / "e.ex2", "this is no Exodus");
+  const std::string message =
+      messageOf<IOError>([&] { loadDataset(folder_ / "e.ex2"); });
+  EXPECT_NE(std::string::npos, message.find("e.ex2")) << message;
+}
+
+TEST_F(FileLists, ExodusHasTheFieldsOfItsNodes)
+{
+  if (dataFolder().empty())
+    GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
+  const Dataset found = loadDataset(dataFolder() + "/cfd/disk_out_ref.ex2"),
+                converted = loadDataset(dataFolder() + "/cfd/disk_out_ref.vtu");
+  EXPECT_EQ(converted.cloud.width, found.cloud.width);
+  const auto extremes = [](const Dataset& dataset, const char* name) {
+    const ScalarField field(dataset.cloud.fields, name);
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = 0; i < dataset.cloud.width; ++i) {
+      const double value =
+          field.read(&dataset.cloud.data[i * dataset.cloud.point_step]);
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    return std::pair(low, high);
+  };
+  for (const char* const name : {"x", "y", "z", "Temp", "AsH3"})
+    EXPECT_EQ(extremes(converted, name), extremes(found, name)) << name;
+}
+
+} // namespace

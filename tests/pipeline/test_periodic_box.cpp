@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples in a box that repeats: neighbours, surfaces and meshes across its faces.
+#include "common/random.h"
+#include "common/records.h"
+#include "common/scalar_field.h"
+#include "pipeline/run_pipeline.h"
+#include "src/mesh/plane_cut.h"
+#include "src/neighbors/periodic_box.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace {
+
+using namespace pcl_uvol;
+using uvol_test::runPipeline;
+using Place = std::array<double, 3>;
+using Field = std::function<double(const Place&)>;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double side = 8.0;
+
+double
+gyroid(const Place& p)
+{
+  const double k = 2.0 * pi / side;
+  return std::sin(k * p[0]) * std::cos(k * p[1]) +
+         std::sin(k * p[1]) * std::cos(k * p[2]) +
+         std::sin(k * p[2]) * std::cos(k * p[0]);
+}
+
+/** Length of the gradient, by central differences. */
+double
+slopeOf(const Field& field, Place p)
+{
+  constexpr double step = 1e-4;
+  double sum = 0.0;
+  for (double& x : p) {
+    const double at = x;
+    x = at + step;
+    const double up = field(p);
+    x = at - step;
+    sum += std::pow((up - field(p)) / (2.0 * step), 2);
+    x = at;
+  }
+  return std::sqrt(sum);
+}
+
+/** Distance to the nearest corner of the boxes. */
+double
+distanceToCorner(const Place& p)
+{
+  double sum = 0.0;
+  for (const double x : p)
+    sum += std::pow(x - side * std::round(x / side), 2);
+  return std::sqrt(sum);
+}
+
+/** Random places of which float holds sums and differences exactly, moved and wrapped
+ * into the box. The field is that of the places before. */
+std::shared_ptr<Dataset>
+makeSamples(std::size_t count, const Field& field, const Place& shift = {})
+{
+  std::vector<double> xyz, values;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Place place{};
+    for (std::uint64_t axis = 0; axis < 3; ++axis) {
+      place[axis] = std::floor(uniformAt(7, i, axis) * 0x1p16) * 0x1p-16 * side;
+      const double moved = std::fmod(place[axis] + shift[axis], side);
+      xyz.push_back(moved < 0.0 ? moved + side : moved);
+    }
+    values.push_back(field(place));
+  }
+  auto samples = std::make_shared<Dataset>();
+  samples->cloud = makeRecords({}, count);
+  setCoordinates(*samples, xyz);
+  setField(*samples, "f", values);
+  return samples;
+}
+
+IsosurfacePipelineParameters
+makeParameters(double isovalue)
+{
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "f";
+  parameters.isosurface.isovalues = {isovalue};
+  parameters.periodic = Eigen::Array3d::Constant(side);
+  return parameters;
+}
+
+Place
+placeOf(const Dataset& dataset, std::size_t i)
+{
+  const CloudView view = viewOf(dataset.cloud);
+  return {{view.xyz(i)[0] + dataset.origin[0],
+           view.xyz(i)[1] + dataset.origin[1],
+           view.xyz(i)[2] + dataset.origin[2]}};
+}
+
+double
+depthOf(const Place& p)
+{
+  double depth = side;
+  for (const double x : p)
+    depth = std::min({depth, x, side - x});
+  return depth;
+}
+
+double
+areaOf(const IsosurfaceResult& result)
+{
+  double area = 0.0;
+  for (const Triangle& triangle : result.triangles) {
+    std::array<Eigen::Vector3d, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = Eigen::Vector3d(placeOf(result.surface, triangle[i]).data());
+    area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2.0;
+  }
+  return area;
+}
+
+TEST(PeriodicBox, ShiftingTheSamplesShiftsTheSurface)
+{
+  const auto reference =
+      runPipeline(makeSamples(4000, gyroid), makeParameters(0.25), 1);
+  ASSERT_GT(reference.surface.cloud.width, 1000u);
+  for (const Place& shift : {Place{{1.25, 3.5, 7.0}}, Place{{-2.0, 0.0, 0.125}}}) {
+    const auto moved =
+        runPipeline(makeSamples(4000, gyroid, shift), makeParameters(0.25), 2);
+    ASSERT_EQ(reference.surface.cloud.width, moved.surface.cloud.width);
+    const std::size_t step = moved.surface.cloud.point_step;
+    for (std::size_t i = 0; i < moved.surface.cloud.width; ++i) {
+      const Place from = placeOf(reference.surface, i), to = placeOf(moved.surface, i);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(to[axis], 0.0);
+        EXPECT_LE(to[axis], side);
+        EXPECT_NEAR(
+            0.0, std::remainder(to[axis] - from[axis] - shift[axis], side), 4e-6);
+      }
+      // What follows the coordinates is the same to the last bit.
+      EXPECT_TRUE(std::equal(&moved.surface.cloud.data[i * step + 12],
+                             &moved.surface.cloud.data[(i + 1) * step - 1],
+                             &reference.surface.cloud.data[i * step + 12]));
+      EXPECT_EQ(reference.edges[i].first, moved.edges[i].first);
+      EXPECT_EQ(reference.edges[i].second, moved.edges[i].second);
+    }
+  }
+}
+
+TEST(PeriodicBox, SurfacesAreAsGoodAtTheFacesAsElsewhere)
+{
+  const auto samples = makeSamples(8000, gyroid); // of a spacing of 0.4
+  for (const bool smooth : {false, true}) {
+    IsosurfacePipelineParameters parameters = makeParameters(0.25);
+    parameters.smooth = smooth;
+    const auto rms = [&](const IsosurfaceResult& result, bool at_faces) {
+      double sum = 0.0;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < result.surface.cloud.width; ++i) {
+        const Place place = placeOf(result.surface, i);
+        if ((depthOf(place) < 0.2) != at_faces)
+          continue;
+        sum += std::pow((gyroid(place) - 0.25) / slopeOf(gyroid, place), 2);
+        ++count;
+      }
+      return std::pair(std::sqrt(sum / static_cast<double>(count)), count);
+    };
+    const auto result = runPipeline(samples, parameters);
+    const auto [at_faces, faces] = rms(result, true);
+    const auto [within, inner] = rms(result, false);
+    EXPECT_LT(at_faces, 1.25 * within) << smooth;
+    // The layer is 1 - 0.95^3 of the volume.
+    const double part = static_cast<double>(faces) / static_cast<double>(faces + inner);
+    EXPECT_NEAR(1.0 - std::pow(0.95, 3), part, 0.02) << smooth;
+    EXPECT_GT(result.report.getCount("images"), 3000u);
+    if (!smooth) {
+      parameters.periodic.setZero();
+      const auto cut = runPipeline(samples, parameters);
+      EXPECT_GT(rms(cut, true).first, 2.0 * rms(cut, false).first);
+    }
+  }
+}
+
+TEST(PeriodicBox, ASphereOnACornerIsWhole)
+{
+  constexpr double radius = 2.0;
+  const auto samples = makeSamples(8000, distanceToCorner);
+  IsosurfacePipelineParameters parameters = makeParameters(radius);
+  parameters.isosurface.outside = Outside::Higher;
+  const auto points = runPipeline(samples, parameters);
+  const CloudView view = viewOf(points.surface.cloud);
+  const ScalarField x(view.fields, "normal_x"), y(view.fields, "normal_y"),
+      z(view.fields, "normal_z");
+  Place sum{};
+  for (std::size_t i = 0; i < view.count; ++i) {
+    EXPECT_NEAR(radius, distanceToCorner(placeOf(points.surface, i)), 0.05);
+    sum[0] += x.read(view.point(i));
+    sum[1] += y.read(view.point(i));
+    sum[2] += z.read(view.point(i));
+  }
+  for (const double s : sum) // all octants have as many, about
+    EXPECT_LT(std::abs(s), 0.1 * static_cast<double>(view.count));
+
+  parameters.mesh.emplace();
+  const auto mesh = runPipeline(samples, parameters);
+  EXPECT_NEAR(
+      4.0 * pi * radius * radius, areaOf(mesh), 0.01 * 4.0 * pi * radius * radius);
+  ASSERT_EQ(8u, mesh.pieces.size());
+  for (const SurfacePiece& piece : mesh.pieces) {
+    EXPECT_EQ(1u, piece.rims);
+    EXPECT_EQ(0u, piece.genus);
+    EXPECT_EQ(radius, piece.isovalue);
+  }
+}
+
+TEST(PeriodicBox, MeshesEndInTheFaces)
+{
+  IsosurfacePipelineParameters parameters = makeParameters(0.25);
+  parameters.mesh.emplace();
+  const auto mesh = runPipeline(makeSamples(6000, gyroid), parameters);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const Triangle& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      ++uses[std::minmax(triangle[i], triangle[(i + 1) % 3])];
+  std::size_t rim_edges = 0;
+  for (const auto& [edge, count] : uses) {
+    EXPECT_LE(count, 2);
+    if (count == 2)
+      continue;
+    ++rim_edges;
+    for (const std::uint32_t vertex : {edge.first, edge.second})
+      EXPECT_EQ(0.0, depthOf(placeOf(mesh.surface, vertex)));
+  }
+  EXPECT_GT(rim_edges, 100u);
+  // The same surface from a box that is put elsewhere.
+  const auto moved =
+      runPipeline(makeSamples(6000, gyroid, {{1.5, 2.5, 4.0}}), parameters);
+  EXPECT_NEAR(areaOf(mesh), areaOf(moved), 0.01 * areaOf(mesh));
+  EXPECT_EQ(mesh.edges.size(), mesh.surface.cloud.width);
+  EXPECT_EQ(mesh.isopoints, std::vector<std::size_t>{mesh.edges.size()});
+}
+
+/** Squared distances of the nearest samples among all images, by brute force. */
+std::vector<double>
+findNearest(const Dataset& samples, std::size_t i, const Place& sides, std::size_t k)
+{
+  const Place center = placeOf(samples, i);
+  std::vector<double> found;
+  for (std::size_t j = 0; j < samples.cloud.width; ++j)
+    for (int shift = 0; shift < 27; ++shift) {
+      const std::array<int, 3> by{{shift % 3 - 1, shift / 3 % 3 - 1, shift / 9 - 1}};
+      double sum = 0.0;
+      bool is_image = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        is_image = is_image && (by[axis] == 0 || sides[axis] > 0.0);
+        sum += std::pow(
+            placeOf(samples, j)[axis] + by[axis] * sides[axis] - center[axis], 2);
+      }
+      if (is_image)
+        found.push_back(sum);
+    }
+  std::sort(found.begin(), found.end());
+  found.resize(k);
+  return found;
+}
+
+TEST(PeriodicBox, ImagesHoldAllNeighbors)
+{
+  const auto samples = makeSamples(300, gyroid);
+  std::vector<std::uint32_t> use(300);
+  std::iota(use.begin(), use.end(), 0u);
+  Report report;
+  for (const Place& sides : {Place{{side, side, side}}, Place{{side, 0.0, side}}}) {
+    const PeriodicBox box = findPeriodicBox(*samples, sides, report);
+    const PeriodicSamples images = addPeriodicImages(*samples, use, box, {}, 2);
+    ASSERT_EQ(300u, images.countOwn());
+    for (std::size_t i = 0; i < images.samples.cloud.width; ++i)
+      EXPECT_EQ(placeOf(*samples, images.sourceOf(static_cast<std::uint32_t>(i)))[1],
+                sides[1] > 0.0 ? std::fmod(placeOf(images.samples, i)[1] + side, side)
+                               : placeOf(images.samples, i)[1]);
+    for (std::size_t i = 0; i < 300; i += 7) {
+      std::vector<double> found;
+      for (std::size_t j = 0; j < images.samples.cloud.width; ++j) {
+        double sum = 0.0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          sum += std::pow(
+              placeOf(images.samples, j)[axis] - placeOf(images.samples, i)[axis], 2);
+        found.push_back(sum);
+      }
+      std::sort(found.begin(), found.end());
+      const auto expected = findNearest(*samples, i, sides, 64);
+      for (std::size_t j = 0; j < expected.size(); ++j)
+        EXPECT_NEAR(expected[j], found[j], 1e-9);
+    }
+  }
+  EXPECT_TRUE(report.warnings.empty());
+}
+
+TEST(PeriodicBox, LiesWhereTheSamplesDo)
+{
+  Report report;
+  const auto low_of = [&](double move, double room) {
+    auto samples = makeSamples(200, gyroid);
+    for (std::size_t i = 0; i < 200; ++i)
+      putCoordinate(placeOf(*samples, i)[0] * room + move,
+                    0,
+                    &samples->cloud.data[i * samples->cloud.point_step]);
+    return findPeriodicBox(*samples, {{side, 0.0, 0.0}}, report).low[0];
+  };
+  EXPECT_EQ(0.0, low_of(0.0, 1.0));
+  EXPECT_EQ(0.0, low_of(-0.01, 1.0)); // a step outside
+  EXPECT_EQ(-side / 2.0, low_of(-side / 2.0, 1.0));
+  EXPECT_NEAR(100.0, low_of(100.0, 1.0), 0.1); // at the lowest
+  EXPECT_EQ(0.0, low_of(-20.0, 5.0));          // out of all boxes
+  EXPECT_GT(report.getCount("moved_into_box"), 100u);
+  EXPECT_TRUE(report.warnings.empty());
+  low_of(0.0, 0.5);
+  EXPECT_EQ(1u, report.warnings.size());
+}
+
+TEST(PeriodicBox, IsRefusedWhereItIsNone)
+{
+  const auto samples = makeSamples(200, gyroid);
+  for (const double bad : {-1.0,
+                           std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    IsosurfacePipelineParameters parameters = makeParameters(0.0);
+    parameters.periodic[1] = bad;
+    EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
+  }
+  IsosurfacePipelineParameters parameters = makeParameters(0.0);
+  parameters.validation.folds = 3;
+  EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
+}
+
+TEST(PlaneCut, KeepsWhatIsAbove)
+{
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {2, 1, 3}};
+  // Two quadrangles, which share the vertex on their common edge.
+  const auto cut = detail::cutByPlane({3.0, -1.0, 1.0, 1.0}, triangles);
+  ASSERT_EQ(4u, cut.triangles.size());
+  ASSERT_EQ(6u, cut.vertices.size());
+  std::size_t between = 0;
+  for (const IsoEdge& vertex : cut.vertices)
+    if (vertex.first != vertex.second) {
+      ++between;
+      EXPECT_EQ(1u, vertex.second);
+      EXPECT_EQ(vertex.first == 0 ? 0.75f : 0.5f, vertex.t);
+    }
+  EXPECT_EQ(3u, between);
+}
+
+TEST(PlaneCut, TakesVerticesInThePlaneAsTheyAre)
+{
+  const std::vector<Triangle> triangles = {{0, 1, 2}};
+  EXPECT_TRUE(detail::cutByPlane({0.0, 0.0, -1.0}, triangles).triangles.empty());
+  EXPECT_TRUE(detail::cutByPlane({0.0, -1.0, -1.0}, triangles).triangles.empty());
+  const auto half = detail::cutByPlane({0.0, 1.0, -1.0}, triangles);
+  EXPECT_EQ(1u, half.triangles.size());
+  EXPECT_EQ(3u, half.vertices.size());
+  const auto whole = detail::cutByPlane({0.0, 0.0, 1.0}, triangles);
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}}), whole.triangles);
+}
+
+} // namespace

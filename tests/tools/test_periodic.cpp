@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// -periodic of the tools that look for neighbours.
+#include "support/snapshots.h"
+#include "tool_test.h"
+
+#include <cmath>
+#include <sstream>
+
+using namespace uvol_test;
+
+namespace {
+
+constexpr double side = 8.0;
+
+double
+gyroid(double x, double y, double z)
+{
+  const double k = 2.0 * std::acos(-1.0) / side;
+  return std::sin(k * x) * std::cos(k * y) + std::sin(k * y) * std::cos(k * z) +
+         std::sin(k * z) * std::cos(k * x);
+}
+
+class Periodic : public ToolTest {
+protected:
+  Periodic()
+      : ToolTest(PCL_UVOL_TOOL_DIR "/uvol_isosurface", "out.csv")
+  {
+    in_ = folder_ / "in.csv";
+    Random random(5);
+    std::ostringstream text;
+    text.precision(9);
+    text << "x,y,z,f\n";
+    constexpr int n = 14; // a lattice, jittered
+    for (int i = 0; i < n * n * n; ++i) {
+      double place[3];
+      for (int axis = 0, rest = i; axis < 3; ++axis, rest /= n)
+        place[axis] = (rest % n + 0.5 + 0.6 * (random.uniform() - 0.5)) * side / n;
+      text << place[0] << ',' << place[1] << ',' << place[2] << ','
+           << gyroid(place[0], place[1], place[2]) << '\n';
+    }
+    writeFile(in_, text.str());
+  }
+
+  CommandResult
+  runTool(const std::string& tool, const std::string& options) const
+  {
+    const auto result = runCommand(PCL_UVOL_TOOL_DIR "/" + tool + " " + in_ + " " +
+                                   out_ + " " + options);
+    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    return result;
+  }
+};
+
+TEST_F(Periodic, ReportsNameTheBox)
+{
+  const auto result = run("-iso 0 -periodic 8,8,8 -json");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ("", result.err);
+  EXPECT_NE(std::string::npos, result.out.find("\"periodic_box\"")) << result.out;
+}
+
+TEST_F(Periodic, DensitiesDoNotFallAtTheFaces)
+{
+  const double mean = std::pow(14.0 / side, 3);
+  const auto lowest = [&](const std::string& options) {
+    const auto surface = resultOf("-density -field f -iso 0 " + options);
+    const auto densities = fieldOf(surface, "sph_density");
+    return *std::min_element(densities.begin(), densities.end());
+  };
+  EXPECT_LT(lowest(""), 0.6 * mean);
+  EXPECT_GT(lowest("-periodic 8,8,8"), 0.75 * mean);
+  const auto slopes = fieldOf(resultOf("-field 'f+0*|grad(f)|' -iso 0 -periodic 8,8,8"),
+                              "f+0*|grad(f)|");
+  for (const double value : slopes)
+    EXPECT_NEAR(0.0, value, 1e-5);
+}
+
+TEST_F(Periodic, FieldsAreAskedForAcrossTheFaces)
+{
+  writeFile(folder_ / "at.csv",
+            "x,y,z\n-0.1,4,4\n7.9,4,4\n15.9,-4,12\n0.05,0.02,7.99\n");
+  runTool("uvol_probe",
+          "-field f -points " + folder_ / "at.csv" + " -periodic 8,8,8 -model fit");
+  const auto found = pcl_uvol::loadDataset(out_);
+  const auto x = fieldOf(found, "x"), y = fieldOf(found, "y"), z = fieldOf(found, "z"),
+             f = fieldOf(found, "f"), support = fieldOf(found, "support");
+  ASSERT_EQ(4u, f.size());
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    EXPECT_NEAR(gyroid(x[i], y[i], z[i]), f[i], 0.02);
+    EXPECT_EQ(1.0, support[i]);
+  }
+  EXPECT_NEAR(-0.1, x[0], 1e-6);
+  EXPECT_NEAR(f[0], f[1], 1e-6);
+  EXPECT_NEAR(f[0], f[2], 1e-6);
+  runTool("uvol_probe", "-field f -grid 6 -periodic 8,8,8 -model fit");
+  const auto grid = pcl_uvol::loadDataset(out_);
+  const auto places = fieldOf(grid, "x");
+  EXPECT_EQ(0.0, *std::min_element(places.begin(), places.end()));
+  EXPECT_EQ(side, *std::max_element(places.begin(), places.end()));
+  for (const double s : fieldOf(grid, "support"))
+    EXPECT_EQ(1.0, s);
+}
+
+TEST_F(Periodic, LevelSetsKeepTheSamples)
+{
+  const auto before = pcl_uvol::loadDataset(in_);
+  runTool("uvol_levelset", "-field f -iso 0 -periodic 8,8,8 -mu 0.5 -steps 20");
+  const auto after = pcl_uvol::loadDataset(out_);
+  for (const char* const axis : {"x", "y", "z"})
+    EXPECT_EQ(fieldOf(before, axis), fieldOf(after, axis));
+  const auto f = fieldOf(after, "f"), phi = fieldOf(after, "phi");
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    right += (f[i] > 0.0) == (phi[i] > 0.0);
+  EXPECT_GT(right, f.size() * 98 / 100);
+}
+
+TEST_F(Periodic, HeadersNameTheBox)
+{
+  GadgetLayout layout;
+  layout.here[0] = layout.total[0] = 200;
+  layout.box = 101.0;
+  writeFile(in_, makeGadget(layout));
+  const std::string snapshot = folder_ / "snap";
+  std::rename(in_.c_str(), snapshot.c_str());
+  in_ = snapshot;
+  auto result = run("-field '|VEL|' -iso 200 -periodic header");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("sides 101,101,101 from 0,0,0"))
+      << result.out;
+  result = run("-field '|VEL|' -iso 200");
+  EXPECT_NE(std::string::npos, result.err.find("-periodic header")) << result.err;
+}
+
+TEST_F(Periodic, WhatGoesWithWhat)
+{
+  for (const char* const wrong : {"-periodic 8,8",
+                                  "-periodic 0,0,0",
+                                  "-periodic -8,8,8",
+                                  "-periodic nan,8,8",
+                                  "-periodic boxes",
+                                  "-periodic 8,8,8 -outside-value 0",
+                                  "-periodic 8,8,8 -validate 3",
+                                  "-periodic 8,8,8 -max-memory 1G"})
+    EXPECT_EQ(2, run(std::string("-iso 0 ") + wrong).exit_code) << wrong;
+  expectFailure("-iso 0 -periodic header", 1, "names no box");
+}
+
+} // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shared/periodic_option.h"
+
+#include "shared/isosurface_options.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace uvol_tools {
+
+void
+PeriodicOption::declare(Options& options)
+{
+  options.text("periodic",
+               "x,y,z|header",
+               text_,
+               "sides of the box that the samples repeat in, 0 along an axis for none, "
+               "or those that the file names: neighbours are seen across its faces");
+}
+
+void
+PeriodicOption::check() const
+{
+  if (text_.empty() || text_ == "header")
+    return;
+  const std::vector<double> sides = parseNumbers("periodic", text_, 3);
+  if (*std::min_element(sides.begin(), sides.end()) < 0.0 ||
+      *std::max_element(sides.begin(), sides.end()) <= 0.0)
+    throw UsageError(
+        "-periodic takes three sides from 0, at least one of them above, or "
+        "the word header.");
+}
+
+std::array<double, 3>
+PeriodicOption::findSides(const pcl_uvol::Dataset& samples,
+                          pcl_uvol::Report& report) const
+{
+  if (text_.empty()) {
+    if (pcl_uvol::isPeriodic(samples.box))
+      report.warnings.push_back("The file names a box of " + joined(samples.box) +
+                                ": if it repeats, -periodic header sees neighbours "
+                                "across its faces.");
+    return {};
+  }
+  if (text_ != "header") {
+    const std::vector<double> sides = parseNumbers("periodic", text_, 3);
+    return {{sides[0], sides[1], sides[2]}};
+  }
+  if (!pcl_uvol::isPeriodic(samples.box))
+    throw pcl_uvol::InvalidArgument("The file names no box: give its sides, as in "
+                                    "-periodic 100,100,100.");
+  return samples.box;
+}
+
+void
+addFieldsInBox(pcl_uvol::Dataset& samples,
+               const std::array<double, 3>& sides,
+               double least,
+               unsigned threads,
+               const std::function<void(pcl_uvol::Dataset&)>& add)
+{
+  if (!pcl_uvol::isPeriodic(sides))
+    return add(samples);
+  pcl_uvol::Report own; // whoever uses the box tells of it
+  std::vector<std::uint32_t> all(samples.cloud.width);
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::PeriodicReach reach;
+  reach.least = least;
+  auto images = pcl_uvol::addPeriodicImages(
+      samples,
+      all,
+      pcl_uvol::cutAtWidestGap(
+          samples, pcl_uvol::findPeriodicBox(samples, sides, own), threads),
+      reach,
+      threads);
+  add(images.samples);
+  samples = pcl_uvol::dropPeriodicImages(std::move(images), samples);
+}
+
+Fact
+describeBox(const pcl_uvol::PeriodicBox& box, const std::array<double, 3>& origin)
+{
+  std::array<double, 3> low{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    low[axis] = box.sides[axis] > 0.0 ? box.low[axis] + origin[axis] : 0.0;
+  return {"periodic box",
+          "sides " + joined(box.sides) + " from " + joined(low),
+          Fact::Members{{"sides", {box.sides.begin(), box.sides.end()}},
+                        {"low", {low.begin(), low.end()}}}};
+}
+
+BoxedSamples::BoxedSamples(pcl_uvol::Dataset& samples,
+                           const std::array<double, 3>& sides,
+                           const Eigen::Array3f& scale,
+                           unsigned threads,
+                           pcl_uvol::Report& report)
+{
+  if (!pcl_uvol::isPeriodic(sides))
+    return;
+  const pcl_uvol::StepTimer timer(report, "images");
+  std::vector<std::uint32_t> all(samples.cloud.width);
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::PeriodicReach reach;
+  reach.scale = pcl_uvol::toPosition(scale);
+  reach.spacings = 8.0; // a level set knows less of the field where it ends
+  images_ = pcl_uvol::addPeriodicImages(
+      samples, all, pcl_uvol::findPeriodicBox(samples, sides, report), reach, threads);
+  before_ = std::move(samples);
+  samples = std::move(images_.samples);
+  report.count("images", images_.image_of.size());
+}
+
+void
+BoxedSamples::dropImages(pcl_uvol::Dataset& points)
+{
+  if (!isPeriodic())
+    return;
+  images_.samples = std::move(points);
+  points = pcl_uvol::dropPeriodicImages(std::move(images_), before_);
+}
+
+void
+BoxedSamples::tell(Facts& facts) const
+{
+  if (isPeriodic())
+    facts.push_back(describeBox(images_.box, before_.origin));
+}
+
+} // namespace uvol_tools
