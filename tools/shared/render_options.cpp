@@ -5,7 +5,6 @@
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
 #include "web/surface_page.h"
-#include <pcl_uvol/io/image_file.h>
 
 #include <filesystem>
 #include <memory>
@@ -129,17 +128,6 @@ RenderOptions::applyLook(const Options& options,
     renderer.setColorRange((*mapping.range)[0], (*mapping.range)[1]);
 }
 
-void
-RenderOptions::configure(const Options& options,
-                         const pcl_uvol::CloudView& cloud,
-                         pcl_uvol::ImageSpaceRendererBase& renderer) const
-{
-  applyLook(options, cloud, renderer);
-  renderer.setBackend(makeBackend(backend_));
-  renderer.setSize(pictureWidth(cloud), getHeight());
-  renderer.setSupersampling(getSupersampling());
-}
-
 std::string
 RenderOptions::drawCloud(const Options& options,
                          const pcl_uvol::Dataset& surface,
@@ -150,19 +138,23 @@ RenderOptions::drawCloud(const Options& options,
   pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
   renderer.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
-  configure(options, cloud, renderer);
-  const pcl_uvol::Camera camera =
-      makeCamera(renderer.getBounds(), surface.origin, pictureWidth(cloud), &cloud);
-  pcl_uvol::Image image;
+  applyLook(options, cloud, renderer);
+  renderer.settings().background = getBackgroundOfViews();
+  renderer.setBackend(makeBackend(backend_));
+  renderer.setSupersampling(getSupersampling());
   pcl_uvol::Report drawing;
-  for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
-    renderer.setCamera(turned(camera, frame));
-    renderer.render(image);
-    drawing = renderer.getReport();
-    decorate(cloud, renderer.getColorRange(), image);
-    const pcl_uvol::StepTimer timer(report, "write");
-    pcl_uvol::savePng(frameName(output, frame), image);
-  }
+  drawFrames(
+      options,
+      {cloud, renderer.getBounds(), surface.origin},
+      [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
+        renderer.setSize(cell.width, cell.height);
+        renderer.setCamera(camera);
+        renderer.render(image);
+        drawing = renderer.getReport();
+      },
+      [&] { return renderer.getColorRange(); },
+      output,
+      report);
   report.merge(drawing);
   return renderer.describeBackend();
 }
@@ -181,7 +173,10 @@ RenderOptions::writePage(const Options& options,
     points.computeFootprints(options.threads(), report);
   SurfacePage page;
   page.title = std::filesystem::path(output).stem().string();
-  page.camera = makeCamera(points.getBounds(), surface.origin, getHeight(), &cloud);
+  page.camera = makeCamera(points.getBounds(),
+                           surface.origin,
+                           wholePicture(getHeight(), getHeight()),
+                           &cloud);
   page.material = getMaterial();
   page.lights = getLights();
   page.background = getBackground().color;

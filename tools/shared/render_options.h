@@ -49,12 +49,6 @@ public:
             const std::string& output,
             pcl_uvol::Report& report) const;
 
-  /** \brief Apply everything but the camera. */
-  void
-  configure(const Options& options,
-            const pcl_uvol::CloudView& cloud,
-            pcl_uvol::ImageSpaceRendererBase& renderer) const;
-
 private:
   std::string smoothing_ = "alleviated", backend_ = "auto";
   std::vector<double> line_color_;

@@ -23,6 +23,7 @@ SurfacePicture::declare(Options& options)
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
   look_.declareExaggeration(options);
+  look_.declareFigure(options);
   look_.declarePasses(options);
   options.group("Ray tracing", true);
   rays_.declareRays(options);

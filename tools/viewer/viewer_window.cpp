@@ -126,7 +126,10 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->AddRenderer(renderer_);
 
   const pcl_uvol::Camera camera = look_.makeCamera(
-      surface_.getBounds(), surface_.getOrigin(), look_.getWidth(), nullptr);
+      surface_.getBounds(),
+      surface_.getOrigin(),
+      ViewOptions::wholePicture(look_.getWidth(), look_.getHeight()),
+      nullptr);
   vtkCamera& view = *renderer_->GetActiveCamera();
   view.SetPosition(camera.eye.data());
   view.SetFocalPoint(camera.at.data());
