@@ -18,7 +18,13 @@ checkPage(const uvol_tools::Options& options)
 {
   std::vector<std::string> names = uvol_tools::FigureOptions::names();
   names.insert(names.end(),
-               {"size", "supersample", "backend", "orbit", "silhouettes", "features"});
+               {"size",
+                "supersample",
+                "backend",
+                "orbit",
+                "silhouettes",
+                "features",
+                "opacity"});
   for (const std::string& name : names)
     if (options.given(name))
       throw uvol_tools::UsageError("-" + name + " is for pictures, not for web pages.");
@@ -40,6 +46,7 @@ run(int argc, char** argv)
   look.declareView(options);
   look.declareExaggeration(options);
   look.declareFigure(options);
+  look.declareOpacity(options);
   look.declareOrbit(options);
   look.declarePasses(options);
   uvol_tools::declareSeries(options);

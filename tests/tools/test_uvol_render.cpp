@@ -138,7 +138,8 @@ TEST_F(RenderTool, FiguresExplainThePicture)
                               "-title sphere",
                               "-views iso,top,front",
                               "-views iso,top -color normal_z -ticks -triad",
-                              "-box -background transparent"}) {
+                              "-box -background transparent",
+                              "-triad -views top,iso -background black"}) {
     const auto result = run(std::string("-size 256x200 ") + options);
     EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
     EXPECT_EQ(plain.size(), pixels().size()) << options;

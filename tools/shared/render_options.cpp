@@ -44,6 +44,19 @@ RenderOptions::declareView(Options& options)
 }
 
 void
+RenderOptions::declareOpacity(Options& options)
+{
+  options.group("Picture");
+  options.numbers(
+      "opacity",
+      "a,...",
+      0,
+      opacities_,
+      "of the isovalues, the lowest first, or one for all: 0 is clear, 1 is "
+      "opaque");
+}
+
+void
 RenderOptions::declarePasses(Options& options)
 {
   using pcl_uvol::ImageSpaceSettings;
@@ -101,6 +114,9 @@ void
 RenderOptions::check(const Options& options)
 {
   ViewOptions::check(options);
+  for (const double opacity : opacities_)
+    if (!(opacity >= 0.0 && opacity <= 1.0))
+      throw UsageError("-opacity takes numbers from 0 to 1.");
   if (!line_color_.empty())
     settings_.line_color = toColor("line-color", line_color_);
   using Filter = pcl_uvol::SmoothingFilter;
@@ -140,6 +156,7 @@ RenderOptions::drawCloud(const Options& options,
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
   applyLook(options, cloud, renderer);
   renderer.settings().background = getBackgroundOfViews();
+  renderer.setOpacities(opacities_);
   renderer.setBackend(makeBackend(backend_));
   renderer.setSupersampling(getSupersampling());
   pcl_uvol::Report drawing;

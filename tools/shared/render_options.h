@@ -19,9 +19,20 @@ public:
   void
   declareView(Options& options);
 
+  /** \brief -opacity, for tools that call drawCloud(). */
+  void
+  declareOpacity(Options& options);
+
   /** \brief Every pass with its threshold, lights and material. */
   void
   declarePasses(Options& options);
+
+  /** \brief True if light goes through surfaces, which are then drawn by themselves. */
+  bool
+  hasOpacities() const
+  {
+    return !opacities_.empty();
+  }
 
   /** \brief As ViewOptions::check. */
   void
@@ -51,7 +62,7 @@ public:
 
 private:
   std::string smoothing_ = "alleviated", backend_ = "auto";
-  std::vector<double> line_color_;
+  std::vector<double> line_color_, opacities_;
   pcl_uvol::ImageSpaceSettings settings_;
 };
 
