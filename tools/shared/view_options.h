@@ -291,6 +291,11 @@ private:
   std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();
 };
 
+/** \brief The options that give the same view again: -eye, -at, -up and -fov.
+ * \param data what is added to coordinates, and divides them */
+std::string
+describeCamera(const pcl_uvol::Camera& camera, const DataBox& data);
+
 /** \brief The colour that three numbers say.
  * \throws UsageError that names the option unless they lie in [0, 1] */
 pcl_uvol::Color

@@ -99,26 +99,6 @@ cornersOf(const Eigen::AlignedBox3d& box)
   return corners;
 }
 
-/** The options that give the same view again.
- * \param data what is added to coordinates, and divides them */
-std::string
-describeCamera(const pcl_uvol::Camera& camera, const DataBox& data)
-{
-  std::ostringstream text;
-  text << std::setprecision(9);
-  const auto write = [&text](const char* option, const Eigen::Vector3d& v) {
-    text << option << v.x() << ',' << v.y() << ',' << v.z();
-  };
-  const auto inData = [&data](const Eigen::Vector3d& place) -> Eigen::Vector3d {
-    return (place + data.origin).cwiseQuotient(data.factors);
-  };
-  write("-eye ", inData(camera.eye));
-  write(" -at ", inData(camera.at));
-  write(" -up ", camera.up);
-  text << " -fov " << camera.vertical_fov;
-  return text.str();
-}
-
 /** The isovalues of a surface that has some, but not so many that they are a field. */
 void
 addIsovalues(const pcl_uvol::CloudView& cloud, std::vector<pcl_uvol::ImageText>& texts)
@@ -137,6 +117,24 @@ addIsovalues(const pcl_uvol::CloudView& cloud, std::vector<pcl_uvol::ImageText>&
 }
 
 } // namespace
+
+std::string
+describeCamera(const pcl_uvol::Camera& camera, const DataBox& data)
+{
+  std::ostringstream text;
+  text << std::setprecision(9);
+  const auto write = [&text](const char* option, const Eigen::Vector3d& v) {
+    text << option << v.x() << ',' << v.y() << ',' << v.z();
+  };
+  const auto inData = [&data](const Eigen::Vector3d& place) -> Eigen::Vector3d {
+    return (place + data.origin).cwiseQuotient(data.factors);
+  };
+  write("-eye ", inData(camera.eye));
+  write(" -at ", inData(camera.at));
+  write(" -up ", camera.up);
+  text << " -fov " << camera.vertical_fov;
+  return text.str();
+}
 
 std::string
 ViewOptions::frameName(const std::string& output, std::uint64_t frame) const
