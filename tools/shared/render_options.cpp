@@ -4,6 +4,7 @@
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
+#include "shared/fallback_backend.h"
 #include "web/surface_page.h"
 
 #include <filesystem>
@@ -16,17 +17,22 @@ namespace {
 
 constexpr double largest = 1e9;
 
-/** What -backend names: auto takes a graphics card if there is one, else the CPU, which
- * is far faster than OpenGL in software. */
+/** What -backend names: auto takes a graphics card if there is one that can draw, else
+ * the CPU, which is far faster than OpenGL in software. */
 std::shared_ptr<pcl_uvol::ImageSpaceBackend>
 makeBackend(const std::string& name)
 {
   if (name == "cpu")
     return std::make_shared<pcl_uvol::CpuBackend>();
-  const auto context = name == "auto" ? pcl_uvol::findHardwareContext()
-                                      : pcl_uvol::createHeadlessContext(name);
-  if (context)
-    return std::make_shared<pcl_uvol::GlBackend>(context);
+  if (name != "auto")
+    return std::make_shared<pcl_uvol::GlBackend>(pcl_uvol::createHeadlessContext(name));
+  try {
+    if (const auto context = pcl_uvol::findHardwareContext())
+      return std::make_shared<FallbackBackend>(
+          std::make_shared<pcl_uvol::GlBackend>(context));
+  }
+  catch (const pcl_uvol::GlError&) { // a card without what drawing needs
+  }
   return std::make_shared<pcl_uvol::CpuBackend>();
 }
 
