@@ -65,6 +65,8 @@ makeGaussians(const pcl::PCLPointCloud2& cloud, std::string color)
   const pcl_uvol::Splats splats = pcl_uvol::readSplats(view, counted_before);
   if (color == "auto")
     color = pcl_uvol::usualColorField(view);
+  if (color == "none")
+    color.clear();
   std::vector<pcl_uvol::Rgba> colors(splats.cloud.size(),
                                      pcl_uvol::toRgba(pcl_uvol::Material().color));
   if (!color.empty()) {

@@ -67,7 +67,7 @@ TEST_F(FallbackBackend, DrawsOnTheCpuWhatACardCannot)
   ASSERT_EQ(1u, renderer_.getReport().warnings.size());
   EXPECT_NE(std::string::npos,
             renderer_.getReport().warnings[0].find("There is no memory left."));
-  EXPECT_EQ(0u, renderer_.getReport().counts.count("half_done"));
+  EXPECT_EQ(0u, renderer_.getReport().getCount("half_done"));
   EXPECT_EQ(0u, renderer_.describeBackend().find("cpu"));
   renderer_.render(image_); // without another try
   EXPECT_EQ(1, card->calls);

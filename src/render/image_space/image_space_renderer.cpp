@@ -108,6 +108,25 @@ average(const Image& fine, int factor, Image& image)
     }
 }
 
+/** Points of every isovalue; all of them where the cloud has none. */
+std::map<double, std::vector<std::uint32_t>>
+partByIsovalue(const CloudView& cloud, const pcl::Indices& indices)
+{
+  constexpr const char* field = "isovalue";
+  std::map<double, std::vector<std::uint32_t>> parts;
+  if (findField(cloud.fields, field) != nullptr) {
+    const ScalarField isovalue(cloud.fields, field);
+    for (const auto index : indices) {
+      const double value = isovalue.read(cloud.point(static_cast<std::size_t>(index)));
+      if (std::isfinite(value))
+        parts[value].push_back(static_cast<std::uint32_t>(index));
+    }
+  }
+  if (parts.empty())
+    parts[0.0].assign(indices.begin(), indices.end());
+  return parts;
+}
+
 } // namespace
 
 ImageSpaceRendererBase::ImageSpaceRendererBase() = default;
@@ -170,15 +189,7 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
       throw InvalidArgument("Opacities are numbers from 0 to 1, not " +
                             std::to_string(opacity) + ".");
   if (layers_.empty()) {
-    const ScalarField isovalue(cloud.fields, "isovalue");
-    std::map<double, std::vector<std::uint32_t>> surfaces;
-    for (const auto index : indices) {
-      const auto i = static_cast<std::uint32_t>(index);
-      const double value = isovalue.read(cloud.point(i));
-      if (std::isfinite(value))
-        surfaces[value].push_back(i);
-    }
-    for (const auto& [value, points] : surfaces)
+    for (const auto& [value, points] : partByIsovalue(cloud, indices))
       layers_.push_back(
           std::make_shared<SurfaceCloud>(cloud, points, threads_, surface_report_));
     colored_ = false;

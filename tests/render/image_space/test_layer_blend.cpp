@@ -6,7 +6,7 @@
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <gtest/gtest.h>
-#include <pcl/conversions.h>
+#include <pcl/common/io.h>
 
 #include <array>
 #include <cmath>
@@ -167,6 +167,25 @@ TEST_F(Transparency, IsTheSameOnAnyNumberOfThreadsAndWhenDrawnAgain)
   renderer_.setOpacities({0.9, 0.4});
   renderer_.render(again);
   EXPECT_NE(first.color, again.color);
+}
+
+TEST_F(Transparency, TakesACloudWithoutIsovaluesAsOneSurface)
+{
+  pcl::PointCloud<pcl::PointNormal>::Ptr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  pcl::copyPointCloud(*makeBalls({{1.0f, 0.0f}}), *cloud);
+  pcl_uvol::ImageSpaceRenderer<pcl::PointNormal> renderer;
+  renderer.setSize(60, 50);
+  renderer.setInputCloud(cloud);
+  Image opaque, half;
+  renderer.render(opaque);
+  renderer.setOpacities({0.5});
+  renderer.render(half);
+  const std::size_t middle = 4 * (25 * 60 + 30);
+  EXPECT_NEAR(0.5 * (255 + opaque.color[middle]), half.color[middle], 1.0);
+  // Isovalues that are no numbers are none.
+  const auto balls = makeBalls({{1.0f, std::nanf("")}});
+  renderer_.setCamera(pcl_uvol::Camera::fit({{0.0, 0.0, 0.0}, 1.0}, "iso", 30.0, 1.2));
+  EXPECT_EQ(draw(makeBalls({{1.0f, 1.0f}}), {0.5}).color, draw(balls, {0.5}).color);
 }
 
 TEST_F(Transparency, NeedsAnOpacityForEveryIsovalue)
