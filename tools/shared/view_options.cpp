@@ -187,7 +187,7 @@ ViewOptions::check(const Options& options)
     if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
                        std::to_string(most) + " pixels before averaging, not " +
-                       size_text_ + ".");
+                       std::to_string(width_) + " x " + std::to_string(height_) + ".");
   if (options.given("view") && options.given("eye"))
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (!options.given("eye") && options.given("at"))
