@@ -189,9 +189,10 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
       throw InvalidArgument("Opacities are numbers from 0 to 1, not " +
                             std::to_string(opacity) + ".");
   if (layers_.empty()) {
+    Report counted_before; // with the whole surface
     for (const auto& [value, points] : partByIsovalue(cloud, indices))
       layers_.push_back(
-          std::make_shared<SurfaceCloud>(cloud, points, threads_, surface_report_));
+          std::make_shared<SurfaceCloud>(cloud, points, threads_, counted_before));
     colored_ = false;
   }
   if (opacities_.size() != 1 && opacities_.size() != layers_.size())

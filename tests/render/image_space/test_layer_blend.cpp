@@ -164,6 +164,7 @@ TEST_F(Transparency, IsTheSameOnAnyNumberOfThreadsAndWhenDrawnAgain)
   Image again;
   renderer_.render(again);
   EXPECT_EQ(first.color, again.color);
+  EXPECT_EQ(both->size(), renderer_.getReport().getCount("points"));
   renderer_.setOpacities({0.9, 0.4});
   renderer_.render(again);
   EXPECT_NE(first.color, again.color);
