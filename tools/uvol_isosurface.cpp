@@ -299,7 +299,8 @@ runInMemory(const Options& options,
         double isopoints = 0.0;
         for (const pcl_uvol::SurfaceSize& size : sizes)
           isopoints += size.isopoints;
-        arguments.picture.addMemoryNeed(isopoints, forecast);
+        arguments.picture.addMemoryNeed(
+            isopoints, arguments.parameters.isosurface.isovalues.size(), forecast);
       });
   IsosurfaceResult result = pipeline.run();
   if ((resolved.periodic > 0.0).any()) {

@@ -64,6 +64,9 @@ checkInput(const Options& options, const Arguments& arguments)
   for (const std::string& name : names)
     if (options.given(name))
       throw UsageError("-" + name + " is for a cloud: a scene says it in its file.");
+  for (const std::string& name : uvol_tools::FigureOptions::names())
+    if (options.given(name))
+      throw UsageError("-" + name + " is for a cloud, and not for a scene.");
 }
 
 /** What the command line has takes the place of what the scene says. */
@@ -89,16 +92,13 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
     tracer.setSize(arguments.view.getWidth(), arguments.view.getHeight());
   if (givesAny(options, {"view", "eye"}))
     file.camera.reset();
-  uvol_tools::traceFrames(
-      options,
-      arguments.view,
-      tracer,
-      file.camera,
-      file.origin,
-      nullptr,
-      [](pcl_uvol::Image&) {},
-      arguments.output,
-      report);
+  uvol_tools::traceScene(options,
+                         arguments.view,
+                         tracer,
+                         file.camera,
+                         file.origin,
+                         arguments.output,
+                         report);
 }
 
 void
@@ -130,6 +130,7 @@ run(int argc, char** argv)
   options.text("folder", "path", arguments.folder, "where the clouds of a scene lie");
   arguments.view.declareScene(options);
   arguments.view.declareExaggeration(options);
+  arguments.view.declareFigure(options);
   arguments.view.declareSupersampling(options);
   arguments.view.declareOrbit(options);
   options.group("Ray tracing");

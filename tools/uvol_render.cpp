@@ -16,11 +16,18 @@ using pcl_uvol::Report;
 void
 checkPage(const uvol_tools::Options& options)
 {
-  for (const char* const name :
-       {"size", "supersample", "backend", "orbit", "silhouettes", "features"})
+  std::vector<std::string> names = uvol_tools::FigureOptions::names();
+  names.insert(names.end(),
+               {"size",
+                "supersample",
+                "backend",
+                "orbit",
+                "silhouettes",
+                "features",
+                "opacity"});
+  for (const std::string& name : names)
     if (options.given(name))
-      throw uvol_tools::UsageError(std::string("-") + name +
-                                   " is for pictures, not for web pages.");
+      throw uvol_tools::UsageError("-" + name + " is for pictures, not for web pages.");
 }
 
 int
@@ -38,6 +45,8 @@ run(int argc, char** argv)
   options.file("out", output);
   look.declareView(options);
   look.declareExaggeration(options);
+  look.declareFigure(options);
+  look.declareOpacity(options);
   look.declareOrbit(options);
   look.declarePasses(options);
   uvol_tools::declareSeries(options);

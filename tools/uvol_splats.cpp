@@ -2,6 +2,8 @@
 // Splats of a surface given as points (thesis 4.2.1).
 #include "common/records.h"
 #include "common/scalar_field.h"
+#include "shared/color_options.h"
+#include "shared/gaussian_splats.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
@@ -14,6 +16,9 @@
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <pcl/conversions.h>
+
+#include <filesystem>
+#include <sstream>
 
 namespace {
 
@@ -41,6 +46,38 @@ generateSplats(const pcl::PCLPointCloud2& cloud,
   return result;
 }
 
+/** "x, y, z" */
+std::string
+describePlace(const std::array<double, 3>& place)
+{
+  std::ostringstream text;
+  text.precision(12);
+  text << place[0] << ", " << place[1] << ", " << place[2];
+  return text.str();
+}
+
+/** The splats of a cloud as Gaussians in the colours of a field. */
+pcl::PCLPointCloud2
+makeGaussians(const pcl::PCLPointCloud2& cloud, std::string color)
+{
+  Report counted_before;
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
+  const pcl_uvol::Splats splats = pcl_uvol::readSplats(view, counted_before);
+  if (color == "auto")
+    color = pcl_uvol::usualColorField(view);
+  if (color == "none")
+    color.clear();
+  std::vector<pcl_uvol::Rgba> colors(splats.cloud.size(),
+                                     pcl_uvol::toRgba(pcl_uvol::Material().color));
+  if (!color.empty()) {
+    const pcl_uvol::PointColors found = pcl_uvol::colorPoints(
+        view, color, uvol_tools::ColorOptions().mapFor(view, color));
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      colors[i] = found.colors[splats.sources[i]];
+  }
+  return uvol_tools::toGaussians(splats.cloud, colors);
+}
+
 /** What the tool holds beside the points.
  * \param part of them that have a splat */
 uvol_tools::MemoryGuard::Work
@@ -62,7 +99,8 @@ run(int argc, char** argv)
 {
   std::string input, output;
   uvol_tools::SplatOptions splat_options;
-  bool ascii = false;
+  bool ascii = false, is_gaussian = false;
+  std::string color = "auto";
   uvol_tools::Options options(
       "uvol_splats",
       "in.ply out.ply [options]",
@@ -75,8 +113,20 @@ run(int argc, char** argv)
   splat_options.declare(options);
   options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
+  options.flag("gaussians",
+               is_gaussian,
+               "write a .ply that viewers of 3D Gaussian splats show, lit");
+  options.text("color",
+               "field",
+               color,
+               "of Gaussians, a scalar field (default: rgb if there, else isovalue if "
+               "there are several)");
   if (!options.parse(argc, argv))
     return 0;
+  if (options.given("color") && !is_gaussian)
+    throw uvol_tools::UsageError("-color needs -gaussians.");
+  if (is_gaussian && std::filesystem::path(output).extension() != ".ply")
+    throw uvol_tools::UsageError("-gaussians are written as .ply.");
   const pcl_uvol::SplatParameters parameters = splat_options.parameters(options);
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Making splats");
@@ -94,6 +144,15 @@ run(int argc, char** argv)
                      pcl_uvol::findField(dataset.cloud.fields, "normal_x") != nullptr));
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
+  if (is_gaussian) {
+    result.cloud = makeGaussians(result.cloud, color);
+    if (result.origin != std::array<double, 3>{})
+      report.warnings.push_back(
+          "Gaussians have coordinates in float: they start at an origin, " +
+          describePlace(result.origin) + ", which is not in the file.");
+    result.origin = {};
+    result.double_coordinates = false;
+  }
   pcl_uvol::SaveOptions save;
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);

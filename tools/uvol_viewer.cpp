@@ -35,7 +35,7 @@ declare(uvol_tools::Options& options, Arguments& arguments)
                  arguments.isovalue,
                  -largest,
                  largest,
-                 "isovalue to start with (default the middle of the range)");
+                 "isovalue to start with (default the first that uvol_info proposes)");
   options.group("Picture");
   options.output("screenshot",
                  "out.png",
@@ -97,9 +97,8 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ShownSurface surface = load(options, arguments, look, report);
   if (!arguments.field.empty()) {
-    const auto& range = surface.getRange();
     surface.setIsoValue(options.given("iso") ? arguments.isovalue
-                                             : 0.5 * range[0] + 0.5 * range[1]);
+                                             : surface.proposeIsoValue());
   }
   uvol_tools::ViewerWindow window(
       "uvol_viewer " + arguments.input, surface, look, options);

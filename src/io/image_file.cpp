@@ -50,7 +50,9 @@ checkPngPath(const std::string& path)
 }
 
 void
-savePng(const std::string& path, const Image& image)
+savePng(const std::string& path,
+        const Image& image,
+        const std::vector<ImageText>& texts)
 {
   checkPngPath(path);
   if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
@@ -61,6 +63,8 @@ savePng(const std::string& path, const Image& image)
     vtkNew<vtkPNGWriter> writer;
     writer->SetInputData(data);
     writer->WriteToMemoryOn();
+    for (const auto& [keyword, text] : texts)
+      writer->AddText(keyword.c_str(), text.c_str());
     writer->Write();
     vtkUnsignedCharArray* const bytes = writer->GetResult();
     if (bytes == nullptr || !messages.getError().empty())

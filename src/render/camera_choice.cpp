@@ -44,7 +44,7 @@ chooseCamera(const CameraChoice& choice,
              const CloudView* cloud)
 {
   const Eigen::Vector3d shift(origin.data());
-  Camera camera = Camera::fit(bounds, choice.view, choice.fov, aspect);
+  Camera camera = Camera::fit(bounds, choice.view, choice.fov, aspect, choice.fill);
   if (choice.eye) {
     camera.eye = *choice.eye - shift;
     if (choice.at)
@@ -55,7 +55,7 @@ chooseCamera(const CameraChoice& choice,
     if (choice.up)
       camera = turnedUpwards(camera, *choice.up);
     if (cloud != nullptr)
-      camera = fitToPoints(camera, *cloud, aspect);
+      camera = fitToPoints(camera, *cloud, aspect, choice.fill);
   }
   return zoomed(camera, choice.zoom);
 }

@@ -24,6 +24,7 @@ struct CameraChoice {
   std::optional<Eigen::Vector3d> up;
   double fov = 30.0; ///< vertical, degrees
   double zoom = 1.0; ///< of the middle of the picture
+  double fill = 0.9; ///< part of the picture that a view fills
 };
 
 /** \brief The camera of a choice.

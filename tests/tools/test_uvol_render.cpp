@@ -34,6 +34,13 @@ protected:
     return runCommand("uvol_render " + in_ + " " + out_ + " " + options);
   }
 
+  std::vector<std::uint8_t>
+  pixels() const
+  {
+    int channels = 0;
+    return uvol_test::readPng(out_, channels).color;
+  }
+
   uvol_test::TemporaryFolder folder_;
   std::string in_ = folder_ / "in.ply", out_ = folder_ / "out.png";
 };
@@ -79,7 +86,7 @@ TEST_F(RenderTool, WritesAPictureOfTheSizeThatIsAskedFor)
 TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
 {
   ASSERT_EQ(0, run("-size 128").exit_code);
-  const std::string plain = uvol_test::readFile(out_);
+  const auto plain = pixels();
   for (const char* options : {"-silhouettes",
                               "-features -feature-threshold 0.0001",
                               "-no-shading",
@@ -109,10 +116,101 @@ TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
                               "-silhouettes -thickness 3"}) {
     const auto result = run(std::string("-size 128 ") + options);
     EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
-    EXPECT_NE(plain, uvol_test::readFile(out_)) << options;
+    EXPECT_TRUE(plain != pixels()) << options;
   }
   ASSERT_EQ(0, run("-size 128 -view iso -color none -backend cpu").exit_code);
-  EXPECT_EQ(plain, uvol_test::readFile(out_));
+  EXPECT_TRUE(plain == pixels());
+}
+
+TEST_F(RenderTool, FiguresExplainThePicture)
+{
+  ASSERT_EQ(0, run("-size 256x200").exit_code);
+  const auto plain = pixels();
+  for (const char* options : {"-ticks",
+                              "-ticks -unit km",
+                              "-ticks -exaggerate 1,1,3",
+                              "-ticks -orbit 1 -background gradient",
+                              "-box",
+                              "-triad",
+                              "-scale-bar",
+                              "-scale-bar -unit km",
+                              "-scale-bar -exaggerate 2,2,2",
+                              "-title sphere",
+                              "-views iso,top,front",
+                              "-views iso,top -color normal_z -ticks -triad",
+                              "-box -background transparent",
+                              "-triad -views top,iso -background black"}) {
+    const auto result = run(std::string("-size 256x200 ") + options);
+    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    EXPECT_EQ(plain.size(), pixels().size()) << options;
+    EXPECT_TRUE(plain != pixels()) << options;
+  }
+  for (const char* options :
+       {"-views nowhere",
+        "-views iso,,top",
+        "-views iso -view top",
+        "-views top -eye 1,2,3",
+        "-unit km",
+        "-scale-bar -exaggerate 1,1,2",
+        "-size 20 -title t",
+        "-size 40 -views iso,top,front,left,right,back,bottom,iso,"
+        "top,front"}) {
+    const auto result = run(options);
+    EXPECT_EQ(2, result.exit_code) << options;
+    EXPECT_NE("", result.err) << options;
+  }
+  const auto page =
+      runCommand("uvol_render " + in_ + " " + folder_ / "page.html" + " -ticks");
+  EXPECT_EQ(2, page.exit_code);
+}
+
+TEST_F(RenderTool, ViewsSideBySideAreTheViewsThemselves)
+{
+  ASSERT_EQ(0, run("-size 200x100 -views front,top -background transparent").exit_code);
+  const auto both = pixels();
+  ASSERT_EQ(0, run("-size 100 -view top -background transparent").exit_code);
+  const auto top = pixels();
+  std::size_t differences = 0;
+  for (std::size_t row = 30; row < 100; ++row) // below the name of the view
+    for (std::size_t k = 0; k < 400; ++k)
+      differences += both[800 * row + 400 + k] != top[400 * row + k] ? 1 : 0;
+  EXPECT_EQ(0u, differences);
+}
+
+TEST_F(RenderTool, PicturesSayWhereTheyAreFrom)
+{
+  ASSERT_EQ(0, run("-size 64 -view right -title 'a b' -threads 1").exit_code);
+  const std::string one = uvol_test::readFile(out_);
+  EXPECT_NE(std::string::npos,
+            one.find(std::string("Command\0", 8) +
+                     "uvol_render in.ply out.png -size 64 -view right -title 'a b'"));
+  EXPECT_NE(std::string::npos, one.find(std::string("Software\0", 9) + "pcl_uvol "));
+  const std::string other = folder_ / "other.png";
+  ASSERT_EQ(0,
+            runCommand("uvol_render " + in_ + " " + other +
+                       " -size 64 -view right -title 'a b' -threads 2")
+                .exit_code);
+  EXPECT_TRUE(one == uvol_test::readFile(other));
+
+  // The camera gives the same picture again.
+  ASSERT_EQ(0, run("-size 90 -view left -zoom 1.5 -exaggerate 1,2,4").exit_code);
+  const auto pictured = pixels();
+  const std::string bytes = uvol_test::readFile(out_);
+  const std::size_t camera = bytes.find(std::string("Camera\0-eye", 11));
+  ASSERT_NE(std::string::npos, camera);
+  const std::size_t begin = camera + 7;
+  // The chunk's length stands before its name.
+  const std::string length = bytes.substr(camera - 8, 4);
+  const auto size = static_cast<std::size_t>(static_cast<unsigned char>(length[3])) +
+                    256u * static_cast<unsigned char>(length[2]);
+  ASSERT_EQ(
+      0, run("-size 90 -exaggerate 1,2,4 " + bytes.substr(begin, size - 7)).exit_code);
+  const auto repeated = pixels();
+  ASSERT_EQ(pictured.size(), repeated.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < pictured.size(); ++i)
+    different += std::abs(pictured[i] - repeated[i]) > 2 ? 1 : 0;
+  EXPECT_LT(different, pictured.size() / 500);
 }
 
 TEST_F(RenderTool, OrbitWritesNumberedFrames)

@@ -5,9 +5,11 @@
 #include "render/point_colors.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
+#include "tool_test.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
@@ -196,6 +198,68 @@ TEST_F(SplatsTool, RefusesFilesThatItCannotCover)
                        "1 2 3 0 0 1\n1 2 3 0 0 1\n");
   expectFailure(run(""), 1, "one place");
   EXPECT_EQ(countWith("-delta-abs 0.1"), 1u);
+}
+
+TEST_F(SplatsTool, GaussiansLieInThePlanesOfTheSplats)
+{
+  const auto result = run("-gaussians -threads 1");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("origin")) << result.err;
+  const std::string bytes = uvol_test::readFile(out_);
+  std::size_t at = 0; // viewers look for these in the header
+  for (const char* name : {"x",
+                           "y",
+                           "z",
+                           "nx",
+                           "ny",
+                           "nz",
+                           "f_dc_0",
+                           "f_dc_1",
+                           "f_dc_2",
+                           "opacity",
+                           "scale_0",
+                           "scale_1",
+                           "scale_2",
+                           "rot_0",
+                           "rot_1",
+                           "rot_2",
+                           "rot_3"}) {
+    const std::size_t found = bytes.find("property float " + std::string(name) + "\n");
+    ASSERT_NE(std::string::npos, found) << name;
+    EXPECT_GT(found, at) << name;
+    at = found;
+  }
+  const pcl_uvol::Dataset gaussians = pcl_uvol::loadDataset(out_);
+  const auto field = [&](const std::string& name) {
+    return uvol_test::fieldOf(gaussians, name);
+  };
+  const auto x = field("x"), y = field("y"), z = field("z"), w = field("rot_0"),
+             a = field("rot_1"), b = field("rot_2"), c = field("rot_3"),
+             across = field("scale_2"), along = field("scale_0"), red = field("f_dc_0"),
+             blue = field("f_dc_2"), opacity = field("opacity");
+  ASSERT_GT(x.size(), 50u);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    // The third axis of the rotation is the normal: that of the sphere.
+    const Eigen::Vector3d normal =
+        Eigen::Quaterniond(w[i], a[i], b[i], c[i]) * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d place(x[i], y[i], z[i]);
+    EXPECT_NEAR(1.0, normal.dot(place.normalized()), 0.01);
+    EXPECT_NEAR(std::log(0.01 * std::sqrt(2.0)), across[i] - along[i], 1e-4);
+    EXPECT_NEAR(std::log(99.0), opacity[i], 1e-4);
+    EXPECT_GE(red[i], blue[i] - 1e-6); // green and blue are 0
+    EXPECT_NEAR(-0.5 / 0.28209479, blue[i], 1e-4);
+  }
+  const std::string other = folder_ / "other.ply";
+  ASSERT_EQ(0,
+            runCommand("uvol_splats " + in_ + " " + other + " -gaussians -threads 3")
+                .exit_code);
+  EXPECT_TRUE(bytes == uvol_test::readFile(other));
+  ASSERT_EQ(0, run("-gaussians -color curvature").exit_code);
+  EXPECT_TRUE(bytes != uvol_test::readFile(out_));
+  EXPECT_EQ(2, run("-color curvature").exit_code);
+  EXPECT_EQ(2,
+            runCommand("uvol_splats " + in_ + " " + folder_ / "out.pcd" + " -gaussians")
+                .exit_code);
 }
 
 } // namespace

@@ -288,6 +288,50 @@ TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
   EXPECT_EQ(static_cast<std::uint32_t>(width), read("uvol_viewer_2.png").width);
 }
 
+TEST_F(UvolViewer, KeysLookFromSidesAndPrintTheCamera)
+{
+  OpenWindow open(makeVolume(), "intensity", {});
+  const std::pair<char, Eigen::Vector3d> sides[] = {
+      {'x', {1, 0, 0}}, {'Y', {0, 1, 0}}, {'y', {0, -1, 0}}, {'z', {0, 0, 1}}};
+  for (const auto& [key, from] : sides) {
+    open.type(key);
+    const Eigen::Vector3d sight = Eigen::Vector3d(open.camera().GetPosition()) -
+                                  Eigen::Vector3d(open.camera().GetFocalPoint());
+    EXPECT_LT((sight.normalized() - from).norm(), 1e-6) << key;
+    EXPECT_GT(covered(open.shoot()), 500) << key;
+  }
+  testing::internal::CaptureStdout();
+  open.type('p');
+  const std::string camera = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(0u, camera.find("-eye ")) << camera;
+  EXPECT_NE(std::string::npos, camera.find(" -up 0,1,0 -fov 30")) << camera;
+}
+
+TEST_F(UvolViewer, KeysSaveASurfaceAndAPictureThatRenderDrawsAgain)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-color", "none"});
+  open.type('e');
+  const pcl_uvol::Dataset saved = pcl_uvol::loadDataset("uvol_viewer_1.ply");
+  EXPECT_EQ(open.surface.getCloud()->width, saved.cloud.width);
+  open.type('h'); // letters of the window are not in the picture
+  open.type('s');
+  testing::internal::CaptureStdout();
+  open.type('p');
+  std::string camera = testing::internal::GetCapturedStdout();
+  camera.pop_back(); // the end of the line
+  const std::string command =
+      "uvol_render uvol_viewer_1.ply same.png -color none -size " +
+      std::to_string(width) + "x" + std::to_string(height) + " " + camera;
+  const auto result = runCommand(command);
+  ASSERT_EQ(0, result.exit_code) << command << ": " << result.err;
+  const Image first = read("uvol_viewer_1.png"), same = read("same.png");
+  ASSERT_EQ(first.color.size(), same.color.size());
+  int different = 0;
+  for (std::size_t i = 0; i < first.color.size(); ++i)
+    different += std::abs(first.color[i] - same.color[i]) > 2;
+  EXPECT_LT(different, static_cast<int>(first.color.size()) / 200);
+}
+
 TEST_F(UvolViewer, TheToolSavesWhatItShows)
 {
   pcl_uvol::saveDataset("volume.ply", makeVolume());

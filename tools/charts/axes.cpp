@@ -11,12 +11,6 @@ namespace {
 
 constexpr Ink black{0, 0, 0};
 
-int
-rounded(double pixel)
-{
-  return static_cast<int>(std::lround(pixel));
-}
-
 double
 thickness(int font)
 {

@@ -18,13 +18,6 @@ constexpr std::uint32_t smallest_image = 128;
 /** Least distance of values along the bar, in letters' sizes. */
 constexpr double label_distance = 1.3;
 
-/** Side of letters, and width of the bar. */
-int
-letterSize(int height)
-{
-  return std::clamp(height / 40, 11, 48);
-}
-
 /** Ends, and round values that do not come too near to them.
  * \param nearest in parts of the range */
 std::vector<double>
@@ -39,19 +32,6 @@ barValues(const ColorScale& scale, double nearest)
       values.push_back(value);
   values.push_back(scale.high);
   return values;
-}
-
-/** Letters are dark on light ground and light on dark ground. */
-constexpr int middle_gray = 128;
-
-/** Black or white: what can be read on the image's upper right corner. */
-Ink
-inkOn(const Image& image)
-{
-  const std::uint8_t* const corner = &image.color[4 * (image.width - 1)];
-  const int gray = (corner[0] + corner[1] + corner[2]) / 3;
-  const std::uint8_t ink = corner[3] < middle_gray || gray >= middle_gray ? 0 : 255;
-  return {ink, ink, ink};
 }
 
 bool
@@ -192,8 +172,7 @@ drawColorBar(Image& image,
 
 void
 drawCategories(Image& image,
-               const ColorMap& map,
-               const std::vector<double>& categories,
+               const std::vector<pcl_uvol::CategoryColor>& categories,
                const std::string& title)
 {
   if (isTooSmall(image))
@@ -203,8 +182,8 @@ drawCategories(Image& image,
   const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
   const int top = legend.top + (legend.length - step * count) / 2;
   for (int i = 0; i < count; ++i) {
-    const double category = categories[static_cast<std::size_t>(i)];
-    const Ink color = inkOf(map.ofCategory(category));
+    const auto& [category, shade] = categories[static_cast<std::size_t>(i)];
+    const Ink color = inkOf(shade);
     // The lowest one is below, as on a bar.
     const int row = top + step * (count - 1 - i);
     for (int y = 0; y < std::max(step * 4 / 5, 1); ++y)

@@ -42,6 +42,22 @@ blend(Image& image, int column, int row, const Ink& ink, double opacity)
   pixel[3] = static_cast<std::uint8_t>(std::lround(255.0 * sum));
 }
 
+int
+letterSize(int height)
+{
+  return std::clamp(height / 40, 11, 48);
+}
+
+Ink
+inkOn(const Image& image)
+{
+  constexpr int middle_gray = 128;
+  const std::uint8_t* const corner = &image.color[4 * (image.width - 1)];
+  const int gray = (corner[0] + corner[1] + corner[2]) / 3;
+  const std::uint8_t ink = corner[3] < middle_gray || gray >= middle_gray ? 0 : 255;
+  return {ink, ink, ink};
+}
+
 namespace {
 
 /** A line of text as opacities. */
@@ -130,8 +146,18 @@ forLinePixels(double x0,
             right = static_cast<int>(std::ceil(std::max(x0, x1) + border)),
             top = static_cast<int>(std::floor(std::min(y0, y1) - border)),
             bottom = static_cast<int>(std::ceil(std::max(y0, y1) + border));
-  for (int row = top; row <= bottom; ++row)
-    for (int column = left; column <= right; ++column) {
+  // A row leaves the line's border within so many columns of the line; one that is
+  // nearly a row itself has all of its columns.
+  const bool is_row = std::abs(dy) <= 1e-3 * std::abs(dx);
+  const double slant = is_row ? 0.0 : dx / dy;
+  const double reach = is_row ? right - left : border * std::hypot(1.0, slant);
+  for (int row = top; row <= bottom; ++row) {
+    const double middle = x0 + (row - y0) * slant;
+    const int first =
+        static_cast<int>(std::max<double>(left, std::floor(middle - reach)));
+    const int last =
+        static_cast<int>(std::min<double>(right, std::ceil(middle + reach)));
+    for (int column = first; column <= last; ++column) {
       const double along =
           sq_length > 0.0
               ? std::clamp(((column - x0) * dx + (row - y0) * dy) / sq_length, 0.0, 1.0)
@@ -142,6 +168,7 @@ forLinePixels(double x0,
       if (opacity > 0.0)
         visit(column, row, opacity);
     }
+  }
 }
 
 void
@@ -208,8 +235,12 @@ labelValues(const std::vector<double>& values)
   for (double value : values) {
     if (std::abs(value) <= tiny)
       value = 0.0; // and not "-0" by rounding
-    labels.texts.push_back(
-        formatNumber(value - offset, digits > most_digits ? 4 : std::max(digits, 3)));
+    // Thousands are written out.
+    const int whole =
+        static_cast<int>(std::ceil(std::log10(std::abs(value - offset) + 1.0)));
+    const int wanted = digits > most_digits ? 4 : std::max(digits, 3);
+    labels.texts.push_back(formatNumber(
+        value - offset, whole > most_digits ? wanted : std::max(whole, wanted)));
   }
   return labels;
 }

@@ -6,6 +6,7 @@
 #include <pcl_uvol/render/lighting.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -22,6 +23,21 @@ inkOf(const pcl_uvol::Color& color);
 /** \brief Lay a color over a pixel; nothing outside the image. */
 void
 blend(pcl_uvol::Image& image, int column, int row, const Ink& ink, double opacity);
+
+/** \brief The nearest pixel. */
+inline int
+rounded(double pixel)
+{
+  return static_cast<int>(std::lround(pixel));
+}
+
+/** \brief Size of letters in a picture of that many rows, pixels. */
+int
+letterSize(int height);
+
+/** \brief Black or white: what can be read on the image's upper right corner. */
+Ink
+inkOn(const pcl_uvol::Image& image);
 
 enum class TextAnchor { Left, Center, Right };
 

@@ -350,6 +350,7 @@ Options::parse(int argc, const char* const* argv)
       return false;
     }
   }
+  command_ = arguments;
   std::vector<std::string> files;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];

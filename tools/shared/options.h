@@ -6,6 +6,7 @@
 #include "shared/facts.h"
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/report.h>
+#include <pcl_uvol/io/image_file.h>
 
 #include <array>
 #include <cstdint>
@@ -141,6 +142,11 @@ public:
     return verbose_;
   }
 
+  /** \brief The command line that does the same again, without what changes no result:
+   * -threads and the like, folders of files, and the names of results. */
+  std::string
+  describeCommand() const;
+
   bool
   json() const
   {
@@ -210,6 +216,7 @@ private:
   std::vector<Group> groups_ = {{"Run", false}}; // which is printed last
   std::size_t current_group_ = 0;
   std::vector<Positional> positionals_;
+  std::vector<std::string> command_; // the words of describeCommand()
   std::uint64_t threads_ = 0;
   bool json_ = false, verbose_ = false;
 };
@@ -279,6 +286,10 @@ runTool(const char* tool, const std::function<int()>& body);
 /** \brief What runTool writes to stderr. */
 void
 printError(const char* tool, const Outcome& outcome);
+
+/** \brief What pictures say about themselves: version and command. */
+std::vector<pcl_uvol::ImageText>
+describeOrigin(const Options& options);
 
 /** \brief A number of bytes: digits, and K, M, G or T for powers of 1000.
  * \throws UsageError that names the option */

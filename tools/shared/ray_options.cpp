@@ -106,35 +106,36 @@ RayOptions::makeScene(const Options& options,
   pcl_uvol::Scene scene;
   scene.splats.push_back(std::move(object));
   scene.lights = view.getLights();
-  scene.background = view.getBackground();
+  scene.background = view.getBackgroundOfViews();
   return scene;
 }
 
 void
-traceFrames(const Options& options,
-            const ViewOptions& view,
-            pcl_uvol::RayTracer& tracer,
-            const std::optional<pcl_uvol::Camera>& camera,
-            const std::array<double, 3>& origin,
-            const pcl_uvol::CloudView* cloud,
-            const std::function<void(pcl_uvol::Image&)>& decorate,
-            const std::string& output,
-            pcl_uvol::Report& report)
+traceScene(const Options& options,
+           const ViewOptions& view,
+           pcl_uvol::RayTracer& tracer,
+           const std::optional<pcl_uvol::Camera>& camera,
+           const std::array<double, 3>& origin,
+           const std::string& output,
+           pcl_uvol::Report& report)
 {
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);
   const pcl_uvol::Camera first =
       camera ? view.adjusted(options, *camera)
-             : view.makeCamera(tracer.getBounds(), origin, tracer.getWidth(), cloud);
+             : view.makeCamera(
+                   tracer.getBounds(),
+                   origin,
+                   ViewOptions::wholePicture(tracer.getWidth(), tracer.getHeight()),
+                   nullptr);
   pcl_uvol::Report tracing;
   for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
     tracer.setCamera(view.turned(first, frame));
     pcl_uvol::Image image;
     tracer.render(image);
     tracing = tracer.getReport();
-    decorate(image);
     const pcl_uvol::StepTimer timer(report, "write");
-    pcl_uvol::savePng(view.frameName(output, frame), image);
+    pcl_uvol::savePng(view.frameName(output, frame), image, describeOrigin(options));
   }
   report.merge(tracing);
 }
@@ -152,17 +153,22 @@ RayOptions::traceCloud(const Options& options,
   tracer.setScene(makeScene(options, view, cloud, range, report));
   apply(options, tracer.settings());
   tracer.setSupersampling(view.getRaySupersampling());
-  tracer.setSize(view.pictureWidth(cloud), view.getHeight());
-  traceFrames(
+  tracer.setNumberOfThreads(options.threads());
+  tracer.setProgressCallback(report.progress);
+  pcl_uvol::Report tracing;
+  view.drawFrames(
       options,
-      view,
-      tracer,
-      std::nullopt,
-      origin,
-      &cloud,
-      [&](pcl_uvol::Image& image) { view.decorate(cloud, range, image); },
+      {cloud, tracer.getBounds(), origin},
+      [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
+        tracer.setSize(cell.width, cell.height);
+        tracer.setCamera(camera);
+        tracer.render(image);
+        tracing = tracer.getReport();
+      },
+      [&] { return range; },
       output,
       report);
+  report.merge(tracing);
 }
 
 } // namespace uvol_tools

@@ -10,7 +10,6 @@
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,19 +65,16 @@ private:
   double reflectivity_ = 0.0, transparency_ = 0.0, refractive_index_ = 1.0;
 };
 
-/** \brief Draw all frames of a scene.
- * \param origin of its coordinates
+/** \brief Draw and write all frames of a scene, whose size the tracer has.
  * \param camera that of the scene file, unless the command line has another one
- * \param cloud that fills the image; null for a scene */
+ * \param origin of its coordinates */
 void
-traceFrames(const Options& options,
-            const ViewOptions& view,
-            pcl_uvol::RayTracer& tracer,
-            const std::optional<pcl_uvol::Camera>& camera,
-            const std::array<double, 3>& origin,
-            const pcl_uvol::CloudView* cloud,
-            const std::function<void(pcl_uvol::Image&)>& decorate,
-            const std::string& output,
-            pcl_uvol::Report& report);
+traceScene(const Options& options,
+           const ViewOptions& view,
+           pcl_uvol::RayTracer& tracer,
+           const std::optional<pcl_uvol::Camera>& camera,
+           const std::array<double, 3>& origin,
+           const std::string& output,
+           pcl_uvol::Report& report);
 
 } // namespace uvol_tools

@@ -4,8 +4,8 @@
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
+#include "shared/fallback_backend.h"
 #include "web/surface_page.h"
-#include <pcl_uvol/io/image_file.h>
 
 #include <filesystem>
 #include <memory>
@@ -17,17 +17,22 @@ namespace {
 
 constexpr double largest = 1e9;
 
-/** What -backend names: auto takes a graphics card if there is one, else the CPU, which
- * is far faster than OpenGL in software. */
+/** What -backend names: auto takes a graphics card if there is one that can draw, else
+ * the CPU, which is far faster than OpenGL in software. */
 std::shared_ptr<pcl_uvol::ImageSpaceBackend>
 makeBackend(const std::string& name)
 {
   if (name == "cpu")
     return std::make_shared<pcl_uvol::CpuBackend>();
-  const auto context = name == "auto" ? pcl_uvol::findHardwareContext()
-                                      : pcl_uvol::createHeadlessContext(name);
-  if (context)
-    return std::make_shared<pcl_uvol::GlBackend>(context);
+  if (name != "auto")
+    return std::make_shared<pcl_uvol::GlBackend>(pcl_uvol::createHeadlessContext(name));
+  try {
+    if (const auto context = pcl_uvol::findHardwareContext())
+      return std::make_shared<FallbackBackend>(
+          std::make_shared<pcl_uvol::GlBackend>(context));
+  }
+  catch (const pcl_uvol::GlError&) { // a card without what drawing needs
+  }
   return std::make_shared<pcl_uvol::CpuBackend>();
 }
 
@@ -42,6 +47,19 @@ RenderOptions::declareView(Options& options)
                  {"auto", "cpu", "osmesa", "egl"},
                  backend_,
                  "what draws; auto: OpenGL on a GPU where there is one, else the CPU");
+}
+
+void
+RenderOptions::declareOpacity(Options& options)
+{
+  options.group("Picture");
+  options.numbers(
+      "opacity",
+      "a,...",
+      0,
+      opacities_,
+      "of the isovalues, the lowest first, or one for all: 0 is clear, 1 is "
+      "opaque");
 }
 
 void
@@ -102,6 +120,9 @@ void
 RenderOptions::check(const Options& options)
 {
   ViewOptions::check(options);
+  for (const double opacity : opacities_)
+    if (!(opacity >= 0.0 && opacity <= 1.0))
+      throw UsageError("-opacity takes numbers from 0 to 1.");
   if (!line_color_.empty())
     settings_.line_color = toColor("line-color", line_color_);
   using Filter = pcl_uvol::SmoothingFilter;
@@ -129,17 +150,6 @@ RenderOptions::applyLook(const Options& options,
     renderer.setColorRange((*mapping.range)[0], (*mapping.range)[1]);
 }
 
-void
-RenderOptions::configure(const Options& options,
-                         const pcl_uvol::CloudView& cloud,
-                         pcl_uvol::ImageSpaceRendererBase& renderer) const
-{
-  applyLook(options, cloud, renderer);
-  renderer.setBackend(makeBackend(backend_));
-  renderer.setSize(pictureWidth(cloud), getHeight());
-  renderer.setSupersampling(getSupersampling());
-}
-
 std::string
 RenderOptions::drawCloud(const Options& options,
                          const pcl_uvol::Dataset& surface,
@@ -150,19 +160,24 @@ RenderOptions::drawCloud(const Options& options,
   pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
   renderer.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&surface.cloud, [](const void*) {}));
-  configure(options, cloud, renderer);
-  const pcl_uvol::Camera camera =
-      makeCamera(renderer.getBounds(), surface.origin, pictureWidth(cloud), &cloud);
-  pcl_uvol::Image image;
+  applyLook(options, cloud, renderer);
+  renderer.settings().background = getBackgroundOfViews();
+  renderer.setOpacities(opacities_);
+  renderer.setBackend(makeBackend(backend_));
+  renderer.setSupersampling(getSupersampling());
   pcl_uvol::Report drawing;
-  for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
-    renderer.setCamera(turned(camera, frame));
-    renderer.render(image);
-    drawing = renderer.getReport();
-    decorate(cloud, renderer.getColorRange(), image);
-    const pcl_uvol::StepTimer timer(report, "write");
-    pcl_uvol::savePng(frameName(output, frame), image);
-  }
+  drawFrames(
+      options,
+      {cloud, renderer.getBounds(), surface.origin},
+      [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
+        renderer.setSize(cell.width, cell.height);
+        renderer.setCamera(camera);
+        renderer.render(image);
+        drawing = renderer.getReport();
+      },
+      [&] { return renderer.getColorRange(); },
+      output,
+      report);
   report.merge(drawing);
   return renderer.describeBackend();
 }
@@ -181,7 +196,10 @@ RenderOptions::writePage(const Options& options,
     points.computeFootprints(options.threads(), report);
   SurfacePage page;
   page.title = std::filesystem::path(output).stem().string();
-  page.camera = makeCamera(points.getBounds(), surface.origin, getHeight(), &cloud);
+  page.camera = makeCamera(points.getBounds(),
+                           surface.origin,
+                           wholePicture(getHeight(), getHeight()),
+                           &cloud);
   page.material = getMaterial();
   page.lights = getLights();
   page.background = getBackground().color;

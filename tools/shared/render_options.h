@@ -19,9 +19,20 @@ public:
   void
   declareView(Options& options);
 
+  /** \brief -opacity, for tools that call drawCloud(). */
+  void
+  declareOpacity(Options& options);
+
   /** \brief Every pass with its threshold, lights and material. */
   void
   declarePasses(Options& options);
+
+  /** \brief True if light goes through surfaces, which are then drawn by themselves. */
+  bool
+  hasOpacities() const
+  {
+    return !opacities_.empty();
+  }
 
   /** \brief As ViewOptions::check. */
   void
@@ -49,15 +60,9 @@ public:
             const std::string& output,
             pcl_uvol::Report& report) const;
 
-  /** \brief Apply everything but the camera. */
-  void
-  configure(const Options& options,
-            const pcl_uvol::CloudView& cloud,
-            pcl_uvol::ImageSpaceRendererBase& renderer) const;
-
 private:
   std::string smoothing_ = "alleviated", backend_ = "auto";
-  std::vector<double> line_color_;
+  std::vector<double> line_color_, opacities_;
   pcl_uvol::ImageSpaceSettings settings_;
 };
 

@@ -23,6 +23,8 @@ SurfacePicture::declare(Options& options)
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
   look_.declareView(options);
   look_.declareExaggeration(options);
+  look_.declareFigure(options);
+  look_.declareOpacity(options);
   look_.declarePasses(options);
   options.group("Ray tracing", true);
   rays_.declareRays(options);
@@ -34,6 +36,9 @@ SurfacePicture::check(const Options& options)
 {
   if (is_ray_traced_ && path_.empty())
     throw UsageError("-raytrace needs -png.");
+  if (is_ray_traced_ && options.given("opacity"))
+    throw UsageError("-opacity is for pictures in image space; -raytrace has "
+                     "-transparent.");
   look_.check(options);
   rays_.check(options);
   if (!path_.empty())
@@ -106,18 +111,23 @@ SurfacePicture::draw(const Options& options,
 }
 
 void
-SurfacePicture::addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast) const
+SurfacePicture::addMemoryNeed(double points,
+                              std::size_t surfaces,
+                              pcl_uvol::MemoryForecast& forecast) const
 {
   if (path_.empty())
     return;
   const double scale =
       is_ray_traced_ ? look_.getRaySupersampling() : look_.getSupersampling();
   const double pixels = scale * look_.getWidth() * scale * look_.getHeight();
+  constexpr double layer_bytes = 8.0; // colour and depth
+  const double layers = look_.hasOpacities() ? static_cast<double>(surfaces) : 0.0;
   // At worst a splat per point, or footprints and pixels.
   if (is_ray_traced_)
     forecast.run(pcl_uvol::splatsNeed(points, points, true));
   else
     forecast.run({(look_.isFitted() ? fitted_pixel_bytes : full_pixel_bytes) * pixels +
+                      layer_bytes * layers * pixels +
                       pcl_uvol::splatsNeed(points, 0.0, true).peak,
                   0.0});
 }

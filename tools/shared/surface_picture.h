@@ -53,9 +53,12 @@ public:
        const pcl_uvol::Dataset& surface,
        pcl_uvol::Report& report) const;
 
-  /** \brief Add the memory of a picture of that many points to a forecast. */
+  /** \brief Add the memory of a picture of that many points to a forecast.
+   * \param surfaces number of isovalues */
   void
-  addMemoryNeed(double points, pcl_uvol::MemoryForecast& forecast) const;
+  addMemoryNeed(double points,
+                std::size_t surfaces,
+                pcl_uvol::MemoryForecast& forecast) const;
 
 private:
   std::string path_;

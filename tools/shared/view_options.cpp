@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/view_options.h"
 
-#include "charts/color_bar.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
 #include "render/camera_choice.h"
@@ -12,9 +11,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
-#include <iomanip>
-#include <sstream>
 
 namespace uvol_tools {
 
@@ -48,38 +44,6 @@ bool
 isColorName(const std::string& color)
 {
   return color == "auto" || color == "none" || color == "rgb" || color == "rgba";
-}
-
-/** A picture with columns of background on its right. */
-pcl_uvol::Image
-widened(const pcl_uvol::Image& image, const pcl_uvol::Background& background, int width)
-{
-  using Kind = pcl_uvol::Background::Kind;
-  pcl_uvol::Image wide;
-  wide.width = static_cast<std::uint32_t>(width);
-  wide.height = image.height;
-  wide.color.resize(4 * wide.pixels());
-  for (std::uint32_t row = 0; row < image.height; ++row) {
-    const float below =
-        background.kind == Kind::Gradient
-            ? (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height)
-            : 1.0f;
-    const auto mix = [&](float top, float bottom) {
-      return top * (1.0f - below) + bottom * below;
-    };
-    const pcl_uvol::Rgba color =
-        background.kind == Kind::Transparent
-            ? 0
-            : pcl_uvol::toRgba({mix(background.top.r, background.color.r),
-                                mix(background.top.g, background.color.g),
-                                mix(background.top.b, background.color.b)});
-    const auto from = image.color.begin() + std::ptrdiff_t{4} * row * image.width;
-    const auto to = wide.color.begin() + std::ptrdiff_t{4} * row * wide.width;
-    std::copy_n(from, 4 * image.width, to);
-    for (std::uint32_t k = 4 * image.width; k < 4 * wide.width; ++k)
-      to[k] = static_cast<std::uint8_t>(color >> (8 * (k % 4)));
-  }
-  return wide;
 }
 
 } // namespace
@@ -136,6 +100,12 @@ ViewOptions::declareExaggeration(Options& options)
                   exaggeration_,
                   "stretch the picture along the axes, as 1,1,100; -eye and -at are "
                   "places in the data");
+}
+
+void
+ViewOptions::declareFigure(Options& options)
+{
+  figure_.declare(options);
 }
 
 void
@@ -217,7 +187,7 @@ ViewOptions::check(const Options& options)
     if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
                        std::to_string(most) + " pixels before averaging, not " +
-                       size_text_ + ".");
+                       std::to_string(width_) + " x " + std::to_string(height_) + ".");
   if (options.given("view") && options.given("eye"))
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (!options.given("eye") && options.given("at"))
@@ -225,6 +195,12 @@ ViewOptions::check(const Options& options)
   if (!up_.empty() && toVector(up_).isZero(0.0))
     throw UsageError("-up takes a direction, and 0,0,0 is none.");
   colors_.check();
+  figure_.check(options, width_, height_);
+  if (options.given("scale-bar") && isExaggerated() &&
+      (exaggeration_[0] != exaggeration_[1] || exaggeration_[0] != exaggeration_[2]))
+    throw UsageError(
+        "-scale-bar needs one scale for all directions, and -exaggerate has "
+        "several; -ticks show them.");
   for (const double factor : exaggeration_)
     if (!(factor > 0.0))
       throw UsageError("-exaggerate takes three factors above 0.");
@@ -299,7 +275,7 @@ ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
 pcl_uvol::Camera
 ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                         const std::array<double, 3>& origin,
-                        int width,
+                        const PictureCell& cell,
                         const pcl_uvol::CloudView* cloud) const
 {
   const auto direction = [](const std::vector<double>& numbers) {
@@ -311,12 +287,17 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
       *point = point->cwiseProduct(toVector(exaggeration_));
     return point;
   };
-  return pcl_uvol::chooseCamera(
-      {view_, place(eye_), place(at_), direction(up_), fov_, zoom_},
-      bounds,
-      origin,
-      static_cast<double>(width) / height_,
-      frames_ == 1 ? cloud : nullptr);
+  return pcl_uvol::chooseCamera({cell.view.empty() ? view_ : cell.view,
+                                 place(eye_),
+                                 place(at_),
+                                 direction(up_),
+                                 fov_,
+                                 zoom_,
+                                 figure_.getFill(cell)},
+                                bounds,
+                                origin,
+                                static_cast<double>(cell.width) / cell.height,
+                                frames_ == 1 ? cloud : nullptr);
 }
 
 pcl_uvol::Camera
@@ -334,59 +315,6 @@ ViewOptions::turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const
 {
   return camera.orbited(360.0 * static_cast<double>(frame) /
                         static_cast<double>(frames_));
-}
-
-std::string
-ViewOptions::frameName(const std::string& output, std::uint64_t frame) const
-{
-  if (frames_ == 1)
-    return output;
-  const std::filesystem::path path(output);
-  std::ostringstream name;
-  name << path.stem().string() << '_'
-       << std::setw(static_cast<int>(std::to_string(frames_ - 1).size()))
-       << std::setfill('0') << frame << path.extension().string();
-  return (path.parent_path() / name.str()).string();
-}
-
-bool
-ViewOptions::drawsBar(const pcl_uvol::CloudView& cloud) const
-{
-  const std::string field = colorField(cloud);
-  return has_bar_ && !field.empty() && field != "rgb" && field != "rgba";
-}
-
-int
-ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
-{
-  return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
-}
-
-std::vector<double>
-ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
-                            const pcl_uvol::ColorMapping& mapping) const
-{
-  if (!mapping.map.isCategorical())
-    return {};
-  return pcl_uvol::listCategories(cloud, colorField(cloud), most_categories);
-}
-
-void
-ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
-                      const std::array<double, 2>& range,
-                      pcl_uvol::Image& image) const
-{
-  if (!drawsBar(cloud))
-    return;
-  image = widened(image, background_, width_);
-  const std::string field = colorField(cloud);
-  const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
-  const std::vector<double> categories = listCategories(cloud, mapping);
-  if (categories.empty())
-    drawColorBar(
-        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
-  else
-    drawCategories(image, mapping.map, categories, field);
 }
 
 } // namespace uvol_tools

@@ -5,6 +5,7 @@
 
 #include "common/memory.h"
 #include "shared/color_options.h"
+#include "shared/figure_options.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
@@ -15,11 +16,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace uvol_tools {
+
+/** \brief What a picture is drawn of. */
+struct Subject {
+  const pcl_uvol::CloudView& cloud;
+  pcl_uvol::BoundingSphere bounds;
+  std::array<double, 3> origin; ///< of its coordinates
+};
 
 /** \brief Options of a picture or window. */
 class ViewOptions {
@@ -31,6 +40,10 @@ public:
   /** \brief -exaggerate, for tools that call exaggerate(). */
   void
   declareExaggeration(Options& options);
+
+  /** \brief What explains a picture, for tools that call drawFrames(). */
+  void
+  declareFigure(Options& options);
 
   void
   declareSupersampling(Options& options);
@@ -63,13 +76,13 @@ public:
   /** \brief
    * \param origin what was subtracted from the coordinates of the cloud: places on the
    * command line are meant before that
-   * \param width of what the camera sees, pixels
+   * \param cell what the camera draws into
    * \param cloud that fills the image, unless the camera has its place or turns around;
    * null: the bounds do */
   pcl_uvol::Camera
   makeCamera(const pcl_uvol::BoundingSphere& bounds,
              const std::array<double, 3>& origin,
-             int width,
+             const PictureCell& cell,
              const pcl_uvol::CloudView* cloud) const;
 
   /** \brief A camera with what options say in the place of what it says. Not for -view
@@ -88,23 +101,38 @@ public:
   pcl_uvol::Camera
   turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const;
 
+  /** \brief Draws a view of a size with a camera. */
+  using DrawView = std::function<void(
+      const pcl_uvol::Camera& camera, const PictureCell& cell, pcl_uvol::Image& image)>;
+
+  /** \brief Gives the values at the ends of the colours, once a view is drawn. */
+  using FindRange = std::function<std::array<double, 2>()>;
+
+  /** \brief Draw and write all frames of a surface, with what explains them.
+   * \param surface cloud, and the origin of its coordinates
+   * \param report gets the time of writing */
+  void
+  drawFrames(const Options& options,
+             const Subject& surface,
+             const DrawView& draw,
+             const FindRange& range,
+             const std::string& output,
+             pcl_uvol::Report& report) const;
+
   /** \brief out.png, or out_007.png for a frame of several. */
   std::string
   frameName(const std::string& output, std::uint64_t frame) const;
 
-  /** \brief Columns of a picture of this cloud that are left to the surface: its colour
-   * bar stands beside it. */
-  int
-  pictureWidth(const pcl_uvol::CloudView& cloud) const;
+  /** \brief All of a picture of this size. */
+  static PictureCell
+  wholePicture(int width, int height)
+  {
+    return {0, 0, width, height, ""};
+  }
 
-  /** \brief Put the colour bar of a picture that is coloured by a scalar field beside
-   * it.
-   * \param range values at the ends of the colours
-   * \param image of pictureWidth(); has the full width afterwards */
-  void
-  decorate(const pcl_uvol::CloudView& cloud,
-           const std::array<double, 2>& range,
-           pcl_uvol::Image& image) const;
+  /** \brief What is behind a view: nothing if marks are drawn there afterwards. */
+  pcl_uvol::Background
+  getBackgroundOfViews() const;
 
   /** \brief Compute the field of -color at the points of a surface where it is an
    * expression, see addDerivedField; derivatives are refused. */
@@ -219,11 +247,30 @@ protected:
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
   /** \brief The categories that a legend lists; none: it is a bar. */
-  std::vector<double>
+  std::vector<pcl_uvol::CategoryColor>
   listCategories(const pcl_uvol::CloudView& cloud,
                  const pcl_uvol::ColorMapping& mapping) const;
 
 private:
+  /** Columns that are left to the surface: its colour bar stands beside it. */
+  int
+  viewsWidth(const pcl_uvol::CloudView& cloud) const;
+
+  pcl_uvol::Image
+  drawFrame(const Subject& surface,
+            std::uint64_t frame,
+            const DrawView& draw,
+            std::vector<pcl_uvol::ImageText>& texts) const;
+
+  pcl_uvol::Camera
+  cameraOfCell(const Subject& surface, const PictureCell& cell) const;
+
+  /** Put the colour bar of a picture that is coloured by a scalar field beside it. */
+  void
+  drawLegend(const pcl_uvol::CloudView& cloud,
+             const std::array<double, 2>& range,
+             pcl_uvol::Image& image) const;
+
   void
   parseBackground();
 
@@ -233,6 +280,7 @@ private:
   std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
   std::string color_ = "auto", lights_text_;
   ColorOptions colors_;
+  FigureOptions figure_;
   std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;
   double fov_ = 30.0, zoom_ = 1.0;
   int width_ = 0, height_ = 0, supersampling_ = 0;
@@ -242,6 +290,11 @@ private:
   pcl_uvol::Material material_;
   std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();
 };
+
+/** \brief The options that give the same view again: -eye, -at, -up and -fov.
+ * \param data what is added to coordinates, and divides them */
+std::string
+describeCamera(const pcl_uvol::Camera& camera, const DataBox& data);
 
 /** \brief The colour that three numbers say.
  * \throws UsageError that names the option unless they lie in [0, 1] */

@@ -2,6 +2,7 @@
 #include "viewer/color_choice.h"
 
 #include "charts/color_bar.h"
+#include "common/scalar_field.h"
 #include "render/point_colors.h"
 
 #include <vtkLookupTable.h>
@@ -23,7 +24,7 @@ void
 fill(vtkLookupTable& table,
      const pcl_uvol::ColorMapping& mapping,
      const pcl_uvol::ColorScale& scale,
-     const std::vector<double>& categories)
+     const std::vector<pcl_uvol::CategoryColor>& categories)
 {
   const auto set = [&table](vtkIdType i, const pcl_uvol::Color& color) {
     table.SetTableValue(i, color.r, color.g, color.b);
@@ -33,9 +34,9 @@ fill(vtkLookupTable& table,
     table.SetNumberOfTableValues(count);
     table.IndexedLookupOn();
     for (vtkIdType i = 0; i < count; ++i) {
-      const double category = categories[static_cast<std::size_t>(i)];
+      const auto& [category, color] = categories[static_cast<std::size_t>(i)];
       table.SetAnnotation(category, shortNumber(category));
-      set(i, mapping.map.ofCategory(category));
+      set(i, color);
     }
     return;
   }
@@ -47,6 +48,33 @@ fill(vtkLookupTable& table,
   table.SetTableRange(scale.low, scale.high);
 }
 
+/** What can colour a surface: scalars, and lengths of vectors. */
+std::vector<std::string>
+listScalars(const pcl::PCLPointCloud2& cloud)
+{
+  std::vector<std::string> names;
+  for (const auto& field : cloud.fields) {
+    const bool is_geometry = field.name == "x" || field.name == "y" ||
+                             field.name == "z" || field.name.rfind("normal_", 0) == 0;
+    if (!is_geometry && field.name != "rgb" && field.name != "rgba")
+      names.push_back(field.count == 1 ? field.name : "|" + field.name + "|");
+  }
+  return names;
+}
+
+/** A field of one value, or of none. */
+bool
+isConstant(const pcl::PCLPointCloud2& cloud, const std::string& name)
+{
+  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
+  const pcl_uvol::ScalarField field(view.fields, name);
+  pcl_uvol::ColorScaleFinder finder(false);
+  for (std::size_t i = 0; i < view.count; ++i)
+    finder.add(field.read(view.point(i)));
+  const auto scale = finder.find();
+  return !scale || scale->low == scale->high;
+}
+
 } // namespace
 
 ColorChoice::ColorChoice(const RenderOptions& look, const pcl::PCLPointCloud2& cloud)
@@ -55,12 +83,11 @@ ColorChoice::ColorChoice(const RenderOptions& look, const pcl::PCLPointCloud2& c
 {
   if (!getField().empty())
     fields_.emplace_back();
-  for (const auto& field : cloud.fields) {
-    const bool is_geometry =
-        field.name.size() == 1 || field.name.rfind("normal_", 0) == 0;
-    if (!is_geometry && field.count == 1 && field.name != fields_[0])
-      fields_.push_back(field.name);
-  }
+  std::vector<std::string> constant;
+  for (const std::string& name : listScalars(cloud))
+    if (name != fields_[0])
+      (isConstant(cloud, name) ? constant : fields_).push_back(name);
+  fields_.insert(fields_.end(), constant.begin(), constant.end());
 }
 
 void
@@ -78,11 +105,12 @@ ColorChoice::hasScale() const
 void
 ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
                    pcl_uvol::ImageSpaceRendererBase& renderer,
-                   vtkScalarBarActor& bar) const
+                   vtkScalarBarActor& bar)
 {
   const std::string& field = getField();
   renderer.setColorField("");
   bar.VisibilityOff();
+  legend_ = Legend();
   if (isScalar(field)) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
     pcl_uvol::ColorMapping mapping = look_.getColors().mapFor(view, field);
@@ -92,18 +120,37 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     renderer.setColorMap(mapping.map);
     renderer.setLogarithmicColors(mapping.is_logarithmic);
     renderer.setColorRange(scale.low, scale.high);
+    legend_ = {mapping, scale, {}};
+    if (mapping.map.isCategorical())
+      legend_.categories =
+          pcl_uvol::colorCategories(view, field, mapping.map, most_categories);
     vtkNew<vtkLookupTable> table;
-    fill(*table,
-         mapping,
-         scale,
-         mapping.map.isCategorical()
-             ? pcl_uvol::listCategories(view, field, most_categories)
-             : std::vector<double>());
+    fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);
     bar.SetTitle(field.c_str());
     bar.SetVisibility(look_.hasBar());
   }
   renderer.setColorField(field);
+}
+
+void
+ColorChoice::drawLegend(pcl_uvol::Image& image) const
+{
+  if (!isScalar(getField()) || !look_.hasBar())
+    return;
+  if (legend_.categories.empty())
+    drawColorBar(image, legend_.mapping.map, legend_.scale, getField());
+  else
+    drawCategories(image, legend_.categories, getField());
+}
+
+void
+ColorChoice::colorLike(pcl_uvol::ImageSpaceRendererBase& renderer) const
+{
+  renderer.setColorField(getField());
+  renderer.setColorMap(legend_.mapping.map);
+  renderer.setLogarithmicColors(legend_.mapping.is_logarithmic);
+  renderer.setColorRange(legend_.scale.low, legend_.scale.high);
 }
 
 } // namespace uvol_tools

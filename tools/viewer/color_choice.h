@@ -41,12 +41,28 @@ public:
   void
   apply(const pcl::PCLPointCloud2& cloud,
         pcl_uvol::ImageSpaceRendererBase& renderer,
-        vtkScalarBarActor& bar) const;
+        vtkScalarBarActor& bar);
+
+  /** \brief Give another renderer the colours of the last apply(). */
+  void
+  colorLike(pcl_uvol::ImageSpaceRendererBase& renderer) const;
+
+  /** \brief Draw the bar of the last apply() into a picture. */
+  void
+  drawLegend(pcl_uvol::Image& image) const;
 
 private:
+  /** What the colours of the last apply() stand for. */
+  struct Legend {
+    pcl_uvol::ColorMapping mapping;
+    pcl_uvol::ColorScale scale;
+    std::vector<pcl_uvol::CategoryColor> categories;
+  };
+
   const RenderOptions& look_;
   std::vector<std::string> fields_; // that of the options first
   std::size_t chosen_ = 0;
+  Legend legend_;
 };
 
 } // namespace uvol_tools

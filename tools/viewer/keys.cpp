@@ -69,10 +69,33 @@ describeKeys()
   return text + "c  colour by the next field\n"
                 "m  mesh of the isosurface instead of its points, or back\n"
                 "+ -  next isovalue (or drag the slider)\n"
+                "x y z  from the right, the front and above (X Y Z: the other sides)\n"
                 "r  whole surface in view\n"
-                "s  save a picture\n"
+                "s  save a picture   e  save the surface\n"
+                "p  print the camera as options of uvol_render\n"
                 "h  show or hide the keys\n"
                 "q  quit";
+}
+
+const char*
+sideOf(char key)
+{
+  switch (key) {
+  case 'x':
+    return "right";
+  case 'X':
+    return "left";
+  case 'y':
+    return "front";
+  case 'Y':
+    return "back";
+  case 'z':
+    return "top";
+  case 'Z':
+    return "bottom";
+  default:
+    return nullptr;
+  }
 }
 
 bool

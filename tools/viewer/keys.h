@@ -17,4 +17,8 @@ describeKeys();
 bool
 switchPass(char key, pcl_uvol::ImageSpaceSettings& settings);
 
+/** \brief The side that a key looks from, see Camera::fit; null for other keys. */
+const char*
+sideOf(char key);
+
 } // namespace uvol_tools

@@ -2,6 +2,7 @@
 #include "viewer/shown_surface.h"
 
 #include "common/scalar_field.h"
+#include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <Eigen/Geometry>
@@ -79,6 +80,18 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
                           " are equal: there is no isosurface between them.");
   pipeline_.setInput(samples);
   pipeline_.setNumberOfThreads(threads);
+}
+
+double
+ShownSurface::proposeIsoValue() const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*samples_);
+  const pcl_uvol::ScalarField field(cloud.fields, field_);
+  std::vector<double> values(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    values[i] = field.read(cloud.point(i));
+  const auto proposed = pcl_uvol::describeValues(values).isovalues;
+  return proposed.empty() ? 0.5 * range_[0] + 0.5 * range_[1] : proposed.front();
 }
 
 void

@@ -38,6 +38,11 @@ public:
     return range_;
   }
 
+  /** \brief A value with samples on both sides: the first that uvol_info proposes, else
+   * the middle of the range. */
+  double
+  proposeIsoValue() const;
+
   double
   getIsoValue() const
   {

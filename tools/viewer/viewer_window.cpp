@@ -19,12 +19,22 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <iostream>
 
 namespace uvol_tools {
 
 namespace {
+
+/** The value at a place between the ends of a scale, 0 and 1. */
+double
+valueAt(const pcl_uvol::ColorScale& scale, double place)
+{
+  const double value = scale.is_logarithmic
+                           ? scale.low * std::pow(scale.high / scale.low, place)
+                           : (1.0 - place) * scale.low + place * scale.high;
+  return std::clamp(value, scale.low, scale.high);
+}
 
 /** Part of the range of the field that + and - move the isovalue by. */
 constexpr double isovalue_step = 0.01;
@@ -76,7 +86,12 @@ extractWords(const std::string& error)
 void
 setColor(vtkTextProperty& text, double grey)
 {
+  // Letters are read on any surface.
+  constexpr double opacity = 0.6;
+  const double ground = grey < 0.5 ? 1.0 : 0.0;
   text.SetColor(grey, grey, grey);
+  text.SetBackgroundColor(ground, ground, ground);
+  text.SetBackgroundOpacity(opacity);
   text.SetFontSize(12);
   text.ShadowOff();
   text.ItalicOff();
@@ -135,13 +150,11 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
 
-  const pcl_uvol::Camera camera = look_.makeCamera(
-      surface_.getBounds(), surface_.getOrigin(), look_.getWidth(), nullptr);
-  vtkCamera& view = *renderer_->GetActiveCamera();
-  view.SetPosition(camera.eye.data());
-  view.SetFocalPoint(camera.at.data());
-  view.SetViewUp(camera.up.data());
-  view.SetViewAngle(camera.vertical_fov);
+  setCamera(
+      look_.makeCamera(surface_.getBounds(),
+                       surface_.getOrigin(),
+                       ViewOptions::wholePicture(look_.getWidth(), look_.getHeight()),
+                       nullptr));
 
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };
@@ -158,6 +171,7 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   setColor(*message_->GetTextProperty(), grey);
   setColor(*bar_->GetTitleTextProperty(), grey);
   setColor(*bar_->GetLabelTextProperty(), grey);
+  setColor(*bar_->GetAnnotationTextProperty(), grey);
   setColor(*slider_shape_->GetTitleProperty(), grey);
   setColor(*slider_shape_->GetLabelProperty(), grey);
   help_->SetInput(describeKeys().c_str());
@@ -181,11 +195,15 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
 void
 ViewerWindow::setUpSlider()
 {
-  slider_shape_->SetMinimumValue(surface_.getRange()[0]);
-  slider_shape_->SetMaximumValue(surface_.getRange()[1]);
-  slider_shape_->SetValue(surface_.getIsoValue());
-  slider_shape_->SetTitleText(surface_.getField().c_str());
-  slider_shape_->SetLabelFormat("%.4g");
+  // Fields of many decades have most of their surfaces in the lower ones.
+  constexpr double many_decades = 1e3;
+  const auto& [low, high] = surface_.getRange();
+  scale_ = {low, high, low > 0.0 && high / low >= many_decades};
+  slider_shape_->SetMinimumValue(0.0);
+  slider_shape_->SetMaximumValue(1.0);
+  slider_shape_->SetValue(scale_.placeOf(surface_.getIsoValue()));
+  slider_shape_->ShowSliderLabelOff();
+  nameIsoValue();
   slider_shape_->SetSliderLength(0.03); // parts of the window
   slider_shape_->SetSliderWidth(0.03);
   slider_shape_->SetTubeWidth(0.008);
@@ -269,10 +287,18 @@ ViewerWindow::nextColor()
 void
 ViewerWindow::followSlider()
 {
-  surface_.setIsoValue(std::clamp(
-      slider_shape_->GetValue(), surface_.getRange()[0], surface_.getRange()[1]));
+  surface_.setIsoValue(valueAt(scale_, slider_shape_->GetValue()));
+  nameIsoValue();
   showSurface();
   show(surface_.getCloud() ? "" : "no points at this isovalue");
+}
+
+void
+ViewerWindow::nameIsoValue()
+{
+  const std::string text =
+      surface_.getField() + " = " + shortNumber(surface_.getIsoValue());
+  slider_shape_->SetTitleText(text.c_str());
 }
 
 void
@@ -280,15 +306,16 @@ ViewerWindow::stepIsoValue(int steps)
 {
   if (surface_.getField().empty())
     return;
-  const auto& range = surface_.getRange();
-  slider_shape_->SetValue(surface_.getIsoValue() +
-                          steps * isovalue_step * (range[1] - range[0]));
+  slider_shape_->SetValue(scale_.placeOf(surface_.getIsoValue()) +
+                          steps * isovalue_step);
   followSlider();
 }
 
 void
 ViewerWindow::press(char key)
 {
+  if (key != 'h')
+    help_->VisibilityOff();
   attempt([this, key] {
     if (switchPass(key, prop_->renderer().settings()))
       show("");
@@ -301,27 +328,19 @@ ViewerWindow::press(char key)
     else if (key == 'r')
       renderer_->ResetCamera();
     else if (key == 's')
-      saveNumbered();
+      savePicture();
+    else if (key == 'e')
+      saveSurface();
+    else if (key == 'p')
+      printCamera();
     else if (key == 'h')
       help_->SetVisibility(!help_->GetVisibility());
+    else if (const char* const side = sideOf(key))
+      lookFrom(side);
     else if (key == 'q')
       interactor_->TerminateApp();
   });
   render();
-}
-
-void
-ViewerWindow::saveNumbered()
-{
-  const auto name = [](int number) {
-    return "uvol_viewer_" + std::to_string(number) + ".png";
-  };
-  int number = 1;
-  while (std::filesystem::exists(name(number)))
-    ++number;
-  show("");
-  save(name(number));
-  show("saved " + name(number));
 }
 
 void
@@ -354,6 +373,8 @@ ViewerWindow::render()
 void
 ViewerWindow::run()
 {
+  help_->VisibilityOn(); // until a key is pressed
+  render();
   interactor_->Start();
 }
 

@@ -99,8 +99,30 @@ private:
   void
   stepIsoValue(int steps);
 
+  /** Write the isovalue beside the slider. */
   void
-  saveNumbered();
+  nameIsoValue();
+
+  void
+  setCamera(const pcl_uvol::Camera& camera);
+
+  pcl_uvol::Camera
+  getCamera() const;
+
+  /** Show all of the surface from a side. */
+  void
+  lookFrom(const std::string& side);
+
+  /** Print options that give the same view. */
+  void
+  printCamera();
+
+  /** Save what the window shows, without letters of the window and finer. */
+  void
+  savePicture();
+
+  void
+  saveSurface();
 
   void
   render();
@@ -115,7 +137,8 @@ private:
   ShownSurface& surface_;
   const RenderOptions& look_;
   std::optional<ColorChoice> colors_;
-  std::string error_; // of the last frame
+  pcl_uvol::ColorScale scale_; // of the slider
+  std::string error_;          // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;
   vtkNew<vtkActor> mesh_actor_;

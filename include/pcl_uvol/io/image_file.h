@@ -6,16 +6,24 @@
 #include <pcl_uvol/render/image.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pcl_uvol {
+
+/** \brief A keyword of at most 79 characters, such as "Software", and what it says. */
+using ImageText = std::pair<std::string, std::string>;
 
 /** \brief Write the colours of an image as PNG, with opacity where a pixel is not
  * opaque. The file appears whole or not at all.
  * \param path ends in .png
  * \param image with its colours
+ * \param texts kept in the file, for those who ask where the picture is from
  * \throws IOError */
 PCL_UVOL_EXPORTS void
-savePng(const std::string& path, const Image& image);
+savePng(const std::string& path,
+        const Image& image,
+        const std::vector<ImageText>& texts = {});
 
 /** \brief Throw IOError unless the name ends in .png and its folder can be written to:
  * to be called before work whose result would be lost.

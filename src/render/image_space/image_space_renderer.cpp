@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parallel.h"
+#include "common/scalar_field.h"
 #include "render/image_space/cpu_backend.h"
+#include "render/image_space/layer_blend.h"
 #include "render/lighting.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace pcl_uvol {
 
@@ -105,6 +108,25 @@ average(const Image& fine, int factor, Image& image)
     }
 }
 
+/** Points of every isovalue; all of them where the cloud has none. */
+std::map<double, std::vector<std::uint32_t>>
+partByIsovalue(const CloudView& cloud, const pcl::Indices& indices)
+{
+  constexpr const char* field = "isovalue";
+  std::map<double, std::vector<std::uint32_t>> parts;
+  if (findField(cloud.fields, field) != nullptr) {
+    const ScalarField isovalue(cloud.fields, field);
+    for (const auto index : indices) {
+      const double value = isovalue.read(cloud.point(static_cast<std::size_t>(index)));
+      if (std::isfinite(value))
+        parts[value].push_back(static_cast<std::uint32_t>(index));
+    }
+  }
+  if (parts.empty())
+    parts[0.0].assign(indices.begin(), indices.end());
+  return parts;
+}
+
 } // namespace
 
 ImageSpaceRendererBase::ImageSpaceRendererBase() = default;
@@ -114,6 +136,7 @@ void
 ImageSpaceRendererBase::forgetSurface()
 {
   surface_.reset();
+  layers_.clear();
 }
 
 const SurfaceCloud&
@@ -127,6 +150,7 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
   surface_report_ = Report();
   const StepTimer timer(surface_report_, "prepare");
   surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, surface_report_);
+  layers_.clear();
   drawn_ = indices;
   colored_ = false;
   return *surface_;
@@ -144,12 +168,92 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
 {
   if (color_field_.empty()) {
     surface_->setColor(toRgba(settings_.material.color));
+    for (const auto& layer : layers_)
+      layer->setColor(toRgba(settings_.material.color));
     return;
   }
   const PointColors colors =
       colorPoints(cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
   used_range_ = {colors.scale.low, colors.scale.high};
   surface_->setColors(colors.colors);
+  for (const auto& layer : layers_)
+    layer->setColors(colors.colors);
+}
+
+void
+ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
+                                      const pcl::Indices& indices)
+{
+  for (const double opacity : opacities_)
+    if (!(opacity >= 0.0 && opacity <= 1.0))
+      throw InvalidArgument("Opacities are numbers from 0 to 1, not " +
+                            std::to_string(opacity) + ".");
+  if (layers_.empty()) {
+    Report counted_before; // with the whole surface
+    for (const auto& [value, points] : partByIsovalue(cloud, indices))
+      layers_.push_back(
+          std::make_shared<SurfaceCloud>(cloud, points, threads_, counted_before));
+    colored_ = false;
+  }
+  if (opacities_.size() != 1 && opacities_.size() != layers_.size())
+    throw InvalidArgument("Opacities are one for all isovalues, or one for each, the "
+                          "lowest isovalue first: there are " +
+                          std::to_string(layers_.size()) + " isovalues, and " +
+                          std::to_string(opacities_.size()) + " opacities.");
+}
+
+void
+ImageSpaceRendererBase::findFootprints(SurfaceCloud& surface, const View& view)
+{
+  if (settings_.footprints && needsFootprints(surface, view))
+    surface.computeFootprints(threads_, report_);
+}
+
+void
+ImageSpaceRendererBase::renderLayers(const CloudView& cloud,
+                                     const pcl::Indices& indices,
+                                     Image& image)
+{
+  const Camera camera = cameraFor(surface_->getBounds());
+  prepareLayers(cloud, indices);
+  updateColors(cloud);
+  startReport();
+  report_.merge(surface_report_);
+  ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
+  settings.background.kind = Background::Kind::Transparent;
+  ImagePlanes planes;
+  planes.depth = true;
+  std::vector<detail::SurfaceLayer> drawn;
+  const StepTimer timer(report_, "frame");
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const View view(camera,
+                    layers_[i]->getBounds(),
+                    width_ * supersampling_,
+                    height_ * supersampling_);
+    findFootprints(*layers_[i], view);
+    drawn.push_back({Image(),
+                     static_cast<double>(view.far) / view.unit,
+                     opacities_[std::min(i, opacities_.size() - 1)]});
+    backend_->render(
+        {*layers_[i], view, settings, planes, threads_}, drawn.back().image, report_);
+  }
+  if (supersampling_ == 1) {
+    detail::blendLayers(drawn, settings_.background, threads_, image);
+    return;
+  }
+  detail::blendLayers(drawn, settings_.background, threads_, fine_);
+  average(fine_, supersampling_, image);
+}
+
+void
+ImageSpaceRendererBase::updateColors(const CloudView& cloud)
+{
+  const Rgba color = toRgba(settings_.material.color);
+  if (colored_ && (!color_field_.empty() || color == uniform_color_))
+    return;
+  colorSurface(cloud);
+  uniform_color_ = color;
+  colored_ = true;
 }
 
 void
@@ -167,6 +271,13 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
       cameraFor(bounds), bounds, width_ * supersampling_, height_ * supersampling_);
   if (!backend_)
     backend_ = std::make_shared<CpuBackend>();
+  if (!opacities_.empty()) {
+    if (planes_.depth || planes_.normal || planes_.id)
+      throw InvalidArgument("Transparent surfaces have no planes: render depth, normal "
+                            "or id without opacities.");
+    renderLayers(cloud, *indices, image);
+    return;
+  }
   drawFrom(cloud, indices, view, [&](const Frame& frame, Report& report) {
     if (supersampling_ == 1) {
       backend_->render(frame, image, report);
@@ -191,16 +302,10 @@ ImageSpaceRendererBase::drawFrom(const CloudView& cloud,
 {
   checkParameters(settings_);
   prepare(cloud, indices);
-  const Color& color = settings_.material.color;
-  if (!colored_ || (color_field_.empty() && toRgba(color) != uniform_color_)) {
-    colorSurface(cloud);
-    uniform_color_ = toRgba(color);
-    colored_ = true;
-  }
+  updateColors(cloud);
   startReport();
   report_.merge(surface_report_);
-  if (settings_.footprints && needsFootprints(*surface_, view))
-    surface_->computeFootprints(threads_, report_);
+  findFootprints(*surface_, view);
   const Frame frame{*surface_, view, settings_, planes_, threads_};
   const StepTimer timer(report_, "frame");
   painter(frame, report_);

@@ -69,6 +69,17 @@ public:
     colored_ = false;
   }
 
+  /** \brief Let light through surfaces: each isovalue of the cloud (its field
+   * "isovalue") is drawn by itself, of which the nearest layer is seen, and these are
+   * laid over each other. Default: none, all surfaces are opaque.
+   * \param opacities in [0, 1], of the isovalues in ascending order, or one for all;
+   * draw() does not use them */
+  void
+  setOpacities(const std::vector<double>& opacities)
+  {
+    opacities_ = opacities;
+  }
+
   /** \brief Steps and thresholds. */
   ImageSpaceSettings&
   settings()
@@ -131,6 +142,20 @@ private:
   void
   colorSurface(const CloudView& cloud);
 
+  /** Colour what is drawn, unless nothing has changed. */
+  void
+  updateColors(const CloudView& cloud);
+
+  /** One surface for each isovalue. */
+  void
+  prepareLayers(const CloudView& cloud, const pcl::Indices& indices);
+
+  void
+  renderLayers(const CloudView& cloud, const pcl::Indices& indices, Image& image);
+
+  void
+  findFootprints(SurfaceCloud& surface, const View& view);
+
   std::string color_field_;
   ColorMap color_map_;
   std::optional<std::array<double, 2>> color_range_;
@@ -139,9 +164,11 @@ private:
   ImageSpaceSettings settings_;
   ImagePlanes planes_;
   std::shared_ptr<ImageSpaceBackend> backend_;
+  std::vector<double> opacities_;
   std::shared_ptr<SurfaceCloud> surface_;
-  pcl::IndicesConstPtr drawn_; // input points behind surface_
-  Report surface_report_;      // what preparing it counted
+  std::vector<std::shared_ptr<SurfaceCloud>> layers_; // by ascending isovalue
+  pcl::IndicesConstPtr drawn_;                        // input points behind surface_
+  Report surface_report_;                             // what preparing it counted
   bool colored_ = false;
   Rgba uniform_color_ = 0; // of surface_ without a colour field
   Image fine_;             // for supersampling

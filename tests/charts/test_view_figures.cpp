@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boxes, axes, directions and lengths in pictures of surfaces.
+#include "charts/data_box.h"
+#include "charts/view_marks.h"
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
+
+#include <gtest/gtest.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+
+namespace {
+
+using Eigen::Vector3d;
+using pcl_uvol::Camera;
+using pcl_uvol::Image;
+using uvol_tools::DataBox;
+using uvol_tools::Ink;
+using uvol_tools::MarkStyle;
+using uvol_tools::Perspective;
+using uvol_tools::Pixel;
+
+constexpr int side = 400;
+const MarkStyle style{12, {0, 0, 0}};
+
+Image
+makePaper()
+{
+  Image image;
+  image.width = image.height = side;
+  image.color.assign(4 * image.pixels(), 255);
+  return image;
+}
+
+/** How dark the darkest pixel is within a pixel of a place. */
+int
+darknessAt(const Image& image, const Pixel& place)
+{
+  int darkest = 255;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const auto column = static_cast<std::size_t>(std::lround(place[0]) + dx),
+                 row = static_cast<std::size_t>(std::lround(place[1]) + dy);
+      darkest = std::min(darkest, int{image.color[4 * (row * image.width + column)]});
+    }
+  return 255 - darkest;
+}
+
+Camera
+lookAt(const Vector3d& eye, const Vector3d& at)
+{
+  Camera camera;
+  camera.eye = eye;
+  camera.at = at;
+  camera.up = Vector3d::UnitZ();
+  return camera;
+}
+
+DataBox
+unitBox()
+{
+  return {{Vector3d::Zero(), Vector3d::Ones()}, Vector3d::Zero(), Vector3d::Ones(), ""};
+}
+
+TEST(Perspective, HitsThePixelsOfTheRenderer)
+{
+  pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> coordinate(-1.0f, 1.0f);
+  for (int i = 0; i < 20; ++i)
+    cloud->push_back({coordinate(random), coordinate(random), coordinate(random)});
+  const Camera camera = lookAt({3.0, -5.0, 2.0}, {0.1, 0.0, -0.1});
+  pcl_uvol::ImageSpaceRenderer<pcl::PointXYZ> renderer;
+  renderer.setInputCloud(cloud);
+  renderer.setCamera(camera);
+  constexpr int width = 300, height = 200;
+  renderer.setSize(width, height);
+  renderer.settings().footprints = false;
+  renderer.settings().background_fill = renderer.settings().occluded_fill = 0;
+  pcl_uvol::ImagePlanes planes;
+  planes.id = true;
+  renderer.setPlanes(planes);
+  Image image;
+  renderer.render(image);
+  const Perspective perspective(camera, width, height, 10, 20);
+  int seen = 0;
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    if (image.id[i] == Image::background)
+      continue;
+    const auto& point = (*cloud)[image.id[i]];
+    const Pixel pixel =
+        perspective.pixelOf(perspective.seenFromEye({point.x, point.y, point.z}));
+    EXPECT_NEAR(static_cast<double>(i % width), pixel[0] - 10.0, 0.51);
+    EXPECT_NEAR(static_cast<double>(i / width), pixel[1] - 20.0, 0.51);
+    ++seen;
+  }
+  EXPECT_GT(seen, 15);
+}
+
+TEST(DataBox, HasHiddenEdgesBehindAndNearOnesBefore)
+{
+  const DataBox box = unitBox();
+  const Perspective perspective(
+      lookAt({2.5, -3.0, 2.5}, {0.5, 0.5, 0.5}), side, side, 0, 0);
+  Image behind = makePaper(), before = makePaper();
+  uvol_tools::drawBoxBehind(behind, perspective, box, style, false);
+  uvol_tools::drawBoxBefore(before, perspective, box, style);
+  int near_edges = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double a : {0.0, 1.0})
+      for (const double b : {0.0, 1.0}) {
+        Vector3d middle;
+        middle[axis] = 0.37; // where no other edge is near
+        middle[(axis + 1) % 3] = a;
+        middle[(axis + 2) % 3] = b;
+        const Pixel place = perspective.pixelOf(perspective.seenFromEye(middle));
+        // The eye is beyond x = 1, y = 0 and z = 1.
+        const Vector3d facing(1.0, 0.0, 1.0);
+        const bool is_near = middle[(axis + 1) % 3] == facing[(axis + 1) % 3] &&
+                             middle[(axis + 2) % 3] == facing[(axis + 2) % 3];
+        near_edges += is_near ? 1 : 0;
+        EXPECT_EQ(is_near, darknessAt(behind, place) < 50) << axis << a << b;
+        EXPECT_EQ(is_near, darknessAt(before, place) > 50) << axis << a << b;
+      }
+  EXPECT_EQ(3, near_edges);
+}
+
+TEST(DataBox, SaysTheValuesOfTheDataWhateverThePictureIsDrawnIn)
+{
+  const auto draw = [](const DataBox& box, const Camera& camera) {
+    Image image = makePaper();
+    uvol_tools::drawBoxBehind(
+        image, Perspective(camera, side, side, 0, 0), box, style, true);
+    return image.color;
+  };
+  const Vector3d eye(3.0, -4.0, 2.0), at(0.5, 0.5, 0.5), shift(-8.0, 16.0, 4.0);
+  const auto plain = draw(unitBox(), lookAt(eye, at));
+  EXPECT_NE(makePaper().color, plain);
+  const DataBox shifted{
+      {shift, shift + Vector3d::Ones()}, -shift, Vector3d::Ones(), ""};
+  EXPECT_EQ(plain, draw(shifted, lookAt(eye + shift, at + shift)));
+  const DataBox doubled{{Vector3d::Zero(), 2.0 * Vector3d::Ones()},
+                        Vector3d::Zero(),
+                        2.0 * Vector3d::Ones(),
+                        ""};
+  EXPECT_EQ(plain, draw(doubled, lookAt(2.0 * eye, 2.0 * at)));
+  DataBox other = unitBox();
+  other.factors = {1.0, 0.5, 1.0};
+  EXPECT_NE(plain, draw(other, lookAt(eye, at)));
+  other = unitBox();
+  other.unit = "km";
+  EXPECT_NE(plain, draw(other, lookAt(eye, at)));
+}
+
+TEST(DataBox, IsDrawnFromInsideAndWithoutAThickness)
+{
+  Image image = makePaper();
+  uvol_tools::drawBoxBehind(
+      image,
+      Perspective(lookAt({0.5, 0.5, 0.5}, {0.9, 0.8, 0.6}), side, side, 0, 0),
+      unitBox(),
+      style,
+      true);
+  EXPECT_NE(makePaper().color, image.color);
+  DataBox flat = unitBox();
+  flat.box.max().z() = 0.0;
+  image = makePaper();
+  uvol_tools::drawBoxBehind(
+      image,
+      Perspective(lookAt({2.0, -3.0, 2.0}, {0.5, 0.5, 0.0}), side, side, 0, 0),
+      flat,
+      style,
+      true);
+  EXPECT_NE(makePaper().color, image.color);
+}
+
+TEST(Triad, PointsRightAndUp)
+{
+  Image image = makePaper();
+  const Perspective front(lookAt({0.0, -5.0, 0.0}, {0.0, 0.0, 0.0}), side, side, 0, 0);
+  uvol_tools::drawTriad(image, front, {200.0, 200.0}, 60.0, style);
+  const auto inkAt = [&](std::size_t column, std::size_t row) {
+    const std::uint8_t* const pixel = &image.color[4 * (row * side + column)];
+    return Ink{pixel[0], pixel[1], pixel[2]};
+  };
+  const Ink x = inkAt(230, 200), z = inkAt(200, 170), paper{255, 255, 255};
+  EXPECT_GT(x[0], x[2] + 100);
+  EXPECT_GT(z[2], z[0] + 100);
+  EXPECT_EQ(paper, inkAt(170, 200));
+  EXPECT_EQ(paper, inkAt(200, 230));
+}
+
+TEST(ScaleBar, HasARoundLengthOfTheUnit)
+{
+  // Pixels per unit and what fits, and the pixels of 1, 2 or 5 times a power of ten.
+  const std::pair<std::array<double, 2>, double> cases[] = {{{10.0, 57.0}, 50.0},
+                                                            {{10.0, 49.0}, 20.0},
+                                                            {{1000.0, 199.0}, 100.0},
+                                                            {{0.02, 90.0}, 40.0}};
+  for (const auto& [bar, length] : cases) {
+    Image image = makePaper();
+    uvol_tools::drawScaleBar(image, {300.0, 300.0}, bar[0], bar[1], "m", style);
+    const auto isInk = [&](double column) {
+      return image.color[4 * (300 * side + static_cast<std::size_t>(column))] < 100;
+    };
+    EXPECT_TRUE(isInk(300.0 - length + 1.0) && isInk(299.0)) << bar[0];
+    EXPECT_FALSE(isInk(300.0 - length - 3.0) || isInk(303.0)) << bar[0];
+  }
+  Image image = makePaper();
+  uvol_tools::drawScaleBar(image, {300.0, 300.0}, -1.0, 50.0, "m", style);
+  EXPECT_EQ(makePaper().color, image.color);
+}
+
+TEST(Lines, CoverWhatIsNearTheirSegment)
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> coordinate(0.0, 40.0);
+  for (int i = 0; i < 200; ++i) {
+    const double x0 = coordinate(random), y0 = coordinate(random),
+                 width = 0.1 * (i % 30);
+    // Upright ones, rows and points among them.
+    const double x1 = i % 5 == 0 ? x0 : coordinate(random);
+    const double y1 = i % 7 == 0 ? y0 : i % 11 == 0 ? y0 + 1e-12 : coordinate(random);
+    std::map<std::pair<int, int>, double> covered;
+    uvol_tools::forLinePixels(
+        x0, y0, x1, y1, width, [&](int column, int row, double part) {
+          covered[{column, row}] = part;
+        });
+    const double dx = x1 - x0, dy = y1 - y0, sq_length = dx * dx + dy * dy;
+    for (int row = -5; row < 46; ++row)
+      for (int column = -5; column < 46; ++column) {
+        const double along =
+            sq_length > 0.0
+                ? std::clamp(
+                      ((column - x0) * dx + (row - y0) * dy) / sq_length, 0.0, 1.0)
+                : 0.0;
+        const double distance =
+            std::hypot(column - x0 - along * dx, row - y0 - along * dy);
+        const double part = std::clamp(0.5 * width + 0.5 - distance, 0.0, 1.0);
+        const auto found = covered.find({column, row});
+        EXPECT_EQ(part, found == covered.end() ? 0.0 : found->second) << i;
+      }
+  }
+}
+
+} // namespace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Splats as other people's viewers read them.
+#pragma once
+
+#include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/render/color_map.h>
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/point_cloud.h>
+
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Flat Gaussians in the places of splats, with the fields that viewers of 3D
+ * Gaussian splats read (Kerbl et al. 2023, the layout of their point_cloud.ply):
+ * position, normal, colour (f_dc_0 to f_dc_2), opacity before the logistic function,
+ * natural logarithms of the standard deviations, and the rotation as a quaternion w, x,
+ * y, z. Standard deviations are 1/sqrt(2) of the radius in the plane, and a hundredth
+ * of it across. These viewers know no light: colours are lit here, from above and the
+ * front left.
+ * \param colors one per splat, before light falls on them */
+pcl::PCLPointCloud2
+toGaussians(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
+            const std::vector<pcl_uvol::Rgba>& colors);
+
+} // namespace uvol_tools
