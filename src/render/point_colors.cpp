@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace pcl_uvol {
@@ -15,6 +16,8 @@ namespace {
 
 /** Offsets of red, green and blue, one byte each, in a point. */
 using ColorBytes = std::array<std::size_t, 3>;
+
+constexpr const char* isovalues = "isovalue";
 
 /** Packed by PCL as blue, green, red and opacity, else as PLY files have them; none:
  * the cloud has no colours. */
@@ -66,6 +69,31 @@ holdsWholeNumbers(const CloudView& cloud, const ScalarField& field)
   return true;
 }
 
+/** Whole numbers of which there are too many for a legend repeat the colours.
+ * \return false for values that are no categories */
+bool
+colorByCategory(const CloudView& cloud,
+                const std::string& field,
+                const ColorMap& map,
+                PointColors& colored)
+{
+  const ScalarField scalar(cloud.fields, field);
+  const auto categories = colorCategories(cloud, field, map, map.size());
+  if (categories.empty() && !holdsWholeNumbers(cloud, scalar))
+    return false;
+  std::map<double, Rgba> known;
+  for (const CategoryColor& category : categories)
+    known[category.value] = toRgba(category.color);
+  colored.colors.resize(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const double value = scalar.read(cloud.point(i));
+    const auto found = std::isfinite(value) ? known.find(value) : known.end();
+    colored.colors[i] =
+        found != known.end() ? found->second : toRgba(map.ofCategory(value));
+  }
+  return true;
+}
+
 } // namespace
 
 bool
@@ -77,9 +105,9 @@ hasColors(const CloudView& cloud)
 bool
 hasIsovalues(const CloudView& cloud)
 {
-  if (cloud.count == 0 || findField(cloud.fields, "isovalue") == nullptr)
+  if (cloud.count == 0 || findField(cloud.fields, isovalues) == nullptr)
     return false;
-  const ScalarField field(cloud.fields, "isovalue");
+  const ScalarField field(cloud.fields, isovalues);
   const double first = field.read(cloud.point(0));
   for (std::size_t i = 1; i < cloud.count; ++i)
     if (field.read(cloud.point(i)) != first)
@@ -92,7 +120,7 @@ usualColorField(const CloudView& cloud)
 {
   if (hasColors(cloud))
     return "rgb";
-  return hasIsovalues(cloud) ? "isovalue" : "";
+  return hasIsovalues(cloud) ? isovalues : "";
 }
 
 std::vector<double>
@@ -104,13 +132,39 @@ listCategories(const CloudView& cloud, const std::string& field, std::size_t mos
     const double value = scalar.read(cloud.point(i));
     if (!std::isfinite(value))
       continue;
-    if (value != std::floor(value))
+    if (value != std::floor(value) && field != isovalues)
       return {};
     values.insert(value);
     if (values.size() > most)
       return {};
   }
   return {values.begin(), values.end()};
+}
+
+std::vector<CategoryColor>
+colorCategories(const CloudView& cloud,
+                const std::string& field,
+                const ColorMap& map,
+                std::size_t most)
+{
+  const bool are_isovalues = field == isovalues;
+  const auto is_class = [&](double value) { return are_isovalues || value >= 0.0; };
+  const std::vector<double> values = listCategories(cloud, field, most);
+  std::set<double> shades;
+  std::size_t classes = 0;
+  for (const double value : values)
+    if (is_class(value)) {
+      shades.insert(std::fmod(value, static_cast<double>(map.size())));
+      ++classes;
+    }
+  const bool are_ranked =
+      are_isovalues || (shades.size() < classes && classes <= map.size());
+  std::vector<CategoryColor> categories;
+  double rank = 0.0;
+  for (const double value : values)
+    categories.push_back(
+        {value, map.ofCategory(are_ranked && is_class(value) ? rank++ : value)});
+  return categories;
 }
 
 ColorScale
@@ -153,12 +207,9 @@ colorPoints(const CloudView& cloud,
   const ScalarField scalar(cloud.fields, field);
   PointColors colored;
   colored.scale = findColorScale(cloud, field, mapping);
-  if (mapping.map.isCategorical() && holdsWholeNumbers(cloud, scalar)) {
-    colored.colors.resize(cloud.count);
-    for (std::size_t i = 0; i < cloud.count; ++i)
-      colored.colors[i] = toRgba(mapping.map.ofCategory(scalar.read(cloud.point(i))));
+  if (mapping.map.isCategorical() &&
+      colorByCategory(cloud, field, mapping.map, colored))
     return colored;
-  }
   // In parts of the range: floats do not hold the digits of time stamps.
   std::vector<float> parts(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i)

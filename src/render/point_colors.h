@@ -34,10 +34,27 @@ hasIsovalues(const CloudView& cloud);
 PCL_UVOL_EXPORTS std::string
 usualColorField(const CloudView& cloud);
 
-/** \brief Values of a field of whole numbers that stand for categories, ascending.
- * \return none if the field holds a fraction, or more than that many values */
+/** \brief Values of a field that stand for categories, ascending: whole numbers, and
+ * isovalues.
+ * \return none if another field holds a fraction, or for more than that many values */
 PCL_UVOL_EXPORTS std::vector<double>
 listCategories(const CloudView& cloud, const std::string& field, std::size_t most);
+
+/** \brief A value and its colour. */
+struct CategoryColor {
+  double value;
+  Color color;
+};
+
+/** \brief The categories of a field with colours of a map of categories, as
+ * ColorMap::ofCategory says; isovalues, and numbers of which two would share a colour
+ * although there are enough, have colours in the order of their values.
+ * \return none as listCategories */
+PCL_UVOL_EXPORTS std::vector<CategoryColor>
+colorCategories(const CloudView& cloud,
+                const std::string& field,
+                const ColorMap& map,
+                std::size_t most);
 
 /** \brief How values become colours. */
 struct ColorMapping {
@@ -56,8 +73,8 @@ findColorScale(const CloudView& cloud,
                const std::string& field,
                const ColorMapping& mapping);
 
-/** \brief Colour a cloud. A map of categories colours whole numbers by themselves,
- * whatever the range.
+/** \brief Colour a cloud. A map of categories colours whole numbers and
+ * isovalues by themselves, whatever the range, see colorCategories.
  * \param field a scalar field, as in ScalarField, or "rgb" for the cloud's own colours
  * \throws InvalidArgument as findColorScale */
 PCL_UVOL_EXPORTS PointColors

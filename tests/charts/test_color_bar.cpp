@@ -127,7 +127,10 @@ TEST(ColorBar, ListsCategories)
 {
   Image image = makePlain(400, 300, 255);
   const ColorMap map("tab10");
-  uvol_tools::drawCategories(image, map, {-1.0, 0.0, 2.0}, "label");
+  uvol_tools::drawCategories(
+      image,
+      {{-1.0, map.ofCategory(-1.0)}, {0.0, map.at(0.0)}, {2.0, map.ofCategory(2.0)}},
+      "label");
   const auto countColor = [&](double category) {
     const pcl_uvol::Rgba color = pcl_uvol::toRgba(map.ofCategory(category));
     std::size_t count = 0, row = 0;

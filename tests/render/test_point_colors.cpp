@@ -10,6 +10,7 @@
 
 #include <array>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -221,20 +222,56 @@ TEST(PointColors, OfCategoriesAreThoseOfWholeNumbers)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   const ColorMap map("tab10");
-  const auto dataset = makeScalar({-1.0f, 0.0f, 3.0f, 13.0f, nan});
+  const auto dataset = makeScalar({-1.0f, 0.0f, 3.0f, 15.0f, nan});
   const auto view = pcl_uvol::viewOf(dataset.cloud);
   const auto colors = colorPoints(view, "q", {map, std::nullopt, false}).colors;
   EXPECT_EQ(0xffb4771fu, colors[1]); // 0xaabbggrr of matplotlib's "tab:blue"
   EXPECT_EQ(0xff2827d6u, colors[2]);
-  EXPECT_EQ(colors[2], colors[3]);
+  EXPECT_EQ(pcl_uvol::toRgba(map.ofCategory(5.0)), colors[3]);
   EXPECT_EQ(0xff808080u, colors[0]);
   EXPECT_EQ(0xff808080u, colors[4]);
-  EXPECT_EQ((std::vector<double>{-1.0, 0.0, 3.0, 13.0}),
+  EXPECT_EQ((std::vector<double>{-1.0, 0.0, 3.0, 15.0}),
             pcl_uvol::listCategories(view, "q", 4));
   EXPECT_TRUE(pcl_uvol::listCategories(view, "q", 3).empty());
   const auto fractions = makeScalar({0.0f, 0.5f});
   EXPECT_TRUE(
       pcl_uvol::listCategories(pcl_uvol::viewOf(fractions.cloud), "q", 3).empty());
+}
+
+TEST(PointColors, TellCategoriesApartThatWouldShareAColor)
+{
+  const ColorMap map("tab10");
+  const auto colorsOf = [&](const std::vector<float>& values) {
+    const auto dataset = makeScalar(values);
+    return colorPoints(pcl_uvol::viewOf(dataset.cloud), "q", {map, std::nullopt, false})
+        .colors;
+  };
+  // 60 and 180 end in the same digit: the colours go by rank, and classes below 0 stay
+  // grey.
+  const auto ranked = colorsOf({180.0f, 60.0f, -1.0f});
+  EXPECT_EQ(pcl_uvol::toRgba(map.ofCategory(1.0)), ranked[0]);
+  EXPECT_EQ(pcl_uvol::toRgba(map.ofCategory(0.0)), ranked[1]);
+  EXPECT_EQ(0xff808080u, ranked[2]);
+  // Eleven numbers have to share ten colours.
+  std::vector<float> many(11);
+  std::iota(many.begin(), many.end(), 0.0f);
+  const auto shared = colorsOf(many);
+  EXPECT_EQ(shared[0], shared[10]);
+}
+
+TEST(PointColors, OfIsovaluesAreThoseOfTheirOrder)
+{
+  const ColorMap map("tab10");
+  auto dataset = makeScalar({3.45f, -8.0f, 3.45f});
+  for (auto& field : dataset.cloud.fields)
+    if (field.name == "q")
+      field.name = "isovalue";
+  const auto view = pcl_uvol::viewOf(dataset.cloud);
+  const auto colors = colorPoints(view, "isovalue", {map, std::nullopt, false}).colors;
+  EXPECT_EQ(pcl_uvol::toRgba(map.ofCategory(1.0)), colors[0]);
+  EXPECT_EQ(pcl_uvol::toRgba(map.ofCategory(0.0)), colors[1]);
+  EXPECT_EQ(colors[0], colors[2]);
+  EXPECT_EQ(2u, pcl_uvol::listCategories(view, "isovalue", 10).size());
 }
 
 TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)

@@ -192,8 +192,7 @@ drawColorBar(Image& image,
 
 void
 drawCategories(Image& image,
-               const ColorMap& map,
-               const std::vector<double>& categories,
+               const std::vector<pcl_uvol::CategoryColor>& categories,
                const std::string& title)
 {
   if (isTooSmall(image))
@@ -203,8 +202,8 @@ drawCategories(Image& image,
   const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
   const int top = legend.top + (legend.length - step * count) / 2;
   for (int i = 0; i < count; ++i) {
-    const double category = categories[static_cast<std::size_t>(i)];
-    const Ink color = inkOf(map.ofCategory(category));
+    const auto& [category, shade] = categories[static_cast<std::size_t>(i)];
+    const Ink color = inkOf(shade);
     // The lowest one is below, as on a bar.
     const int row = top + step * (count - 1 - i);
     for (int y = 0; y < std::max(step * 4 / 5, 1); ++y)

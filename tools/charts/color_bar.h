@@ -5,6 +5,7 @@
 #include "charts/axes.h"
 #include "charts/drawing.h"
 #include "render/color_scale.h"
+#include "render/point_colors.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
@@ -35,8 +36,7 @@ constexpr std::size_t most_categories = 20;
  * \param categories ascending, at most most_categories */
 void
 drawCategories(pcl_uvol::Image& image,
-               const pcl_uvol::ColorMap& map,
-               const std::vector<double>& categories,
+               const std::vector<pcl_uvol::CategoryColor>& categories,
                const std::string& title);
 
 /** \brief A value beside a bar. */

@@ -362,13 +362,14 @@ ViewOptions::pictureWidth(const pcl_uvol::CloudView& cloud) const
   return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
 }
 
-std::vector<double>
+std::vector<pcl_uvol::CategoryColor>
 ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
                             const pcl_uvol::ColorMapping& mapping) const
 {
   if (!mapping.map.isCategorical())
     return {};
-  return pcl_uvol::listCategories(cloud, colorField(cloud), most_categories);
+  return pcl_uvol::colorCategories(
+      cloud, colorField(cloud), mapping.map, most_categories);
 }
 
 void
@@ -381,12 +382,12 @@ ViewOptions::decorate(const pcl_uvol::CloudView& cloud,
   image = widened(image, background_, width_);
   const std::string field = colorField(cloud);
   const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
-  const std::vector<double> categories = listCategories(cloud, mapping);
+  const auto categories = listCategories(cloud, mapping);
   if (categories.empty())
     drawColorBar(
         image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
   else
-    drawCategories(image, mapping.map, categories, field);
+    drawCategories(image, categories, field);
 }
 
 } // namespace uvol_tools

@@ -219,7 +219,7 @@ protected:
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
   /** \brief The categories that a legend lists; none: it is a bar. */
-  std::vector<double>
+  std::vector<pcl_uvol::CategoryColor>
   listCategories(const pcl_uvol::CloudView& cloud,
                  const pcl_uvol::ColorMapping& mapping) const;
 

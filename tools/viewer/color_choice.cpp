@@ -23,7 +23,7 @@ void
 fill(vtkLookupTable& table,
      const pcl_uvol::ColorMapping& mapping,
      const pcl_uvol::ColorScale& scale,
-     const std::vector<double>& categories)
+     const std::vector<pcl_uvol::CategoryColor>& categories)
 {
   const auto set = [&table](vtkIdType i, const pcl_uvol::Color& color) {
     table.SetTableValue(i, color.r, color.g, color.b);
@@ -33,9 +33,9 @@ fill(vtkLookupTable& table,
     table.SetNumberOfTableValues(count);
     table.IndexedLookupOn();
     for (vtkIdType i = 0; i < count; ++i) {
-      const double category = categories[static_cast<std::size_t>(i)];
+      const auto& [category, color] = categories[static_cast<std::size_t>(i)];
       table.SetAnnotation(category, shortNumber(category));
-      set(i, mapping.map.ofCategory(category));
+      set(i, color);
     }
     return;
   }
@@ -91,8 +91,8 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
          mapping,
          scale,
          mapping.map.isCategorical()
-             ? pcl_uvol::listCategories(view, field, most_categories)
-             : std::vector<double>());
+             ? pcl_uvol::colorCategories(view, field, mapping.map, most_categories)
+             : std::vector<pcl_uvol::CategoryColor>());
     bar.SetLookupTable(table);
     bar.SetTitle(field.c_str());
     bar.SetVisibility(look_.hasBar());
