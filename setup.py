@@ -36,4 +36,5 @@ class CMakeBuild(build_ext):
         subprocess.run([str(word) for word in command], check=True)
 
 
-setup(ext_modules=[Extension("pcl_uvol._core", []), Extension("pcl_uvol._io", [])], cmdclass={"build_ext": CMakeBuild})
+setup(ext_modules=[Extension("pcl_uvol._core", []), Extension("pcl_uvol._io", []),
+                   Extension("pcl_uvol._charts", [])], cmdclass={"build_ext": CMakeBuild})

@@ -34,7 +34,7 @@ def test_importing_is_quick_and_loads_neither_vtk_nor_opengl(run_python):
 
 
 @pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(uvol.__path__)
-                                  if module.name not in ("_core", "_io")])
+                                  if module.name not in ("_core", "_io", "_charts", "_vtk")])
 def test_examples_of_the_documentation_run(name):
     module = importlib.import_module(f"pcl_uvol.{name}")
     outcome = doctest.testmod(module, extraglobs={"np": np, "uvol": uvol})
