@@ -15,6 +15,7 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From what users have, arrays of any kind, to the records of a dataset."""
 
-import operator
-
 import numpy as np
 
-from . import _core
+from . import _core, _parameters
 
 _LETTERS = {"b": "?", "i": "i", "u": "u", "f": "f"}
 _LARGEST_SIZE = 8
@@ -90,9 +88,8 @@ def empty(count, fields=None):
     >>> np.shares_memory(samples["rho"], records)
     True
     """
-    if isinstance(count, bool) or operator.index(count) < 0:
-        raise ValueError(f"count is {count!r}: it must be a whole number from 0.")
-    types = {name: np.dtype(kind) for name, kind in dict(fields or {}).items()}
+    count = _parameters.count(count, "count")
+    types = {name: np.dtype(kind) for name, kind in _parameters.mapping(fields, "fields", "types").items()}
     specs = [(axis, "f4", 1) for axis in "xyz"]
     for name, kind in types.items():
         _check_name(name)
@@ -100,7 +97,7 @@ def empty(count, fields=None):
             raise ValueError(f"The field {name!r} has the type {kind}: it must hold numbers or booleans, one or "
                              "several per point.")
         specs.append((name, _number_type(kind.base), kind.shape[0] if kind.shape else 1))
-    dataset = _core.Dataset.allocate(specs, operator.index(count))
+    dataset = _core.Dataset.allocate(specs, count)
     return view_records(dataset, dataset.bytes)
 
 
@@ -116,8 +113,7 @@ def take_over(records):
         return None
     if records.dtype.names != tuple(name for name, *_ in owner.fields):
         return None
-    owner.settle()
-    records.flags.writeable = False
+    records.flags.writeable = False  # the records are points already, with an origin of 0
     return owner
 
 
@@ -135,7 +131,7 @@ def make_dataset(points, fields):
     xyz = coordinates(points)
     count = len(xyz)
     columns = {}
-    for name, values in dict(fields or {}).items():
+    for name, values in _parameters.mapping(fields, "fields", "columns").items():
         _check_name(name)
         columns[name] = _column(name, values, count)
     axis_type = _number_type(xyz.dtype)

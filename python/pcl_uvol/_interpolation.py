@@ -2,6 +2,7 @@
 """The field between the samples: at any places, along lines, in slices and grids."""
 
 import functools
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -41,6 +42,9 @@ class Answers:
         self.gradients = shaped(found.get("gradients"), 3)
         self.support = found["support"].reshape(shape)
         self.report = found["report"]
+
+    def __repr__(self):
+        return f"Answers to {self.support.size} queries, {int(np.isnan(self.values).sum())} of the values missing"
 
 
 class Interpolator:
@@ -94,8 +98,9 @@ class Interpolator:
                                           shepard=shepard, threads=threads)
         self._is_single = isinstance(field, str)
         self._threads = _parameters.count(threads, "threads")
+        wanted = [field] if self._is_single else _names(field)
         names = []
-        for name in [field] if self._is_single else list(field):
+        for name in wanted:
             samples, found = samples._with_field(name, threads, progress)
             names += [found] if found else []
         self.samples = samples
@@ -106,9 +111,9 @@ class Interpolator:
             "gradients": gradients,
             "errors": errors,
             "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
-            "kriging": kriging or {},
-            "sph": sph or {},
-            "shepard": shepard or {},
+            "kriging": _parameters.mapping(kriging, "kriging"),
+            "sph": _parameters.mapping(sph, "sph"),
+            "shepard": _parameters.mapping(shepard, "shepard"),
         }
         with listening(progress) as listener:
             self._core = _core.Interpolator(samples._dataset, _parameters.to_json(parameters), self._threads, listener)
@@ -283,6 +288,13 @@ class Interpolator:
         return f"Interpolator of {', '.join(self.fields)} by {self.parameters['model']} from {len(self.samples)} points"
 
 
+def _names(field):
+    """Several fields."""
+    if not isinstance(field, Iterable) or not list(field):
+        raise TypeError(f"field is {field!r}: it must be the name of a field, or a sequence of names.")
+    return list(field)
+
+
 def _place(values, what):
     place = _parameters.numbers(values, what)
     if len(place) != 3:
@@ -293,6 +305,8 @@ def _place(values, what):
 def _plane(plane):
     """A point and a normal; those of "z=0.5" as well."""
     if not isinstance(plane, str):
+        if not isinstance(plane, Iterable) or len(plane) != 2:
+            raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, or a point and a normal.")
         point, normal = plane
         return _place(point, "plane"), _place(normal, "plane")
     axis, _, value = plane.partition("=")

@@ -150,7 +150,7 @@ class Drawable:
         look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
         look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material),
                     culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
-                    thickness=thickness, line_color=_place(line_color), passes=passes or {})
+                    thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"))
         return self._draw(_core.render, look, bar, threads, progress)
 
     def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
@@ -198,7 +198,7 @@ class Drawable:
         if color in self.keys() and self.records.dtype[color].shape:
             color = f"|{color}|"
         return dict(color=color or "none", colormap=colormap, range=range, log=bool(log), exaggerate=_place(exaggerate),
-                    surface_color=_place(surface_color), lights=_lights(lights), material=material or {})
+                    surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
     def _draw(self, function, look, bar, threads, progress, *more):
         """A picture of these points, with what its colours stand for beside it."""

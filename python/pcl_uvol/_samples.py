@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scattered samples: what everything starts from."""
 
+import reprlib
+
 import numpy as np
 
 from . import _arrays, _parameters, _report
@@ -77,6 +79,8 @@ class Samples(Drawable, Points):
         axes = list(points)
         if len(axes) != 3:
             raise ValueError(f"points names {len(axes)} columns: there must be three.")
+        if not hasattr(frame, "columns") and not hasattr(frame, "variables"):
+            raise TypeError(f"{reprlib.repr(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
         names = list(frame.columns) if hasattr(frame, "columns") else list(frame.variables)
         for name in axes + list(fields or []):
             if name not in names:
@@ -131,7 +135,7 @@ class Samples(Drawable, Points):
         True
         """
         with listening(progress) as listener:
-            dataset, report = self._dataset.with_density(length, _parameters.count(threads, "threads"), listener)
+            dataset, report = self._dataset.with_density(_parameters.number(length, "length"), _parameters.count(threads, "threads"), listener)
         _report.tell(report["warnings"])
         return Samples._of(dataset)
 
@@ -152,7 +156,8 @@ class Samples(Drawable, Points):
             With the further ones behind the others.
         """
         with listening(progress) as listener:
-            dataset, _ = self._dataset.with_outer_layer(field, value, _parameters.count(threads, "threads"), listener)
+            dataset, _ = self._dataset.with_outer_layer(
+                str(field), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
         return Samples._of(dataset)
 
     def where(self, expression, threads=0):

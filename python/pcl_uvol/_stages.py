@@ -72,7 +72,7 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         samples, start_name = samples._with_field(start, threads, progress)
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
-        initial = dict(start)
+        initial = _parameters.mapping(start, "start")
     isovalues = _parameters.numbers(iso, "iso")
     if len(isovalues) != 1:
         raise ValueError("A level set has one isovalue.")
@@ -211,6 +211,8 @@ class Clusters:
                                                          listener)
             _report.tell(report["warnings"])
             return _with_report(surface, report)
+        if kind not in ("distance", "hull", "hull-distance"):
+            raise ValueError(f"kind is {kind!r}: it must be one of membership, distance, hull, hull-distance.")
         try:
             from . import _vtk
         except ImportError as error:
@@ -219,7 +221,8 @@ class Clusters:
         how = dict(kind=kind, cells=cells, distance=distance, scale=factors)
         members = np.flatnonzero(self.labels == cluster)
         if len(members) == 0:
-            raise ValueError(f"There is no cluster {cluster!r}: they are numbered from 0 to {len(self) - 1}.")
+            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
+            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
         with listening(progress) as listener:
             vertices, triangles, used, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
                                                                      listener)
@@ -290,6 +293,9 @@ class Projection:
         self.map = projection
         self.report = report
 
+    def __repr__(self):
+        return f"Projection of {len(self.places)} points by {', '.join(self.map['names'])}"
+
 
 def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
             progress=None):
@@ -346,6 +352,9 @@ class VoronoiGrid:
         self.origin = np.array(origin)
         self.spacing = np.array(spacing)
         self.report = report
+
+    def __repr__(self):
+        return f"VoronoiGrid of {' x '.join(map(str, self.site.shape))} cells"
 
 
 def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):

@@ -22,9 +22,9 @@ import pcl_uvol as uvol
           lights=[[0, 0, 1], [1, 0, 0]], material=dict(ambient=0.3, diffuse=0.5, specular=0.1, shininess=5)),
      ["-color", "|vel|", "-log", "-range", "0.1,0.4", "-exaggerate", "1,1,2", "-background", "gradient",
       "-lights", "0,0,1;1,0,0", "-ambient", "0.3", "-diffuse", "0.5", "-specular", "0.1", "-shininess", "5"]),
-    (dict(color="id % 3", footprints=False,
+    (dict(color="rint(id / 1500)", footprints=False,
           passes=dict(fill=3, occluded=1, layers=0.01, smoothing="box", smoothings=2, antialias=False)),
-     ["-color", "id % 3", "-no-footprints", "-fill", "3", "-occluded", "1", "-layers", "0.01", "-smoothing", "box",
+     ["-color", "rint(id / 1500)", "-no-footprints", "-fill", "3", "-occluded", "1", "-layers", "0.01", "-smoothing", "box",
       "-smoothings", "2", "-no-antialias"]),
 ])
 def test_uvol_render_draws_the_same(tmp_path, run_tool, sphere, options, arguments):
@@ -49,6 +49,7 @@ def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
     (tmp_path / "test.scene").write_text("""
         background 0.2 0.3 0.4
         size 90 70
+        camera eye 2 1.5 1.2 at 0.5 0.5 0.5 fov 30
         material mirror color 0.8 0.2 0.1 reflect 0.5
         cloud sphere.ply material mirror
         """)
@@ -69,8 +70,8 @@ def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
 def test_a_bar_tells_what_colours_stand_for(sphere):
     with_bar = sphere.render(size=(200, 150), color="r", background="black").pixels
     without = sphere.render(size=(200, 150), color="r", background="black", bar=False).pixels
-    assert (with_bar[:, -30:] != 0).any(axis=2).mean() > (without[:, -30:] != 0).any(axis=2).mean()
-    assert (with_bar[:, -20:, :3].max(axis=(0, 1)) > 200).all()  # letters are white on black
+    assert (with_bar[:, -30:, :3] != 0).any(axis=2).mean() > (without[:, -30:, :3] != 0).any(axis=2).mean()
+    assert (with_bar[:, -66:, :3].max(axis=(0, 1)) > 200).all()  # letters are white on black
 
 
 def test_a_picture_is_an_array(sphere):

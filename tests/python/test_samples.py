@@ -81,13 +81,15 @@ def test_parts_of_records_of_empty_are_copied():
 
 @pytest.mark.parametrize("count, fields, error, message", [
     (-1, {}, ValueError, "from 0"),
-    (1.5, {}, TypeError, "integer"),
+    (1.5, {}, TypeError, "whole number"),
+    (3, ["a"], TypeError, "must be a dictionary"),
     (3, {"x": "f4"}, ValueError, "is a coordinate"),
     (3, {"_": "f4"}, ValueError, "padding"),
     (3, {"a": object}, ValueError, "must hold numbers"),
     (3, {"a": ("f4", (2, 2))}, ValueError, "must hold numbers"),
     (3, {"a": "q9"}, TypeError, "not understood"),
-    (2**40, {"a": "f8"}, (ValueError, MemoryError), ""),
+    (2**40, {"a": "f8"}, ValueError, "whole number"),
+    (2**31 - 1, {"a": ("f8", 10**6)}, MemoryError, "not enough memory"),
 ])
 def test_records_that_cannot_be_get_a_sentence(count, fields, error, message):
     with pytest.raises(error, match=message):
@@ -204,14 +206,23 @@ def test_densities_and_outer_layers_are_those_of_uvol_convert(tmp_path, run_tool
     assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
     with pytest.raises(ValueError, match="smoothing length"):
         closed.density(-1)
-    with pytest.raises(KeyError, match="no field"):
+    with pytest.raises(ValueError, match="'q' is none"):
         closed.outer_layer(0.0, "q")
 
 
 def test_kinds_of_particles(tmp_path):
-    with pytest.raises(OSError, match="particles|gas"):
-        uvol.Samples(POINTS).save(tmp_path / "a.ply")
+    uvol.Samples(POINTS).save(tmp_path / "a.ply")
+    with pytest.raises(ValueError, match="in snapshots only"):
         uvol.read(tmp_path / "a.ply", particles="dm")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "snap.hdf5", "w") as file:
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [3, 2, 0, 0, 0, 0]
+        for kind, count in ((0, 3), (1, 2)):
+            group = file.create_group(f"PartType{kind}")
+            group["Coordinates"] = POINTS[:count]
+            group["Masses"] = np.arange(count, dtype=float)
+    assert len(uvol.read(tmp_path / "snap.hdf5")) == 3
+    assert len(uvol.read(tmp_path / "snap.hdf5", particles="dm")) == 2
 
 
 def test_meshes_come_back_with_their_fields(tmp_path):

@@ -32,8 +32,9 @@ readPictureParameters(const std::string& json)
     throw InvalidArgument("The range of logarithmic colours is two numbers above 0.");
   if (parameters.exaggerate && !(*parameters.exaggerate > 0.0).all())
     throw InvalidArgument("exaggerate is three factors above 0.");
-  if (parameters.log && parameters.colormap != "auto" &&
-      ColorMap(parameters.colormap).isCategorical())
+  const ColorMap map =
+      parameters.colormap == "auto" ? ColorMap() : ColorMap(parameters.colormap);
+  if (parameters.log && map.isCategorical())
     throw InvalidArgument("Logarithmic colours need a map of shades, and " +
                           parameters.colormap + " is one of categories.");
   return parameters;
