@@ -76,6 +76,17 @@ def test_the_tool_writes_the_same_grids(tmp_path, run_tool, linear, ending):
         grid.save(tmp_path / "grid.png")
 
 
+def test_places_beside_which_the_extent_is_beyond_measure_have_the_nearest_value():
+    random = np.random.default_rng(5)
+    for _ in range(50):
+        points = random.standard_normal((40, 3))
+        points[random.random((40, 3)) < 0.3] = 3e38
+        values = random.integers(0, 5, 40).astype(float)
+        model = uvol.Interpolator(points, {"a": values}, model="natural", extrapolate=True, threads=1)
+        found = model.evaluate(points + random.standard_normal((40, 3)) * 1e-3).values
+        assert not np.any((found < 0) | (found > 4))
+
+
 def test_validation_tells_errors(linear):
     scores = uvol.Interpolator(linear, field=["f", "g"]).validate(5, by="blocks")
     assert list(scores) == ["f", "g"] and scores["f"]["tested"] == 2000 and scores["f"]["rms"] < 1e-3
