@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file of samples or a volume holds, before work is done with it.
+#include "common/number_range.h"
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
@@ -48,8 +49,10 @@ findRange(const ValueStatistics& statistics)
 {
   if (statistics.finite == 0)
     return "no finite value";
+  const std::vector<std::string> numbers =
+      pcl_uvol::describeNumbers({statistics.min, statistics.max, statistics.mean});
   std::ostringstream text;
-  text << statistics.min << " to " << statistics.max << ", mean " << statistics.mean;
+  text << numbers[0] << " to " << numbers[1] << ", mean " << numbers[2];
   if (statistics.missing > 0)
     text << ", " << statistics.missing << " missing";
   return text.str();
@@ -81,14 +84,16 @@ addHistogram(const ValueStatistics& statistics, Facts& facts)
       *std::max_element(statistics.histogram.begin(), statistics.histogram.end());
   const double width = (statistics.max - statistics.min) /
                        static_cast<double>(statistics.histogram.size());
+  std::vector<double> starts;
+  for (std::size_t bin = 0; bin < statistics.histogram.size(); ++bin)
+    starts.push_back(statistics.min + width * static_cast<double>(bin));
+  const std::vector<std::string> from = pcl_uvol::describeNumbers(starts);
   for (std::size_t bin = 0; bin < statistics.histogram.size() && fullest > 0; ++bin) {
-    std::ostringstream from;
-    from << "  from " << statistics.min + width * static_cast<double>(bin);
     const std::uint64_t count = statistics.histogram[bin];
     const auto length = static_cast<std::size_t>(longest * static_cast<double>(count) /
                                                  static_cast<double>(fullest));
     facts.push_back(
-        Fact(from.str(),
+        Fact("  from " + from[bin],
              std::string(length, '#') + (length > 0 ? " " : "") + std::to_string(count))
             .withoutJson());
     if (width == 0.0)

@@ -353,7 +353,7 @@ run(int argc, char** argv)
       {"input", arguments.input},
       {"output", arguments.output},
       {"field", result.field},
-      {"isovalues", isovalues},
+      {"isovalues", joined(isovalues), isovalues},
       {"isopoints per isovalue", uvol_tools::toNumbers(result.isopoints)},
       {"scale", uvol_tools::toNumbers(result.scale)},
       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},

@@ -195,7 +195,9 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
          {"output", arguments.output},
          {"processes", static_cast<double>(communicator.size())},
          {"field", field},
-         {"isovalues", arguments.parameters.isosurface.isovalues},
+         {"isovalues",
+          joined(arguments.parameters.isosurface.isovalues),
+          arguments.parameters.isosurface.isovalues},
          {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
          {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}},
         true); // mpirun's pipes look like terminals

@@ -80,22 +80,24 @@ roundedMiddle(const NumberRange& range, double scale)
 std::vector<std::string>
 describeNumbers(const std::vector<double>& numbers)
 {
-  constexpr int fewest = 6;
-  for (int digits = fewest;; ++digits) {
-    std::vector<std::string> texts;
-    for (const double number : numbers) {
-      std::ostringstream text;
-      text.precision(digits);
-      text << number;
-      texts.push_back(text.str());
-    }
-    bool is_clear = true;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        is_clear = is_clear && (texts[i] != texts[j] || numbers[i] == numbers[j]);
-    if (is_clear || digits == std::numeric_limits<double>::max_digits10)
-      return texts;
+  // Three digits of what parts a number from the next.
+  constexpr int fewest = 6, digits_of_gap = 3;
+  std::vector<std::string> texts;
+  for (const double number : numbers) {
+    double gap = std::numeric_limits<double>::infinity();
+    for (const double other : numbers)
+      if (other != number)
+        gap = std::min(gap, std::abs(other - number));
+    const double digits = std::ceil(std::log10(std::abs(number) / gap)) + digits_of_gap;
+    std::ostringstream text;
+    text.precision(digits > fewest
+                       ? static_cast<int>(std::min<double>(
+                             digits, std::numeric_limits<double>::max_digits10))
+                       : fewest);
+    text << number;
+    texts.push_back(text.str());
   }
+  return texts;
 }
 
 } // namespace pcl_uvol

@@ -51,8 +51,8 @@ findTypicalRange(const NumberRange& all, std::vector<double> sketch);
 PCL_UVOL_EXPORTS double
 roundedMiddle(const NumberRange& range, double scale);
 
-/** \brief Numbers as texts, with as few digits, 6 or more, as tell those that differ
- * apart. */
+/** \brief Numbers as texts of 6 digits, or of as many more as show what parts each from
+ * the nearest other one. */
 PCL_UVOL_EXPORTS std::vector<std::string>
 describeNumbers(const std::vector<double>& numbers);
 

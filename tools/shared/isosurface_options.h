@@ -6,6 +6,7 @@
 #include "shared/point_files.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -42,12 +43,13 @@ private:
   InputOptions input_files_;
 };
 
-/** \brief Numbers between commas. */
+/** \brief Numbers between commas, with the digits that a double keeps of a text. */
 template <typename T>
 std::string
 joined(const T& numbers)
 {
   std::ostringstream text;
+  text.precision(std::numeric_limits<double>::digits10);
   for (const auto& number : numbers)
     text << (text.tellp() > 0 ? "," : "") << number;
   return text.str();

@@ -11,8 +11,8 @@
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/derivatives/fit_scheme.h>
 
-#include <pcl/point_traits.h>
 #include <pcl/search/search.h>
+#include <pcl/type_traits.h>
 
 #include <cstddef>
 #include <memory>
