@@ -24,7 +24,8 @@ struct SurfacePage {
   std::string field; ///< that the colours stand for; "": there is no bar
   pcl_uvol::ColorMap map;
   pcl_uvol::ColorScale scale;
-  std::vector<pcl_uvol::CategoryColor> categories; ///< of the field, in the place of a bar
+  std::vector<pcl_uvol::CategoryColor>
+      categories; ///< of the field, in the place of a bar
 };
 
 /** \brief Write a page: points as lit discs in WebGL 2, 16 bytes each and in base64,
