@@ -1,10 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures: those of the tools, byte for byte."""
+"""Pictures: those of the tools, pixel for pixel."""
+
+import struct
 
 import numpy as np
 import pytest
 
 import pcl_uvol as uvol
+
+
+def pixels_of(path):
+    """Size and packed pixels of a PNG file, without what else it tells."""
+    data, place, kept = path.read_bytes(), 8, []
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        if kind in (b"IHDR", b"IDAT"):
+            kept.append(data[place + 8:place + 8 + length])
+        place += length + 12
+    return kept
 
 
 @pytest.mark.parametrize("options, arguments", [
@@ -31,7 +44,7 @@ def test_uvol_render_draws_the_same(tmp_path, run_tool, sphere, options, argumen
     sphere.save(tmp_path / "in.ply")
     run_tool("uvol_render", "in.ply", "tool.png", "-size", "200x150", "-backend", "cpu", *arguments)
     uvol.read(tmp_path / "in.ply").render(size=(200, 150), **options).save(tmp_path / "module.png")
-    assert (tmp_path / "module.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
 
 
 def test_uvol_raytrace_draws_the_same(tmp_path, run_tool, sphere):
@@ -41,7 +54,7 @@ def test_uvol_raytrace_draws_the_same(tmp_path, run_tool, sphere):
     picture = uvol.read(tmp_path / "in.ply").raytrace(size=(160, 128), color="r", reflect=0.3, occlusion=4,
                                                       splats={"delta": 0.001}, background=(0.1, 0.2, 0.3))
     picture.save(tmp_path / "module.png")
-    assert (tmp_path / "module.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
 
 
 def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
@@ -59,7 +72,7 @@ def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
              ["-size", "80x60", "-view", "top", "-background", "white", "-supersample", "2", "-zoom", "1.5"])):
         run_tool("uvol_raytrace", "test.scene", f"{name}.png", *arguments)
         uvol.raytrace(tmp_path / "test.scene", **options).save(tmp_path / "module.png")
-        assert (tmp_path / "module.png").read_bytes() == (tmp_path / f"{name}.png").read_bytes(), name
+        assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"{name}.png"), name
 
 
 def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
