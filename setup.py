@@ -11,7 +11,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).resolve().parent
-OFF = ("TOOLS", "TESTS", "BENCHMARKS", "GL", "VTK", "MPI")
+OFF = ("TOOLS", "TESTS", "BENCHMARKS", "MPI")
 
 
 class CMakeBuild(build_ext):
@@ -36,4 +36,5 @@ class CMakeBuild(build_ext):
         subprocess.run([str(word) for word in command], check=True)
 
 
-setup(ext_modules=[Extension("pcl_uvol._core", []), Extension("pcl_uvol._io", [])], cmdclass={"build_ext": CMakeBuild})
+setup(ext_modules=[Extension("pcl_uvol._core", []), Extension("pcl_uvol._io", []),
+                   Extension("pcl_uvol._charts", []), Extension("pcl_uvol._vtk", [])], cmdclass={"build_ext": CMakeBuild})

@@ -4,6 +4,7 @@
 #include "io/table_file.h"
 #include "isosurface/memory_need.h"
 #include "multivariate/memory_need.h"
+#include "pipeline/membership_surface.h"
 #include "shared/attribute_options.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
@@ -14,10 +15,10 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/neighbors/voronoi_grid.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <algorithm>
@@ -233,45 +234,6 @@ computeMembership(const Options& options,
   return values;
 }
 
-/** The surface between the samples of a cluster and the others. */
-Dataset
-membershipSurface(const Options& options,
-                  const Arguments& arguments,
-                  const Dataset& dataset,
-                  const std::vector<float>& members,
-                  Report& report)
-{
-  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(dataset.cloud);
-  const bool is_smooth = !arguments.smoothing.empty();
-  Dataset with_field = dataset;
-  pcl_uvol::setField(with_field, "membership", members);
-  pcl_uvol::IsosurfacePipelineParameters parameters;
-  parameters.isosurface.field = "membership";
-  parameters.isosurface.isovalues = {0.5};
-  parameters.isosurface.scale = arguments.stretch->resolveScale(cloud);
-  parameters.isosurface.interpolation =
-      is_smooth ? pcl_uvol::Interpolation::Fit : pcl_uvol::Interpolation::Linear;
-  parameters.normals = pcl_uvol::NormalMethod::Edge;
-  pcl_uvol::IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
-  extraction.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(&with_field.cloud, [](const void*) {}));
-  extraction.setParameters(parameters.isosurface);
-  extraction.setNumberOfThreads(options.threads());
-  extraction.setProgressCallback(report.progress);
-  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
-  extraction.extract(isopoints);
-  report.merge(extraction.getReport());
-  // Without the field, whose value is the same everywhere.
-  auto result = pcl_uvol::finishIsosurface(dataset,
-                                           std::move(isopoints),
-                                           pcl_uvol::IsoEdges(extraction.getEdges()),
-                                           parameters,
-                                           options.threads(),
-                                           std::move(report));
-  report = std::move(result.report);
-  return std::move(result.surface);
-}
-
 pcl_uvol::ClusterSurface
 enclose(const Options& options,
         const Arguments& arguments,
@@ -335,8 +297,13 @@ writeCluster(const Options& options,
     throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
                                     "in: uvol_project gives it some.");
   if (!isMesh(arguments)) {
-    const Dataset surface =
-        membershipSurface(options, arguments, dataset, membership, report);
+    const Dataset surface = pcl_uvol::extractMembershipSurface(
+        dataset,
+        membership,
+        arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud)),
+        !arguments.smoothing.empty(),
+        options.threads(),
+        report);
     uvol_tools::savePoints(arguments.output, surface, save, report);
     return;
   }

@@ -6,6 +6,7 @@
 #include "expressions/memory_need.h"
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
+#include "pipeline/zero_level.h"
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
@@ -18,7 +19,6 @@
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <algorithm>
 #include <array>
@@ -214,40 +214,6 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
   pcl_uvol::savePng(path, uvol_tools::drawLinePlot(lines, "step"));
 }
 
-/** The zero level of phi with all fields. */
-pcl_uvol::Dataset
-makeZeroLevel(const pcl_uvol::Dataset& samples,
-              const LevelSetParameters& parameters,
-              const std::array<double, 3>& sides,
-              unsigned threads,
-              const std::vector<float>& phi)
-{
-  pcl_uvol::IsosurfacePipelineParameters how;
-  how.periodic = Eigen::Array3d(sides.data());
-  how.isosurface.isovalues = {parameters.isovalue};
-  how.isosurface.scale = parameters.scale;
-  how.isosurface.interpolation =
-      pcl_uvol::Interpolation::Fit; // the level set fills gaps
-  pcl::PointCloud<pcl_uvol::PointIso> isopoints;
-  pcl_uvol::IsoEdges edges;
-  Report report;
-  pcl_uvol::extractZeroLevel(pcl_uvol::viewOf(samples.cloud),
-                             phi,
-                             {}, // on its way, it is not where it will be
-                             how.isosurface,
-                             threads,
-                             isopoints,
-                             edges,
-                             report);
-  return pcl_uvol::finishIsosurface(samples,
-                                    std::move(isopoints),
-                                    std::move(edges),
-                                    how,
-                                    threads,
-                                    std::move(report))
-      .surface;
-}
-
 /** What the tool holds beside the points.
  * \param surface of the isovalue */
 uvol_tools::MemoryGuard::Work
@@ -259,7 +225,7 @@ forecastMemory(const LevelSetParameters& parameters,
       [=, &parameters](double points, double step, pcl_uvol::MemoryForecast& forecast) {
         forecast.hold(sizeof(int) * points); // indices of all
         pcl_uvol::MemoryNeed need = pcl_uvol::levelSetNeed(points, surface, parameters);
-        // makeZeroLevel, beside the level set
+        // extractSnapshot(), beside the level set
         const double of_phi = pcl_uvol::phi_point_bytes * points;
         if (has_snapshots)
           need.peak += of_phi + pcl_uvol::isosurfaceNeed(points, {surface}).peak;
@@ -351,10 +317,13 @@ run(int argc, char** argv)
   evolution.setSnapshotCallback(
       arguments.snapshots,
       [&](const pcl_uvol::LevelSetSummary& so_far, const std::vector<float>& phi) {
-        pcl_uvol::saveDataset(
-            snapshotPath(arguments.output, so_far.steps.size()),
-            makeZeroLevel(dataset, parameters, sides, options.threads(), phi),
-            {});
+        pcl_uvol::saveDataset(snapshotPath(arguments.output, so_far.steps.size()),
+                              pcl_uvol::extractSnapshot(dataset,
+                                                        parameters,
+                                                        Eigen::Array3d(sides.data()),
+                                                        phi,
+                                                        options.threads()),
+                              {});
       });
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   evolution.evolve(result.cloud);

@@ -5,13 +5,14 @@ Samples of fields at scattered points go in as arrays or files; isosurfaces with
 and all fields, meshes, level sets, interpolated values and pictures come out.
 """
 
+from ._arrays import empty
 from ._bridges import from_vtk
 from ._errors import DivergedError, FieldError, ResultWarning
-from ._files import read, read_volume, write
+from ._files import read, read_mesh, read_volume, write
 from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
 from ._measures import FieldFigures, Figure, Measures, PieceFigures
-from ._pictures import Picture
+from ._pictures import Picture, raytrace
 from ._samples import Samples
 from ._stages import (Clusters, Projection, VoronoiGrid, cluster, info, level_set, normals, project,
                       splats, voronoi)
@@ -37,13 +38,16 @@ __all__ = [
     "Surface",
     "VoronoiGrid",
     "cluster",
+    "empty",
     "from_vtk",
     "info",
     "isosurface",
     "level_set",
     "normals",
     "project",
+    "raytrace",
     "read",
+    "read_mesh",
     "read_volume",
     "splats",
     "voronoi",

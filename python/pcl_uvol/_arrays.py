@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import _core
+from . import _core, _parameters
 
 _LETTERS = {"b": "?", "i": "i", "u": "u", "f": "f"}
 _LARGEST_SIZE = 8
@@ -60,16 +60,79 @@ def coordinates(points, what="points"):
     return array
 
 
+def empty(count, fields=None):
+    """Records in the library's memory, to be filled in: `Samples` takes them without a
+    copy.
+
+    Arrays of any other memory are copied once, since clouds of PCL own their bytes.
+
+    Parameters
+    ----------
+    count : int
+        Points.
+    fields : mapping of str to dtype, optional
+        Types of the fields: "f4", or ("f4", 3) for three numbers per point.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count,)
+        A structured array of x, y, z in float32 and the fields, all zero. It can be
+        written to until it is given to `Samples`.
+
+    Examples
+    --------
+    >>> records = uvol.empty(1000, {"rho": "f8", "vel": ("f4", 3)})
+    >>> records["x"] = np.linspace(0, 1, 1000)
+    >>> records["vel"] = 1.0
+    >>> samples = uvol.Samples(records)
+    >>> np.shares_memory(samples["rho"], records)
+    True
+    """
+    count = _parameters.count(count, "count")
+    types = {name: np.dtype(kind) for name, kind in _parameters.mapping(fields, "fields", "types").items()}
+    specs = [(axis, "f4", 1) for axis in "xyz"]
+    for name, kind in types.items():
+        _check_name(name)
+        if kind.base.kind not in _LETTERS or len(kind.shape) > 1 or 0 in kind.shape:
+            raise ValueError(f"The field {name!r} has the type {kind}: it must hold numbers or booleans, one or "
+                             "several per point.")
+        specs.append((name, _number_type(kind.base), kind.shape[0] if kind.shape else 1))
+    dataset = _core.Dataset.allocate(specs, count)
+    return view_records(dataset, dataset.bytes)
+
+
+def take_over(records):
+    """The dataset whose memory records of empty() are, which can no longer be written
+    to; None for other arrays, and for parts of such records."""
+    owner = records
+    while isinstance(owner, np.ndarray):
+        owner = owner.base
+    if not isinstance(owner, _core.Dataset) or not records.flags.writeable or len(records) != owner.count:
+        return None
+    if len(records) and (records.ctypes.data, records.strides[0]) != (owner.bytes.ctypes.data, owner.bytes.strides[0]):
+        return None
+    if records.dtype.names != tuple(name for name, *_ in owner.fields):
+        return None
+    records.flags.writeable = False  # the records are points already, with an origin of 0
+    return owner
+
+
+def _check_name(name):
+    if not isinstance(name, str) or not name:
+        raise ValueError(f"A field is called {name!r}: names are texts of at least a letter.")
+    if name in ("x", "y", "z"):
+        raise ValueError(f"The field {name!r} is a coordinate: it belongs to the points.")
+    if name == "_":
+        raise ValueError("The field '_' has the name of padding, which holds nothing: call it otherwise.")
+
+
 def make_dataset(points, fields):
     """A dataset from coordinates and a mapping of names to columns."""
     xyz = coordinates(points)
     count = len(xyz)
     columns = {}
-    for name, values in dict(fields or {}).items():
-        if not isinstance(name, str) or not name:
-            raise ValueError(f"A field is called {name!r}: names are texts of at least a letter.")
-        if name in ("x", "y", "z"):
-            raise ValueError(f"The field {name!r} is a coordinate: it belongs to the points.")
+    for name, values in _parameters.mapping(fields, "fields", "columns").items():
+        _check_name(name)
         columns[name] = _column(name, values, count)
     axis_type = _number_type(xyz.dtype)
     specs = [(axis, axis_type, 1) for axis in "xyz"]

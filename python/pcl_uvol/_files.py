@@ -7,16 +7,21 @@ from . import _report
 from ._samples import Samples
 
 
-def read(path, xyz=("", "", "")):
+def read(path, xyz=("", "", ""), particles=""):
     """Read samples from a file, as the tools do.
 
     Parameters
     ----------
     path : str or os.PathLike
-        pcd, ply, csv, txt, xyz, dat, tsv, vtk, vtp, vtu or vts, by the ending.
+        pcd, ply, csv, txt, xyz, dat, tsv, vtk, vtp, vtu, vts, npy, npz, las, or HDF5
+        (`file.h5:/group` names a part of it), by the ending, which .gz, .bz2 or .zst may
+        follow; and snapshots of Gadget. "-" is standard input.
     xyz : sequence of three str, optional
         Columns of a text file that hold the coordinates, by names or numbers from 0; by
         default they are found by usual names.
+    particles : str
+        Of a snapshot: gas, dm, disk, bulge, stars, bh, or a number; by default gas, else
+        the first kind there is.
 
     Returns
     -------
@@ -31,7 +36,7 @@ def read(path, xyz=("", "", "")):
     columns = [str(column) for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
-    dataset = _io.read(os.fspath(path), columns)
+    dataset = _io.read(os.fspath(path), columns, str(particles))
     _report.tell(dataset.notes)
     return Samples._of(dataset)
 
@@ -50,6 +55,25 @@ def write(path, points, fields=None, ascii=False):
     if not hasattr(points, "save"):
         points = Samples(points, fields)
     points.save(path, ascii=ascii)
+
+
+def read_mesh(path):
+    """Read a mesh with all fields of its vertices from a ply file, as `save` writes it.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+
+    Returns
+    -------
+    vertices : Samples
+    triangles : numpy.ndarray of uint32, shape (m, 3)
+        Empty for a file of points.
+    """
+    from . import _io
+    dataset, triangles = _io.read_mesh(os.fspath(path))
+    _report.tell(dataset.notes)
+    return Samples._of(dataset), triangles
 
 
 def read_volume(path):

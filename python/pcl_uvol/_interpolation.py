@@ -2,6 +2,7 @@
 """The field between the samples: at any places, along lines, in slices and grids."""
 
 import functools
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -41,6 +42,9 @@ class Answers:
         self.gradients = shaped(found.get("gradients"), 3)
         self.support = found["support"].reshape(shape)
         self.report = found["report"]
+
+    def __repr__(self):
+        return f"Answers to {self.support.size} queries, {int(np.isnan(self.values).sum())} of the values missing"
 
 
 class Interpolator:
@@ -94,8 +98,9 @@ class Interpolator:
                                           shepard=shepard, threads=threads)
         self._is_single = isinstance(field, str)
         self._threads = _parameters.count(threads, "threads")
+        wanted = [field] if self._is_single else _names(field)
         names = []
-        for name in [field] if self._is_single else list(field):
+        for name in wanted:
             samples, found = samples._with_field(name, threads, progress)
             names += [found] if found else []
         self.samples = samples
@@ -106,9 +111,9 @@ class Interpolator:
             "gradients": gradients,
             "errors": errors,
             "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
-            "kriging": kriging or {},
-            "sph": sph or {},
-            "shepard": shepard or {},
+            "kriging": _parameters.mapping(kriging, "kriging"),
+            "sph": _parameters.mapping(sph, "sph"),
+            "shepard": _parameters.mapping(shepard, "shepard"),
         }
         with listening(progress) as listener:
             self._core = _core.Interpolator(samples._dataset, _parameters.to_json(parameters), self._threads, listener)
@@ -161,6 +166,37 @@ class Interpolator:
             dataset, report = self._core.probe(points._dataset, self._threads_of(threads), listener)
         _report.tell(report["warnings"])
         return Samples._of(dataset)
+
+    def validate(self, folds=10, by="random", threads=None, progress=None):
+        """Leave samples out, one part after the other, and tell how far values from the
+        others are off.
+
+        Parameters
+        ----------
+        folds : int
+            Parts, at least 2.
+        by : str
+            Parts are "random", or compact "blocks", or share a value of the field of
+            that name, as drill holes do.
+
+        Returns
+        -------
+        dict
+            By field: tested and covered samples, rms and bias in units of the field, and
+            the part that is within_error, no farther off than their error.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> scores = uvol.Interpolator(points, {"rho": points[:, 0]}).validate()
+        >>> scores["rho"]["tested"], scores["rho"]["rms"] < 1e-5
+        (2000, True)
+        """
+        with listening(progress) as listener:
+            scores, report = self._core.validate(_parameters.count(folds, "folds"), str(by), self._threads_of(threads),
+                                                 listener)
+        _report.tell(report["warnings"])
+        return scores
 
     def line(self, start, end, n=100, **options):
         """The fields at `n` places from one point to another.
@@ -239,7 +275,8 @@ class Interpolator:
             if "gradients" in found:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
-        return Lattice(places, counts, steps, columns, found["report"])
+        short = [name for name in self.fields if self._core.is_short(name)]
+        return Lattice(places, counts, steps, columns, found["report"], short)
 
     def _threads_of(self, threads):
         return self._threads if threads is None else _parameters.count(threads, "threads")
@@ -249,6 +286,13 @@ class Interpolator:
 
     def __repr__(self):
         return f"Interpolator of {', '.join(self.fields)} by {self.parameters['model']} from {len(self.samples)} points"
+
+
+def _names(field):
+    """Several fields."""
+    if not isinstance(field, Iterable) or not list(field):
+        raise TypeError(f"field is {field!r}: it must be the name of a field, or a sequence of names.")
+    return list(field)
 
 
 def _place(values, what):
@@ -261,6 +305,8 @@ def _place(values, what):
 def _plane(plane):
     """A point and a normal; those of "z=0.5" as well."""
     if not isinstance(plane, str):
+        if not isinstance(plane, Iterable) or len(plane) != 2:
+            raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, or a point and a normal.")
         point, normal = plane
         return _place(point, "plane"), _place(normal, "plane")
     axis, _, value = plane.partition("=")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields at places in rows: lines, slices and grids."""
 
+import os
+
 import numpy as np
 
 from ._errors import FieldError
@@ -20,8 +22,10 @@ class Lattice:
         Counts, milliseconds and warnings.
     """
 
-    def __init__(self, places, counts, steps, columns, report):
+    def __init__(self, places, counts, steps, columns, report, short):
         self.shape = tuple(count for count in reversed(counts) if count > 1) or (1,)
+        self._file_form = (places[0].tolist(), steps, counts)
+        self._short = short  # fields that are float32 in files
         self.points = places.reshape(*self.shape, 3)
         self.report = report
         self._steps = [step for step, count in zip(steps, counts) if count > 1][::-1]
@@ -62,6 +66,30 @@ class Lattice:
                 coords["xyz"[axis]] = self.points[(0,) * len(dims) + (axis,)]
         return xarray.Dataset({name: (dims + ["axis"] * (values.ndim - len(dims)), values)
                                for name, values in self._columns.items()}, coords)
+
+    def save(self, path):
+        """Write a file as uvol_probe does: vti, vts, nrrd or mha, by the ending of its
+        name. Of the last two, which hold one array, others are in further files beside
+        it.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            Values get the type of the samples, errors and gradients float32.
+        """
+        from . import _io
+        path = os.fspath(path)
+        if not _io.is_lattice_file(path):
+            raise ValueError(f"{path!r} is no file of a lattice: its name must end in .vti, .vts, .nrrd or .mha.")
+        arrays = []
+        for name, values in self._columns.items():
+            is_short = name in self._short or name.endswith(("_error", "_gradient"))
+            values = np.ascontiguousarray(values, np.float32 if is_short else None)
+            arrays.append((name, values.reshape(self._count(), -1)))
+        _io.write_lattice(path, *self._file_form, arrays)
+
+    def _count(self):
+        return int(np.prod(self.shape))
 
     @staticmethod
     def _axis_of(step):

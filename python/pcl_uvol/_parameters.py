@@ -4,6 +4,8 @@
 import json
 import math
 import operator
+import reprlib
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -35,6 +37,23 @@ def numbers(values, what):
     if array.dtype.kind not in "iufb" or array.ndim != 1 or not np.isfinite(array).all():
         raise ValueError(f"{what} is {values!r}: it must be a finite number, or several.")
     return [float(value) for value in array]
+
+
+def number(value, what):
+    """One finite number."""
+    found = numbers(value, what)
+    if len(found) != 1:
+        raise ValueError(f"{what} is {value!r}: it must be one number.")
+    return found[0]
+
+
+def mapping(value, what, of="parameters"):
+    """A dictionary; an empty one for None."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping) and not hasattr(value, "keys"):
+        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be a dictionary, of names to {of}.")
+    return {name: value[name] for name in value.keys()}
 
 
 def scale(value):

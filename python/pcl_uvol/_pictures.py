@@ -4,8 +4,13 @@
 import os
 import tempfile
 
+import numpy as np
+
 from . import _core, _parameters, _report
 from ._progress import listening
+
+
+_OWN_COLORS = ("rgb", "rgba")
 
 
 class Picture:
@@ -63,10 +68,10 @@ def _place(value):
     return None if value is None else _parameters.numbers(value, "A place or direction")
 
 
-def _look(color, colormap, range, size, view, eye, at, up, fov, zoom, background, surface_color, supersample):
-    """What all pictures are asked for with."""
-    look = dict(color=color, colormap=colormap, range=range, view=view, eye=_place(eye), at=_place(at), up=_place(up),
-                fov=fov, zoom=zoom, surface_color=_place(surface_color), supersample=supersample, **_size(size))
+def look_of(size, view, eye, at, up, fov, zoom, background, supersample):
+    """What all pictures are asked for with, scenes as well."""
+    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom, supersample=supersample,
+                **_size(size))
     if isinstance(background, str):
         look["background"] = background
     else:
@@ -74,23 +79,35 @@ def _look(color, colormap, range, size, view, eye, at, up, fov, zoom, background
     return look
 
 
+def _lights(directions):
+    """Rows of three numbers."""
+    rows = np.asarray([] if directions is None else directions, dtype=object)
+    return [_place(row) for row in np.atleast_2d(rows).tolist() if len(row)]
+
+
 class Drawable:
     """What can be drawn: points with normals."""
 
-    def render(self, *, color="auto", colormap="viridis", range=None, size=(1024, 1024), view="iso", eye=None, at=None,
-               up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, supersample=0, culling=False,
-               footprints=True, silhouettes=False, features=False, thickness=2, line_color=None, threads=0,
-               progress=None):
+    def render(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024), view="iso",
+               eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
+               lights=None, material=None, supersample=0, culling=False, footprints=True, silhouettes=False,
+               features=False, thickness=2, line_color=None, passes=None, threads=0, progress=None):
         """Draw the points in image space (thesis 4.3).
 
         Parameters
         ----------
         color : str
-            A field or an expression, "rgb", "none", or "auto": rgb if there, else
-            isovalue if there are several.
-        colormap : {"viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "tab10"}
+            A field (of one with several numbers their length) or an expression, "rgb",
+            "none", or "auto": rgb if there, else isovalue if there are several.
+        colormap : {"auto", "viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "tab10"}
+            "auto": tab10 for up to ten whole numbers, else viridis. With "_r" behind the
+            name it runs backwards.
         range : pair of float, optional
             Values at the ends of the colours; by default those of the field.
+        log : bool
+            Colour by the logarithm of the values.
+        bar : bool
+            Write beside the picture what its colours stand for.
         size : int or pair of int
             Pixels, width and height.
         view : {"iso", "front", "back", "left", "right", "top", "bottom"}
@@ -105,6 +122,14 @@ class Drawable:
             Colours are red, green and blue from 0 to 1.
         surface_color : array_like, optional
             Of points without a colour.
+        exaggerate : array_like, optional
+            Factors along x, y and z that stretch the picture; `eye` and `at` are places
+            in the data.
+        lights : array_like, shape (n, 3), optional
+            Directions that light comes from: x right, y up, z to the viewer.
+        material : dict, optional
+            Factors of the light: ambient, diffuse, specular, and shininess, the exponent
+            of highlights.
         supersample : int
             Samples per pixel in each direction; 0: 2.
         culling : bool
@@ -113,23 +138,26 @@ class Drawable:
             Points become discs where they lie farther apart than pixels.
         silhouettes, features : bool
             Draw lines, of `line_color`; silhouettes of that thickness, 1 to 7.
+        passes : dict, optional
+            What few change: fill, occluded, layers, shading, smoothing ("none", "box",
+            "gaussian", "alleviated"), smoothings, silhouette_threshold,
+            feature_threshold, antialias, antialias_threshold.
 
         Returns
         -------
         Picture
         """
-        look = _look(color, colormap, range, size, view, eye, at, up, fov, zoom, background, surface_color, supersample)
-        look.update(culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
-                    thickness=thickness, line_color=_place(line_color))
-        dataset = self._colored(color, threads)
-        with listening(progress) as listener:
-            drawn = _core.render(dataset, _parameters.to_json(look), _parameters.count(threads, "threads"), listener)
-        return _finish(drawn)
+        look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
+        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material),
+                    culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
+                    thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"))
+        return self._draw(_core.render, look, bar, threads, progress)
 
-    def raytrace(self, *, color="auto", colormap="viridis", range=None, size=(1024, 1024), view="iso", eye=None,
-                 at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, supersample=0, depth=4,
-                 shadows=True, light_samples=16, occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0,
-                 index=1.0, splats=None, threads=0, progress=None):
+    def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
+                 view="iso", eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None,
+                 exaggerate=None, lights=None, material=None, supersample=0, depth=4, shadows=True, light_samples=16,
+                 occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, splats=None, threads=0,
+                 progress=None):
         """Draw the points by ray tracing of splats (thesis 4.2): shadows, mirrors, glass.
 
         Parameters
@@ -156,26 +184,72 @@ class Drawable:
         -------
         Picture
         """
-        look = _look(color, colormap, range, size, view, eye, at, up, fov, zoom, background, surface_color, supersample)
+        look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
+        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material))
         rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
                     occlusion_distance=occlusion_distance, reflect=reflect, transparent=transparent, index=index,
                     splats=splats)
-        dataset = self._colored(color, threads)
-        with listening(progress) as listener:
-            drawn = _core.raytrace(dataset, _parameters.to_json(look), _parameters.to_json(rays),
-                                   _parameters.count(threads, "threads"), listener)
-        return _finish(drawn)
+        return self._draw(_core.raytrace, look, bar, threads, progress, _parameters.to_json(rays))
 
-    def _colored(self, color, threads):
-        """The dataset with the field that it is coloured by."""
+    def _colors(self, color, colormap, range, log, surface_color, exaggerate, lights, material):
+        """What points with fields are asked for with."""
         if not isinstance(color, str):
             raise TypeError(f"color is {color!r}: it must be the name of a field, or an expression.")
-        if color in ("auto", "none", "rgb", "rgba", ""):
-            return self._dataset
-        return self._dataset.with_field(color, _parameters.count(threads, "threads"), None)[0]
+        if color in self.keys() and self.records.dtype[color].shape:
+            color = f"|{color}|"
+        return dict(color=color or "none", colormap=colormap, range=range, log=bool(log), exaggerate=_place(exaggerate),
+                    surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
+
+    def _draw(self, function, look, bar, threads, progress, *more):
+        """A picture of these points, with what its colours stand for beside it."""
+        count = _parameters.count(threads, "threads")
+        dataset = self._dataset
+        if look["color"] not in ("auto", "none", *_OWN_COLORS):
+            dataset = dataset.with_field(look["color"], count, None)[0]
+        has_bar = bar and _core.color_field(dataset, look["color"]) not in ("", *_OWN_COLORS)
+        if has_bar:
+            from . import _charts
+            look["margin"] = _charts.bar_width(look["width"], look["height"])
+        look = _parameters.to_json(look)
+        with listening(progress) as listener:
+            pixels, field, limits, report = function(dataset, look, *more, count, listener)
+        if has_bar:
+            _charts.draw_legend(pixels, dataset, look, limits)
+        return finish(pixels, field, limits, report)
 
 
-def _finish(drawn):
-    picture = Picture(*drawn)
-    _report.tell(picture.report["warnings"])
+def finish(pixels, field, limits, report):
+    """A picture, whose warnings are told."""
+    picture = Picture(pixels, field, limits, report)
+    _report.tell(report["warnings"])
     return picture
+
+
+def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=30.0, zoom=1.0, background=None,
+             supersample=None, threads=0, progress=None):
+    """Draw a scene of uvol_raytrace: surfaces of several files with their materials,
+    lights and a camera.
+
+    Parameters
+    ----------
+    scene : str or os.PathLike
+        A text file that lists the items of the scene.
+    folder : str or os.PathLike
+        Where its clouds lie; "": beside it.
+    size, view, eye, at, up, fov, zoom, background, supersample
+        As those of `Surface.raytrace`, instead of what the scene says; the camera is
+        that of the scene unless `view` or `eye` is given.
+
+    Returns
+    -------
+    Picture
+    """
+    from . import _io
+    asked = dict(size=size, view=view, eye=eye, background=background, supersample=supersample)
+    given = {name for name, value in asked.items() if value is not None}
+    look = look_of(size or (1024, 1024), view or "iso", eye, at, up, fov, zoom,
+                   "white" if background is None else background, supersample or 0)
+    with listening(progress) as listener:
+        pixels, report = _io.trace_scene(os.fspath(scene), os.fspath(folder), _parameters.to_json(look), given,
+                                         _parameters.count(threads, "threads"), listener)
+    return finish(pixels, "", (0.0, 1.0), report)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scattered samples: what everything starts from."""
 
+import reprlib
+
 import numpy as np
 
 from . import _arrays, _parameters, _report
@@ -17,7 +19,8 @@ class Samples(Drawable, Points):
     ----------
     points : array_like, shape (n, 3)
         Coordinates, float32 or float64. Doubles keep their digits: they are held
-        relative to an origin. A structured array with x, y, z brings its other fields.
+        relative to an origin. A structured array with x, y, z brings its other fields;
+        records of `empty` are taken as they are, all others are copied once.
     fields : mapping of str to array_like, optional
         Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
         values and pandas' missing ones are missing values.
@@ -34,9 +37,12 @@ class Samples(Drawable, Points):
 
     def __init__(self, points, fields=None):
         dtype = getattr(points, "dtype", None)
+        dataset = None
         if fields is None and dtype is not None and getattr(dtype, "names", None):
-            points, fields = _split(np.asarray(points), ("x", "y", "z"))
-        super().__init__(_arrays.make_dataset(points, fields))
+            dataset = _arrays.take_over(np.asarray(points))
+            if dataset is None:
+                points, fields = _split(np.asarray(points), ("x", "y", "z"))
+        super().__init__(dataset or _arrays.make_dataset(points, fields))
         self._derived = {}
         _report.tell(self._dataset.notes)
 
@@ -73,6 +79,8 @@ class Samples(Drawable, Points):
         axes = list(points)
         if len(axes) != 3:
             raise ValueError(f"points names {len(axes)} columns: there must be three.")
+        if not hasattr(frame, "columns") and not hasattr(frame, "variables"):
+            raise TypeError(f"{reprlib.repr(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
         names = list(frame.columns) if hasattr(frame, "columns") else list(frame.variables)
         for name in axes + list(fields or []):
             if name not in names:
@@ -102,6 +110,55 @@ class Samples(Drawable, Points):
         array([0., 1., 2.])
         """
         return self._with_field(expression, threads, progress)[0]
+
+    def density(self, length=0.0, threads=0, progress=None):
+        """Samples with the density of particles that have none.
+
+        Parameters
+        ----------
+        length : float
+            One smoothing length h for all, whose kernel ends at 2 h; 0: that of the
+            field with a usual name, else by 48 neighbours.
+
+        Returns
+        -------
+        Samples
+            With the field `sph_density`, of the fields of masses and lengths with usual
+            names; without masses it counts particles per volume.
+
+        Examples
+        --------
+        >>> grid = np.stack(np.meshgrid(*[np.arange(12.0)] * 3), axis=-1).reshape(-1, 3)
+        >>> samples = uvol.Samples(grid, {"mass": np.full(len(grid), 2.0)}).density()
+        >>> inside = np.all((samples.points > 4) & (samples.points < 7), axis=1)
+        >>> bool(np.allclose(samples["sph_density"][inside], 2.0, rtol=0.02))
+        True
+        """
+        with listening(progress) as listener:
+            dataset, report = self._dataset.with_density(_parameters.number(length, "length"), _parameters.count(threads, "threads"), listener)
+        _report.tell(report["warnings"])
+        return Samples._of(dataset)
+
+    def outer_layer(self, value, field="", threads=0, progress=None):
+        """Samples with further ones around them, about a spacing outside, where a field
+        is known to have a value: a surface is closed there.
+
+        Parameters
+        ----------
+        value : float
+            Of the field; other fields are those of the nearest sample.
+        field : str
+            By default `intensity`, else the only candidate.
+
+        Returns
+        -------
+        Samples
+            With the further ones behind the others.
+        """
+        with listening(progress) as listener:
+            dataset, _ = self._dataset.with_outer_layer(
+                str(field), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
+        return Samples._of(dataset)
 
     def where(self, expression, threads=0):
         """The samples for which an expression holds, as `T > 4 && depth < 100`.

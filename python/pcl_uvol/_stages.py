@@ -24,7 +24,7 @@ def _with_report(dataset, report):
 
 
 def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), start=None, outside="lower",
-              threads=0, progress=None, **parameters):
+              snapshots=0, threads=0, progress=None, **parameters):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -44,6 +44,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         "first": point, "second": normal}. By default the values themselves.
     outside : {"lower", "higher"}
         Of the shapes.
+    snapshots : int
+        Keep the surface every so many steps, as `snapshots` of the result; 0: never.
     **parameters
         Further ones of the library: scheme, flow, bound, integration, reinitialization,
         k, max_steps, tolerance, band_width.
@@ -52,7 +54,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     -------
     Samples
         With the field `phi`, about the distance to the surface, positive where values
-        are higher; `report` tells mu, noise, spacing, and every step.
+        are higher; `report` tells mu, noise, spacing, and every step; `snapshots` is a
+        list of steps and points of the surface after these, as samples.
 
     Examples
     --------
@@ -69,14 +72,18 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         samples, start_name = samples._with_field(start, threads, progress)
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
-        initial = dict(start)
+        initial = _parameters.mapping(start, "start")
     isovalues = _parameters.numbers(iso, "iso")
     if len(isovalues) != 1:
         raise ValueError("A level set has one isovalue.")
     factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
                       scale=factors)
-    return _with_report(*_run(_core.evolve_level_set, samples, parameters, threads, progress))
+    dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,
+                                  _parameters.count(snapshots, "snapshots"))
+    result = _with_report(dataset, report)
+    result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
+    return result
 
 
 def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0, 0.0, 0.0), threads=0, progress=None):
@@ -141,11 +148,87 @@ class Clusters:
     report : dict
     """
 
-    def __init__(self, labels, probabilities, tree, report):
+    def __init__(self, labels, probabilities, tree, report, samples):
         self.labels = labels
         self.probabilities = probabilities
         self.tree = tree
         self.report = report
+        self._samples = samples
+
+    def take(self, cluster):
+        """The samples of a cluster.
+
+        Returns
+        -------
+        Samples
+        """
+        return self._samples.take(self.labels == cluster)
+
+    def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
+                scale=(1.0, 1.0, 1.0), threads=0, progress=None):
+        """A surface around a cluster (thesis, Figure 2.23).
+
+        Parameters
+        ----------
+        cluster : int
+        kind : {"membership", "distance", "hull", "hull-distance"}
+            Between its samples and the others; at a distance from its points; through
+            its outer points; at a distance from those.
+        probability : str
+            Of membership: a field in [0, 1] instead of 0 and 1.
+        smoothing_length : str
+            Of membership: a field of smoothing lengths, by which SPH's kernel smooths it.
+        cells : int
+            Of distances: cells along the longest side.
+        distance : float
+            In units of the coordinates; 0: just beyond the longest edge of the points'
+            minimum spanning tree.
+        scale : sequence of three float, or "auto"
+            Factors per axis of the space that distances are measured in.
+
+        Returns
+        -------
+        Samples or tuple
+            Points with normals; of the other kinds vertices as samples, and triangles of
+            shape (m, 3).
+
+        Examples
+        --------
+        >>> random = np.random.default_rng(1)
+        >>> points = random.random((600, 3))
+        >>> clusters = uvol.cluster(points, {"rho": (points[:, 0] > 0.5) + 0.05 * random.random(600)}, attributes=["rho"])
+        >>> border = clusters.surface(0)
+        >>> bool(np.median(abs(border.points[:, 0] - 0.5)) < 0.1)
+        True
+        """
+        dataset = self._samples._dataset
+        factors = _parameters.scale(scale) or _core.equalizing_scale(dataset)
+        count = _parameters.count(threads, "threads")
+        if kind == "membership":
+            how = dict(cluster=cluster, probability=probability, smoothing_length=smoothing_length)
+            with listening(progress) as listener:
+                surface, report = _core.separate_cluster(dataset, self.labels, factors, _parameters.to_json(how), count,
+                                                         listener)
+            _report.tell(report["warnings"])
+            return _with_report(surface, report)
+        if kind not in ("distance", "hull", "hull-distance"):
+            raise ValueError(f"kind is {kind!r}: it must be one of membership, distance, hull, hull-distance.")
+        try:
+            from . import _vtk
+        except ImportError as error:
+            raise ImportError("This build of pcl_uvol has no component VTK, which makes surfaces at distances and "
+                              "hulls.") from error
+        how = dict(kind=kind, cells=cells, distance=distance, scale=factors)
+        members = np.flatnonzero(self.labels == cluster)
+        if len(members) == 0:
+            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
+            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+        with listening(progress) as listener:
+            vertices, triangles, used, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
+                                                                     listener)
+        report["distance"] = used
+        _report.tell(report["warnings"])
+        return _with_report(vertices, report), triangles
 
     def __len__(self):
         return int(self.labels.max(initial=-1)) + 1
@@ -183,7 +266,7 @@ def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_siz
     samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
     parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
                   "cut_distance": cut, "allow_single_cluster": single}
-    return Clusters(*_run(_core.find_clusters, samples, parameters, threads, progress))
+    return Clusters(*_run(_core.find_clusters, samples, parameters, threads, progress), samples)
 
 
 class Projection:
@@ -209,6 +292,9 @@ class Projection:
         self.labels = labels
         self.map = projection
         self.report = report
+
+    def __repr__(self):
+        return f"Projection of {len(self.places)} points by {', '.join(self.map['names'])}"
 
 
 def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
@@ -266,6 +352,9 @@ class VoronoiGrid:
         self.origin = np.array(origin)
         self.spacing = np.array(spacing)
         self.report = report
+
+    def __repr__(self):
+        return f"VoronoiGrid of {' x '.join(map(str, self.site.shape))} cells"
 
 
 def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):

@@ -199,14 +199,14 @@ class Extractor:
             },
             "automatic_scale": factors is None,
             "smooth": smooth,
-            "level_set": dict(level_set or {}, **({} if mu is None else {"mu": mu})),
+            "level_set": {**_parameters.mapping(level_set, "level_set"), **({} if mu is None else {"mu": mu})},
             "normals": normals,
             "normal_neighbors": normal_neighbors,
             "max_error": max_error,
             "drop_bridged": drop_bridged,
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
-            "mesh": dict(mesh) if isinstance(mesh, dict) else ({} if mesh else None),
+            "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
             "periodic": [0.0, 0.0, 0.0] if periodic is None else _parameters.numbers(periodic, "periodic"),
         }
         return _extract(self._extractor, samples, parameters, threads, progress)

@@ -119,6 +119,11 @@ public:
         return true;
       }
     const bool is_inside = finder_.find(query, near.samples, near.size);
+    // So near to a sample, beside the extent of all, that rounding leaves no cell.
+    if (finder_.getNeighbors().empty()) {
+      takeSample(nearestOf(query, near), i, estimates);
+      return is_inside;
+    }
     sum_.start(sampled_.valuesOf(finder_.getNeighbors().front().sample));
     for (const auto& neighbor : finder_.getNeighbors())
       sum_.add(sampled_.valuesOf(neighbor.sample), neighbor.weight, neighbor.gradient);
@@ -133,11 +138,8 @@ public:
                 std::size_t i,
                 const Estimates& estimates)
   {
-    double sq_nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < near.size; ++j)
-      sq_nearest = std::min(
-          sq_nearest,
-          sqDistance(query, sampled_.samples->getPositions()[near.samples[j]]));
+    const double sq_nearest =
+        sqDistance(query, sampled_.samples->getPositions()[nearestOf(query, near)]);
     if (!(sq_nearest > 0.0))
       return;
     const double step = difference_step * std::sqrt(sq_nearest);
@@ -159,6 +161,16 @@ public:
   }
 
 private:
+  std::uint32_t
+  nearestOf(const Query& query, const NearestFinder::Row& near) const
+  {
+    const std::vector<Position>& positions = sampled_.samples->getPositions();
+    return *std::min_element(
+        near.samples, near.samples + near.size, [&](std::uint32_t a, std::uint32_t b) {
+          return sqDistance(query, positions[a]) < sqDistance(query, positions[b]);
+        });
+  }
+
   /** At a sample, where the gradient jumps. */
   void
   takeSample(std::uint32_t sample, std::size_t i, const Estimates& estimates) const

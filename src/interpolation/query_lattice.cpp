@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/query_lattice.h"
 
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <Eigen/Geometry>
@@ -295,6 +296,20 @@ makeSlice(const Plane& plane,
   slice.lattice.steps[across] =
       placeOf((is_along_axes ? Vector3d(normal.cwiseAbs()) : normal) * spacing);
   return slice;
+}
+
+std::uint8_t
+fileTypeOf(const std::vector<pcl::PCLPointField>& fields, const std::string& name)
+{
+  using Type = pcl::PCLPointField;
+  const ScalarField field(fields, name);
+  const auto& components = field.getComponents();
+  const bool is_short =
+      std::all_of(components.begin(), components.end(), [](const auto& component) {
+        return component.datatype == Type::FLOAT32 ||
+               datatypeSize(component.datatype) <= 2;
+      });
+  return is_short ? Type::FLOAT32 : Type::FLOAT64;
 }
 
 } // namespace pcl_uvol::detail

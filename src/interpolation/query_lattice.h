@@ -8,6 +8,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol::detail {
 
@@ -87,5 +89,13 @@ PCL_UVOL_EXPORTS Slice
 makeSlice(const Plane& plane,
           const Bounds& box,
           const std::array<std::size_t, 2>& counts);
+
+/** \brief The type that interpolated values of a field have in files of lattices: that
+ * of the samples, if it is floating.
+ * \param fields of the samples
+ * \param name a scalar field, as in ScalarField
+ * \return pcl::PCLPointField::FLOAT32 or FLOAT64 */
+PCL_UVOL_EXPORTS std::uint8_t
+fileTypeOf(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
 
 } // namespace pcl_uvol::detail

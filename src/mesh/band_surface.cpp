@@ -74,8 +74,13 @@ private:
   WorkingMesh
   join()
   {
-    const StepTimer step(report_, "triangles");
-    findPairs();
+    // Pairs are found, get vertices and are joined, which takes about as long each.
+    const std::size_t band = values_.getBand().size();
+    StepTimer step(report_, "triangles", 3 * band);
+    findPairs(step);
+    const auto tellPairs = [&](std::size_t begin, std::size_t end) {
+      step.advance(band * end / pairs_.size() - band * begin / pairs_.size());
+    };
     WorkingMesh mesh;
     const KdTree& tree = input_.samples.getTree();
     const KdBox& box = tree.getBox(tree.getRoot());
@@ -89,6 +94,7 @@ private:
         pairs_.size(), block_vertices, input_.threads, [&](auto begin, auto end) {
           for (std::size_t i = begin; i < end; ++i)
             mesh.vertices[i] = makeVertex(pairs_[i]);
+          tellPairs(begin, end);
         });
     const auto placeOf = [&](const CellPair& pair) -> const Eigen::Vector3d& {
       const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
@@ -101,6 +107,7 @@ private:
         [&](const CellPair& a, const CellPair& b) {
           return (placeOf(a) - placeOf(b)).squaredNorm();
         },
+        tellPairs,
         input_.threads);
     return mesh;
   }
@@ -247,7 +254,7 @@ private:
   }
 
   void
-  findPairs()
+  findPairs(StepTimer& step)
   {
     const std::vector<std::uint32_t>& band = values_.getBand();
     pairs_ = parallelGather<CellPair>(
@@ -266,6 +273,7 @@ private:
             if ((input_.values[cell] >= isovalue_) == ghosts_are_above_)
               addGhosts(cell, tiling_.cellOf(cell), pairs);
           }
+          step.advance(end - begin);
         });
     const KdTree& tree = input_.samples.getTree();
     for (int axis = 0; axis < 3; ++axis)

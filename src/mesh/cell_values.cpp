@@ -65,8 +65,8 @@ CellValues::turn(const std::vector<std::uint32_t>& cells, Report& report)
 void
 CellValues::fitAll(std::vector<Candidate> candidates, Report& report)
 {
-  StepTimer step(report, "cells");
   while (!candidates.empty()) {
+    StepTimer step(report, "cells", candidates.size());
     fit(candidates, step);
     candidates = findOthers(candidates);
   }

@@ -121,6 +121,7 @@ marchTetrahedra(const CellTiling& tiling,
                 const std::vector<CellPair>& pairs,
                 const CellSide& is_above,
                 const PairDistance& distance,
+                const PairsDone& done,
                 unsigned threads)
 {
   return parallelGather<Triangle>(
@@ -136,6 +137,7 @@ marchTetrahedra(const CellTiling& tiling,
           for (std::size_t k = 0; k < ring.size(); ++k)
             marcher.march(i, {a, b, ring[(k + 1) % ring.size()], ring[k]});
         }
+        done(begin, end);
       });
 }
 

@@ -36,17 +36,22 @@ using CellSide = std::function<bool(std::uint32_t)>;
  * quadrangle the shorter one is drawn. */
 using PairDistance = std::function<double(const CellPair&, const CellPair&)>;
 
+/** \brief Told of consecutive pairs, by their indices, when they are done. */
+using PairsDone = std::function<void(std::size_t begin, std::size_t end)>;
+
 /** \brief The triangles between cells of different sides.
  *
  * Every edge belongs to two triangles that walk it in opposite directions, if pairs
  * hold all pairs of a connected part of the surface.
  * \param pairs ascending, each once: all of them
+ * \param done called from any thread; what it throws ends the work
  * \return triangles of indices of pairs, counter-clockwise as seen from cells below */
 PCL_UVOL_EXPORTS std::vector<Triangle>
 marchTetrahedra(const CellTiling& tiling,
                 const std::vector<CellPair>& pairs,
                 const CellSide& is_above,
                 const PairDistance& distance,
+                const PairsDone& done,
                 unsigned threads);
 
 } // namespace pcl_uvol::detail

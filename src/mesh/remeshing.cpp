@@ -45,6 +45,9 @@ constexpr double least_collapsed = 0.01;
  * same everywhere. */
 constexpr double size_per_edge = 1.56;
 
+/** Parts of a round or a pass that are told when they are done. */
+constexpr std::size_t parts_of_pass = 16;
+
 class Remesher {
 public:
   Remesher(WorkingMesh& mesh, double edge_length, unsigned threads, StepTimer& step)
@@ -77,7 +80,7 @@ public:
       });
       for (std::size_t i = 0; i < moved.size(); ++i)
         mesh_.vertices[i].foot = moved[i];
-      step_.advance(1);
+      step_.advance(parts_of_pass);
     }
   }
 
@@ -94,9 +97,8 @@ public:
       is_done =
           static_cast<double>(collapsed) < least_collapsed * static_cast<double>(left);
       ++pass;
-      step_.advance(1);
     }
-    step_.advance(static_cast<std::uint64_t>(collapse_passes - pass));
+    step_.advance(parts_of_pass * static_cast<std::uint64_t>(collapse_passes - pass));
   }
 
   void
@@ -126,6 +128,7 @@ public:
   }
 
 private:
+  /** One pass, of which step_ is told. */
   std::size_t
   collapseOnce()
   {
@@ -136,9 +139,14 @@ private:
           shorts.emplace_back(length, edge);
     std::sort(shorts.begin(), shorts.end());
     std::size_t collapsed = 0;
-    for (const auto& [length, edge] : shorts)
-      if (!is_gone_[edge / 3] && isShort(edge, lengthOf(edge)))
-        collapsed += collapse(edge);
+    for (std::size_t part = 0; part < parts_of_pass; ++part) {
+      const std::size_t end = shorts.size() * (part + 1) / parts_of_pass;
+      for (std::size_t i = shorts.size() * part / parts_of_pass; i < end; ++i)
+        if (const HalfEdge edge = shorts[i].second;
+            !is_gone_[edge / 3] && isShort(edge, lengthOf(edge)))
+          collapsed += collapse(edge);
+      step_.advance(1);
+    }
     return collapsed;
   }
 
@@ -349,8 +357,10 @@ private:
 void
 remesh(WorkingMesh& mesh, double edge_length, unsigned threads, Report& report)
 {
-  StepTimer step(
-      report, "remeshing", first_rounds + collapse_passes + last_turns * later_rounds);
+  StepTimer step(report,
+                 "remeshing",
+                 parts_of_pass *
+                     (first_rounds + collapse_passes + last_turns * later_rounds));
   Remesher remesher(mesh, edge_length, threads, step);
   remesher.smooth(first_rounds);
   remesher.collapseShort();

@@ -119,7 +119,8 @@ runPipelineOutOfCore(PointSource& points,
       (parameters.periodic > 0.0).any() ||
       parameters.isosurface.neighbors != NeighborSource::KdTree)
     throw InvalidArgument(
-        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps, boxes that "
+        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps, boxes "
+        "that "
         "repeat and neighbours from Voronoi diagrams need all samples in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;

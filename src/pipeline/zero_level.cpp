@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -94,6 +95,38 @@ extractZeroLevel(const CloudView& samples,
   addDeviations(deviations, edges, parameters.scale, isopoints);
   for (PointIso& point : isopoints)
     point.isovalue = static_cast<float>(parameters.isovalues.front());
+}
+
+Dataset
+extractSnapshot(const Dataset& samples,
+                const LevelSetParameters& parameters,
+                const Eigen::Array3d& periodic,
+                const std::vector<float>& phi,
+                unsigned threads)
+{
+  IsosurfacePipelineParameters how;
+  how.periodic = periodic;
+  how.isosurface.isovalues = {parameters.isovalue};
+  how.isosurface.scale = parameters.scale;
+  how.isosurface.interpolation = Interpolation::Fit; // the level set fills gaps
+  pcl::PointCloud<PointIso> isopoints;
+  IsoEdges edges;
+  Report report;
+  extractZeroLevel(viewOf(samples.cloud),
+                   phi,
+                   {},
+                   how.isosurface,
+                   threads,
+                   isopoints,
+                   edges,
+                   report);
+  return finishIsosurface(samples,
+                          std::move(isopoints),
+                          std::move(edges),
+                          how,
+                          threads,
+                          std::move(report))
+      .surface;
 }
 
 } // namespace pcl_uvol

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/export.h>
+#include <pcl_uvol/levelset/level_set_parameters.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 
 #include <vector>
@@ -19,5 +22,16 @@ meshZeroLevel(const CloudView& samples,
               const MeshingParameters& meshing,
               unsigned threads,
               Report& report);
+
+/** \brief The zero level of a level set that is not done, with all fields of the
+ * samples. Errors are NaN: it is not yet where it will be.
+ * \param periodic sides of a box that repeats, whose images are among the samples; 0
+ * along axes on which it does not */
+PCL_UVOL_EXPORTS Dataset
+extractSnapshot(const Dataset& samples,
+                const LevelSetParameters& parameters,
+                const Eigen::Array3d& periodic,
+                const std::vector<float>& phi,
+                unsigned threads);
 
 } // namespace pcl_uvol

@@ -30,6 +30,18 @@ checkLights(const std::vector<Light>& lights);
 void
 checkBackground(const Background& background);
 
+/** \brief The colour behind the surface in a row of a picture.
+ * \param below from 0 at the upper border to 1 at the lower one */
+inline Color
+backgroundAt(const Background& background, float below)
+{
+  const Color &top = background.top, &low = background.color;
+  if (background.kind != Background::Kind::Gradient)
+    return low;
+  const auto mix = [&](float a, float b) { return a * (1.0f - below) + b * below; };
+  return {mix(top.r, low.r), mix(top.g, low.g), mix(top.b, low.b)};
+}
+
 inline Eigen::Vector3d
 toVector(const Color& color)
 {

@@ -167,6 +167,16 @@ colorCategories(const CloudView& cloud,
   return categories;
 }
 
+ColorMapping
+usualColorMapping(const CloudView& cloud, const std::string& field)
+{
+  const ColorMap categories("tab10");
+  const bool has_values = field != "rgb" && field != "rgba" && !field.empty();
+  if (has_values && listCategories(cloud, field, categories.size()).size() > 1)
+    return {categories, std::nullopt, false};
+  return {ColorMap(), std::nullopt, false};
+}
+
 ColorScale
 findColorScale(const CloudView& cloud,
                const std::string& field,

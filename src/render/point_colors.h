@@ -65,6 +65,12 @@ struct ColorMapping {
   bool is_logarithmic = false;
 };
 
+/** \brief How a field is coloured where nobody says: a few whole numbers as categories,
+ * others by shades from their lowest to their highest value.
+ * \throws InvalidArgument for an unknown field */
+PCL_UVOL_EXPORTS ColorMapping
+usualColorMapping(const CloudView& cloud, const std::string& field);
+
 /** \brief The scale that is asked for, else that of the values.
  * \throws InvalidArgument for an unknown field, one without a number, or a logarithmic
  * scale that is not above 0 */

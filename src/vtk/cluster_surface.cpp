@@ -161,6 +161,23 @@ shrinkToHull(const Members& members,
   report.count("split_pieces", hull.split_pieces);
 }
 
+/** Vertices and distances between them are floats. */
+void
+checkExtent(const GridShape& shape)
+{
+  double farthest = 0.0, sq_diagonal = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double extent = shape.spacing[axis] * shape.cells[axis];
+    farthest = std::max({farthest,
+                         std::abs(shape.origin[axis]),
+                         std::abs(shape.origin[axis] + extent)});
+    sq_diagonal += extent * extent;
+  }
+  if (std::max(farthest, std::sqrt(sq_diagonal)) > std::numeric_limits<float>::max())
+    throw InvalidArgument("The surface around the cluster would be larger than float "
+                          "can hold (3.4e38): scale the coordinates down.");
+}
+
 void
 checkScale(const Eigen::Array3f& scale)
 {
@@ -193,6 +210,7 @@ detail::encloseCluster(const CloudView& cloud,
   ClusterSurface surface;
   surface.distance = chooseDistance(positions, parameters, threads, report);
   const GridShape shape = shapeAround(positions, surface.distance, parameters.cells);
+  checkExtent(shape);
   if (surface.distance < smallest_distance * shape.spacing[0])
     throw InvalidArgument("The distance " + std::to_string(surface.distance) +
                           " is too small for cells of " +

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <random>
@@ -272,14 +273,19 @@ TEST(DualSurface, IsAClosedManifoldForAnySides)
                 return static_cast<double>((a.lower * 31 + b.higher * 17) % 5);
               };
               const auto isAbove = [&](std::uint32_t cell) { return above[cell]; };
+              std::atomic<std::size_t> told = 0;
+              const auto tell = [&](std::size_t begin, std::size_t end) {
+                told += end - begin;
+              };
               const auto triangles =
-                  marchTetrahedra(tiling, pairs, isAbove, distance, 1);
+                  marchTetrahedra(tiling, pairs, isAbove, distance, tell, 1);
+              ASSERT_EQ(pairs.size(), told);
               triangles_met += triangles.size();
               expectClosedManifold(triangles, pairs.size());
               if (::testing::Test::HasFatalFailure())
                 FAIL() << seed;
               ASSERT_EQ(triangles,
-                        marchTetrahedra(tiling, pairs, isAbove, distance, 3));
+                        marchTetrahedra(tiling, pairs, isAbove, distance, tell, 3));
             }
   EXPECT_GT(triangles_met, 50000u);
 }
@@ -298,6 +304,7 @@ TEST(DualSurface, LooksFromAboveToBelow)
       pairs,
       [](std::uint32_t cell) { return cell == 0; },
       [](const CellPair&, const CellPair&) { return 1.0; },
+      [](std::size_t, std::size_t) {},
       1);
   ASSERT_EQ(8u, triangles.size());
   for (const Triangle& triangle : triangles) {

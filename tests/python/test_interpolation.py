@@ -60,6 +60,42 @@ def test_the_tool_has_the_same_slices(tmp_path, run_tool, linear):
     assert np.allclose(lattice.points.reshape(-1, 3), tool.points, atol=1e-3)
 
 
+@pytest.mark.parametrize("ending", ["vti", "vts", "nrrd", "mha"])
+def test_the_tool_writes_the_same_grids(tmp_path, run_tool, linear, ending):
+    linear.save(tmp_path / "samples.ply")
+    (tmp_path / "tool").mkdir()
+    (tmp_path / "module").mkdir()
+    run_tool("uvol_probe", "samples.ply", f"tool/grid.{ending}", "-grid", "9", "-field", "f,g", "-gradients")
+    grid = uvol.Interpolator(uvol.read(tmp_path / "samples.ply"), field=["f", "g"]).grid(9)
+    grid.save(tmp_path / "module" / f"grid.{ending}")
+    written = sorted(path.name for path in (tmp_path / "tool").iterdir())
+    assert written == sorted(path.name for path in (tmp_path / "module").iterdir())
+    for name in written:
+        assert (tmp_path / "module" / name).read_bytes() == (tmp_path / "tool" / name).read_bytes()
+    with pytest.raises(ValueError, match=".vti, .vts"):
+        grid.save(tmp_path / "grid.png")
+
+
+def test_places_beside_which_the_extent_is_beyond_measure_have_the_nearest_value():
+    random = np.random.default_rng(5)
+    for _ in range(50):
+        points = random.standard_normal((40, 3))
+        points[random.random((40, 3)) < 0.3] = 3e38
+        values = random.integers(0, 5, 40).astype(float)
+        model = uvol.Interpolator(points, {"a": values}, model="natural", extrapolate=True, threads=1)
+        found = model.evaluate(points + random.standard_normal((40, 3)) * 1e-3).values
+        assert not np.any((found < 0) | (found > 4))
+
+
+def test_validation_tells_errors(linear):
+    scores = uvol.Interpolator(linear, field=["f", "g"]).validate(5, by="blocks")
+    assert list(scores) == ["f", "g"] and scores["f"]["tested"] == 2000 and scores["f"]["rms"] < 1e-3
+    with pytest.raises(ValueError, match="fold"):
+        uvol.Interpolator(linear, field="f").validate(1)
+    with pytest.raises(KeyError, match="no field"):
+        uvol.Interpolator(linear, field="f").validate(2, by="hole")
+
+
 def test_lattices(linear):
     interpolator = uvol.Interpolator(linear, field="f")
     grid = interpolator.grid((4, 3, 2))

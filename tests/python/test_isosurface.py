@@ -60,6 +60,22 @@ def test_the_tool_writes_the_same_mesh(tmp_path, run_tool, ball, ending):
     assert (tmp_path / f"module.{ending}").read_bytes() == (tmp_path / f"tool.{ending}").read_bytes()
 
 
+def test_a_mesh_is_read_as_it_was_written(tmp_path, sphere):
+    mesh = sphere.mesh()
+    mesh.save(tmp_path / "mesh.ply")
+    vertices, triangles = uvol.read_mesh(tmp_path / "mesh.ply")
+    assert np.array_equal(triangles, mesh.triangles) and np.array_equal(vertices.points, mesh.points)
+    assert np.array_equal(vertices["vel_1"], mesh["vel"][:, 1])  # ply has no fields of several numbers
+
+
+def test_nothing_of_a_surface_is_copied(ball):
+    points, fields = ball
+    mesh = uvol.isosurface(points.astype(np.float32), fields, field="r", iso=0.3, mesh=True)
+    for array in (mesh.points, mesh.normals, mesh["vel"], mesh["error"]):
+        assert np.shares_memory(array, mesh.records) and not array.flags.writeable
+    assert not mesh.triangles.flags.owndata and not mesh.triangles.flags.writeable
+
+
 def test_a_mesh_is_closed(sphere):
     mesh = sphere.mesh()
     edges = np.concatenate([mesh.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])

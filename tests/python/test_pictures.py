@@ -1,10 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures: those of the tools, byte for byte, but for the bar of colours."""
+"""Pictures: those of the tools, pixel for pixel."""
+
+import struct
 
 import numpy as np
 import pytest
 
 import pcl_uvol as uvol
+
+
+def pixels_of(path):
+    """Size and packed pixels of a PNG file, without what else it tells."""
+    data, place, kept = path.read_bytes(), 8, []
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        if kind in (b"IHDR", b"IDAT"):
+            kept.append(data[place + 8:place + 8 + length])
+        place += length + 12
+    return kept
 
 
 @pytest.mark.parametrize("options, arguments", [
@@ -15,25 +28,63 @@ import pcl_uvol as uvol
      ["-color", "none", "-eye", "3,2,1", "-at", "0.5,0.5,0.4", "-up", "0,1,0", "-fov", "20", "-zoom", "1.5",
       "-surface-color", "1,0.2,0"]),
     (dict(color="r*2", silhouettes=True, features=True, thickness=3, supersample=1, culling=True, up=[0, 1, 0],
-          background="transparent", line_color=[0, 0, 1], footprints=False),
+          background="transparent", line_color=[0, 0, 1], footprints=False, bar=False),
      ["-color", "r*2", "-silhouettes", "-features", "-thickness", "3", "-supersample", "1", "-culling",
-      "-up", "0,1,0", "-background", "transparent", "-line-color", "0,0,1", "-no-footprints"]),
+      "-up", "0,1,0", "-background", "transparent", "-line-color", "0,0,1", "-no-footprints", "-no-bar"]),
+    (dict(color="|vel|", log=True, range=(0.1, 0.4), exaggerate=[1, 1, 2], background="gradient",
+          lights=[[0, 0, 1], [1, 0, 0]], material=dict(ambient=0.3, diffuse=0.5, specular=0.1, shininess=5)),
+     ["-color", "|vel|", "-log", "-range", "0.1,0.4", "-exaggerate", "1,1,2", "-background", "gradient",
+      "-lights", "0,0,1;1,0,0", "-ambient", "0.3", "-diffuse", "0.5", "-specular", "0.1", "-shininess", "5"]),
+    (dict(color="rint(id / 1500)", footprints=False,
+          passes=dict(fill=3, occluded=1, layers=0.01, smoothing="box", smoothings=2, antialias=False)),
+     ["-color", "rint(id / 1500)", "-no-footprints", "-fill", "3", "-occluded", "1", "-layers", "0.01", "-smoothing", "box",
+      "-smoothings", "2", "-no-antialias"]),
 ])
 def test_uvol_render_draws_the_same(tmp_path, run_tool, sphere, options, arguments):
     sphere.save(tmp_path / "in.ply")
-    run_tool("uvol_render", "in.ply", "tool.png", "-size", "160x120", "-no-bar", "-backend", "cpu", *arguments)
-    uvol.read(tmp_path / "in.ply").render(size=(160, 120), **options).save(tmp_path / "module.png")
-    assert (tmp_path / "module.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
+    run_tool("uvol_render", "in.ply", "tool.png", "-size", "200x150", "-backend", "cpu", *arguments)
+    uvol.read(tmp_path / "in.ply").render(size=(200, 150), **options).save(tmp_path / "module.png")
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
 
 
 def test_uvol_raytrace_draws_the_same(tmp_path, run_tool, sphere):
     sphere.save(tmp_path / "in.ply")
-    run_tool("uvol_raytrace", "in.ply", "tool.png", "-size", "80x60", "-no-bar", "-color", "r", "-reflect", "0.3",
+    run_tool("uvol_raytrace", "in.ply", "tool.png", "-size", "160x128", "-color", "r", "-reflect", "0.3",
              "-occlusion", "4", "-delta", "0.001", "-background", "0.1,0.2,0.3")
-    picture = uvol.read(tmp_path / "in.ply").raytrace(size=(80, 60), color="r", reflect=0.3, occlusion=4,
+    picture = uvol.read(tmp_path / "in.ply").raytrace(size=(160, 128), color="r", reflect=0.3, occlusion=4,
                                                       splats={"delta": 0.001}, background=(0.1, 0.2, 0.3))
     picture.save(tmp_path / "module.png")
-    assert (tmp_path / "module.png").read_bytes() == (tmp_path / "tool.png").read_bytes()
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+
+
+def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
+    sphere.save(tmp_path / "sphere.ply")
+    (tmp_path / "test.scene").write_text("""
+        background 0.2 0.3 0.4
+        size 90 70
+        camera eye 2 1.5 1.2 at 0.5 0.5 0.5 fov 30
+        material mirror color 0.8 0.2 0.1 reflect 0.5
+        cloud sphere.ply material mirror
+        """)
+    for name, options, arguments in (
+            ("file", {}, []),
+            ("own", dict(size=(80, 60), view="top", background="white", supersample=2, zoom=1.5),
+             ["-size", "80x60", "-view", "top", "-background", "white", "-supersample", "2", "-zoom", "1.5"])):
+        run_tool("uvol_raytrace", "test.scene", f"{name}.png", *arguments)
+        uvol.raytrace(tmp_path / "test.scene", **options).save(tmp_path / "module.png")
+        assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"{name}.png"), name
+
+
+def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
+    assert np.array_equal(sphere.render(size=160, color="vel").pixels, sphere.render(size=160, color="|vel|").pixels)
+    assert sphere.render(size=64, color="vel").field == "|vel|"
+
+
+def test_a_bar_tells_what_colours_stand_for(sphere):
+    with_bar = sphere.render(size=(200, 150), color="r", background="black").pixels
+    without = sphere.render(size=(200, 150), color="r", background="black", bar=False).pixels
+    assert (with_bar[:, -30:, :3] != 0).any(axis=2).mean() > (without[:, -30:, :3] != 0).any(axis=2).mean()
+    assert (with_bar[:, -66:, :3].max(axis=(0, 1)) > 200).all()  # letters are white on black
 
 
 def test_a_picture_is_an_array(sphere):
@@ -60,6 +111,13 @@ def test_a_picture_is_an_array(sphere):
     (dict(background=(2, 0, 0)), "from 0 to 1"),
     (dict(eye=[0, 0]), "list of 3"),
     (dict(fov=0), "field of view"),
+    (dict(log=True, colormap="tab10", color="r"), "one of categories"),
+    (dict(log=True, range=(-1, 1), color="r"), "above 0"),
+    (dict(exaggerate=[1, 1, 0]), "above 0"),
+    (dict(lights=[[0, 0, 0]]), "from nowhere|not zero|direction"),
+    (dict(lights=[1, 2]), "list of 3"),
+    (dict(material={"gloss": 1}), "gloss"),
+    (dict(passes={"fills": 1}), "fills"),
 ])
 def test_mistakes_get_a_sentence(sphere, options, message):
     with pytest.raises((ValueError, KeyError, TypeError), match=message):

@@ -53,6 +53,49 @@ def test_views_look_into_the_memory_of_the_library():
         samples["a"][0] = 5
 
 
+def test_records_of_empty_are_taken_as_they_are():
+    records = uvol.empty(3, {"a": "f8", "v": ("f4", 3), "n": "i2", "b": bool})
+    assert records.dtype["x"] == np.float32 and records["v"].shape == (3, 3) and not records["a"].any()
+    for axis, name in enumerate("xyz"):
+        records[name] = POINTS[:, axis]
+    records["a"] = 1, 2, 3
+    address = records.__array_interface__["data"][0]
+    samples = uvol.Samples(records)
+    assert samples.records.__array_interface__["data"][0] == address and not records.flags.writeable
+    assert samples["a"].tolist() == [1, 2, 3] and np.array_equal(samples.points, POINTS.astype(np.float32))
+    again = uvol.Samples(records)  # like any other array by now
+    assert again.records.tobytes() == samples.records.tobytes()
+    assert again.records.__array_interface__["data"][0] != address
+    assert len(uvol.Samples(uvol.empty(0, {"a": "f4"}))) == 0
+
+
+def test_parts_of_records_of_empty_are_copied():
+    for choose in (lambda records: records[1:], lambda records: records[::2], lambda records: records[["x", "y", "z"]]):
+        records = uvol.empty(4, {"a": "f4"})
+        records["x"] = records["a"] = 1, 2, 3, 4
+        part = choose(records)
+        samples = uvol.Samples(part)
+        assert records.flags.writeable and len(samples) == len(part)
+        assert samples.points[:, 0].tolist() == part["x"].tolist()
+
+
+@pytest.mark.parametrize("count, fields, error, message", [
+    (-1, {}, ValueError, "from 0"),
+    (1.5, {}, TypeError, "whole number"),
+    (3, ["a"], TypeError, "must be a dictionary"),
+    (3, {"x": "f4"}, ValueError, "is a coordinate"),
+    (3, {"_": "f4"}, ValueError, "padding"),
+    (3, {"a": object}, ValueError, "must hold numbers"),
+    (3, {"a": ("f4", (2, 2))}, ValueError, "must hold numbers"),
+    (3, {"a": "q9"}, TypeError, "not understood"),
+    (2**40, {"a": "f8"}, ValueError, "whole number"),
+    (2**31 - 1, {"a": ("f8", 10**6)}, MemoryError, "not enough memory"),
+])
+def test_records_that_cannot_be_get_a_sentence(count, fields, error, message):
+    with pytest.raises(error, match=message):
+        uvol.empty(count, fields)
+
+
 def test_views_outlive_their_samples():
     values = uvol.Samples(np.random.default_rng(1).random((10000, 3)), {"a": np.arange(10000)})["a"]
     again = [uvol.Samples(np.zeros((10000, 3))) for _ in range(5)]
@@ -147,6 +190,45 @@ def test_files_give_back_what_they_got(tmp_path, ending):
 def test_what_is_no_sample_gets_a_sentence(points, fields, message):
     with pytest.raises(ValueError, match=message):
         uvol.Samples(points, fields)
+
+
+def test_densities_and_outer_layers_are_those_of_uvol_convert(tmp_path, run_tool):
+    points = np.random.default_rng(6).random((400, 3))
+    uvol.Samples(points, {"mass": np.full(400, 0.5)}).save(tmp_path / "in.ply")
+    for arguments, length in (([], 0.0), (["-density-length", "0.1"], 0.1)):
+        run_tool("uvol_convert", "in.ply", "tool.ply", "-density", *arguments)
+        samples = uvol.read(tmp_path / "in.ply").density(length)
+        assert np.array_equal(samples["sph_density"], uvol.read(tmp_path / "tool.ply")["sph_density"])
+    run_tool("uvol_isosurface", "in.ply", "tool.ply", "-iso", "100", "-density", "-outside-value", "0")
+    closed = uvol.read(tmp_path / "in.ply").density().outer_layer(0.0, "sph_density")
+    assert len(closed) > 400 and (closed["sph_density"][400:] == 0).all()
+    uvol.isosurface(closed, field="sph_density", iso=100, interpolation="linear").save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    with pytest.raises(ValueError, match="smoothing length"):
+        closed.density(-1)
+    with pytest.raises(ValueError, match="'q' is none"):
+        closed.outer_layer(0.0, "q")
+
+
+def test_kinds_of_particles(tmp_path):
+    uvol.Samples(POINTS).save(tmp_path / "a.ply")
+    with pytest.raises(ValueError, match="in snapshots only"):
+        uvol.read(tmp_path / "a.ply", particles="dm")
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "snap.hdf5", "w") as file:
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [3, 2, 0, 0, 0, 0]
+        for kind, count in ((0, 3), (1, 2)):
+            group = file.create_group(f"PartType{kind}")
+            group["Coordinates"] = POINTS[:count]
+            group["Masses"] = np.arange(count, dtype=float)
+    assert len(uvol.read(tmp_path / "snap.hdf5")) == 3
+    assert len(uvol.read(tmp_path / "snap.hdf5", particles="dm")) == 2
+
+
+def test_meshes_come_back_with_their_fields(tmp_path):
+    samples = uvol.Samples(POINTS, {"a": [1.5, 2.5, 3.5]})
+    samples.save(tmp_path / "points.ply")
+    assert uvol.read_mesh(tmp_path / "points.ply")[1].shape == (0, 3)
 
 
 def test_a_missing_field_gets_a_proposal():

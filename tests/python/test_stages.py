@@ -39,11 +39,25 @@ def test_a_level_set_tells_of_its_steps(ball):
 
 def test_the_choice_of_a_weight_tells_its_progress(ball):
     points, fields = ball
-    noisy = fields["r"] + 0.03 * np.random.default_rng(8).standard_normal(len(points))
+    random = np.random.default_rng(8)
+    points = random.random((40000, 3))  # enough to take some time
+    noisy = np.linalg.norm(points - 0.5, axis=1) + 0.03 * random.standard_normal(len(points))
     told = []
     uvol.level_set(points, {"r": noisy}, iso=0.3, progress=lambda step, done: told.append((step, done)))
     choice = [done for step, done in told if step == "mu"]
     assert len(choice) > 0 and choice == sorted(choice) and choice[-1] <= 1
+
+
+def test_snapshots_of_a_level_set_are_those_of_the_tool(tmp_path, run_tool, ball):
+    uvol.Samples(*ball).save(tmp_path / "in.ply")
+    run_tool("uvol_levelset", "in.ply", "out.ply", "-field", "r", "-iso", "0.3", "-mu", "0.5", "-snapshots", "5")
+    smooth = uvol.level_set(uvol.read(tmp_path / "in.ply"), field="r", iso=0.3, mu=0.5, snapshots=5)
+    files = sorted(tmp_path.glob("out_*.ply"))
+    assert len(files) == len(smooth.snapshots) > 0
+    for path, (steps, surface) in zip(files, smooth.snapshots):
+        assert path.stem == f"out_{steps:05}"
+        surface.save(tmp_path / "module.ply")
+        assert (tmp_path / "module.ply").read_bytes() == path.read_bytes()
 
 
 def test_normals(tmp_path, run_tool, sphere):
@@ -81,6 +95,27 @@ def test_clusters(tmp_path, run_tool, groups):
     clusters = uvol.cluster(uvol.read(tmp_path / "in.csv"), attributes=["a", "b"])
     assert np.array_equal(tool["label"], clusters.labels)
     assert np.array_equal(tool["probability"].astype(np.float32), clusters.probabilities)
+
+
+@pytest.mark.parametrize("kind, options, arguments", [
+    ("membership", {}, []),
+    ("membership", dict(smoothing_length="h", scale="auto"), ["-smoothing-length", "h", "-scale", "auto"]),
+    ("distance", dict(cells=30, distance=0.2), ["-grid", "30", "-distance", "0.2"]),
+    ("hull", {}, []),
+    ("hull-distance", dict(cells=20), ["-grid", "20"]),
+])
+def test_surfaces_of_clusters(tmp_path, run_tool, groups, kind, options, arguments):
+    groups = uvol.Samples(groups.points, {**{name: groups[name] for name in "abc"}, "h": np.full(300, 0.1)})
+    groups.save(tmp_path / "in.ply")
+    run_tool("uvol_cluster", "in.ply", "tool.ply", "-attributes", "a,b", "-cluster", "1", "-surface", kind, *arguments)
+    clusters = uvol.cluster(uvol.read(tmp_path / "in.ply"), attributes=["a", "b"])
+    found = clusters.surface(1, kind, **options)
+    surface, triangles = found if kind != "membership" else (found, np.empty((0, 3)))
+    points, tool_triangles = uvol.read_mesh(tmp_path / "tool.ply")
+    assert np.array_equal(points.points, surface.points) and np.array_equal(tool_triangles, triangles)
+    assert len(surface) > 10 and len(clusters.take(1)) == (clusters.labels == 1).sum()
+    with pytest.raises(ValueError, match="cluster"):
+        clusters.surface(7, kind)
 
 
 def test_projections(tmp_path, run_tool, groups):

@@ -366,6 +366,23 @@ TEST(ClusterSurfaces, RefuseWhatTheyCannotEnclose)
   }
 }
 
+TEST(ClusterSurfaces, RefuseWhatIsLargerThanFloat)
+{
+  // The largest corners of boxes are where floats end, or their diagonals are.
+  for (const double side : {2.5e38, 3e38})
+    for (const auto kind : all_kinds) {
+      std::vector<Vector3d> places = ballOf(500, 4);
+      for (Vector3d& place : places)
+        place *= side / 2.0;
+      const Cluster ball(places);
+      EXPECT_THROW(ball.enclose(kind, 0.0, 20), InvalidArgument) << side;
+    }
+  std::vector<Vector3d> small = ballOf(500, 4);
+  for (Vector3d& place : small)
+    place *= 1e37;
+  EXPECT_NO_THROW(Cluster(small).enclose(ClusterSurfaceKind::Hull, 0.0, 20));
+}
+
 TEST(ClusterSurfaces, SayHowFineTheGridMustBe)
 {
   try {

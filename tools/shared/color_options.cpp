@@ -5,13 +5,6 @@
 
 namespace uvol_tools {
 
-namespace {
-
-constexpr const char* of_values = "viridis";
-constexpr const char* of_categories = "tab10";
-
-} // namespace
-
 void
 ColorOptions::declare(Options& options)
 {
@@ -48,18 +41,14 @@ ColorOptions::check() const
 pcl_uvol::ColorMap
 ColorOptions::getMap() const
 {
-  return pcl_uvol::ColorMap(map_ == "auto" ? of_values : map_);
+  return map_ == "auto" ? pcl_uvol::ColorMap() : pcl_uvol::ColorMap(map_);
 }
 
 pcl_uvol::ColorMapping
 ColorOptions::mapFor(const pcl_uvol::CloudView& cloud, const std::string& field) const
 {
-  const bool may_be_categories = map_ == "auto" && !is_logarithmic_ && range_.empty() &&
-                                 field != "rgb" && field != "rgba" && !field.empty();
-  const pcl_uvol::ColorMap categories(of_categories);
-  if (may_be_categories &&
-      pcl_uvol::listCategories(cloud, field, categories.size()).size() > 1)
-    return {categories, std::nullopt, false};
+  if (map_ == "auto" && !is_logarithmic_ && range_.empty())
+    return pcl_uvol::usualColorMapping(cloud, field);
   return {getMap(), getRange(), is_logarithmic_};
 }
 

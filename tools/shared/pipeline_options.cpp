@@ -107,7 +107,8 @@ PipelineOptions::needsAllSamples() const
          std::isfinite(outside_value) || parameters.smooth ||
          parameters.automatic_scale || !where.empty() ||
          parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
-         mesh_.isMeasured() || parameters.isosurface.neighbors != NeighborSource::KdTree;
+         mesh_.isMeasured() ||
+         parameters.isosurface.neighbors != NeighborSource::KdTree;
 }
 
 bool
@@ -139,7 +140,8 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -periodic, -smooth, "
-        "-where, -scale auto, -validate, -fill-gaps, -mesh, -measure, -neighbors voronoi "
+        "-where, -scale auto, -validate, -fill-gaps, -mesh, -measure, -neighbors "
+        "voronoi "
         "or exact and derivatives as fields, which need all samples in "
         "memory.");
   if (periodic.isAskedFor() &&

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/probe_run.h"
 
-#include "common/scalar_field.h"
 #include "io/lattice_file.h"
 #include "neighbors/periodic_box.h"
 #include "shared/point_files.h"
@@ -70,21 +69,6 @@ private:
   AnswerSummary& summary_;
   Report& report_;
 };
-
-/** The type of a field's values in a grid: that of its samples, if it is floating. */
-std::uint8_t
-valueTypeOf(const Dataset& samples, const std::string& name)
-{
-  using Type = pcl::PCLPointField;
-  const pcl_uvol::ScalarField field(samples.cloud.fields, name);
-  const auto& components = field.getComponents();
-  const bool is_short =
-      std::all_of(components.begin(), components.end(), [](const auto& component) {
-        return component.datatype == Type::FLOAT32 ||
-               pcl_uvol::datatypeSize(component.datatype) <= 2;
-      });
-  return is_short ? Type::FLOAT32 : Type::FLOAT64;
-}
 
 /** Put numbers in double as an array's type. */
 void
@@ -218,7 +202,8 @@ Runner::listArrays() const
   using Type = pcl::PCLPointField;
   std::vector<pcl_uvol::LatticeArray> arrays;
   for (const std::string& name : probe_.interpolator.getNames()) {
-    arrays.push_back({name, valueTypeOf(samples_, name), 1});
+    arrays.push_back(
+        {name, pcl_uvol::detail::fileTypeOf(samples_.cloud.fields, name), 1});
     arrays.push_back({name + "_error", Type::FLOAT32, 1});
     if (probe_.parameters.gradients)
       arrays.push_back({name + "_gradient", Type::FLOAT32, 3});

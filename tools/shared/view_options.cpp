@@ -6,8 +6,8 @@
 #include "render/camera_choice.h"
 #include "render/image_space/frame.h"
 #include "render/point_colors.h"
+#include "render/stretch_surface.h"
 #include "shared/point_files.h"
-#include "shared/stretch_surface.h"
 
 #include <algorithm>
 #include <charconv>
@@ -269,7 +269,7 @@ void
 ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
 {
   if (isExaggerated())
-    stretchSurface(surface, toVector(exaggeration_));
+    pcl_uvol::stretchSurface(surface, toVector(exaggeration_));
 }
 
 pcl_uvol::Camera

@@ -2,9 +2,13 @@
 // Clusters of samples by their attributes, and projections that keep them apart.
 #include "core/bindings.h"
 #include "core/run_stage.h"
+#include "pipeline/membership_surface.h"
+#include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/multivariate/star_coordinates.h>
 
+#include <array>
+#include <numeric>
 #include <pybind11/stl.h>
 #include <string>
 #include <vector>
@@ -92,6 +96,37 @@ projectPoints(const DatasetPtr& dataset,
                         report);
 }
 
+/** The surface between the samples of a cluster and the others.
+ * \param labels one per point
+ * \param parameters JSON of MembershipParameters */
+py::tuple
+separateCluster(const DatasetPtr& dataset,
+                const std::vector<int>& labels,
+                const std::array<float, 3>& scale,
+                const std::string& parameters,
+                unsigned threads,
+                const py::object& progress)
+{
+  const auto how = MembershipParameters::fromJson(parameters);
+  Dataset surface;
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    const CloudView cloud = viewOf(dataset->cloud);
+    pcl::Indices all(cloud.count);
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<float> members =
+        detail::computeMembership(cloud, all, labels, how, threads, report);
+    surface = extractMembershipSurface(*dataset,
+                                       members,
+                                       Eigen::Array3f(scale.data()),
+                                       !how.smoothing_length.empty(),
+                                       threads,
+                                       report);
+  });
+  return py::make_tuple(share(std::move(surface)), toDict(report));
+}
+
 } // namespace
 
 void
@@ -99,6 +134,7 @@ bindClusterStages(py::module_& module)
 {
   module.def("find_clusters", &findClusters);
   module.def("project_points", &projectPoints);
+  module.def("separate_cluster", &separateCluster);
 }
 
 } // namespace pcl_uvol::python

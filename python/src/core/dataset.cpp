@@ -3,13 +3,16 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
-#include "core/interruptible.h"
+#include "interpolation/outer_layer.h"
+#include "interpolation/sph_density.h"
 #include "pipeline/dataset_info.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/expressions/derived_fields.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <pybind11/stl.h>
 #include <string>
@@ -135,6 +138,57 @@ withField(const DatasetPtr& dataset,
   return py::make_tuple(result, toText(name), toDict(report));
 }
 
+/** A copy with the field sph_density.
+ * \param length of all particles; 0: by their field, or by neighbours */
+py::tuple
+withDensity(const DatasetPtr& dataset,
+            double length,
+            unsigned threads,
+            const py::object& progress)
+{
+  if (!std::isfinite(length) || length < 0.0)
+    throw InvalidArgument("A smoothing length is a number from 0.");
+  auto result = std::make_shared<Dataset>(*dataset);
+  const SphParameters fields = findSphFields(dataset->cloud.fields);
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    setField(*result,
+             "sph_density",
+             computeSphDensity(viewOf(dataset->cloud),
+                               fields,
+                               {length, lengthFactorOf(fields.length_field)},
+                               threads,
+                               report));
+  });
+  if (fields.mass_field.empty())
+    report.warnings.push_back(
+        "There is no field of masses: sph_density counts particles per volume.");
+  return py::make_tuple(result, toDict(report));
+}
+
+/** A copy with samples of a value outside of the others. */
+py::tuple
+withOuterLayer(const DatasetPtr& dataset,
+               const std::string& field,
+               double value,
+               unsigned threads,
+               const py::object& progress)
+{
+  auto result = std::make_shared<Dataset>(*dataset);
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    addOuterLayer(*result,
+                  field.empty() ? ScalarField::defaultName(dataset->cloud.fields)
+                                : field,
+                  value,
+                  threads,
+                  report);
+  });
+  return py::make_tuple(result, toDict(report));
+}
+
 py::tuple
 selectPoints(const Dataset& dataset, const std::string& where, unsigned threads)
 {
@@ -244,6 +298,8 @@ bindDataset(py::module_& module)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
       .def_readonly("notes", &Dataset::notes)
       .def("with_field", &withField)
+      .def("with_density", &withDensity)
+      .def("with_outer_layer", &withOuterLayer)
       .def("select", &selectPoints)
       .def("take", &takePoints)
       .def("read_scalar", &readScalar)

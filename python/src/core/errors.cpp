@@ -4,6 +4,7 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <exception>
+#include <new>
 #include <pybind11/stl.h>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,10 @@ bindErrors(py::module_& module)
       raise(isOfMissingField(error.message()) ? errors.attr("FieldError")
                                               : py::handle(PyExc_ValueError),
             error.message());
+    }
+    catch (const std::bad_alloc& error) {
+      const bool is_told = std::string(error.what()) != std::bad_alloc().what();
+      raise(PyExc_MemoryError, is_told ? error.what() : "There is not enough memory.");
     }
     catch (const std::length_error&) { // of a vector longer than any memory
       raise(PyExc_MemoryError, "There is not enough memory.");

@@ -2,10 +2,10 @@
 // Fields between the samples: a model that answers queries, and the places of lines,
 // slices and grids.
 #include "core/bindings.h"
-#include "core/interruptible.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/query_lattice.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
@@ -100,6 +100,34 @@ public:
     return py::make_tuple(result, toDict(report));
   }
 
+  /** How well fields are told at samples that are left out.
+   * \param by random, blocks, or a field whose values stay together */
+  py::tuple
+  validate(std::size_t folds,
+           const std::string& by,
+           unsigned threads,
+           const py::object& progress) const
+  {
+    std::vector<FieldScore> scores;
+    Report report;
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      report.progress = callback;
+      scores = crossValidate(
+          view_, indices_, parameters_, split(folds, by, threads), 0, threads, report);
+    });
+    py::dict fields;
+    for (const FieldScore& score : scores) {
+      py::dict dict;
+      dict["tested"] = score.tested;
+      dict["covered"] = score.covered;
+      dict["rms"] = score.rms;
+      dict["bias"] = score.bias;
+      dict["within_error"] = score.share;
+      fields[toText(score.field)] = dict;
+    }
+    return py::make_tuple(fields, toDict(report));
+  }
+
   py::list
   getNames() const
   {
@@ -107,6 +135,13 @@ public:
     for (const std::string& name : interpolator_->getNames())
       names.append(toText(name));
     return names;
+  }
+
+  /** Whether values of a field are float32 in files, see fileTypeOf(). */
+  bool
+  isShort(const std::string& name) const
+  {
+    return detail::fileTypeOf(view_.fields, name) == pcl::PCLPointField::FLOAT32;
   }
 
   std::string
@@ -122,6 +157,16 @@ public:
   }
 
 private:
+  Folds
+  split(std::size_t folds, const std::string& by, unsigned threads) const
+  {
+    if (by == "random")
+      return Folds::byRandom(view_.count, folds);
+    if (by == "blocks")
+      return Folds::byBlocks(view_, folds, threads);
+    return Folds::byField(view_, by, folds);
+  }
+
   static py::dict
   toAnswers(InterpolatedFields&& answers, const Report& report)
   {
@@ -199,6 +244,8 @@ bindInterpolation(py::module_& module)
                     const py::object&>())
       .def("answer", &Interpolator::answer)
       .def("probe", &Interpolator::probe)
+      .def("validate", &Interpolator::validate)
+      .def("is_short", &Interpolator::isShort)
       .def_property_readonly("names", &Interpolator::getNames)
       .def_property_readonly("parameters", &Interpolator::getParameters)
       .def_property_readonly("report", &Interpolator::getReport);

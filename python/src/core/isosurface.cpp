@@ -2,9 +2,9 @@
 // The pipeline from samples to an isosurface, which keeps its tree.
 #include "common/memory.h"
 #include "core/bindings.h"
-#include "core/interruptible.h"
 #include "pipeline/memory_need.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <memory>
@@ -147,16 +147,6 @@ describe(const IsosurfaceResult& result)
   return report;
 }
 
-py::array_t<std::uint32_t>
-toIndices(const std::vector<Triangle>& triangles)
-{
-  std::vector<std::uint32_t> indices;
-  indices.reserve(3 * triangles.size());
-  for (const Triangle& triangle : triangles)
-    indices.insert(indices.end(), triangle.begin(), triangle.end());
-  return toArray(std::move(indices), {static_cast<py::ssize_t>(triangles.size()), 3});
-}
-
 /** A pipeline for one caller at a time. */
 class Extractor {
 public:
@@ -174,8 +164,9 @@ public:
       result = run(samples, parameters, threads, callback);
     });
     const py::dict report = describe(result);
-    return py::make_tuple(
-        share(std::move(result.surface)), toIndices(result.triangles), report);
+    return py::make_tuple(share(std::move(result.surface)),
+                          toIndices(std::move(result.triangles)),
+                          report);
   }
 
 private:

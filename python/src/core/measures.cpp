@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures of meshes.
 #include "core/bindings.h"
-#include "core/interruptible.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
@@ -68,19 +68,8 @@ toList(const std::vector<PieceMeasures>& pieces)
   return list;
 }
 
-using TriangleArray = py::array_t<std::uint32_t, py::array::c_style>;
-
-std::vector<Triangle>
-readTriangles(const TriangleArray& indices)
-{
-  std::vector<Triangle> triangles(static_cast<std::size_t>(indices.shape(0)));
-  const auto rows = indices.unchecked<2>();
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      triangles[i][corner] =
-          rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
-  return triangles;
-}
+using TriangleArray =
+    py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
 
 /** \param samples null: none
  * \return figures of isovalues and of pieces, shares of the vertices in the area, the
@@ -95,7 +84,7 @@ measure(const DatasetPtr& vertices,
 {
   SurfaceMeasures measures;
   measures.setParameters(SurfaceMeasuresParameters::fromJson(parameters));
-  measures.setInputSurface(vertices, readTriangles(triangles));
+  measures.setInputSurface(vertices, toTriangles(triangles));
   measures.setInputSamples(samples);
   measures.setNumberOfThreads(threads);
   SurfaceFigures figures;

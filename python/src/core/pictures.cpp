@@ -2,16 +2,16 @@
 // Pictures of points with normals, on the CPU: no display, no OpenGL.
 #include "common/parameter_json.h"
 #include "core/bindings.h"
-#include "core/interruptible.h"
-#include "core/picture_parameters.h"
-#include "render/camera_choice.h"
 #include "render/image_space/frame.h"
-#include "render/point_colors.h"
+#include "render/stretch_surface.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
+#include "shared/look.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <algorithm>
+#include <optional>
 #include <pybind11/stl.h>
 #include <string>
 
@@ -21,89 +21,41 @@ namespace py = pybind11;
 
 namespace {
 
-Color
-toColor(const Eigen::Array3d& numbers)
-{
-  if (!(numbers >= 0.0).all() || !(numbers <= 1.0).all())
-    throw InvalidArgument("A colour is red, green and blue, from 0 to 1 each.");
-  return {static_cast<float>(numbers[0]),
-          static_cast<float>(numbers[1]),
-          static_cast<float>(numbers[2])};
-}
-
-Background
-makeBackground(const PictureParameters& parameters)
-{
-  Background background;
-  if (parameters.background == BackgroundKind::Gradient)
-    background.kind = Background::Kind::Gradient;
-  else if (parameters.background == BackgroundKind::Transparent)
-    background.kind = Background::Kind::Transparent;
-  else if (parameters.background == BackgroundKind::Black)
-    background.color = {0.0f, 0.0f, 0.0f};
-  if (parameters.background_color)
-    background.color = toColor(*parameters.background_color);
-  return background;
-}
-
-Material
-makeMaterial(const PictureParameters& parameters)
-{
-  Material material;
-  if (parameters.surface_color)
-    material.color = toColor(*parameters.surface_color);
-  return material;
-}
-
-Camera
-makeCamera(const PictureParameters& parameters,
-           const BoundingSphere& bounds,
-           const Dataset& points,
-           const CloudView& cloud)
-{
-  const auto vector = [](const std::optional<Eigen::Array3d>& numbers) {
-    return numbers ? std::optional<Eigen::Vector3d>(numbers->matrix()) : std::nullopt;
-  };
-  return chooseCamera({parameters.view,
-                       vector(parameters.eye),
-                       vector(parameters.at),
-                       vector(parameters.up),
-                       parameters.fov,
-                       parameters.zoom},
-                      bounds,
-                      points.origin,
-                      static_cast<double>(parameters.width) / parameters.height,
-                      &cloud);
-}
-
-std::string
-colorField(const PictureParameters& parameters, const CloudView& cloud)
-{
-  if (parameters.color == "auto")
-    return usualColorField(cloud);
-  return parameters.color == "none" ? "" : parameters.color;
-}
-
-/** \throws InvalidArgument for what would divide by zero before the renderer looks */
-PictureParameters
-readParameters(const std::string& json)
-{
-  const auto parameters = readJson<PictureParameters>(json);
-  if (parameters.width < 1 || parameters.height < 1)
-    throw InvalidArgument("A picture is at least 1 x 1 pixels.");
-  if (parameters.range && !((*parameters.range)[0] < (*parameters.range)[1]))
-    throw InvalidArgument("The range of colours is two numbers, the lower one first.");
-  return parameters;
-}
-
-/** Pixels, the values at the ends of the colours, and the report. */
+/** A picture that is made, and what its colours stand for. */
 struct Drawing {
+  /** \param surface must outlive it, unless it is stretched */
+  Drawing(const DatasetPtr& surface, const PictureParameters& asked)
+      : parameters(asked)
+      , points(surface)
+  {
+    if (parameters.exaggerate) {
+      points = std::make_shared<Dataset>(*surface);
+      stretchSurface(*points, parameters.exaggerate->matrix());
+    }
+    cloud = viewOf(points->cloud);
+    field = findColorField(parameters, cloud);
+    if (!field.empty())
+      mapping = makeColorMapping(parameters, cloud, field);
+  }
+
+  /** Columns for the surface. */
+  int
+  width() const
+  {
+    return parameters.width - parameters.margin;
+  }
+
+  const PictureParameters& parameters;
+  DatasetPtr points;
+  CloudView cloud;
+  std::string field;
+  ColorMapping mapping;
   Image image;
   std::array<double, 2> range{{0.0, 1.0}};
-  std::string field;
   Report report;
 };
 
+/** Pixels, field, values at the ends of the colours, and the report. */
 py::tuple
 toTuple(Drawing&& drawing)
 {
@@ -117,51 +69,63 @@ toTuple(Drawing&& drawing)
 }
 
 void
-draw(const DatasetPtr& points,
-     const PictureParameters& parameters,
-     unsigned threads,
-     Drawing& drawing)
+applyPasses(const PictureParameters& parameters, ImageSpaceSettings& settings)
 {
-  const CloudView cloud = viewOf(points->cloud);
-  ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
-  renderer.setInputCloud(pcl::PCLPointCloud2::ConstPtr(points, &points->cloud));
-  ImageSpaceSettings& settings = renderer.settings();
-  settings.background = makeBackground(parameters);
-  settings.material = makeMaterial(parameters);
+  const PassParameters& passes = parameters.passes;
   settings.cull_back_faces = parameters.culling;
   settings.footprints = parameters.footprints;
+  settings.background_fill = passes.fill;
+  settings.occluded_fill = passes.occluded;
+  settings.layer_distance = passes.layers;
+  settings.shading = passes.shading;
+  settings.smoothing = passes.smoothing;
+  settings.smoothing_iterations = passes.smoothings;
   settings.silhouettes = parameters.silhouettes;
+  settings.silhouette_threshold = passes.silhouette_threshold;
   settings.silhouette_thickness = parameters.thickness;
   settings.feature_lines = parameters.features;
+  settings.feature_threshold = passes.feature_threshold;
   if (parameters.line_color)
     settings.line_color = toColor(*parameters.line_color);
-  drawing.field = colorField(parameters, cloud);
+  settings.anti_aliasing = passes.antialias;
+  settings.anti_aliasing_threshold = passes.antialias_threshold;
+}
+
+void
+draw(Drawing& drawing, unsigned threads)
+{
+  const PictureParameters& parameters = drawing.parameters;
+  ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
+  renderer.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(drawing.points, &drawing.points->cloud));
+  ImageSpaceSettings& settings = renderer.settings();
+  applyPasses(parameters, settings);
+  settings.background = makeBackground(parameters);
+  settings.material = makeMaterial(parameters);
+  settings.lights = makeLights(parameters);
   renderer.setColorField(drawing.field);
-  renderer.setColorMap(ColorMap(parameters.colormap));
-  if (parameters.range)
-    renderer.setColorRange((*parameters.range)[0], (*parameters.range)[1]);
+  renderer.setColorMap(drawing.mapping.map);
+  renderer.setLogarithmicColors(drawing.mapping.is_logarithmic);
+  if (const auto& range = drawing.mapping.range)
+    renderer.setColorRange((*range)[0], (*range)[1]);
   renderer.setNumberOfThreads(threads);
   renderer.setProgressCallback(drawing.report.progress);
-  renderer.setSize(parameters.width, parameters.height);
+  renderer.setSize(drawing.width(), parameters.height);
   const int largest = std::max(parameters.width, parameters.height);
   const int usual = 2 * largest <= View::largest_size ? 2 : 1;
   renderer.setSupersampling(parameters.supersample > 0 ? parameters.supersample
                                                        : usual);
-  renderer.setCamera(makeCamera(parameters, renderer.getBounds(), *points, cloud));
+  renderer.setCamera(makeCamera(
+      parameters, renderer.getBounds(), drawing.points->origin, &drawing.cloud));
   renderer.render(drawing.image);
   drawing.range = renderer.getColorRange();
   drawing.report.merge(renderer.getReport());
 }
 
 SplatObject
-coverPoints(const Dataset& points,
-            const PictureParameters& parameters,
-            const RayParameters& rays,
-            unsigned threads,
-            Drawing& drawing)
+coverPoints(const RayParameters& rays, unsigned threads, Drawing& drawing)
 {
-  const CloudView cloud = viewOf(points.cloud);
-  const Splats splats = findSplats(cloud,
+  const Splats splats = findSplats(drawing.cloud,
                                    rays.splats.value_or(SplatParameters()),
                                    rays.splats.has_value(),
                                    threads,
@@ -169,19 +133,14 @@ coverPoints(const Dataset& points,
   if (splats.cloud.empty())
     throw InvalidArgument("None of the splats is usable.");
   SplatObject object;
-  drawing.field = colorField(parameters, cloud);
   if (!drawing.field.empty()) {
-    std::optional<std::array<double, 2>> range;
-    if (parameters.range)
-      range = {(*parameters.range)[0], (*parameters.range)[1]};
-    const auto colored = colorPoints(
-        cloud, drawing.field, {ColorMap(parameters.colormap), range, false});
+    const auto colored = colorPoints(drawing.cloud, drawing.field, drawing.mapping);
     drawing.range = {colored.scale.low, colored.scale.high};
     for (const std::uint32_t source : splats.sources)
       object.colors.push_back(colored.colors[source]);
   }
   object.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(splats.cloud);
-  static_cast<Material&>(object.material) = makeMaterial(parameters);
+  static_cast<Material&>(object.material) = makeMaterial(drawing.parameters);
   object.material.reflectivity = rays.reflect;
   object.material.transparency = rays.transparent;
   object.material.refractive_index = rays.index;
@@ -189,14 +148,12 @@ coverPoints(const Dataset& points,
 }
 
 void
-trace(const DatasetPtr& points,
-      const PictureParameters& parameters,
-      const RayParameters& rays,
-      unsigned threads,
-      Drawing& drawing)
+trace(const RayParameters& rays, Drawing& drawing, unsigned threads)
 {
+  const PictureParameters& parameters = drawing.parameters;
   Scene scene;
-  scene.splats.push_back(coverPoints(*points, parameters, rays, threads, drawing));
+  scene.splats.push_back(coverPoints(rays, threads, drawing));
+  scene.lights = makeLights(parameters);
   scene.background = makeBackground(parameters);
   RayTracer tracer;
   tracer.setScene(scene);
@@ -208,12 +165,31 @@ trace(const DatasetPtr& points,
   settings.occlusion_distance = rays.occlusion_distance;
   tracer.setNumberOfThreads(threads);
   tracer.setProgressCallback(drawing.report.progress);
-  tracer.setSize(parameters.width, parameters.height);
+  tracer.setSize(drawing.width(), parameters.height);
   tracer.setSupersampling(std::max(parameters.supersample, 1));
-  const CloudView cloud = viewOf(points->cloud);
-  tracer.setCamera(makeCamera(parameters, tracer.getBounds(), *points, cloud));
+  tracer.setCamera(makeCamera(
+      parameters, tracer.getBounds(), drawing.points->origin, &drawing.cloud));
   tracer.render(drawing.image);
   drawing.report.merge(tracer.getReport());
+}
+
+/** \param work draws, and tells the drawing's report */
+template <typename Work>
+py::tuple
+drawInterruptibly(const DatasetPtr& points,
+                  const std::string& json,
+                  const py::object& progress,
+                  const Work& work)
+{
+  const PictureParameters parameters = readPictureParameters(json);
+  std::optional<Drawing> drawing;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    drawing.emplace(points, parameters);
+    drawing->report.progress = callback;
+    work(*drawing);
+    addMargin(drawing->image, makeBackground(parameters), parameters.margin);
+  });
+  return toTuple(std::move(*drawing));
 }
 
 py::tuple
@@ -222,13 +198,8 @@ renderPoints(const DatasetPtr& points,
              unsigned threads,
              const py::object& progress)
 {
-  const PictureParameters parameters = readParameters(json);
-  Drawing drawing;
-  runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    drawing.report.progress = callback;
-    draw(points, parameters, threads, drawing);
-  });
-  return toTuple(std::move(drawing));
+  return drawInterruptibly(
+      points, json, progress, [&](Drawing& drawing) { draw(drawing, threads); });
 }
 
 py::tuple
@@ -238,14 +209,18 @@ tracePoints(const DatasetPtr& points,
             unsigned threads,
             const py::object& progress)
 {
-  const PictureParameters parameters = readParameters(json);
   const auto rays = readJson<RayParameters>(ray_json);
-  Drawing drawing;
-  runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    drawing.report.progress = callback;
-    trace(points, parameters, rays, threads, drawing);
-  });
-  return toTuple(std::move(drawing));
+  return drawInterruptibly(
+      points, json, progress, [&](Drawing& drawing) { trace(rays, drawing, threads); });
+}
+
+/** The field that a picture is coloured by; "" for the colour of the surface. */
+py::str
+nameColorField(const Dataset& points, const std::string& color)
+{
+  PictureParameters parameters;
+  parameters.color = color;
+  return toText(findColorField(parameters, viewOf(points.cloud)));
 }
 
 } // namespace
@@ -255,6 +230,7 @@ bindPictures(py::module_& module)
 {
   module.def("render", &renderPoints);
   module.def("raytrace", &tracePoints);
+  module.def("color_field", &nameColorField);
 }
 
 } // namespace pcl_uvol::python

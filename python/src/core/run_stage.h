@@ -3,8 +3,8 @@
 // parameters in JSON.
 #pragma once
 
-#include "core/interruptible.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 
 #include <pybind11/pybind11.h>
 #include <string>

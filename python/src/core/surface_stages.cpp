@@ -3,6 +3,7 @@
 #include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/run_stage.h"
+#include "pipeline/zero_level.h"
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/splat_generation.h>
@@ -36,14 +37,24 @@ describeSteps(const std::vector<LevelSetStep>& steps)
   return list;
 }
 
+/** The surface after some steps. */
+struct Snapshot {
+  std::size_t steps;
+  Dataset surface;
+};
+
+/** \param every steps between two snapshots; 0: there are none
+ * \return the samples with phi, steps and surface of each snapshot, and the report */
 py::tuple
 evolveLevelSet(const DatasetPtr& dataset,
+               std::size_t every,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
 {
   LevelSetEvolution<Cloud> evolution;
   Cloud cloud;
+  std::vector<Snapshot> snapshots;
   py::dict report = runStage(evolution, dataset, parameters, threads, progress, [&] {
     auto shifted = evolution.getParameters();
     const Eigen::Array3d origin(dataset->origin.data());
@@ -53,6 +64,13 @@ evolveLevelSet(const DatasetPtr& dataset,
     if (shifted.field.empty())
       shifted.field = ScalarField::defaultName(dataset->cloud.fields);
     evolution.setParameters(shifted);
+    evolution.setSnapshotCallback(
+        every, [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {
+          snapshots.push_back(
+              {so_far.steps.size(),
+               extractSnapshot(
+                   *dataset, shifted, Eigen::Array3d::Zero(), phi, threads)});
+        });
     evolution.evolve(cloud);
   });
   const LevelSetSummary& summary = evolution.getSummary();
@@ -63,7 +81,10 @@ evolveLevelSet(const DatasetPtr& dataset,
   report["smoothed"] = summary.smoothed;
   report["converged"] = summary.converged;
   report["steps"] = describeSteps(summary.steps);
-  return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
+  py::list found;
+  for (Snapshot& snapshot : snapshots)
+    found.append(py::make_tuple(snapshot.steps, share(std::move(snapshot.surface))));
+  return py::make_tuple(withCloud(*dataset, std::move(cloud)), found, report);
 }
 
 py::tuple

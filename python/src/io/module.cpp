@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The extension _io: files, which take VTK's libraries with them.
+#include "io/lattice_file.h"
+#include "io/scene_file.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
+#include "shared/look.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
 
+#include <algorithm>
 #include <array>
 #include <pybind11/stl.h>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace py = pybind11;
@@ -21,21 +28,27 @@ template <typename T>
 using DenseArray = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
 DatasetPtr
-readPoints(const std::string& path, const std::array<std::string, 3>& xyz_columns)
+readPoints(const std::string& path,
+           const std::array<std::string, 3>& xyz_columns,
+           const std::string& particles)
 {
   const py::gil_scoped_release unlocked;
   LoadOptions options;
   options.xyz_columns = xyz_columns;
+  options.particles = particles;
   return share(loadDataset(path, options));
 }
 
-std::vector<Triangle>
-toTriangles(const DenseArray<std::uint32_t>& indices)
+py::tuple
+readMesh(const std::string& path)
 {
-  std::vector<Triangle> triangles(static_cast<std::size_t>(indices.shape(0)));
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    std::copy_n(indices.data() + 3 * i, 3, triangles[i].begin());
-  return triangles;
+  DatasetPtr vertices;
+  std::vector<Triangle> triangles;
+  {
+    const py::gil_scoped_release unlocked;
+    vertices = share(loadMesh(path, triangles));
+  }
+  return py::make_tuple(vertices, toIndices(std::move(triangles)));
 }
 
 /** With triangles a mesh, else points. */
@@ -60,6 +73,47 @@ writePoints(const std::string& path,
   saveMesh(path, points, mesh, options);
 }
 
+/** An array of a lattice as its file holds it. */
+LatticeArray
+describeArray(const std::string& name, const py::array& numbers)
+{
+  using Type = pcl::PCLPointField;
+  const char kind = numbers.dtype().kind();
+  const auto size = numbers.itemsize();
+  LatticeArray array{name, Type::UINT8, static_cast<std::size_t>(numbers.shape(1))};
+  if (kind == 'f' && (size == 4 || size == 8))
+    array.datatype = size == 4 ? Type::FLOAT32 : Type::FLOAT64;
+  else if (kind != 'u' || size != 1)
+    throw InvalidArgument("Files of lattices hold float32, float64 and uint8.");
+  return array;
+}
+
+/** \param arrays names and numbers, a row for each place, in the order of the places
+ */
+void
+writeLattice(const std::string& path,
+             const std::array<double, 3>& origin,
+             const std::array<std::array<double, 3>, 3>& steps,
+             const std::array<std::size_t, 3>& counts,
+             const std::vector<std::pair<std::string, py::array>>& arrays)
+{
+  detail::QueryLattice lattice;
+  lattice.origin = origin;
+  lattice.steps = steps;
+  lattice.counts = counts;
+  std::vector<LatticeArray> kinds;
+  std::vector<const void*> numbers;
+  for (const auto& [name, array] : arrays) {
+    kinds.push_back(describeArray(name, array));
+    numbers.push_back(array.data());
+  }
+  const py::gil_scoped_release unlocked;
+  saveLattice(path, lattice, kinds, [&](const PutNumbers& put) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      put(i, 0, lattice.size(), numbers[i]);
+  });
+}
+
 void
 writePng(const std::string& path, const DenseArray<std::uint8_t>& pixels)
 {
@@ -69,6 +123,51 @@ writePng(const std::string& path, const DenseArray<std::uint8_t>& pixels)
   image.color.assign(pixels.data(), pixels.data() + pixels.size());
   const py::gil_scoped_release unlocked;
   savePng(path, image);
+}
+
+/** A scene of a file, seen as the file says unless parameters say otherwise.
+ * \param given names of the parameters that take the place of what the file says */
+py::tuple
+traceScene(const std::string& path,
+           const std::string& folder,
+           const std::string& json,
+           const std::set<std::string>& given,
+           unsigned threads,
+           const py::object& progress)
+{
+  const PictureParameters parameters = readPictureParameters(json);
+  Image image;
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    SceneFile file = loadScene(path, folder, threads, report);
+    if (given.count("background") != 0)
+      file.scene.background = makeBackground(parameters);
+    RayTracer tracer;
+    tracer.setScene(file.scene);
+    tracer.settings() = file.settings;
+    tracer.setNumberOfThreads(threads);
+    tracer.setProgressCallback(callback);
+    tracer.setSupersampling(given.count("supersample") != 0
+                                ? std::max(parameters.supersample, 1)
+                                : file.supersampling);
+    PictureParameters look = parameters;
+    if (file.size && given.count("size") == 0) {
+      look.width = (*file.size)[0];
+      look.height = (*file.size)[1];
+    }
+    tracer.setSize(look.width, look.height);
+    const bool is_chosen = given.count("view") != 0 || given.count("eye") != 0;
+    tracer.setCamera(file.camera && !is_chosen
+                         ? *file.camera
+                         : makeCamera(look, tracer.getBounds(), file.origin, nullptr));
+    tracer.render(image);
+    report.merge(tracer.getReport());
+  });
+  const auto height = static_cast<py::ssize_t>(image.height);
+  const auto width = static_cast<py::ssize_t>(image.width);
+  return py::make_tuple(toArray(std::move(image.color), {height, width, 4}),
+                        toDict(report));
 }
 
 /** \return values with z slowest, origin, spacing and name */
@@ -97,7 +196,11 @@ PYBIND11_MODULE(_io, module)
   using namespace pcl_uvol::python;
   py::module_::import("pcl_uvol._core"); // the dataset's class
   module.def("read", &readPoints);
+  module.def("read_mesh", &readMesh);
   module.def("write", &writePoints);
+  module.def("write_lattice", &writeLattice);
+  module.def("is_lattice_file", &pcl_uvol::isLatticeFile);
+  module.def("trace_scene", &traceScene);
   module.def("write_png", &writePng);
   module.def("is_volume", &pcl_uvol::isVolumeFile);
   module.def("read_volume", &readVolume);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/common/report.h>
 
+#include <cstdint>
 #include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -13,18 +15,44 @@
 
 namespace pcl_uvol::python {
 
-/** \brief The numbers as an array that owns them: no copy. */
+/** \brief The numbers as an array that owns them: no copy.
+ * \tparam Item numbers, or rows of them */
+template <typename Number, typename Item>
+pybind11::array_t<Number>
+toArrayOf(std::vector<Item>&& items, std::vector<pybind11::ssize_t> shape)
+{
+  static_assert(sizeof(Item) % sizeof(Number) == 0);
+  auto kept = std::make_unique<std::vector<Item>>(std::move(items));
+  const void* const data = kept->data();
+  const pybind11::capsule owner(kept.release(), [](void* vector) {
+    delete static_cast<std::vector<Item>*>(vector);
+  });
+  return pybind11::array_t<Number>(
+      std::move(shape), static_cast<const Number*>(data), owner);
+}
+
+/** \brief toArrayOf() plain numbers. */
 template <typename T>
 pybind11::array_t<T>
 toArray(std::vector<T>&& numbers, std::vector<pybind11::ssize_t> shape)
 {
-  auto kept = std::make_unique<std::vector<T>>(std::move(numbers));
-  T* const data = kept->data();
-  const pybind11::capsule owner(kept.release(), [](void* vector) {
-    delete static_cast<std::vector<T>*>(vector);
-  });
-  return pybind11::array_t<T>(std::move(shape), data, owner);
+  return toArrayOf<T>(std::move(numbers), std::move(shape));
 }
+
+/** \brief toArrayOf() triangles, a row each. */
+inline pybind11::array_t<std::uint32_t>
+toIndices(std::vector<Triangle>&& triangles)
+{
+  const auto count = static_cast<pybind11::ssize_t>(triangles.size());
+  return toArrayOf<std::uint32_t>(std::move(triangles), {count, 3});
+}
+
+/** \brief The other way: a copy.
+ * \throws InvalidArgument unless the array has rows of three */
+std::vector<Triangle>
+toTriangles(const pybind11::array_t<std::uint32_t,
+                                    pybind11::array::c_style |
+                                        pybind11::array::forcecast>& indices);
 
 /** \brief Text of a file or a user as Python's; bytes that are no UTF-8 become marks.
  */

@@ -4,6 +4,7 @@
 #include "common/dispatch.h"
 #include "common/parallel.h"
 #include "render/image_space/shading_setup.h"
+#include "render/lighting.h"
 
 #include <algorithm>
 #include <chrono>
@@ -310,14 +311,10 @@ private:
   backgroundOf(int row) const
   {
     const Background& b = frame_.settings.background;
-    const float t = (static_cast<float>(first_row_ + row) + 0.5f) /
-                    static_cast<float>(frame_.view.height);
-    const float low = b.kind == Background::Kind::Gradient ? t : 1.0f;
-    const auto mix = [&](float above, float below) {
-      return above * (1.0f - low) + below * low;
-    };
-    return {{mix(b.top.r, b.color.r), mix(b.top.g, b.color.g), mix(b.top.b, b.color.b)},
-            b.kind == Background::Kind::Transparent};
+    const Color color = backgroundAt(b,
+                                     (static_cast<float>(first_row_ + row) + 0.5f) /
+                                         static_cast<float>(frame_.view.height));
+    return {{color.r, color.g, color.b}, b.kind == Background::Kind::Transparent};
   }
 
   void

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -28,18 +29,80 @@ listWords(BackgroundKind)
            {BackgroundKind::Transparent, "transparent"}}};
 }
 
-/** \brief Camera, size, colours and lines of a picture. */
+constexpr std::array<EnumWord<SmoothingFilter>, 4>
+listWords(SmoothingFilter)
+{
+  return {{{SmoothingFilter::None, "none"},
+           {SmoothingFilter::Box, "box"},
+           {SmoothingFilter::Gaussian, "gaussian"},
+           {SmoothingFilter::AlleviatedGaussian, "alleviated"}}};
+}
+
+/** \brief How a surface reflects light, see Material. */
+struct MaterialParameters {
+  double ambient = Material().ambient, diffuse = Material().diffuse;
+  double specular = Material().specular, shininess = Material().shininess;
+
+  static auto
+  listMembers()
+  {
+    using Own = MaterialParameters;
+    return std::make_tuple(Member{"ambient", &Own::ambient},
+                           Member{"diffuse", &Own::diffuse},
+                           Member{"specular", &Own::specular},
+                           Member{"shininess", &Own::shininess});
+  }
+};
+
+/** \brief Steps of the passes in image space that few change, by the names of the
+ * tools' options. */
+struct PassParameters {
+  int fill = ImageSpaceSettings().background_fill;
+  int occluded = ImageSpaceSettings().occluded_fill;
+  double layers = ImageSpaceSettings().layer_distance;
+  bool shading = true;
+  SmoothingFilter smoothing = ImageSpaceSettings().smoothing;
+  int smoothings = ImageSpaceSettings().smoothing_iterations;
+  double silhouette_threshold = ImageSpaceSettings().silhouette_threshold;
+  double feature_threshold = ImageSpaceSettings().feature_threshold;
+  bool antialias = true;
+  double antialias_threshold = ImageSpaceSettings().anti_aliasing_threshold;
+
+  static auto
+  listMembers()
+  {
+    using Own = PassParameters;
+    return std::make_tuple(Member{"fill", &Own::fill},
+                           Member{"occluded", &Own::occluded},
+                           Member{"layers", &Own::layers},
+                           Member{"shading", &Own::shading},
+                           Member{"smoothing", &Own::smoothing},
+                           Member{"smoothings", &Own::smoothings},
+                           Member{"silhouette_threshold", &Own::silhouette_threshold},
+                           Member{"feature_threshold", &Own::feature_threshold},
+                           Member{"antialias", &Own::antialias},
+                           Member{"antialias_threshold", &Own::antialias_threshold});
+  }
+};
+
+/** \brief Camera, size, colours, lights and lines of a picture. */
 struct PictureParameters {
-  std::string color = "auto"; ///< a field, rgb, none; auto: see usualColorField
-  std::string colormap = "viridis";
+  std::string color = "auto";    ///< a field, rgb, none; auto: see usualColorField
+  std::string colormap = "auto"; ///< auto: see usualColorMapping
   std::optional<Eigen::Array2d> range;
+  bool log = false;
   std::string view = "iso";
   std::optional<Eigen::Array3d> eye, at, up;
   double fov = 30.0, zoom = 1.0;
   int width = 1024, height = 1024;
+  int margin = 0; ///< columns of the width, on the right, that the surface leaves free
   int supersample = 0; ///< 0: 2, with rays 1
   BackgroundKind background = BackgroundKind::White;
   std::optional<Eigen::Array3d> background_color, surface_color;
+  std::optional<Eigen::Array3d> exaggerate; ///< factors along the axes
+  std::vector<Eigen::Array3d> lights;       ///< directions; none: the usual ones
+  MaterialParameters material;
+  PassParameters passes;
   bool culling = false, footprints = true, silhouettes = false, features = false;
   int thickness = ImageSpaceSettings().silhouette_thickness;
   std::optional<Eigen::Array3d> line_color;
@@ -51,6 +114,7 @@ struct PictureParameters {
     return std::make_tuple(Member{"color", &Own::color},
                            Member{"colormap", &Own::colormap},
                            Member{"range", &Own::range},
+                           Member{"log", &Own::log},
                            Member{"view", &Own::view},
                            Member{"eye", &Own::eye},
                            Member{"at", &Own::at},
@@ -59,10 +123,15 @@ struct PictureParameters {
                            Member{"zoom", &Own::zoom},
                            Member{"width", &Own::width},
                            Member{"height", &Own::height},
+                           Member{"margin", &Own::margin},
                            Member{"supersample", &Own::supersample},
                            Member{"background", &Own::background},
                            Member{"background_color", &Own::background_color},
                            Member{"surface_color", &Own::surface_color},
+                           Member{"exaggerate", &Own::exaggerate},
+                           Member{"lights", &Own::lights},
+                           Member{"material", &Own::material},
+                           Member{"passes", &Own::passes},
                            Member{"culling", &Own::culling},
                            Member{"footprints", &Own::footprints},
                            Member{"silhouettes", &Own::silhouettes},

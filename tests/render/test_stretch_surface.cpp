@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces stretched for pictures.
-#include "shared/stretch_surface.h"
+#include "render/stretch_surface.h"
 #include "support/surfaces.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/point_types.h>
@@ -19,7 +19,7 @@ TEST(StretchSurface, MakesAnEllipsoidWithItsNormals)
   pcl::toPCLPointCloud2(*uvol_test::makeSphere(500, 1), sphere.cloud);
   sphere.origin = {1.0, 2.0, 3.0};
   const Vector3d factors(1.0, 2.0, 100.0);
-  uvol_tools::stretchSurface(sphere, factors);
+  pcl_uvol::stretchSurface(sphere, factors);
   EXPECT_EQ((std::array<double, 3>{1.0, 4.0, 300.0}), sphere.origin);
   pcl::PointCloud<pcl::PointNormal> points;
   pcl::fromPCLPointCloud2(sphere.cloud, points);
@@ -40,7 +40,7 @@ TEST(StretchSurface, KnowsHowLongEdgesCanBecome)
   points[0].error = 7.0f;
   pcl_uvol::Dataset surface;
   pcl::toPCLPointCloud2(points, surface.cloud);
-  uvol_tools::stretchSurface(surface, Vector3d(1.0, 3.0, 2.0));
+  pcl_uvol::stretchSurface(surface, Vector3d(1.0, 3.0, 2.0));
   pcl::fromPCLPointCloud2(surface.cloud, points);
   EXPECT_EQ(1.5f, points[0].edge_length);
   EXPECT_EQ(7.0f, points[0].error);
@@ -50,7 +50,7 @@ TEST(StretchSurface, RefusesSplats)
 {
   pcl_uvol::Dataset surface;
   pcl::toPCLPointCloud2(pcl::PointCloud<pcl_uvol::PointSplat>(1, 1), surface.cloud);
-  EXPECT_THROW(uvol_tools::stretchSurface(surface, Vector3d(1.0, 1.0, 2.0)),
+  EXPECT_THROW(pcl_uvol::stretchSurface(surface, Vector3d(1.0, 1.0, 2.0)),
                pcl_uvol::InvalidArgument);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/stretch_surface.h"
+#include "render/stretch_surface.h"
 
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -8,7 +8,7 @@
 
 #include <optional>
 
-namespace uvol_tools {
+namespace pcl_uvol {
 
 namespace {
 
@@ -22,7 +22,7 @@ findFloats(const pcl::PCLPointCloud2& cloud, const std::array<const char*, N>& n
 {
   Offsets<N> offsets{};
   for (std::size_t i = 0; i < N; ++i) {
-    const pcl::PCLPointField* const field = pcl_uvol::findField(cloud.fields, names[i]);
+    const pcl::PCLPointField* const field = findField(cloud.fields, names[i]);
     if (field == nullptr || field->datatype != pcl::PCLPointField::FLOAT32)
       return std::nullopt;
     offsets[i] = field->offset;
@@ -74,12 +74,12 @@ stretchNormals(pcl::PCLPointCloud2& cloud,
 } // namespace
 
 void
-stretchSurface(pcl_uvol::Dataset& surface, const Eigen::Vector3d& factors)
+stretchSurface(Dataset& surface, const Eigen::Vector3d& factors)
 {
   pcl::PCLPointCloud2& cloud = surface.cloud;
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-  if (pcl_uvol::hasSplats(view))
-    throw pcl_uvol::InvalidArgument(
+  const CloudView view = viewOf(cloud);
+  if (hasSplats(view))
+    throw InvalidArgument(
         "Splats cannot be stretched: draw the points that they were made of.");
   if (const auto places = findFloats<3>(cloud, {"x", "y", "z"}))
     stretchPositions(cloud, view.count, *places, factors);
@@ -94,4 +94,4 @@ stretchSurface(pcl_uvol::Dataset& surface, const Eigen::Vector3d& factors)
     surface.origin[static_cast<std::size_t>(axis)] *= factors[axis];
 }
 
-} // namespace uvol_tools
+} // namespace pcl_uvol

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/interruptible.h"
+#include "shared/interruptible.h"
 
 #include <atomic>
 #include <chrono>

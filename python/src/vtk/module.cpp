@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The extension _vtk: meshes around clusters, which VTK's contours make.
+#include "shared/convert.h"
+#include "shared/interruptible.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/vtk/cluster_surface.h>
+
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace pcl_uvol::python {
+namespace {
+
+/** Vertices of hulls carry the fields of their points.
+ * \param members indices of points
+ * \param parameters JSON of ClusterSurfaceParameters
+ * \return vertices, triangles, the distance that was taken, and the report */
+py::tuple
+encloseCluster(const DatasetPtr& dataset,
+               const std::vector<int>& members,
+               const std::string& parameters,
+               unsigned threads,
+               const py::object& progress)
+{
+  const auto how = ClusterSurfaceParameters::fromJson(parameters);
+  ClusterSurface surface;
+  Dataset vertices;
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    surface =
+        detail::encloseCluster(viewOf(dataset->cloud), members, how, threads, report);
+    vertices = toDataset(surface.mesh);
+    vertices.origin = dataset->origin;
+    vertices.double_coordinates = dataset->double_coordinates;
+    if (!surface.points.empty())
+      copyFields(dataset->cloud, surface.points, vertices.cloud);
+  });
+  return py::make_tuple(share(std::move(vertices)),
+                        toIndices(std::move(surface.mesh.triangles)),
+                        surface.distance,
+                        toDict(report));
+}
+
+} // namespace
+} // namespace pcl_uvol::python
+
+PYBIND11_MODULE(_vtk, module)
+{
+  py::module_::import("pcl_uvol._core"); // the dataset's class
+  module.def("enclose_cluster", &pcl_uvol::python::encloseCluster);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/membership_surface.h"
+
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <utility>
+
+namespace pcl_uvol {
+
+Dataset
+extractMembershipSurface(const Dataset& samples,
+                         const std::vector<float>& members,
+                         const Eigen::Array3f& scale,
+                         bool is_smooth,
+                         unsigned threads,
+                         Report& report)
+{
+  Dataset with_field = samples;
+  setField(with_field, "membership", members);
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.field = "membership";
+  parameters.isosurface.isovalues = {0.5};
+  parameters.isosurface.scale = scale;
+  parameters.isosurface.interpolation =
+      is_smooth ? Interpolation::Fit : Interpolation::Linear;
+  parameters.normals = NormalMethod::Edge;
+  IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
+  extraction.setInputCloud(
+      pcl::PCLPointCloud2::ConstPtr(&with_field.cloud, [](const void*) {}));
+  extraction.setParameters(parameters.isosurface);
+  extraction.setNumberOfThreads(threads);
+  extraction.setProgressCallback(report.progress);
+  pcl::PointCloud<PointIso> isopoints;
+  extraction.extract(isopoints);
+  report.merge(extraction.getReport());
+  // Without the field, whose value is the same everywhere.
+  auto result = finishIsosurface(samples,
+                                 std::move(isopoints),
+                                 IsoEdges(extraction.getEdges()),
+                                 parameters,
+                                 threads,
+                                 std::move(report));
+  report = std::move(result.report);
+  return std::move(result.surface);
+}
+
+} // namespace pcl_uvol
