@@ -155,6 +155,9 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if (isPeriodic(sidesOf(parameters)) && parameters.validation.folds > 0)
     throw InvalidArgument("A hold-out test goes without a box that repeats: images of "
                           "samples that are left out would tell what they are.");
+  if (isPeriodic(sidesOf(parameters)) && parameters.fill_gaps)
+    throw InvalidArgument("Gaps are not filled in a box that repeats: samples that "
+                          "kriging adds would have no images.");
   if (!parameters.mesh)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});

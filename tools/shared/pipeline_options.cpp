@@ -144,10 +144,12 @@ PipelineOptions::checkCombinations(const Options& options) const
         "voronoi "
         "or exact and derivatives as fields, which need all samples in "
         "memory.");
-  if (periodic.isAskedFor() &&
-      (std::isfinite(outside_value) || options.given("validate")))
-    throw UsageError("-periodic goes without -outside-value and -validate: there is no "
-                     "outside, and images would tell what was left out.");
+  if (periodic.isAskedFor() && (std::isfinite(outside_value) ||
+                                options.given("validate") || parameters.fill_gaps))
+    throw UsageError(
+        "-periodic goes without -outside-value, -validate and -fill-gaps: "
+        "there is no outside, images would tell what was left out, and what "
+        "kriging adds has none.");
   if (!parameters.mesh)
     return;
   if (!fits || parameters.isosurface.neighbors != NeighborSource::KdTree ||

@@ -50,12 +50,14 @@ struct PCL_UVOL_EXPORTS SampleMapParameters {
   toJson() const;
 
   /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
    * \throws InvalidArgument for an unknown name or a value of another type */
   static SampleMapParameters
   fromJson(const std::string& text);
 };
 
-/** \throws InvalidArgument for a window or a side below 0, and for a bound of 0 */
+/** \param parameters to look at
+ * \throws InvalidArgument for a window or a side below 0, and for a bound of 0 */
 PCL_UVOL_EXPORTS void
 checkParameters(const SampleMapParameters& parameters);
 
@@ -99,7 +101,8 @@ class SampleMap {
 public:
   using Cloud = pcl::PointCloud<PointT>;
 
-  /** \throws InvalidArgument as checkParameters() */
+  /** \param parameters of the whole life of the map
+   * \throws InvalidArgument as checkParameters() */
   explicit SampleMap(const SampleMapParameters& parameters = {})
       : parameters_(parameters)
   {
@@ -114,6 +117,7 @@ public:
 
   /** \brief Add samples; old ones go as the parameters say.
    *
+   * \param cloud the samples
    * \param stamp their time, in any order
    *
    * \throws InvalidArgument for a stamp that is not finite */
@@ -142,7 +146,8 @@ public:
     stamps_.clear();
   }
 
-  /** \brief Forget samples of an earlier time. */
+  /** \brief Forget samples of an earlier time.
+   * \param stamp the earliest that stays */
   void
   forgetBefore(double stamp)
   {
@@ -167,6 +172,7 @@ public:
 
   /** \brief Extract the isosurfaces of the samples that are there now.
    *
+   * \param parameters of the extraction
    * \param threads 0 (default) = all cores
    *
    * \throws InvalidArgument as IsosurfaceExtraction::extract */
@@ -177,7 +183,9 @@ public:
   }
 
   /** \brief The same in a thread of its own, while samples come and go: those that are
-   * there at the time of the call count. get() throws what extract() does. */
+   * there at the time of the call count. get() throws what extract() does.
+   * \param parameters of the extraction
+   * \param threads 0 (default) = all cores */
   std::future<SampleMapSurface<PointT>>
   extractInBackground(const IsosurfaceParameters& parameters,
                       unsigned threads = 0) const
