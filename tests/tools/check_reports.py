@@ -17,6 +17,8 @@ FURTHER = """
 uvol_isosurface noisy.pcd validated.ply -iso 0.3 -validate 3
 uvol_isosurface noisy.pcd both.ply -iso 0.2,0.3 -smooth -mu 0.5 -steps 5 -validate 2
 uvol_info probe_grid.nrrd
+uvol_isosurface star.pcd filled.ply -field star -iso 0.01 -fill-gaps
+uvol_isosurface gyroid.ply repeated.ply -iso 0 -periodic 2,2,2
 """
 
 

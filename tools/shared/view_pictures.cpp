@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of a surface, from views, legend and marks.
 #include "charts/color_bar.h"
+#include "render/lighting.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/io/image_file.h>
 
@@ -20,25 +21,17 @@ namespace {
 pcl_uvol::Image
 makeGround(const pcl_uvol::Background& background, int width, int height)
 {
-  using Kind = pcl_uvol::Background::Kind;
   pcl_uvol::Image image;
   image.width = static_cast<std::uint32_t>(width);
   image.height = static_cast<std::uint32_t>(height);
   image.color.resize(4 * image.pixels());
   for (std::uint32_t row = 0; row < image.height; ++row) {
     const float below =
-        background.kind == Kind::Gradient
-            ? (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height)
-            : 1.0f;
-    const auto mix = [&](float top, float bottom) {
-      return top * (1.0f - below) + bottom * below;
-    };
+        (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height);
     const pcl_uvol::Rgba color =
-        background.kind == Kind::Transparent
+        background.kind == pcl_uvol::Background::Kind::Transparent
             ? 0
-            : pcl_uvol::toRgba({mix(background.top.r, background.color.r),
-                                mix(background.top.g, background.color.g),
-                                mix(background.top.b, background.color.b)});
+            : pcl_uvol::toRgba(pcl_uvol::backgroundAt(background, below));
     for (std::uint32_t k = 0; k < 4 * image.width; ++k)
       image.color[4 * std::size_t{image.width} * row + k] =
           static_cast<std::uint8_t>(color >> (8 * (k % 4)));

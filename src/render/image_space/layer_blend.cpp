@@ -2,6 +2,7 @@
 #include "render/image_space/layer_blend.h"
 
 #include "common/parallel.h"
+#include "render/lighting.h"
 
 #include <algorithm>
 #include <array>
@@ -29,20 +30,14 @@ layOver(const std::uint8_t* pixel, double opacity, Paint& below)
   below.opacity = sum;
 }
 
-/** \param part of the height from the top on */
+/** \param below see backgroundAt() */
 Paint
-groundOf(const Background& background, double part)
+groundOf(const Background& background, float below)
 {
   if (background.kind == Background::Kind::Transparent)
     return {{0.0, 0.0, 0.0}, 0.0};
-  const double below = background.kind == Background::Kind::Gradient ? part : 1.0;
-  const auto mix = [&](float top, float bottom) {
-    return 255.0 * std::clamp(top * (1.0 - below) + bottom * below, 0.0, 1.0);
-  };
-  return {{mix(background.top.r, background.color.r),
-           mix(background.top.g, background.color.g),
-           mix(background.top.b, background.color.b)},
-          1.0};
+  const Color color = backgroundAt(background, below);
+  return {{255.0 * color.r, 255.0 * color.g, 255.0 * color.b}, 1.0};
 }
 
 } // namespace
@@ -61,7 +56,7 @@ blendLayers(const std::vector<SurfaceLayer>& layers,
   image.color.resize(4 * image.pixels());
   parallelBlocks(height, 1, threads, [&](std::size_t row, std::size_t) {
     const Paint ground = groundOf(
-        background, (static_cast<double>(row) + 0.5) / static_cast<double>(height));
+        background, (static_cast<float>(row) + 0.5f) / static_cast<float>(height));
     std::vector<const SurfaceLayer*> order;
     for (std::size_t pixel = row * width; pixel < (row + 1) * width; ++pixel) {
       order.clear();
