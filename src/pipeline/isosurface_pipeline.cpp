@@ -82,9 +82,8 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
       std::to_string(100 * guesses / known) +
       " % of the isopoints lie between lines of samples or beside gaps: where the "
       "surface crosses a line is known, how it runs from there is a guess. A hold-out "
-      "test tells how good it is, a scale that fits the samples may help, bridged "
-      "isopoints can go, gaps can be filled by kriging (-validate, -scale, "
-      "-drop-bridged, -fill-gaps).");
+      "test tells how good it is; a scale, filled gaps, or no bridged isopoints may "
+      "help (-validate, -scale, -fill-gaps, -drop-bridged).");
 }
 
 /** Isopoints follow one another by isovalue. */
