@@ -2,7 +2,10 @@
 // The pipeline run on samples, as its tests do.
 #pragma once
 
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <pcl/conversions.h>
 
 #include <memory>
 
@@ -18,6 +21,14 @@ runPipeline(const std::shared_ptr<pcl_uvol::Dataset>& samples,
   pipeline.setParameters(parameters);
   pipeline.setNumberOfThreads(threads);
   return pipeline.run();
+}
+
+inline pcl::PointCloud<pcl_uvol::PointIso>
+toIsopoints(const pcl_uvol::IsosurfaceResult& result)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> points;
+  pcl::fromPCLPointCloud2(result.surface.cloud, points);
+  return points;
 }
 
 } // namespace uvol_test

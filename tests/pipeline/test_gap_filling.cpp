@@ -68,14 +68,6 @@ makeParameters(bool fills)
   return parameters;
 }
 
-pcl::PointCloud<PointIso>
-isopointsOf(const IsosurfaceResult& result)
-{
-  pcl::PointCloud<PointIso> points;
-  pcl::fromPCLPointCloud2(result.surface.cloud, points);
-  return points;
-}
-
 bool
 isPredicted(const PointIso& point)
 {
@@ -92,7 +84,7 @@ TEST(GapFilling, FollowsTheFloorBetweenProfiles)
   std::vector<double> deviations;
   double cosines = 0.0;
   std::size_t within = 0;
-  for (const PointIso& point : isopointsOf(result))
+  for (const PointIso& point : uvol_test::toIsopoints(result))
     if (isPredicted(point)) {
       const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
       deviations.push_back(std::abs(static_cast<double>(point.z) - floorAt(x, y)));
@@ -142,7 +134,7 @@ TEST(GapFilling, LeavesDenseSamplesAsTheyAre)
   const auto as_it_is = uvol_test::runPipeline(samples, makeParameters(false));
   ASSERT_TRUE(filled.gaps);
   EXPECT_EQ(0u, filled.gaps->predicted);
-  const auto a = isopointsOf(filled), b = isopointsOf(as_it_is);
+  const auto a = uvol_test::toIsopoints(filled), b = uvol_test::toIsopoints(as_it_is);
   ASSERT_EQ(b.size(), a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(b[i].getVector3fMap(), a[i].getVector3fMap());
@@ -178,7 +170,7 @@ TEST(GapFilling, PredictsNothingBeyondTheRange)
 TEST(GapFilling, TellsConfidenceOfAllIsopoints)
 {
   const auto result = uvol_test::runPipeline(makeProfiles(30), makeParameters(true));
-  const auto points = isopointsOf(result);
+  const auto points = uvol_test::toIsopoints(result);
   const CloudView view = viewOf(result.surface.cloud);
   const ScalarField confidence(view.fields, "confidence"),
       method(view.fields, "method"), profile(view.fields, "profile");
@@ -200,7 +192,7 @@ TEST(GapFilling, DependsNeitherOnThreadsNorOnUnits)
   const float unit = 0x1p20f;
   const auto large =
       uvol_test::runPipeline(makeProfiles(30, unit), makeParameters(true));
-  const auto a = isopointsOf(one), b = isopointsOf(large);
+  const auto a = uvol_test::toIsopoints(one), b = uvol_test::toIsopoints(large);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_LE((b[i].getVector3fMap() / unit - a[i].getVector3fMap()).norm(), 1e-5f);

@@ -75,14 +75,6 @@ makeParameters(Interpolation interpolation)
   return parameters;
 }
 
-pcl::PointCloud<PointIso>
-isopointsOf(const IsosurfaceResult& result)
-{
-  pcl::PointCloud<PointIso> points;
-  pcl::fromPCLPointCloud2(result.surface.cloud, points);
-  return points;
-}
-
 std::size_t
 countValue(const IsosurfaceResult& result, const std::string& field, double value)
 {
@@ -112,7 +104,7 @@ TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
       uvol_test::runPipeline(samples, makeParameters(Interpolation::Auto));
   EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "method", 2));
   EXPECT_EQ(chosen.surface.cloud.width, countValue(chosen, "orientation", 2));
-  const auto a = isopointsOf(fit), b = isopointsOf(chosen);
+  const auto a = uvol_test::toIsopoints(fit), b = uvol_test::toIsopoints(chosen);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].getVector3fMap(), b[i].getVector3fMap());
@@ -133,8 +125,8 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
   EXPECT_GT(countValue(chosen, "method", 1), 0u);
   EXPECT_GT(countValue(chosen, "orientation", 4), 0u);
   const Eigen::Vector3f truth(0.3f, 0.0f, -1.0f); // to lower values
-  EXPECT_GE(meanCosine(isopointsOf(chosen), truth),
-            meanCosine(isopointsOf(fit), truth));
+  EXPECT_GE(meanCosine(uvol_test::toIsopoints(chosen), truth),
+            meanCosine(uvol_test::toIsopoints(fit), truth));
   EXPECT_EQ(LocalDimension::Line, chosen.sampling->most);
   ASSERT_EQ(1u, chosen.report.warnings.size());
   EXPECT_NE(std::string::npos, chosen.report.warnings[0].find("-validate"));
@@ -147,8 +139,8 @@ TEST(IsopointChoice, EdgeNormalsAreCovectorsOfTheStretchedSpace)
   parameters.isosurface.scale = {1.0f, 1.0f, 100.0f};
   // In the stretched space profiles are as deep as they are apart: level isotherms
   // have upright normals but for those of edges along them.
-  const auto points =
-      isopointsOf(uvol_test::runPipeline(makeProfiles(200, 0.01f, 0.05f), parameters));
+  const auto points = uvol_test::toIsopoints(
+      uvol_test::runPipeline(makeProfiles(200, 0.01f, 0.05f), parameters));
   std::size_t level = 0;
   for (const PointIso& point : points)
     level += std::abs(point.normal_z) < 0.7f;
@@ -159,10 +151,10 @@ TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
 {
   const auto samples = makeProfiles(60);
   auto parameters = makeParameters(Interpolation::Linear);
-  const auto all = isopointsOf(uvol_test::runPipeline(samples, parameters));
+  const auto all = uvol_test::toIsopoints(uvol_test::runPipeline(samples, parameters));
   parameters.drop_bridged = true;
   const auto result = uvol_test::runPipeline(samples, parameters);
-  const auto measured = isopointsOf(result);
+  const auto measured = uvol_test::toIsopoints(result);
   EXPECT_GT(result.report.getCount("removed_bridged"), 0u);
   ASSERT_EQ(all.size(), measured.size() + result.report.getCount("removed_bridged"));
   std::size_t found = 0;
@@ -172,7 +164,8 @@ TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
   EXPECT_EQ(measured.size(), found);
   parameters.drop_bridged = false;
   parameters.max_error = 0.01;
-  for (const PointIso& point : isopointsOf(uvol_test::runPipeline(samples, parameters)))
+  for (const PointIso& point :
+       uvol_test::toIsopoints(uvol_test::runPipeline(samples, parameters)))
     EXPECT_LE(point.error, 0.01f);
 }
 
@@ -180,7 +173,8 @@ TEST(IsopointChoice, ErrorsOfLinearIsopointsCoverTheirDeviations)
 {
   auto parameters = makeParameters(Interpolation::Linear);
   parameters.max_error = 1.0;
-  const auto points = isopointsOf(uvol_test::runPipeline(makeSphere(8000), parameters));
+  const auto points =
+      uvol_test::toIsopoints(uvol_test::runPipeline(makeSphere(8000), parameters));
   std::size_t covered = 0;
   for (const PointIso& point : points)
     covered += std::abs(point.getVector3fMap().norm() - 0.6f) <= point.error;
@@ -206,8 +200,8 @@ TEST(IsopointChoice, IsTheSameInOtherUnits)
       xyz[axis] *= 0x1p30f;
   }
   const auto parameters = makeParameters(Interpolation::Auto);
-  const auto a = isopointsOf(uvol_test::runPipeline(samples, parameters));
-  const auto b = isopointsOf(uvol_test::runPipeline(larger, parameters));
+  const auto a = uvol_test::toIsopoints(uvol_test::runPipeline(samples, parameters));
+  const auto b = uvol_test::toIsopoints(uvol_test::runPipeline(larger, parameters));
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(0x1p30f * a[i].getVector3fMap(), b[i].getVector3fMap());
