@@ -5,12 +5,10 @@
 #include "isosurface/memory_need.h"
 #include "multivariate/memory_need.h"
 #include "pipeline/membership_surface.h"
-#include "shared/attribute_options.h"
 #include "shared/memory_guard.h"
-#include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
-#include "shared/scale_option.h"
+#include "uvol_cluster/cluster_options.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -18,14 +16,11 @@
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <sstream>
 
 namespace {
@@ -36,128 +31,7 @@ using uvol_tools::Facts;
 using uvol_tools::Options;
 using uvol_tools::UsageError;
 
-struct Arguments {
-  std::string input, output, where, scale, label, tree, surface, probability, smoothing;
-  uvol_tools::AttributeOptions attributes;
-  std::optional<uvol_tools::ScaleOption> stretch; // set when the options are read
-  std::uint64_t k = 10, min_size = 0, grid = 128;
-  double cut = 0.0, distance = 0.0;
-  std::vector<double> cluster;
-  bool single = false, ascii = false;
-};
-
-void
-declare(Options& options, Arguments& arguments)
-{
-  constexpr double huge = std::numeric_limits<double>::max();
-  options.file("in", arguments.input);
-  options.file("out", arguments.output);
-  options.group("Input");
-  arguments.attributes.declare(options);
-  options.text("where",
-               "expr",
-               arguments.where,
-               "use only the points for which it holds: \"cu>=0.6 && ni>0.1\"");
-  options.group("Clusters");
-  options.integer(
-      "k", arguments.k, 0, 1000, "nearest neighbours that tell the density");
-  options.integer("min-size",
-                  arguments.min_size,
-                  2,
-                  std::numeric_limits<std::uint32_t>::max(),
-                  "fewer points are no cluster (default: the larger one of 10 and the "
-                  "square root of their number)");
-  options.number("cut",
-                 arguments.cut,
-                 std::numeric_limits<double>::min(),
-                 huge,
-                 "choose the clusters at that distance of attributes (default: by "
-                 "persistence)");
-  options.flag("single", arguments.single, "all points may be one cluster");
-  options.group("Output");
-  options.output("tree", "out.csv", arguments.tree, "write the tree of clusters");
-  options.group("Input");
-  options.text("label",
-               "name",
-               arguments.label,
-               "field of the input that tells the clusters, instead of -attributes "
-               "(default: label)");
-  options.group("Surface of a cluster");
-  options.numbers(
-      "cluster", "n", 1, arguments.cluster, "choose the points of a cluster");
-  options.choice(
-      "surface",
-      {"membership", "distance", "hull", "hull-distance"},
-      arguments.surface,
-      "write a surface of -cluster: between its samples and the others, at a "
-      "distance from its points, through its outer points, at a distance "
-      "from those");
-  options.text("probability",
-               "name",
-               arguments.probability,
-               "membership: a field in [0, 1] instead of 0 and 1");
-  options.text("smoothing-length",
-               "name",
-               arguments.smoothing,
-               "membership: smooth it by the kernel of SPH with that field as the "
-               "particles' smoothing lengths");
-  options.integer("grid",
-                  arguments.grid,
-                  4,
-                  pcl_uvol::GridShape::largest_side,
-                  "cells of the distance field along the longest side");
-  options.number("distance",
-                 arguments.distance,
-                 std::numeric_limits<double>::min(),
-                 huge,
-                 "of the surface (default: just beyond the longest edge of the points' "
-                 "minimum spanning tree)");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances of -surface in a stretched space; auto: equal spread "
-               "per axis");
-  options.group("Output");
-  options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
-}
-
-bool
-isMesh(const Arguments& arguments)
-{
-  return !arguments.surface.empty() && arguments.surface != "membership";
-}
-
-void
-check(const Options& options, const Arguments& arguments)
-{
-  if (!arguments.surface.empty() && arguments.cluster.empty())
-    throw UsageError("-surface needs -cluster: choose one.");
-  if (options.given("scale") && arguments.surface.empty())
-    throw UsageError("-scale needs -surface.");
-  if (!arguments.cluster.empty() &&
-      (std::abs(arguments.cluster[0]) > std::numeric_limits<std::int32_t>::max() ||
-       arguments.cluster[0] != std::round(arguments.cluster[0])))
-    throw UsageError("-cluster is a whole number: the label of a cluster.");
-  if (arguments.attributes.areGiven() && options.given("label"))
-    throw UsageError("-attributes finds clusters and -label reads them: give one.");
-  for (const char* const name : {"k", "min-size", "cut", "single", "tree", "raw"})
-    if (options.given(name) && !arguments.attributes.areGiven())
-      throw UsageError(std::string("-") + name + " needs -attributes.");
-  for (const char* const name : {"grid", "distance"})
-    if (options.given(name) && !isMesh(arguments))
-      throw UsageError(std::string("-") + name +
-                       " needs -surface distance, hull or hull-distance.");
-  for (const char* const name : {"probability", "smoothing-length"})
-    if (options.given(name) && arguments.surface != "membership")
-      throw UsageError(std::string("-") + name + " needs -surface membership.");
-  pcl_uvol::checkSavePath(arguments.output);
-  if (isMesh(arguments))
-    pcl_uvol::checkMeshPath(arguments.output);
-  if (!arguments.tree.empty())
-    pcl_uvol::checkTablePath(arguments.tree);
-  if (arguments.tree == arguments.output)
-    throw UsageError("-tree and the output are the same file.");
-}
+using Arguments = uvol_tools::ClusterOptions;
 
 void
 writeTree(const std::string& path, const std::vector<pcl_uvol::ClusterNode>& tree)
@@ -296,7 +170,7 @@ writeCluster(const Options& options,
   if (!dataset.has_coordinates)
     throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
                                     "in: uvol_project gives it some.");
-  if (!isMesh(arguments)) {
+  if (!arguments.isMesh()) {
     const Dataset surface = pcl_uvol::extractMembershipSurface(
         dataset,
         membership,
@@ -381,11 +255,10 @@ run(int argc, char** argv)
                   "Finds clusters of points by the density of their attributes, and "
                   "surfaces around them.\nAdds the fields label (-1: noise) and "
                   "probability; -cluster chooses one of the clusters.");
-  declare(options, arguments);
+  arguments.declare(options);
   if (!options.parse(argc, argv))
     return 0;
-  arguments.stretch.emplace(arguments.scale);
-  check(options, arguments);
+  arguments.finish(options);
   uvol_tools::MemoryGuard memory("Clustering");
   memory.checkFile(arguments.input,
                    arguments.where.empty() ? forecastMemory(arguments) : nullptr);

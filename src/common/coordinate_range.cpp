@@ -19,7 +19,7 @@ constexpr double flat_extent = 0x1p-13;
 /** The extent of a single place, as part of its largest coordinate. */
 constexpr double place_extent = 0x1p-20;
 
-/** Of the distance between neighbours: what nobody needs to know of. */
+/** Share of the distance between neighbours: what nobody needs to know of. */
 constexpr double unnoticed_rounding = 1e-3;
 /** Points that distances are measured among, and as many times fewer for a second look.
  */
@@ -52,7 +52,8 @@ medianNearest(const std::vector<CoordinateRange::Point>& points, std::size_t cou
   return std::sqrt(*middle);
 }
 
-/** Of all points, by how distances grow in random parts of them. */
+/** Estimates the spacing of all points, by how distances grow in random parts of them.
+ */
 double
 estimateSpacing(const std::vector<CoordinateRange::Point>& sketch, std::uint64_t total)
 {

@@ -11,8 +11,8 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Of the range of the three quarters in the middle: four binary digits, which the
- * numbers lose to a few far ones, are not worth that results of samplings with long
+/** Share of the range of the three quarters in the middle: four binary digits, which
+ * the numbers lose to a few far ones, are not worth that results of samplings with long
  * tails hang on where a tail ends. Normal numbers have 4, exponential ones 7. */
 constexpr double most_stretch = 16.0;
 

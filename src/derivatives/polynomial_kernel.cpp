@@ -9,8 +9,8 @@ namespace {
 
 static_assert(polynomial_terms == cubic_terms, "the terms of a cubic");
 
-/** Of the range of the values with a weight: a larger residual is no noise on a slope
- * any more, but all there is. */
+/** Share of the range of the values with a weight: a larger residual is no noise on a
+ * slope any more, but all there is. */
 constexpr double largest_residual = 0.15;
 
 /** Polynomials of one field. */

@@ -22,8 +22,9 @@ constexpr int cubic_terms = 20;
 constexpr int degree = 3;
 constexpr int moment_count = 84; // monomials up to twice the degree: products of terms
 
-/** Of a term's own diagonal entry: a smaller pivot is rounding, and the term cannot be
- * told from those before it (samples on a plane, on few layers of a lattice). */
+/** Share of a term's own diagonal entry: a smaller pivot is rounding, and the term
+ * cannot be told from those before it (samples on a plane, on few layers of a lattice).
+ */
 constexpr double smallest_pivot = 1e-9;
 /** Residuals of fewer degrees of freedom say nothing about the error. */
 constexpr double least_freedom = 5.0;

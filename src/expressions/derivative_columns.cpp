@@ -15,7 +15,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/** Of the samples: with more of them on few planes or lines the user is told. */
+/** Share of the samples: with more of them on few planes or lines the user is told. */
 constexpr double most_reduced = 0.5;
 
 /** Row i is the gradient of component i. */

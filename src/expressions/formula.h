@@ -23,7 +23,8 @@ struct Operand {
 
   Kind kind = Kind::Field;
   std::string text; ///< as written
-  /** Of fields, with what is added to them: the origin, to coordinates. @{ */
+  /** Components of fields, with what is added to them: the origin, to coordinates. @{
+   */
   std::vector<FieldComponent> components;
   std::vector<double> addends;
   /** @} */

@@ -19,7 +19,8 @@ constexpr std::size_t most_buckets = 32;
 /** Weights that sum up to less are joined by those of balls that much larger. */
 constexpr double thin_weight = 0.1, wide_ball = 2.0;
 
-/** Of the radius of a fit's support: farther out the fit is continued straight on. */
+/** Share of the radius of a fit's support: farther out the fit is continued straight
+ * on. */
 constexpr double farthest_offset = 1.3;
 
 /** Samples whose fits may have a weight for some queries, ascending. */

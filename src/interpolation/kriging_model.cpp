@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/** Of the samples that estimates rest on: where octants are asked for, so many are
- * looked through. */
+/** Share of the samples that estimates rest on: where octants are asked for, so many
+ * are looked through. */
 constexpr std::size_t octant_pool = 4;
 
 /** From offsets to those along the axes of the anisotropy, divided by the ratios of

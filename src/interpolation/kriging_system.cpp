@@ -8,8 +8,8 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of the sill: added to variances until rounding leaves the matrix positive, as of
- * Gaussian variograms without nugget. */
+/** Share of the sill: added to variances until rounding leaves the matrix positive, as
+ * of Gaussian variograms without nugget. */
 constexpr double least_ridge = 1e-12, ridge_factor = 10.0, largest_ridge = 1e-2;
 
 } // namespace

@@ -18,7 +18,7 @@ namespace {
  * neighbours, and most of these are among them. */
 constexpr std::size_t nearest_samples = 40;
 
-/** Of the distance of the nearest sample: for derivatives by differences. */
+/** Share of the distance of the nearest sample: for derivatives by differences. */
 constexpr double difference_step = 1e-4;
 
 } // namespace

@@ -37,7 +37,7 @@ public:
   bool
   find(const Query& place, const std::uint32_t* near, std::size_t count);
 
-  /** \brief By sample index. */
+  /** \brief Neighbours by sample index. */
   const std::vector<Neighbor>&
   getNeighbors() const
   {

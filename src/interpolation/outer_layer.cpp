@@ -24,7 +24,7 @@ constexpr std::size_t spacing_neighbors = 12;
 /** Neighbours that tell how much must be empty: of random samples a ball that holds
  * that many on the average is empty once in 10^7 times. */
 constexpr std::size_t empty_neighbors = 24;
-/** Of the distance to the place around which it must be empty. */
+/** Share of the distance to the place around which it must be empty. */
 constexpr float empty_part = 0.9f;
 
 /** A sample to be added. */

@@ -68,7 +68,7 @@ setAxis(QueryLattice& lattice,
       0.5 * (box.low[axis] + box.high[axis] - spacing * static_cast<double>(count - 1));
 }
 
-/** Of the axes of a slice's picture to the right and upwards. */
+/** Directions of the axes of a slice's picture to the right and upwards. */
 struct Directions {
   Vector3d right, up;
 };

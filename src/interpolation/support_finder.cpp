@@ -11,8 +11,8 @@ namespace {
 /** As many as fits of isopoints look at. */
 constexpr std::size_t nearest_samples = 41;
 
-/** Of the distance of the farthest of them: a nearest sample that far away lies on the
- * border of a gap. */
+/** Share of the distance of the farthest of them: a nearest sample that far away lies
+ * on the border of a gap. */
 constexpr float empty_ball = 0.5f;
 
 /** Enough for cones of 57 degrees, which are a quarter of all directions each. */

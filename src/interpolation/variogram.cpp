@@ -26,7 +26,8 @@ constexpr std::size_t near_samples = 32;
  * matters to estimates. */
 constexpr std::size_t classes = 24;
 
-/** Of the diagonal of the cloud's box: farther pairs are few and from its ends. */
+/** Share of the diagonal of the cloud's box: farther pairs are few and from its ends.
+ */
 constexpr double farthest_part = 1.0 / 3.0;
 
 /** Between the bounds of the nearest class and the farthest one, at least. */

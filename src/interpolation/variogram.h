@@ -22,7 +22,7 @@ struct Variogram {
   double sill = 0.0;   ///< without the nugget
   double range = 1.0;
 
-  /** \brief Of the part without the nugget. \param h >= 0 */
+  /** \brief The value of the part without the nugget. \param h >= 0 */
   double
   covariance(double h) const;
 

@@ -303,7 +303,7 @@ saveXml(const std::string& path,
   });
 }
 
-/** Of several files one is opened inside the other, so that all appear or none. */
+/** Opens one of several files inside the other, so that all appear or none. */
 void
 saveVolumes(const std::vector<std::string>& paths,
             const QueryLattice& lattice,

@@ -22,7 +22,7 @@ struct PlaceVariables {
   list() const;
 };
 
-/** \brief By standard names, units, axes and usual names, as CF has them.
+/** \brief Finds places by standard names, units, axes and usual names, as CF has them.
  *
  * \throws IOError where there are none */
 PlaceVariables

@@ -113,7 +113,7 @@ private:
   std::vector<double> numbers_;
 };
 
-/** Of texts only those whose letters are digits, as flags of quality are. */
+/** Takes of texts only those whose letters are digits, as flags of quality are. */
 bool
 isOfUse(const SampleSpace& space, const NetcdfVariable& variable)
 {

@@ -105,7 +105,7 @@ private:
   std::shared_ptr<const NetcdfFile> file_;
   std::vector<int> dimensions_;
   std::uint64_t size_ = 1;
-  /** By dimension of profiles: the dimension of their samples. */
+  /** The dimension of samples, by that of their profiles. */
   std::map<int, int> samples_of_;
   std::shared_ptr<std::map<int, std::vector<std::uint64_t>>> instances_;
 };

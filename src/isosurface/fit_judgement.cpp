@@ -21,11 +21,11 @@ constexpr double error_factor = 4.0;
  * it makes fits steep. It leaves at least that part of the slope. */
 constexpr double sure_slope = 0.05, slope_factor = 2.6, least_slope = 0.25;
 
-/** Of the radius of the support: farther from an edge no surface is expected. */
+/** Share of the radius of the support: farther from an edge no surface is expected. */
 constexpr double most_reach = 1.2;
 
-/** Of the range of values among the fitted samples: a larger residual is no noise on a
- * slope any more, but all there is. */
+/** Share of the range of values among the fitted samples: a larger residual is no noise
+ * on a slope any more, but all there is. */
 constexpr double largest_residual = 0.15;
 
 /** A step (a label, a jump, a clipped value), which no polynomial follows, shows by a
@@ -33,14 +33,15 @@ constexpr double largest_residual = 0.15;
  * a smooth function has no such residual, and noise no such edges. */
 constexpr double step_residual = 0.06, step_span = 0.6;
 
-/** Of the radius of the support: a shift, or an error, beyond it and beyond the edge's
- * own length leaves the surroundings of the edge. */
+/** Share of the radius of the support: a shift, or an error, beyond it and beyond the
+ * edge's own length leaves the surroundings of the edge. */
 constexpr double farthest_shift = 0.5;
 
-/** Of the edge's length in the samples' own space: farther from an edge across which
- * values jump, as at the core of a planet, no fit in another metric may shift a root,
- * unless its error, in radii of the support, tells that nothing jumps there. Smooth
- * fields on rotated lattices have up to 0.021, jumps from 0.061 on (tests/benchmarks).
+/** Share of the edge's length in the samples' own space: farther from an edge across
+ * which values jump, as at the core of a planet, no fit in another metric may shift a
+ * root, unless its error, in radii of the support, tells that nothing jumps there.
+ * Smooth fields on rotated lattices have up to 0.021, jumps from 0.061 on
+ * (tests/benchmarks).
  */
 constexpr double farthest_from_jump = 0.5, smooth_error = 0.036;
 
@@ -49,11 +50,11 @@ constexpr double farthest_from_jump = 0.5, smooth_error = 0.036;
  * little. */
 constexpr std::size_t most_labels = 4;
 
-/** Of the radius of the support: a nearest sample that far away lies on the border of a
- * gap. */
+/** Share of the radius of the support: a nearest sample that far away lies on the
+ * border of a gap. */
 constexpr double empty_ball = 0.5;
 
-/** Of the radius of the support: a longer edge reaches across a gap. */
+/** Share of the radius of the support: a longer edge reaches across a gap. */
 constexpr double bridging_edge = 1.0;
 
 } // namespace

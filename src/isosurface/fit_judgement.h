@@ -34,8 +34,8 @@ struct NeighborDirections {
   std::size_t count; ///< a multiple of cone_lanes
 };
 
-/** \brief Of the radius of the support: where no sample is nearer, no fit can tell what
- * the values are in the middle, since it has nothing there. */
+/** \brief Share of the radius of the support: where no sample is nearer, no fit can
+ * tell what the values are in the middle, since it has nothing there. */
 constexpr float wide_gap = 0.8f;
 
 /** \brief Whether samples have two values only, or few that are whole numbers.

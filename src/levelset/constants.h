@@ -22,8 +22,8 @@ struct LevelSetConstants {
    * spikes at random puts more than two side by side once in 500 times. */
   std::size_t most_companions = 2;
 
-  /** Of the samples next to the surface, spikes that are worth a warning: Gaussian
-   * noise makes one in 10,000. */
+  /** Spikes, as a share of the samples next to the surface, that are worth a warning:
+   * Gaussian noise makes one in 10,000. */
   double told_outliers = 0.001;
 
   // The data as a distance (data_term.cpp)
@@ -59,18 +59,18 @@ struct LevelSetConstants {
    * counted, whose loss does not move the surface: mu 1.5 times as large as the best.
    */
   double look_distance = 0.5;
-  /** Of these, how many at most. */
+  /** The most of these that are looked at. */
   std::size_t most_looked_at = 2048;
   /** Samples in the fits that look: they reach as far as those of isopoints, 40 by
    * cubics.
    */
   std::size_t look_samples = 30;
-  /** Of the noise, what is added to tell how much of the noise is left: small, so that
-   * the flow answers it linearly. */
+  /** A share of the noise that is added to tell how much of the noise is left: small,
+   * so that the flow answers it linearly. */
   double probe_part = 0.1;
-  /** Of the expected mean square deviation: smoothing has to take away the rest. With
-   * 0.7 a cylinder of radius 3 with noise of 0.1 was left as it was, although smoothing
-   * halves that mean square. */
+  /** The share of the expected mean square deviation: smoothing has to take away the
+   * rest. With 0.7 a cylinder of radius 3 with noise of 0.1 was left as it was,
+   * although smoothing halves that mean square. */
   double worthwhile = 0.85;
   /** Samples next to the surface that tell what a given weight leaves of the noise. */
   std::size_t patch_samples = 1024;
@@ -79,7 +79,7 @@ struct LevelSetConstants {
 
   // Time integration (evolver.cpp)
 
-  /** Of the step that the stencil's weights allow: 1.3 diverges. */
+  /** A share of the step that the stencil's weights allow: 1.3 diverges. */
   double safety = 0.9;
   /** The data pull no more than from that far away. It bounds the speed of a surface
    * that is not where it belongs yet, and the pull of outliers. */
@@ -96,14 +96,15 @@ struct LevelSetConstants {
    * long for them, of a flow that is as much weaker: they end at the same, and later.
    */
   double shortest_step = 1.0 / 64.0;
-  /** Of the samples, those whose steps are the longest. */
+  /** The share of the samples whose steps are the longest. */
   double long_steps = 0.1;
   /** Mean slopes count as no smaller: where the function is flat, its curvature is
    * anything. */
   float least_mean_slope = 0.1f;
   /** Steps until the mean curvature, which changes slowly, is taken anew. */
   std::size_t reference_steps = 4;
-  /** Of the term that keeps the slope at 1 (thesis 3.4), against the others' 1. */
+  /** The weight of the term that keeps the slope at 1 (thesis 3.4), against the
+   * others' 1. */
   double diffusion_weight = 0.5;
 
   // The band and its function (level_set_run.cpp)
@@ -125,7 +126,7 @@ struct LevelSetConstants {
    * noise, and change their side all the same were part of a feature: noise does it to
    * one sample in 30,000. */
   double feature_noise = 4.0, feature_length = 0.5;
-  /** Of the samples next to the surface, those that have to be lost for a warning. */
+  /** The share of the samples next to the surface that has to be lost for a warning. */
   double lost_share = 0.01;
 
   // Reinitialisation (reinitialization.cpp)

@@ -8,7 +8,7 @@
 
 namespace pcl_uvol {
 
-/** \brief By place of a band, in units of length. */
+/** \brief What the data ask for, by place of a band, in units of length. */
 struct DataTerm {
   std::vector<float> target; ///< (f - f_iso) / |grad f|
   std::vector<float> trust;  ///< by place of the centres, in (0, 1]

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t block_groups = 64;
 
-/** Of the noise: where less was taken away, residuals do not tell how much there is. */
+/** Share of the noise: where less was taken away, residuals do not tell how much there
+ * is. */
 constexpr double least_residual = 0.2;
 
 const KernelTable<const EvolutionKernels*> kernel_table{

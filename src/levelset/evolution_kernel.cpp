@@ -62,7 +62,7 @@ struct Values {
     return between_steps ? phi + load<Floats>(lines.rate + i) * lines.time : phi;
   }
 
-  /** Of neighbours. */
+  /** Gathers values of neighbours. */
   Floats
   operator()(const Ints& index) const
   {

@@ -54,7 +54,7 @@ public:
   LevelSetStep
   advance();
 
-  /** \brief By place. */
+  /** \brief phi by place. */
   const std::vector<float>&
   getPhi() const
   {

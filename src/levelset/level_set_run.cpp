@@ -23,7 +23,7 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Of a whole run, for its progress. */
+/** Parts of a whole run that its progress counts. */
 constexpr std::uint64_t progress_parts = 1000;
 
 /** Beyond it a function of some samples has diverged. */
@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /** By input index, in the input's unit of length. \param phi by sample */
+  /** Gives phi by input index, in the input's unit of length. \param phi by sample */
   std::vector<float>
   phiOfCloud(std::vector<float> values) const
   {
@@ -382,7 +382,7 @@ private:
     report_.count("band_updates", 1);
   }
 
-  /** By sample. */
+  /** Gives numbers by sample. */
   std::vector<float>
   current() const
   {

@@ -26,8 +26,9 @@ stencilBytes(const LevelSetParameters& parameters)
   return k * (index_bytes + rows * sizeof(std::int16_t)) + (rows + 3.0) * float_bytes;
 }
 
-/** Of a centre: its index and distance; target and trust of the data; phi and rate; and
- * nine numbers of the evolver, three more for the normals of the linear scheme. */
+/** The bytes of a centre: its index and distance; target and trust of the data; phi and
+ * rate; and nine numbers of the evolver, three more for the normals of the linear
+ * scheme. */
 double
 centerBytes(const LevelSetParameters& parameters)
 {
@@ -35,8 +36,8 @@ centerBytes(const LevelSetParameters& parameters)
   return index_bytes + (1.0 + 2.0 + 2.0 + of_evolver) * float_bytes;
 }
 
-/** Of a neighbour of theirs that is none: its index, the centre beside it, its phi, the
- * rate and the target. */
+/** The bytes of a neighbour of centres that is none: its index, the centre beside it,
+ * its phi, the rate and the target. */
 constexpr double other_bytes = index_bytes + sizeof(Band::Support) + 3.0 * float_bytes;
 
 } // namespace

@@ -24,7 +24,7 @@ medianOf(std::vector<float>& values)
   return *middle;
 }
 
-/** Of |f| at some samples; those at the isovalue itself tell nothing. */
+/** The median of |f| at some samples; those at the isovalue itself tell nothing. */
 float
 medianSize(const std::vector<float>& f, const std::vector<std::uint32_t>& samples)
 {

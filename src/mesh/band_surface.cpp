@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t block_cells = 1u << 10, block_vertices = 1u << 10;
 
-/** Of the distance of two cells: a surface farther from the line between them is that
- * of another sheet. */
+/** Share of the distance of two cells: a surface farther from the line between them is
+ * that of another sheet. */
 constexpr double farthest_foot = 1.0;
 
 /** Rounds of means over neighbours that the sizes of vertices take. */
@@ -180,7 +180,7 @@ private:
     return chosen;
   }
 
-  /** By place in the band: cells at which the surface is one smooth sheet, by normals.
+  /** Cells, by place in the band, at which the surface is one smooth sheet, by normals.
    */
   std::vector<bool>
   findSmoothCells(const WorkingMesh& mesh) const

@@ -15,8 +15,9 @@ namespace {
 constexpr double least_agreement = 0.5, steepest = 0.7071067811865476;
 /** @} */
 
-/** Of the bulge of a triangle, and of its area, per square and per fourth power of the
- * angle between normals: more than quadratic triangles leave out on spheres and tori.
+/** Share of the bulge of a triangle, and of its area, per square and per fourth power
+ * of the angle between normals: more than quadratic triangles leave out on spheres and
+ * tori.
  * @{ */
 constexpr double missed_bulge = 0.1, missed_area = 0.01;
 /** @} */

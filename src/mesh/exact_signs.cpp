@@ -20,7 +20,7 @@ using Whole = boost::multiprecision::cpp_int;
 /** Half of the distance from 1 to the next double. */
 constexpr double rounding = std::numeric_limits<double>::epsilon() / 2.0;
 
-/** Of the sum of the magnitudes of all products (Shewchuk 1997). @{ */
+/** Share of the sum of the magnitudes of all products (Shewchuk 1997). @{ */
 constexpr double volume_doubt = (7.0 + 56.0 * rounding) * rounding,
                  area_doubt = (3.0 + 16.0 * rounding) * rounding;
 /** @} */

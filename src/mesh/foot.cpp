@@ -10,7 +10,7 @@ namespace {
 /** Steps towards the surface, of which one nearly arrives. */
 constexpr int steps = 2;
 
-/** Of the length between feet: nearer ones weigh no more. */
+/** Share of the length between feet: nearer ones weigh no more. */
 constexpr double least_distance = 0.1;
 
 struct Blend {

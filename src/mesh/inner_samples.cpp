@@ -20,11 +20,12 @@ namespace {
 /** Places that a thread looks up at a time. */
 constexpr std::size_t block_places = 4096;
 
-/** Of the difference between a sample and the next one in leaf order, which lies a cell
- * or so away: what a cell's mean differs from its sample, about. */
+/** Share of the difference between a sample and the next one in leaf order, which lies
+ * a cell or so away: what a cell's mean differs from its sample, about. */
 constexpr double cell_deviation = 0.5;
 
-/** Of what cells of samples beside the surface add: half of such a cell is beyond it.
+/** Share of what cells of samples beside the surface add: half of such a cell is beyond
+ * it.
  */
 constexpr double beyond_surface = 0.25;
 

@@ -38,7 +38,7 @@ struct MeasuredSurface {
   std::vector<std::uint32_t> sources; ///< by vertex the one of the input that it is
   std::vector<SurfaceCorner> corners; ///< by vertex
   std::vector<Triangle> triangles;    ///< none of a surface that is given as points
-  /** By piece; integrals are relative to the centre of its bounds. @{ */
+  /** Sums for each piece; integrals are relative to the centre of its bounds. @{ */
   std::vector<Eigen::AlignedBox3d> bounds;
   std::vector<SurfaceIntegrals> integrals;
   /** @} */

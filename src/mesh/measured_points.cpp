@@ -13,8 +13,8 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of the root of the sum of squares of what is not agreed on: at least three times
- * what it makes on spheres and tori. */
+/** Share of the root of the sum of squares of what is not agreed on: at least three
+ * times what it makes on spheres and tori. */
 constexpr double disagreement = 0.2;
 
 /** More points without a triangle, or with neighbours that look to the other side, are

@@ -14,7 +14,8 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of the local length: a fit that moves a vertex farther tells of another sheet. */
+/** Share of the local length: a fit that moves a vertex farther tells of another sheet.
+ */
 constexpr double farthest_move = 0.5;
 
 /** Cosine of 60 degrees, which no triangle may exceed by the last move. */

@@ -19,13 +19,15 @@ namespace {
 
 constexpr std::size_t block_vertices = 1u << 10;
 
-/** Of the way to the mean of the neighbours, per round of smoothing. */
+/** Share of the way to the mean of the neighbours, per round of smoothing. */
 constexpr double relaxation = 0.7;
 
-/** Of the local length: shorter edges collapse, and none longer may come of it. */
+/** Share of the local length: shorter edges collapse, and none longer may come of it.
+ */
 constexpr double shortest_edge = 0.4, longest_edge = 1.4;
 
-/** Of the local length: a vertex that glides farther may have met another sheet. */
+/** Share of the local length: a vertex that glides farther may have met another sheet.
+ */
 constexpr double farthest_move = 2.0;
 
 /** Cosine of 60 degrees, between a triangle and its vertices' normals. */

@@ -20,7 +20,7 @@ namespace {
 /** Places that a thread looks up at a time. */
 constexpr std::size_t block_places = 1024;
 
-/** Of the surface: farther away lies what counts as an outlier. */
+/** Share of the surface: farther away lies what counts as an outlier. */
 constexpr double outliers = 1e-3;
 
 /** A place on a surface, by its corners, and the area that it stands for. */

@@ -35,10 +35,11 @@ using detail::findScalar;
 using detail::MeasuredSurface;
 using detail::SurfaceIntegrals;
 
-/** Of a figure: one that is known no better is hardly one. */
+/** Share of a figure: one that is known no better is hardly one. */
 constexpr double large_error = 1.0 / 3.0;
 
-/** Of the area: less without an estimated error changes figures by less than they say.
+/** Share of the area: less without an estimated error changes figures by less than they
+ * say.
  */
 constexpr double much_without_error = 0.05;
 

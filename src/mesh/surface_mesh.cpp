@@ -75,7 +75,7 @@ namespace {
 /** A cap that closes more of a surface than this may be on the wrong side of it. */
 constexpr double large_cap = 0.1;
 
-/** Of the triangles: smooth fields have none that is folded. */
+/** Share of the triangles: smooth fields have none that is folded. */
 constexpr double many_folds = 0.01;
 
 /** Samples in a tree of compact cells, and their values. */

@@ -49,7 +49,7 @@ struct WorkingMesh {
   dropUnused();
 };
 
-/** \brief Of the angles of a triangle, in degrees. */
+/** \brief The smallest of the angles of a triangle, in degrees. */
 double
 smallestAngle(const std::array<Eigen::Vector3d, 3>& corners);
 

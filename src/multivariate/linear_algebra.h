@@ -20,7 +20,7 @@ struct EigenPairs {
   Eigen::MatrixXd vectors;
 };
 
-/** \brief Of a symmetric matrix, of which the lower triangle is read. */
+/** \brief Decomposes a symmetric matrix, of which the lower triangle is read. */
 EigenPairs
 computeEigenPairs(const Eigen::MatrixXd& symmetric);
 

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/** Of the size of a cell: vertices that close to a plane lie on it. */
+/** Share of the size of a cell: vertices that close to a plane lie on it. */
 constexpr double smallest_height = 1e-14;
 
 /** Grows with the angle of a vector, from 0 to 4. */

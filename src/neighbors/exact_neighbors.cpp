@@ -19,7 +19,8 @@ constexpr std::size_t block_samples = 1u << 9;
  * neighbours, and most of these are among them. */
 constexpr std::size_t nearest_samples = 40;
 
-/** Of the squared distance of two samples: a face of less area is one of rounding. */
+/** Share of the squared distance of two samples: a face of less area is one of
+ * rounding. */
 constexpr double least_area = 1e-12;
 
 /** The rows of consecutive samples. */

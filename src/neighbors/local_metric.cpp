@@ -32,8 +32,8 @@ constexpr double least_lines = 0.3;
 constexpr double stretching = 5.0;
 constexpr int most_rounds = 6;
 
-/** Of the variances of nearest samples across a layer and along it: with less, none of
- * the lines between them lead across. */
+/** Share of the variances of nearest samples across a layer and along it: with less,
+ * none of the lines between them lead across. */
 constexpr double sq_layer = 0.0025;
 
 /** In spacings across layers: what is nearer belongs to the same layer. */
@@ -47,7 +47,7 @@ constexpr double gap = 16.0;
  * (thesis Table 2.4), which diagonals of cubes just pass. */
 constexpr float sq_cosine = 0.2f;
 
-/** Of the longest and the shortest of some lengths. */
+/** The ratio of the longest and the shortest of some lengths. */
 double
 computeRatio(const Eigen::Vector3d& squares)
 {

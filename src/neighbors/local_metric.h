@@ -70,8 +70,8 @@ public:
     return known_ == Known::All && !has_metric_;
   }
 
-  /** \brief Of the last sample: x -> metric * x makes spacings equal. 1 where samples
-   * lie densest. */
+  /** \brief The metric at the last sample: x -> metric * x makes spacings equal. 1
+   * where samples lie densest. */
   const Eigen::Matrix3d&
   getMetric() const
   {
@@ -103,8 +103,8 @@ public:
     return spacings_;
   }
 
-  /** \brief Of the longest and the shortest spacing; infinite where no metric shows
-   * samples on all sides. */
+  /** \brief The ratio of the longest and the shortest spacing; infinite where no metric
+   * shows samples on all sides. */
   double
   getRatio() const
   {

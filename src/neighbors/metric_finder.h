@@ -46,8 +46,8 @@ public:
   bool
   isEmpty(const Position& point, const Eigen::Matrix3d& metric, double distance);
 
-  /** \brief Of the last call: the result depends on no sample farther than this, as
-   * distances are in space. */
+  /** \brief How far the last call looked: its result depends on no sample farther than
+   * this, as distances are in space. */
   double
   getReach() const
   {

@@ -14,11 +14,12 @@
 namespace pcl_uvol {
 namespace {
 
-/** Of a side: samples may lie so far outside of a box that rounding, or the last step
- * of a simulation, has taken them there. */
+/** Share of a side: samples may lie so far outside of a box that rounding, or the last
+ * step of a simulation, has taken them there. */
 constexpr double slack = 0.01;
 
-/** Of a side: where samples fill less of it, neighbours across the faces are none. */
+/** Share of a side: where samples fill less of it, neighbours across the faces are
+ * none. */
 constexpr double least_fill = 0.75;
 
 struct Extent {

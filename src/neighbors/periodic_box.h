@@ -66,7 +66,7 @@ cutAtWidestGap(const Dataset& samples, const PeriodicBox& box, unsigned threads)
 struct PeriodicReach {
   /** Factors per axis of the space that distances are measured in. */
   Position scale{{1.0f, 1.0f, 1.0f}};
-  /** Of every sample in the box so many nearest ones are there. */
+  /** The number of nearest samples that every sample in the box has. */
   std::size_t neighbors = 64;
   /** At least so many spacings of samples that fill the box evenly: 64 of them fill a
    * ball of 2.5. */

@@ -34,7 +34,7 @@ constexpr std::size_t around_samples = 13;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/** By three lengths in ascending order: spacings, or the inverse of extents. */
+/** Judges by three lengths in ascending order: spacings, or the inverse of extents. */
 LocalDimension
 findDimension(const Eigen::Vector3d& lengths)
 {

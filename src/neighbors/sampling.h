@@ -41,7 +41,7 @@ private:
   NearestFinder nearest_, around_;
 };
 
-/** \brief Of all samples, in leaf order. */
+/** \brief Describes the sampling around all samples, in leaf order. */
 PCL_UVOL_EXPORTS std::vector<LocalSampling>
 diagnoseSampling(const SampleSet& samples, unsigned threads);
 

@@ -14,7 +14,7 @@ namespace {
  * only cells next to the convex hull reach as far. */
 constexpr double cube_size = 256.0;
 
-/** Of squared distances: rounding of vertices. */
+/** Share of squared distances: rounding of vertices. */
 constexpr double slack = 1e-11;
 
 } // namespace

@@ -30,24 +30,24 @@ constexpr std::size_t kriged_samples = 16;
  * the samples left out wrongly (tests/benchmarks). */
 constexpr double samples_per_gap = 2.0;
 
-/** Of the spacing of the lattice: its nodes are moved so far along each axis, at most,
- * since edges slip between samples on a lattice. */
+/** Share of the spacing of the lattice: its nodes are moved so far along each axis, at
+ * most, since edges slip between samples on a lattice. */
 constexpr double jitter = 0.25;
 
-/** Of that spacing: no sample is predicted nearer to a measured one. */
+/** Share of that spacing: no sample is predicted nearer to a measured one. */
 constexpr double nearest_part = 0.5;
 
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */
 constexpr double farthest_gaps = 4.0;
 
-/** Of the spacing along lines: edges that are so many times as long reach across. Where
- * nothing is seen to lie beside a line, the gaps are as wide as the lower quartile of
- * these. */
+/** Share of the spacing along lines: edges that are so many times as long reach across.
+ * Where nothing is seen to lie beside a line, the gaps are as wide as the lower
+ * quartile of these. */
 constexpr double crossing_edge = 8.0;
 
-/** Of the isopoints: samples all around leave a few beside some emptiness, which are no
- * gaps. */
+/** Share of the isopoints: samples all around leave a few beside some emptiness, which
+ * are no gaps. */
 constexpr double least_gaps = 0.1;
 
 /** Beyond it along an axis, which takes a stray sample, no surface is followed. */

@@ -10,15 +10,15 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of the spacing of predicted samples: slopes of the kriged field are those between
- * places so far to both sides, since its gradient jumps at samples. */
+/** Share of the spacing of predicted samples: slopes of the kriged field are those
+ * between places so far to both sides, since its gradient jumps at samples. */
 constexpr double slope_step = 1.0;
 
 /** Spacings of predicted samples: an edge between measured samples that is longer
  * reaches across a gap. */
 constexpr double longest_edge = 2.0;
 
-/** Of the variance: where less is explained, most of a value is chance. */
+/** Share of the variance: where less is explained, most of a value is chance. */
 constexpr float least_confidence = 0.5f;
 
 /** A place, and those to both sides along the axes. */

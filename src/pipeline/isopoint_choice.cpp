@@ -28,9 +28,9 @@ constexpr double smallest_sum = 1e-3;
 /** Cosine between an isopoint's normal and its edge: below it they disagree. */
 constexpr float clear_side = 0.3f;
 
-/** Of the ends of the edges around: an isopoint goes back to its edge where so many
- * more of them lie on their side. Less, and the surfaces of dense samples suffer, by
- * noise; more, and those of samples on lines do (tests/benchmarks, holdout). */
+/** Share of the ends of the edges around: an isopoint goes back to its edge where so
+ * many more of them lie on their side. Less, and the surfaces of dense samples suffer,
+ * by noise; more, and those of samples on lines do (tests/benchmarks, holdout). */
 constexpr double least_gain = 0.1;
 
 template <typename Enum>
@@ -192,7 +192,7 @@ public:
     return bisector.norm() > smallest_sum ? Vector3d(bisector.normalized()) : own;
   }
 
-  /** \brief Of the samples at the ends of edges around, how many lie on their side of
+  /** \brief Counts the samples at the ends of edges around that lie on their side of
    * a plane. \param root, outside in the original space */
   std::size_t
   countRightEnds(const Vector3d& root,

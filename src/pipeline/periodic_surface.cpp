@@ -34,7 +34,7 @@ readFloat(const pcl::PCLPointCloud2& cloud, std::size_t point, std::size_t offse
   return number;
 }
 
-/** Of cut vertices: in the plane exactly, with normals of length 1. */
+/** Puts cut vertices exactly into the plane, with normals of length 1. */
 void
 straighten(Dataset& surface,
            const IsoEdges& vertices,
@@ -192,7 +192,7 @@ movePoints(const PeriodicSamples& images, const PeriodicBox& box, Dataset& surfa
   }
 }
 
-/** Of points in the box only. */
+/** Counts points in the box only. */
 void
 countSupport(IsosurfaceResult& result)
 {

@@ -140,7 +140,7 @@ public:
         function, [&](std::size_t i) { return centralDifferences(function, at(i)); });
   }
 
-  /** Of GradientEstimation, from values in single precision. */
+  /** The error of GradientEstimation, from values in single precision. */
   double
   errorOfEstimation(const Function& function)
   {

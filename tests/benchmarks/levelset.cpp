@@ -27,8 +27,8 @@ using pcl_uvol::Integration;
 using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Evolution = pcl_uvol::LevelSetEvolution<pcl::PointXYZI>;
 
-/** Of a sample that carries a stencil, in a step: the stencil of 26 neighbours, and
- * what is read and written by sample. */
+/** The bytes of a sample that carries a stencil, in a step: the stencil of 26
+ * neighbours, and what is read and written by sample. */
 constexpr double step_bytes = 616.0 + 12.0 * sizeof(float);
 
 double

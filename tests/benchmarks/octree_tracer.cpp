@@ -16,7 +16,7 @@ constexpr std::uint32_t inner = 0xffffffffu;
 /** Splits stop here: equal centres would split forever. */
 constexpr int deepest = 20;
 
-/** Of half the root's side; a hit is rounded by about 1e-6 of its distance. */
+/** Share of half the root's side; a hit is rounded by about 1e-6 of its distance. */
 constexpr float relative_margin = 1e-5f;
 
 } // namespace

@@ -91,7 +91,7 @@ struct Block {
   }
 };
 
-/** Of a quadratic with all terms; weights have 16 bits. */
+/** The quadratic has all terms; weights have 16 bits. */
 TEST(Stencils, DerivativesOfAQuadraticAreExact)
 {
   const Block block(FitScheme::Quadratic);

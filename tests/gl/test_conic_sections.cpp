@@ -311,7 +311,7 @@ using GetIntegers = void (*)(unsigned parameter, int* values);
 
 GetIntegers true_integers = nullptr;
 
-/** Of a driver with windows of 16 x 16 pixels at most. */
+/** Plays a driver with windows of 16 x 16 pixels at most. */
 void
 getSmallIntegers(unsigned parameter, int* values)
 {

@@ -203,7 +203,7 @@ private:
            Eigen::Map<const Eigen::Vector3f>(view_.translation).cast<double>();
   }
 
-  /** Of what two places in camera space project to. */
+  /** The distance of what two places in camera space project to. */
   double
   pixelsBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const
   {

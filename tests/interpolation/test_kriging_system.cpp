@@ -18,7 +18,7 @@ using Real = long double;
 using MatrixX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using VectorX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
-/** By definition, see VariogramKind. */
+/** The variogram by its definition, see VariogramKind. */
 Real
 correlationOf(VariogramKind kind, Real u)
 {

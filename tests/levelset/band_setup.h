@@ -49,7 +49,7 @@ struct PlaneBand {
         *samples, crossing, width * unit, scheme, neighbors, 1, report);
   }
 
-  /** \brief Of a sample, in spacings of about 1. */
+  /** \brief The place of a sample, in spacings of about 1. */
   Eigen::Vector3d
   place(std::uint32_t sample) const
   {

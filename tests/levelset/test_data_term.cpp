@@ -16,7 +16,7 @@ using namespace pcl_uvol;
 using Eigen::Vector3d;
 using uvol_test::PlaneBand;
 
-/** Of a derivative: what the 16 bits of the stencils' weights leave. */
+/** A share of a derivative: what the 16 bits of the stencils' weights leave. */
 constexpr double rounding = 3e-4;
 
 const PlaneBand&

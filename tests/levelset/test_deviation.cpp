@@ -54,7 +54,7 @@ meanOf(const std::vector<float>& deviations, double side)
   return std::sqrt(sum / count);
 }
 
-/** Of residuals as large as the noise, a fifth was left. */
+/** A fifth was left of residuals as large as the noise. */
 TEST(Deviation, IsWhatIsLeftOfTheNoiseAroundIt)
 {
   const MovedPlane setup(0.1, 0.4, 0.0);

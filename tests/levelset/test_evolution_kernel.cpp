@@ -28,7 +28,7 @@ constexpr std::size_t centers = groups * stencil_lanes - 5;
 constexpr std::size_t center_places = groups * stencil_lanes,
                       places = center_places + others;
 
-/** Of numbers near 1 that sums of some floats leave. */
+/** Rounding of numbers near 1 that sums of some floats leave. */
 constexpr double rounding = 2e-5;
 
 /** Random numbers by place. */

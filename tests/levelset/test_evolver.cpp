@@ -63,7 +63,7 @@ struct Motion {
     return made;
   }
 
-  /** Of a centre, in spacings of about 1. */
+  /** The value of a centre, in spacings of about 1. */
   double
   moved(std::size_t i) const
   {

@@ -90,9 +90,9 @@ public:
         }
   }
 
-  /** Of the surface around the marked cubes, which is a manifold where these are small
-   * enough: its Euler characteristic is twice that of the cubes, and beside each of
-   * their components it has one more piece for each hollow. */
+  /** The topology of the surface around the marked cubes, which is a manifold where
+   * these are small enough: its Euler characteristic is twice that of the cubes, and
+   * beside each of their components it has one more piece for each hollow. */
   Topology
   findTopology() const
   {

@@ -383,7 +383,7 @@ TEST(ClusterHull, OfFewerThanThreeRegionsIsEmpty)
       sphere, [](const Eigen::Vector3d& place) { return place.x() > 0.3 ? 1u : 0u; }));
 }
 
-/** Of two spheres, the first one of a single region. */
+/** There are two spheres, the first one of a single region. */
 TEST(ClusterHull, LeavesOutComponentsOfFewRegions)
 {
   const Surface sphere = makeSphere(2);

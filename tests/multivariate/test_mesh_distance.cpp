@@ -68,7 +68,7 @@ makeBox(const Vector3d& center, const Vector3d& half_sides, const Matrix3d& rota
   return mesh;
 }
 
-/** By meridians and parallels, with triangles of very different sizes. */
+/** A sphere by meridians and parallels, with triangles of very different sizes. */
 Mesh
 makeSphere(const Vector3d& center, double radius, std::uint32_t steps)
 {

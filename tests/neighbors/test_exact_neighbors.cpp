@@ -57,7 +57,7 @@ toEdges(const pcl_uvol::NeighborGraph& graph)
   return edges;
 }
 
-/** Of all tetrahedra whose circumscribed sphere is empty. */
+/** The edges of all tetrahedra whose circumscribed sphere is empty. */
 Edges
 findDelaunayEdges(const Cloud& cloud)
 {

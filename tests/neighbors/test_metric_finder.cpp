@@ -124,7 +124,7 @@ TEST(MetricFinder, FindsTheNearestOfAllKinds)
     }
 }
 
-/** Of equally far samples those of lower index: all distances are exact here. */
+/** Equally far samples are taken by lower index: all distances are exact here. */
 TEST(MetricFinder, TakesTheLowerIndicesOfEqualDistances)
 {
   const auto samples = makeSamples(makePositions("lattice", 2048));

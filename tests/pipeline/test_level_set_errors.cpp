@@ -58,7 +58,7 @@ smooth(const uvol_test::NoisyCloud& noisy,
   return surface;
 }
 
-/** Of the deviations, the part that errors cover, and the median of error over
+/** The share of the deviations that errors cover, and the median of error over
  * deviation: a tenth may be left, and more than 6 is no estimate. */
 void
 expectErrorsOfTheSurface(const uvol_test::NoisyCloud& noisy,

@@ -17,7 +17,7 @@ using pcl_uvol::Light;
 using pcl_uvol::RayTracer;
 using pcl_uvol::Scene;
 
-/** Of a byte of an image. */
+/** The step of a byte of an image. */
 constexpr double step = 1.0 / 255.0;
 
 /** A scene without light, before black. */

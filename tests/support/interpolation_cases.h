@@ -40,7 +40,7 @@ interpolate(const pcl::PCLPointCloud2& samples,
 double
 franke(const Eigen::Vector3d& x);
 
-/** \brief By central differences. */
+/** \brief The gradient by central differences. */
 Eigen::Vector3d
 gradientOf(const Function& function, const Eigen::Vector3d& x);
 

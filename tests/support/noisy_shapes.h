@@ -61,8 +61,8 @@ pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
           pcl_uvol::Interpolation interpolation);
 
-/** \brief Of isopoints, against the true surface; those near the border of the cube do
- * not count. */
+/** \brief The deviation of isopoints from the true surface; those near the border of
+ * the cube do not count. */
 struct SurfaceQuality {
   double rms;             ///< of the deviation
   double shift;           ///< its mean; positive: the surface has shrunk

@@ -32,7 +32,7 @@ truthOf(std::size_t i)
   return i % 6 < 3 ? 0 : i % 6 < 5 ? 1 : 2;
 }
 
-/** Of every point: where it is, attributes a to d, and what is asked of rows. */
+/** What every point has: where it is, attributes a to d, and what is asked of rows. */
 struct Sample {
   std::size_t index;
   int cluster;

@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{"BentSheet", bentSheetOf, 0.12, {0}, false}),
     [](const auto& shape) { return shape.param.name; });
 
-/** By brute force; of equally near places the first one. */
+/** Finds the nearest by brute force; of equally near places the first one. */
 template <typename Candidates>
 std::uint32_t
 nearestOf(const Points& points, const Candidates& candidates, const Vector3d& place)

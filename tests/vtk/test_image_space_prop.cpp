@@ -26,7 +26,8 @@ using uvol_test::screenshot;
 
 constexpr int width = 200, height = 150;
 const Eigen::Vector3d eye(0.6, -0.4, 4.5);
-/** Of the red sphere, which intersects the cloud: a sphere of radius 1 about 0. */
+/** The centre of the red sphere, which intersects the cloud: a sphere of radius 1 about
+ * 0. */
 const Eigen::Vector3d center(0.5, 0.3, 0.5);
 constexpr double radius = 0.6;
 

@@ -243,7 +243,7 @@ private:
     return side >= 0.0 ? normal : Pixel{-normal[0], -normal[1]};
   }
 
-  /** Of the values along an edge those whose letters do not meet. */
+  /** Chooses of the values along an edge those whose letters do not meet. */
   std::vector<double>
   thinned(const Edge& edge, const std::vector<double>& values) const
   {

@@ -190,7 +190,7 @@ private:
   Option&
   find(const std::string& argument);
 
-  /** Of the option at position i, which is moved on to its value. */
+  /** Reads the option at position i, which is moved on to its value. */
   void
   assignOption(const std::vector<std::string>& arguments, std::size_t& i);
 

@@ -65,7 +65,7 @@ public:
     return is_meshed_;
   }
 
-  /** \brief Of a mesh, whose vertices are the points of the cloud. */
+  /** \brief The triangles of a mesh, whose vertices are the points of the cloud. */
   const std::vector<pcl_uvol::Triangle>&
   getTriangles() const
   {

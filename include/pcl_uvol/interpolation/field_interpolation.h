@@ -24,7 +24,7 @@ namespace detail {
 struct QueryLattice;
 struct Variogram;
 
-/** \brief Of the queries of a lattice so many are answered at a time. */
+/** \brief Queries of a lattice that are answered at a time. */
 constexpr std::size_t lattice_block = std::size_t{1} << 18;
 
 /** \brief Models of the fields of a cloud, ready for queries: trees and fits are kept.

@@ -123,7 +123,7 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
 struct PCL_UVOL_EXPORTS ShepardParameters {
   /** Nearest samples, all where there are fewer; at least 1. */
   std::size_t k = 16;
-  /** Of the inverse distance; greater than 0. */
+  /** The power of the inverse distance; greater than 0. */
   double power = 3.0;
 
   static auto

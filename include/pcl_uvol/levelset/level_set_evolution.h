@@ -310,14 +310,14 @@ public:
   void
   evolve(pcl::PCLPointCloud2& cloud);
 
-  /** \brief Of the last evolve(). */
+  /** \brief The summary of the last evolve(). */
   const LevelSetSummary&
   getSummary() const
   {
     return summary_;
   }
 
-  /** \brief Of the last evolve(): the points whose values were taken, one per position,
+  /** \brief The points whose values the last evolve() took, one per position,
    * as indices into the cloud. */
   const std::vector<std::uint32_t>&
   getSources() const
@@ -325,8 +325,8 @@ public:
     return sources_;
   }
 
-  /** \brief Of the last evolve(): the standard deviation of the zero level of phi from
-   * the true surface beside each point, in units of length, by index of the input
+  /** \brief The standard deviation, after the last evolve(), of the zero level of phi
+   * from the true surface beside each point, in units of length, by index of the input
    * cloud: noise that is left and places that smoothing has moved. NaN far from the
    * surface; 0 where nearly nothing was smoothed, where fits to phi tell the noise. */
   const std::vector<float>&

@@ -84,7 +84,8 @@ struct PCL_UVOL_EXPORTS PieceMeasures {
   /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
    * NaN where it is open. */
   Measure volume;
-  /** Of the enclosed volume, or of the area where that is open or 0. @{ */
+  /** Centre and axes of the enclosed volume, or of the area where that is open or 0. @{
+   */
   Eigen::Vector3d centroid;
   Eigen::Matrix3d axes;      ///< columns: principal axes, the longest first
   Eigen::Vector3d half_axes; ///< of the ellipsoid, or ellipsoidal shell, of the same
@@ -106,7 +107,7 @@ struct TriangleIntersection {
 struct PCL_UVOL_EXPORTS SurfaceFigures {
   /** All pieces of an isovalue together, in the order of the vertices. */
   std::vector<PieceMeasures> isovalues;
-  /** By isovalue, then by falling number of triangles. */
+  /** They are sorted by isovalue, then by falling number of triangles. */
   std::vector<PieceMeasures> pieces;
   std::vector<double> vertex_areas;   ///< shares of the vertices in the area, length^2
   std::vector<std::int32_t> piece_of; ///< by vertex, among pieces; -1 without triangle

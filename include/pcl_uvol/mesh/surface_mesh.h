@@ -62,8 +62,8 @@ struct PCL_UVOL_EXPORTS MeshingParameters {
 
 /** \brief Parameters of SurfaceMesh. */
 struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
-  /** Of these count the field, the isovalues, the side and the scale: vertices lie on
-   * fits, between touching cells of the tree. */
+  /** A mesh depends on the field, the isovalues, the side and the scale: vertices lie
+   * on fits, between touching cells of the tree. */
   IsosurfaceParameters isosurface;
   MeshingParameters meshing;
 
@@ -109,7 +109,8 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> piece_of;  ///< by vertex, among pieces
   std::vector<std::uint8_t> is_on_cap; ///< by vertex, 1 where it closes the box
-  /** By isovalue in their order, then by falling number of triangles. */
+  /** They are sorted by isovalue in their order, then by falling number of triangles.
+   */
   std::vector<SurfacePiece> pieces;
   double smallest_angle = 180.0; ///< of all triangles, in degrees
   double cap_part = 0.0;         ///< of the area, in triangles with a vertex on a cap

@@ -53,9 +53,9 @@ struct ValidationScore {
   ClassShares field{};        ///< of all: by the field
   double side_everywhere = 0; ///< of all: by the side of the nearest isopoint, however
                               ///< far
-  /** Of those near the surface, those farther from the plane of the nearest isopoint
-   * than its `error`, and how many of these lie on the right side of it: most, where
-   * the estimate holds. @{ */
+  /** The samples near the surface that lie farther from the plane of the nearest
+   * isopoint than its `error`, and how many of these lie on the right side of it: most,
+   * where the estimate holds. @{ */
   std::size_t beyond_error = 0;
   double side_beyond_error = 0;
   /** @} */
@@ -71,7 +71,8 @@ struct ValidationScore {
 struct GapFilling {
   std::size_t predicted = 0; ///< samples; 0: there was no gap
   double spacing = 0.0;      ///< between them
-  /** Of the spherical variogram; no predicted sample is farther from a measured one. */
+  /** The range of the spherical variogram; no predicted sample is farther from a
+   * measured one. */
   double range = 0.0;
   double nugget = 0.0, sill = 0.0; ///< of the variogram, in squared units of the field
 };
@@ -160,11 +161,11 @@ public:
   estimateMemory() const;
 
 private:
-  /** Of samples in a box that repeats. */
+  /** Extracts from samples in a box that repeats. */
   IsosurfaceResult
   runInBox(IsosurfacePipelineParameters parameters);
 
-  /** Of samples as they are, all that belong to them among them.
+  /** Extracts from samples as they are, all that belong to them among them.
    * \param parameters with the field and the scale that are taken */
   IsosurfaceResult
   runOnSamples(IsosurfacePipelineParameters parameters);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/probe_picture.h"
+#include "uvol_probe/probe_picture.h"
 
 #include "charts/line_plot.h"
 #include "charts/slice_plot.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/probe_run.h"
+#include "uvol_probe/probe_run.h"
 
 #include "io/lattice_file.h"
 #include "neighbors/periodic_box.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/mesh_options.h"
+#include "uvol_isosurface/mesh_options.h"
 
 #include <pcl_uvol/io/mesh.h>
 
@@ -61,38 +61,6 @@ MeshOptions::finish(const Options& options, const std::string& output) const
   pcl_uvol::MeshingParameters parameters = parameters_;
   parameters.drop_pieces = drop_pieces_;
   return parameters;
-}
-
-Facts
-describeMesh(const pcl_uvol::IsosurfaceResult& result)
-{
-  constexpr std::size_t most_shown = 6;
-  std::ostringstream text;
-  Fact::Numbers isovalues, triangles, genus, rims;
-  for (const pcl_uvol::SurfacePiece& piece : result.pieces) {
-    if (isovalues.size() < most_shown) {
-      text << (isovalues.empty() ? "" : "; ") << piece.triangles << " triangles, genus "
-           << piece.genus;
-      if (piece.rims > 0)
-        text << ", " << piece.rims << (piece.rims == 1 ? " rim" : " rims");
-    }
-    isovalues.push_back(piece.isovalue);
-    triangles.push_back(piece.triangles);
-    genus.push_back(piece.genus);
-    rims.push_back(piece.rims);
-  }
-  if (result.pieces.size() > most_shown)
-    text << "; and " << result.pieces.size() - most_shown << " more";
-  std::ostringstream angle;
-  angle.precision(3);
-  angle << result.smallest_angle << " degrees";
-  return {{"pieces",
-           text.str(),
-           Fact::Members{{"isovalue", isovalues},
-                         {"triangles", triangles},
-                         {"genus", genus},
-                         {"rims", rims}}},
-          {"smallest angle", angle.str(), result.smallest_angle}};
 }
 
 } // namespace uvol_tools

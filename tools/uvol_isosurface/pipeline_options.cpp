@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/pipeline_options.h"
+#include "uvol_isosurface/pipeline_options.h"
 
 #include "expressions/formula.h"
 #include "shared/level_set.h"

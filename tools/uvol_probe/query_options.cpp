@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/query_options.h"
+#include "uvol_probe/query_options.h"
 
 #include <algorithm>
 

@@ -5,9 +5,9 @@
 #include "distributed/run_stage.h"
 #include "shared/density_options.h"
 #include "shared/isosurface_options.h"
-#include "shared/mesh_options.h"
 #include "shared/periodic_option.h"
-#include "shared/surface_picture.h"
+#include "uvol_isosurface/mesh_options.h"
+#include "uvol_isosurface/surface_picture.h"
 
 #include <cstdint>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/interpolation_options.h"
+#include "uvol_probe/interpolation_options.h"
 
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"

@@ -4,8 +4,8 @@
 
 #include "interpolation/answer_summary.h"
 #include "shared/options.h"
-#include "shared/probe_picture.h"
-#include "shared/query_options.h"
+#include "uvol_probe/probe_picture.h"
+#include "uvol_probe/query_options.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
@@ -25,7 +25,8 @@ struct Probe {
   pcl_uvol::LoadOptions load; ///< of the samples and of points like them
   bool ascii;
   const pcl_uvol::Dataset& samples;
-  /** Of the box that they repeat in, which begins where coordinates do; 0: none. */
+  /** The sides of the box that they repeat in, which begins where coordinates do; 0:
+   * none. */
   std::array<double, 3> sides;
   const pcl_uvol::InterpolationParameters& parameters;
   const pcl_uvol::detail::FieldInterpolator& interpolator;

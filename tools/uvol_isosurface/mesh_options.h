@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of meshes, and what is told of one.
+// The options of meshes.
 #pragma once
 
-#include "shared/facts.h"
 #include "shared/options.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -42,9 +41,5 @@ private:
   std::uint64_t drop_pieces_ = 0;
   pcl_uvol::MeshingParameters parameters_;
 };
-
-/** \brief Triangles, pieces with their genus and rims, and the smallest angle. */
-Facts
-describeMesh(const pcl_uvol::IsosurfaceResult& result);
 
 } // namespace uvol_tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/surface_picture.h"
+#include "uvol_isosurface/surface_picture.h"
 
 #include "surface/memory_need.h"
 #include <pcl_uvol/io/image_file.h>

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "uvol_isosurface/input_samples.h"
+
+#include "common/scalar_field.h"
+#include "expressions/memory_need.h"
+#include "interpolation/outer_layer.h"
+#include "shared/point_files.h"
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/io/mesh.h>
+
+#include <cmath>
+#include <string>
+
+namespace uvol_tools {
+
+using pcl_uvol::Report;
+using pcl_uvol::StepTimer;
+
+namespace {
+
+void
+addOuterLayer(const Options& options,
+              const PipelineOptions& arguments,
+              pcl_uvol::Dataset& samples,
+              Report& report)
+{
+  const StepTimer timer(report, "outer layer");
+  if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
+    report.warnings.push_back(
+        "Fits swing where the field steps to the value outside: pieces beside the "
+        "surface "
+        "may be theirs, and -interpolation linear, for points, has none.");
+  const std::string& field = arguments.parameters.isosurface.field;
+  pcl_uvol::addOuterLayer(
+      samples,
+      field.empty() ? pcl_uvol::ScalarField::defaultName(samples.cloud.fields) : field,
+      arguments.outside_value,
+      options.threads(),
+      report);
+}
+
+} // namespace
+
+void
+addFieldsNeed(const PipelineOptions& arguments,
+              double points,
+              double& step,
+              pcl_uvol::MemoryForecast& forecast)
+{
+  forecast.run(
+      pcl_uvol::derivedFieldNeed(arguments.parameters.isosurface.field, points, step));
+  arguments.picture.addColorNeed(points, step, forecast);
+}
+
+void
+checkOutput(const PipelineOptions& arguments, const pcl_uvol::Dataset& samples)
+{
+  if (!pcl_uvol::isMeshOnly(arguments.output))
+    pcl_uvol::checkSavePath(arguments.output, samples.cloud.fields);
+}
+
+std::shared_ptr<pcl_uvol::Dataset>
+loadSamples(const Options& options,
+            PipelineOptions& arguments,
+            MemoryGuard& memory,
+            Report& report)
+{
+  auto samples =
+      std::make_shared<pcl_uvol::Dataset>(loadPoints(arguments.input,
+                                                     report,
+                                                     arguments.makeLoadOptions(),
+                                                     arguments.where,
+                                                     options.threads()));
+  report.count("points", samples->cloud.width + report.getCount("removed_by_where"));
+  memory.checkCloud(
+      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        if (arguments.density.isAskedFor())
+          forecast.run(DensityOptions::getMemoryNeed(points, step));
+        addFieldsNeed(arguments, points, step, forecast);
+      });
+  const auto sides = arguments.periodic.findSides(*samples, report);
+  arguments.parameters.periodic = Eigen::Array3d(sides.data());
+  const auto add_fields = [&](pcl_uvol::Dataset& points) {
+    arguments.density.addField(points, options.threads(), report);
+    if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
+      arguments.parameters.isosurface.field = "sph_density";
+    addField(points, arguments.parameters.isosurface.field, options, report);
+    if (std::isfinite(arguments.outside_value))
+      addOuterLayer(options, arguments, points, report);
+    arguments.picture.addColorOfSamples(options, points, report);
+  };
+  if (arguments.hasFieldsOfNeighbors())
+    addFieldsInBox(*samples,
+                   sides,
+                   arguments.density.findReach(*samples),
+                   options.threads(),
+                   add_fields);
+  else
+    add_fields(*samples);
+  checkOutput(arguments, *samples);
+  return samples;
+}
+
+} // namespace uvol_tools

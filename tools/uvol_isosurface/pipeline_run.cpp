@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "uvol_isosurface/pipeline_run.h"
+
+#include "expressions/derived_source.h"
+#include "io/point_stream.h"
+#include "pipeline/extract_out_of_core.h"
+#include "pipeline/memory_need.h"
+#include "shared/measure_table.h"
+#include "uvol_isosurface/input_samples.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <memory>
+
+namespace uvol_tools {
+
+using pcl_uvol::IsosurfacePipelineParameters;
+using pcl_uvol::IsosurfaceResult;
+using pcl_uvol::Report;
+
+namespace {
+
+/** Measure the surface and look for intersections, as asked for, and give its points
+ * their share of the area and their piece. */
+Facts
+measureResult(const Options& options,
+              const PipelineOptions& arguments,
+              const std::shared_ptr<const pcl_uvol::Dataset>& samples,
+              IsosurfaceResult& result)
+{
+  const bool is_measured = arguments.getMesh().isMeasured();
+  pcl_uvol::SurfaceMeasuresParameters parameters;
+  parameters.find_intersections = arguments.getMesh().isChecked();
+  const bool is_mesh = !result.triangles.empty();
+  if (result.surface.cloud.width == 0 ||
+      arguments.parameters.mesh.has_value() != is_mesh ||
+      (!is_measured && !parameters.find_intersections))
+    return {};
+  const auto vertices = std::make_shared<pcl_uvol::Dataset>(std::move(result.surface));
+  const pcl_uvol::SurfaceFigures figures =
+      measureSurface(vertices,
+                     result.triangles,
+                     is_measured && is_mesh ? samples : nullptr,
+                     arguments.parameters.isosurface.isovalues,
+                     parameters,
+                     options.threads(),
+                     result.report);
+  result.surface = std::move(*vertices);
+  if (!is_measured)
+    return {};
+  setField(result.surface, "area", figures.vertex_areas);
+  if (!is_mesh)
+    setField(result.surface, "piece", figures.piece_of);
+  return describeMeasures(figures);
+}
+
+} // namespace
+
+IsosurfaceResult
+runInMemory(const Options& options,
+            PipelineOptions& arguments,
+            MemoryGuard& memory,
+            Report& report,
+            Facts& figures)
+{
+  const auto work =
+      [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        addFieldsNeed(arguments, points, step, forecast);
+        pcl_uvol::addMemoryNeed(arguments.parameters, points, step, {}, forecast);
+      };
+  if (arguments.where.empty())
+    memory.checkFile(arguments.input, work, arguments.makeLoadOptions());
+  else
+    memory.checkFile(arguments.input, nullptr, arguments.makeLoadOptions());
+  const auto samples = loadSamples(options, arguments, memory, report);
+  const IsosurfacePipelineParameters& parameters = arguments.parameters;
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(samples);
+  pipeline.setParameters(parameters);
+  pipeline.setNumberOfThreads(options.threads());
+  pipeline.setProgressCallback(report.progress);
+  IsosurfacePipelineParameters resolved = parameters;
+  resolved.isosurface = pipeline.resolveParameters();
+  resolved.automatic_scale = false; // it is filled in now
+  pipeline.setParameters(resolved);
+  const auto sizes = pcl_uvol::estimateSurfaces(
+      pcl_uvol::viewOf(samples->cloud), resolved.isosurface, options.threads());
+  memory.checkCloud(
+      *samples, [&](double points, double step, pcl_uvol::MemoryForecast& forecast) {
+        pcl_uvol::addMemoryNeed(parameters, points, step, sizes, forecast);
+        double isopoints = 0.0;
+        for (const pcl_uvol::SurfaceSize& size : sizes)
+          isopoints += size.isopoints;
+        arguments.picture.addMemoryNeed(
+            isopoints, arguments.parameters.isosurface.isovalues.size(), forecast);
+      });
+  IsosurfaceResult result = pipeline.run();
+  if ((resolved.periodic > 0.0).any()) {
+    Report own; // the pipeline has told of samples outside
+    figures.push_back(describeBox(
+        pcl_uvol::findPeriodicBox(
+            *samples,
+            {{resolved.periodic[0], resolved.periodic[1], resolved.periodic[2]}},
+            own),
+        samples->origin));
+  }
+  for (const Fact& fact : measureResult(options, arguments, samples, result))
+    figures.push_back(fact);
+  return result;
+}
+
+IsosurfaceResult
+runFromDisk(const Options& options, const PipelineOptions& arguments, Report& report)
+{
+  pcl_uvol::PointStream file(arguments.input, arguments.makeLoadOptions());
+  pcl_uvol::IsosurfacePipelineParameters parameters = arguments.parameters;
+  pcl_uvol::DerivedSource points(file, parameters.isosurface.field, options.threads());
+  parameters.isosurface.field = points.getField();
+  checkOutput(arguments, points.getHeader());
+  report.warnings = points.getHeader().notes;
+  report.count("points", points.size());
+  auto result = pcl_uvol::runPipelineOutOfCore(
+      points, parameters, arguments.makeOutOfCoreSettings(options), report.progress);
+  points.tell(report);
+  return result;
+}
+
+} // namespace uvol_tools

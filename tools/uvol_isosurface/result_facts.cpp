@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "uvol_isosurface/result_facts.h"
+
+#include "common/number_range.h"
+#include "common/numbers.h"
+#include "shared/isosurface_options.h"
+#include "shared/level_set.h"
+#include "shared/sampling_fact.h"
+
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace uvol_tools {
+
+namespace {
+
+/** Median, 95 % and maximum of the estimated errors. */
+Fact
+describeErrors(const std::optional<pcl_uvol::ErrorSummary>& errors)
+{
+  if (!errors)
+    return {"estimated error", "not estimated", Fact::Members()};
+  std::ostringstream text;
+  text.precision(3);
+  text << "median " << errors->median << ", 95 % within " << errors->percentile_95
+       << ", largest " << errors->largest;
+  return {"estimated error",
+          text.str(),
+          Fact::Members{{"median", {errors->median}},
+                        {"percentile_95", {errors->percentile_95}},
+                        {"largest", {errors->largest}}}};
+}
+
+std::string
+describeShares(const char* what, const pcl_uvol::ClassShares& shares, std::size_t count)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << what << " right for " << 100.0 * shares.predicted << " % of " << count
+       << " (nearest sample " << 100.0 * shares.nearest << " %, always the same "
+       << 100.0 * shares.base << " %)";
+  return text.str();
+}
+
+/** The hold-out test of one isovalue. */
+Facts
+describeValidation(const pcl_uvol::ValidationScore& score,
+                   const std::string& of_isovalue)
+{
+  std::ostringstream beyond;
+  beyond.precision(3);
+  beyond << 100.0 * score.side_beyond_error << " % of " << score.beyond_error
+         << " on the right side";
+  const auto number = [](auto value) {
+    return Fact::Numbers{static_cast<double>(value)};
+  };
+  return {
+      Fact("left out near the surface" + of_isovalue,
+           score.covered == 0 ? std::string("none of ") + std::to_string(score.tested)
+                              : describeShares("side", score.side, score.covered))
+          .withoutJson(),
+      Fact("left out" + of_isovalue, describeShares("class", score.field, score.tested))
+          .withoutJson(),
+      Fact("left out beyond the error" + of_isovalue,
+           score.beyond_error == 0 ? std::string("none") : beyond.str())
+          .withoutJson(),
+      Fact("validation" + of_isovalue,
+           "",
+           Fact::Members{{"tested", number(score.tested)},
+                         {"near", number(score.covered)},
+                         {"side", number(score.side.predicted)},
+                         {"side_of_nearest", number(score.side.nearest)},
+                         {"side_base", number(score.side.base)},
+                         {"side_of_field", number(score.side_of_field)},
+                         {"side_everywhere", number(score.side_everywhere)},
+                         {"class", number(score.field.predicted)},
+                         {"class_of_nearest", number(score.field.nearest)},
+                         {"class_base", number(score.field.base)},
+                         {"beyond_error", number(score.beyond_error)},
+                         {"side_beyond_error", number(score.side_beyond_error)}})};
+}
+
+Fact
+describeGaps(const pcl_uvol::GapFilling& gaps)
+{
+  std::ostringstream text;
+  text.precision(3);
+  if (gaps.predicted == 0)
+    text << "none found to fill";
+  else
+    text << gaps.predicted << " samples predicted, " << gaps.spacing
+         << " apart, up to the range " << gaps.range
+         << " of a spherical variogram (nugget " << gaps.nugget << ", sill "
+         << gaps.sill << ")";
+  return {"gaps",
+          text.str(),
+          Fact::Members{{"predicted", {static_cast<double>(gaps.predicted)}},
+                        {"spacing", {gaps.spacing}},
+                        {"range", {gaps.range}},
+                        {"nugget", {gaps.nugget}},
+                        {"sill", {gaps.sill}}}};
+}
+
+/** Triangles, pieces with their genus and rims, and the smallest angle. */
+Facts
+describeMesh(const pcl_uvol::IsosurfaceResult& result)
+{
+  constexpr std::size_t most_shown = 6;
+  std::ostringstream text;
+  Fact::Numbers isovalues, triangles, genus, rims;
+  for (const pcl_uvol::SurfacePiece& piece : result.pieces) {
+    if (isovalues.size() < most_shown) {
+      text << (isovalues.empty() ? "" : "; ") << piece.triangles << " triangles, genus "
+           << piece.genus;
+      if (piece.rims > 0)
+        text << ", " << piece.rims << (piece.rims == 1 ? " rim" : " rims");
+    }
+    isovalues.push_back(piece.isovalue);
+    triangles.push_back(piece.triangles);
+    genus.push_back(piece.genus);
+    rims.push_back(piece.rims);
+  }
+  if (result.pieces.size() > most_shown)
+    text << "; and " << result.pieces.size() - most_shown << " more";
+  std::ostringstream angle;
+  angle.precision(3);
+  angle << result.smallest_angle << " degrees";
+  return {{"pieces",
+           text.str(),
+           Fact::Members{{"isovalue", isovalues},
+                         {"triangles", triangles},
+                         {"genus", genus},
+                         {"rims", rims}}},
+          {"smallest angle", angle.str(), result.smallest_angle}};
+}
+
+void
+append(Facts& facts, const Facts& more)
+{
+  facts.insert(facts.end(), more.begin(), more.end());
+}
+
+} // namespace
+
+Facts
+describeSurface(const pcl_uvol::IsosurfaceResult& result,
+                const pcl_uvol::IsosurfacePipelineParameters& parameters)
+{
+  const auto& isovalues = parameters.isosurface.isovalues;
+  Facts facts = {{"field", result.field},
+                 {"isovalues", joined(isovalues), isovalues},
+                 {"isopoints per isovalue", toNumbers(result.isopoints)},
+                 {"scale", toNumbers(result.scale)},
+                 {"interpolation", toWord(parameters.isosurface.interpolation)},
+                 describeErrors(result.errors)};
+  if (result.sampling)
+    facts.push_back(describeSampling(*result.sampling));
+  if (result.gaps)
+    facts.push_back(describeGaps(*result.gaps));
+  if (parameters.mesh)
+    append(facts, describeMesh(result));
+  return facts;
+}
+
+Facts
+describeModels(const pcl_uvol::IsosurfaceResult& result,
+               const pcl_uvol::IsosurfacePipelineParameters& parameters)
+{
+  const auto& isovalues = parameters.isosurface.isovalues;
+  const auto of_isovalue = [&](std::size_t i) {
+    return isovalues.size() > 1 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
+                                : "";
+  };
+  Facts facts;
+  for (std::size_t i = 0; i < result.level_sets.size(); ++i)
+    append(facts,
+           describe(result.level_sets[i], !parameters.level_set.mu, of_isovalue(i)));
+  for (std::size_t i = 0; i < result.validation.size(); ++i)
+    append(facts, describeValidation(result.validation[i], of_isovalue(i)));
+  return facts;
+}
+
+} // namespace uvol_tools
