@@ -80,7 +80,7 @@ fingerprintOfBlock(const CloudView& cloud,
 } // namespace
 
 CloudFingerprint
-fingerprintOf(const CloudView& cloud, const ScalarField& field, unsigned threads)
+computeFingerprint(const CloudView& cloud, const ScalarField& field, unsigned threads)
 {
   CloudFingerprint all;
   all.values = field.isLength() ? 1 : 0;

@@ -20,6 +20,6 @@ struct CloudFingerprint {
 /** \brief The fingerprint of a cloud: one look at its points, which takes as long as
  * reading them from memory. */
 CloudFingerprint
-fingerprintOf(const CloudView& cloud, const ScalarField& field, unsigned threads);
+computeFingerprint(const CloudView& cloud, const ScalarField& field, unsigned threads);
 
 } // namespace pcl_uvol

@@ -45,7 +45,7 @@ NaturalNeighborFinder::find(const Query& place,
     const std::uint32_t sample =
         cells_.getNeighbors()[static_cast<std::size_t>(cell[i].tag)];
     const Vector3d offset = cells_.offsetOf(sample);
-    const PolygonMoments face = momentsOf(cell[i].vertices);
+    const PolygonMoments face = computeMoments(cell[i].vertices);
     const double ratio = face.area / offset.norm();
     neighbors_.push_back({sample, ratio, {}});
     // The face moves with the place, farther from its foot more so.

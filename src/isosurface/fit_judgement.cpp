@@ -108,7 +108,8 @@ judge(const FitResult& result, std::size_t lane, const Surroundings& surrounding
       result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
   const double room =
       std::max(surroundings.edge_length, farthest_shift * surroundings.radius);
-  if (!(surroundings.radius * std::max(shift, error_factor * result.error[lane]) <=
+  // In this order an error that is no number is none that serves.
+  if (!(surroundings.radius * std::max(error_factor * result.error[lane], shift) <=
         room))
     return RootOutcome::Far;
   return result.order[lane] == fit_cubic ? RootOutcome::Cubic : RootOutcome::Quadratic;

@@ -87,7 +87,7 @@ IsosurfaceExtractionBase::updateScalar(const CloudView& cloud,
                                        const pcl::Indices& indices)
 {
   const ScalarField field(cloud.fields, parameters_.field);
-  const CloudFingerprint fingerprint = fingerprintOf(cloud, field, threads_);
+  const CloudFingerprint fingerprint = computeFingerprint(cloud, field, threads_);
   if (fingerprint.positions != sampled_fingerprint_)
     forgetSamples();
   sampled_fingerprint_ = fingerprint.positions;

@@ -27,7 +27,7 @@ const KernelTable<const EvolutionKernels*> kernel_table{
 
 template <typename T>
 T
-medianOf(std::vector<T> values)
+computeMedian(std::vector<T> values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -250,7 +250,7 @@ findNoiseOfPairs(const Band& band,
   std::vector<double> differences;
   for (auto pair = pairs.begin(); pair <= middle; ++pair)
     differences.push_back(pair->difference);
-  return medianOf(std::move(differences)) / (median_size * of_two);
+  return computeMedian(std::move(differences)) / (median_size * of_two);
 }
 
 /** Standard deviation of a field about quadratics, per slope; the median over some of
@@ -289,7 +289,7 @@ findNoiseOfFits(const Band& band,
       noises[i] = std::sqrt(sq_residual / freedom) / slopes[center];
     }
   });
-  return medianOf(std::move(noises));
+  return computeMedian(std::move(noises));
 }
 
 /** How steep a function is. */
@@ -310,7 +310,7 @@ findSurfaceSlopes(const Band& band, const std::vector<float>& values, unsigned t
   known.reserve(slopes.surface.size());
   for (const std::uint32_t center : slopes.surface)
     known.push_back(slopes.own[center]);
-  slopes.median = medianOf(std::move(known));
+  slopes.median = computeMedian(std::move(known));
   extendSlopes(band, slopes.own);
   for (float& slope : slopes.own)
     slope = std::max(slope, level_set.least_slope * slopes.median);

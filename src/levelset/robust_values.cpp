@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t block_samples = 256;
 
 float
-medianOf(std::vector<float>& values)
+computeMedian(std::vector<float>& values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -32,7 +32,7 @@ medianSize(const std::vector<float>& f, const std::vector<std::uint32_t>& sample
   for (const std::uint32_t sample : samples)
     if (f[sample] != 0.0f)
       sizes.push_back(std::abs(f[sample]));
-  return medianOf(sizes);
+  return computeMedian(sizes);
 }
 
 /** A value that stands alone, and what its neighbours say instead. */
@@ -46,7 +46,7 @@ struct Spike {
 float
 settle(float own, std::vector<float>& others)
 {
-  const float median = medianOf(others);
+  const float median = computeMedian(others);
   const float halfway = 0.5f * own + 0.5f * median;
   const auto companions = std::count_if(others.begin(), others.end(), [&](float other) {
     return own > median ? other > halfway : other < halfway;
@@ -55,8 +55,9 @@ settle(float own, std::vector<float>& others)
     return own;
   for (float& other : others)
     other = std::abs(other - median);
-  return std::abs(own - median) > level_set.spike_deviations * medianOf(others) ? median
-                                                                                : own;
+  return std::abs(own - median) > level_set.spike_deviations * computeMedian(others)
+             ? median
+             : own;
 }
 
 std::vector<Spike>

@@ -180,7 +180,7 @@ meanOnSurface(const PieceMeasures& piece, const std::string& name)
 
 /** The integral over a piece, what cells miss of its volume at the surface's value. */
 Measure
-integralOf(const CellSums& sums, const PieceMeasures& piece, double at_surface)
+estimateIntegral(const CellSums& sums, const PieceMeasures& piece, double at_surface)
 {
   if (sums.volume == 0.0 && !std::isfinite(at_surface))
     return {};
@@ -225,7 +225,7 @@ measureInside(const ClosedMesh& mesh,
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (pieces[i].rims > 0)
         continue;
-      const Measure integral = integralOf(of_cells[i], pieces[i], at_surface[i]);
+      const Measure integral = estimateIntegral(of_cells[i], pieces[i], at_surface[i]);
       pieces[i].inside.push_back(
           {name, integral, integral.value / pieces[i].volume.value, sums[i]});
     }

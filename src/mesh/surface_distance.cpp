@@ -130,7 +130,7 @@ private:
 
 /** The distance that all but a part of the weights do not exceed. */
 double
-quantileOf(std::vector<std::pair<double, double>> weighted, double part)
+computeQuantile(std::vector<std::pair<double, double>> weighted, double part)
 {
   std::sort(weighted.begin(), weighted.end());
   double all = 0.0, sum = 0.0;
@@ -180,7 +180,7 @@ public:
     }
     result.mean = sum / all;
     result.root_mean_square = std::sqrt(sq_sum / all);
-    result.permille = quantileOf(std::move(weighted), 1.0 - outliers);
+    result.permille = computeQuantile(std::move(weighted), 1.0 - outliers);
     for (std::size_t i = 0; i < from_.getPlaces().size(); ++i)
       result.at_vertices.push_back(static_cast<float>(
           to_.isBehind(nearest_[i], from_.getPlaces()[i]) ? -nearest_[i].distance

@@ -176,7 +176,7 @@ ConvexCell::getVolume() const
 }
 
 PolygonMoments
-momentsOf(const std::vector<Vector3d>& polygon)
+computeMoments(const std::vector<Vector3d>& polygon)
 {
   // The normal of the whole polygon gives each triangle its sign.
   Vector3d normal = Vector3d::Zero();

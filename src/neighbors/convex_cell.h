@@ -78,6 +78,6 @@ struct PolygonMoments {
 };
 
 PolygonMoments
-momentsOf(const std::vector<Eigen::Vector3d>& polygon);
+computeMoments(const std::vector<Eigen::Vector3d>& polygon);
 
 } // namespace pcl_uvol::detail

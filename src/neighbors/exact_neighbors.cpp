@@ -58,7 +58,7 @@ public:
         continue;
       const std::uint32_t other =
           cells_.getNeighbors()[static_cast<std::size_t>(cell[i].tag)];
-      if (detail::momentsOf(cell[i].vertices).area >
+      if (detail::computeMoments(cell[i].vertices).area >
           least_area * cells_.offsetOf(other).squaredNorm())
         found_.push_back(other);
     }

@@ -18,7 +18,7 @@ using pcl_uvol::fingerprintOf;
 CloudFingerprint
 of(const pcl::PCLPointCloud2& cloud, const std::string& field, unsigned threads = 1)
 {
-  return fingerprintOf(
+  return computeFingerprint(
       pcl_uvol::viewOf(cloud), pcl_uvol::ScalarField(cloud.fields, field), threads);
 }
 
@@ -106,7 +106,7 @@ TEST(CloudFingerprint, ChangesDoNotCancelOut)
   }
   const auto now = [&] {
     const auto view = pcl_uvol::viewOf(cloud);
-    return fingerprintOf(view, pcl_uvol::ScalarField(view.fields, "intensity"), 1);
+    return computeFingerprint(view, pcl_uvol::ScalarField(view.fields, "intensity"), 1);
   };
   const CloudFingerprint before = now();
   for (std::size_t i = 1; i + 1 < cloud.size(); i += 7) {

@@ -281,11 +281,11 @@ TEST(ConvexCell, CubesAndTheirParts)
 
 TEST(ConvexCell, MomentsOfPolygons)
 {
-  const PolygonMoments square = momentsOf({{0.0, 0.0, 5.0},
-                                           {2.0, 0.0, 5.0},
-                                           {2.0, 0.0, 5.0},
-                                           {2.0, 4.0, 5.0},
-                                           {0.0, 4.0, 5.0}});
+  const PolygonMoments square = computeMoments({{0.0, 0.0, 5.0},
+                                                {2.0, 0.0, 5.0},
+                                                {2.0, 0.0, 5.0},
+                                                {2.0, 4.0, 5.0},
+                                                {0.0, 4.0, 5.0}});
   EXPECT_NEAR(square.area, 8.0, 1e-14);
   EXPECT_LT((square.centroid - Eigen::Vector3d(1.0, 2.0, 5.0)).norm(), 1e-14);
 }
