@@ -3,6 +3,7 @@
 #include "common/memory.h"
 #include "common/number_range.h"
 #include "common/numbers.h"
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "expressions/derived_source.h"
 #include "expressions/memory_need.h"
@@ -176,12 +177,13 @@ addOuterLayer(const Options& options,
         "surface "
         "may be theirs, and -interpolation linear, for points, has none.");
   const std::string& field = arguments.parameters.isosurface.field;
-  pcl_uvol::addOuterLayer(
-      samples,
-      field.empty() ? pcl_uvol::ScalarField::defaultName(samples.cloud.fields) : field,
-      arguments.outside_value,
-      options.threads(),
-      report);
+  pcl_uvol::addOuterLayer(samples,
+                          field.empty() ? pcl_uvol::ScalarField::defaultName(
+                                              pcl_uvol::fieldsOfNumbers(samples))
+                                        : field,
+                          arguments.outside_value,
+                          options.threads(),
+                          report);
 }
 
 /** The samples with all fields that are asked for. */
@@ -354,6 +356,7 @@ saveMesh(const std::string& path,
         "are relative to " +
         joined(std::vector<double>(origin.begin(), origin.end())) + ".");
   pcl_uvol::saveMesh(path, result.surface, result.triangles, options);
+  uvol_tools::warnOfLabels(path, result.surface, report);
 }
 
 int

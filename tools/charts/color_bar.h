@@ -31,8 +31,14 @@ drawColorBar(pcl_uvol::Image& image,
 /** \brief Most categories that a legend lists. */
 constexpr std::size_t most_categories = 20;
 
-/** \brief Draw a square for each category with its number, and a title, in the place
- * of a bar.
+/** \brief What a legend calls a category: its name, cut where it is long, or its
+ * number.
+ */
+std::string
+describeCategory(const pcl_uvol::CategoryColor& category);
+
+/** \brief Draw a square for each category with its name or number, and a title, in the
+ * place of a bar.
  * \param categories ascending, at most most_categories */
 void
 drawCategories(pcl_uvol::Image& image,

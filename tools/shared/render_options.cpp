@@ -214,7 +214,7 @@ RenderOptions::writePage(const Options& options,
       page.field = field;
       page.map = mapping.map;
       page.scale = colors.scale;
-      page.categories = listCategories(cloud, mapping);
+      page.categories = listCategories(cloud, field, mapping);
     }
   }
   const pcl_uvol::StepTimer timer(report, "write");
