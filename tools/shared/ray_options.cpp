@@ -2,6 +2,7 @@
 #include "shared/ray_options.h"
 
 #include "render/point_colors.h"
+#include "surface/oriented_points.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 
@@ -96,6 +97,19 @@ RayOptions::makeScene(const Options& options,
     range = {colored.scale.low, colored.scale.high};
     for (const std::uint32_t source : splats.sources)
       object.colors.push_back(colored.colors[source]);
+  }
+  if (const auto bridged = pcl_uvol::findBridged(cloud); !bridged.empty()) {
+    object.colors.resize(splats.sources.size(),
+                         pcl_uvol::toRgba(view.getMaterial().color));
+    constexpr float usual_side = 1000.0f; // of the picture that the dots are made for
+    const auto side = static_cast<float>(std::min(view.getWidth(), view.getHeight()));
+    for (std::size_t i = 0; i < splats.sources.size(); ++i) {
+      if (!bridged[splats.sources[i]])
+        continue;
+      splats.cloud[i].radius *= usual_side / side;
+      object.colors[i] =
+          pcl_uvol::makePaler(object.colors[i], view.getBackground().color);
+    }
   }
   object.splats =
       pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));

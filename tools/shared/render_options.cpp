@@ -217,6 +217,7 @@ RenderOptions::writePage(const Options& options,
       page.categories = listCategories(cloud, field, mapping);
     }
   }
+  points.fadeBridged(page.background);
   const pcl_uvol::StepTimer timer(report, "write");
   writeSurfacePage(output, points, page);
 }
