@@ -80,6 +80,38 @@ TEST(GradientEstimation, ExactForLinearFunctions)
   }
 }
 
+TEST(GradientEstimation, PlanarCloudsHaveAQuadraticInTheirPlane)
+{
+  // A plane through the cube, and the squared distance from its line through the
+  // origin.
+  const Vector across = Vector(1.0, 2.0, -2.0) / 3.0;
+  const auto cloud = sample([](const Vector&) { return 0.0; }, 2000);
+  for (pcl::PointXYZI& point : *cloud) {
+    const Vector place = point.getVector3fMap().cast<double>();
+    point.getVector3fMap() = (place - across.dot(place) * across).cast<float>();
+    point.intensity = point.getVector3fMap().squaredNorm();
+  }
+  const auto gradients = estimate(cloud, FitScheme::Quadratic);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const Vector place = (*cloud)[i].getVector3fMap().cast<double>();
+    const double radius = place.norm();
+    EXPECT_LT((vectorOf(gradients[i]) - 2.0 * place).norm(), 1e-3);
+    if (radius > 0.2) { // level sets are cylinders
+      EXPECT_NEAR(0.5 / radius, gradients[i].mean_curvature, 0.02 / radius);
+    }
+  }
+}
+
+TEST(GradientEstimation, ReducedFitsHaveNoCurvature)
+{
+  const auto cloud = sample([](const Vector& x) { return 3.0 * x[0] + x[1]; }, 8);
+  for (const pcl_uvol::PointGradient& gradient :
+       estimate(cloud, FitScheme::Quadratic)) {
+    EXPECT_LT((vectorOf(gradient) - Vector(3.0, 1.0, 0.0)).norm(), 1e-4);
+    EXPECT_TRUE(std::isnan(gradient.mean_curvature));
+  }
+}
+
 TEST(GradientEstimation, ExactForQuadraticFunctions)
 {
   const auto f = [](const Vector& x) {
