@@ -7,6 +7,7 @@
 #include "common/records.h"
 #include "common/similar_words.h"
 #include "expressions/formula.h"
+#include "expressions/label_text.h"
 #include "expressions/operand_names.h"
 #include "expressions/program.h"
 #include "expressions/tokens.h"
@@ -324,8 +325,13 @@ private:
            at_);
     readOperator(draft, '\0');
     skipBlanks();
+    std::string name;
     const std::size_t begin = at_;
-    const std::string name = peek() == '"' ? readQuotedLabel() : readBareLabel();
+    const bool is_quoted = peek() == '"';
+    if (!takeLabel(text_, at_, name))
+      fail("A quotation mark is not closed", begin);
+    if (name.empty() && !is_quoted)
+      fail("A name is missing", begin);
     const auto found = std::find(labels.begin(), labels.end(), name);
     if (found == labels.end() && !name.empty()) {
       const std::string similar = findSimilar(labels, name);
@@ -336,35 +342,6 @@ private:
     const std::string label =
         name.empty() ? "-1" : std::to_string(found - labels.begin());
     draft.tokens.push_back({Kind::Number, begin, label, 0, std::stod(label)});
-  }
-
-  /** Of two quotes in it one is meant. */
-  std::string
-  readQuotedLabel()
-  {
-    const std::size_t opening = at_++;
-    std::string name;
-    for (; peek() != '"' || peek(1) == '"'; ++at_) {
-      if (at_ == text_.size())
-        fail("A quotation mark is not closed", opening);
-      at_ += peek() == '"';
-      name += text_[at_];
-    }
-    ++at_;
-    return name;
-  }
-
-  /** Shells take quotes away: a name goes on to the end of the comparison. */
-  std::string
-  readBareLabel()
-  {
-    const std::size_t end =
-        std::min({text_.find("&&", at_), text_.find("||", at_), text_.find(')', at_)});
-    const std::string name(trimmed(std::string_view(text_).substr(at_, end - at_)));
-    if (name.empty())
-      fail("A name is missing", at_);
-    at_ = std::min(end, text_.size());
-    return name;
   }
 
   /** With the component that is chosen behind it. */
