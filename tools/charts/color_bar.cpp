@@ -2,6 +2,7 @@
 #include "charts/color_bar.h"
 
 #include "common/printable.h"
+#include "common/records.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,6 +171,21 @@ drawColorBar(Image& image,
           legend.ink);
   legend.write(image, title, legend.top - legend.size * 3 / 2);
   legend.write(image, labels.offset, legend.top + legend.length + legend.size * 3 / 2);
+}
+
+std::vector<pcl_uvol::CategoryColor>
+listNamedCategories(const pcl_uvol::CloudView& cloud,
+                    const pcl_uvol::LabelNames& labels,
+                    const std::string& field,
+                    const pcl_uvol::ColorMap& map)
+{
+  if (!map.isCategorical())
+    return {};
+  auto categories = pcl_uvol::colorCategories(cloud, field, map, most_categories);
+  if (const auto* const names = pcl_uvol::findLabels(cloud.fields, labels, field))
+    for (pcl_uvol::CategoryColor& category : categories)
+      category.name = pcl_uvol::nameOfLabel(*names, category.value);
+  return categories;
 }
 
 std::string

@@ -164,14 +164,7 @@ ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
                             const std::string& field,
                             const pcl_uvol::ColorMapping& mapping) const
 {
-  if (!mapping.map.isCategorical())
-    return {};
-  auto categories =
-      pcl_uvol::colorCategories(cloud, field, mapping.map, most_categories);
-  if (const auto* const names = pcl_uvol::findLabels(cloud.fields, labels_, field))
-    for (pcl_uvol::CategoryColor& category : categories)
-      category.name = pcl_uvol::nameOfLabel(*names, category.value);
-  return categories;
+  return listNamedCategories(cloud, labels_, field, mapping.map);
 }
 
 void
