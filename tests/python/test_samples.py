@@ -127,7 +127,7 @@ def test_dataframes():
     frame = pandas.DataFrame(POINTS, columns=["x", "y", "z"]).assign(
         T=[1.0, None, 3.0], n=pandas.array([1, None, 3], dtype="Int32"), b=[True, False, True], name=["a", "b", "c"])
     samples = uvol.Samples.from_dataframe(frame)
-    assert samples.keys() == ["T", "n", "b"]
+    assert samples.keys() == ["T", "n", "b", "name"] and list(samples["name"]) == ["a", "b", "c"]
     assert samples["b"].dtype == bool and np.isnan(samples["n"]).tolist() == [False, True, False]
     back = samples.to_dataframe()
     assert back[["x", "y", "z"]].to_numpy().tolist() == POINTS.tolist() and back["T"][2] == 3
@@ -180,7 +180,7 @@ def test_files_give_back_what_they_got(tmp_path, ending):
     (POINTS, {"a": [1, 2]}, "2 values for 3 points"),
     (POINTS, {"a": np.zeros((3, 2, 2))}, r"shape \(3, 2, 2\)"),
     (POINTS, {"a": np.zeros((3, 0))}, r"shape \(3, 0\)"),
-    (POINTS, {"a": ["x", "y", "z"]}, "must hold numbers"),
+    (POINTS, {"a": np.array([b"x", b"y", b"z"])}, "must hold numbers"),
     (POINTS, {"a": np.array(["2020-01-01"] * 3, "M8[D]")}, "must hold numbers"),
     (POINTS, {"x": [1, 2, 3]}, "is a coordinate"),
     (POINTS, {"": [1, 2, 3]}, "names are texts"),
