@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <utility>
 
 namespace {
 
@@ -87,13 +89,53 @@ fillValues(pcl_uvol::Dataset& dataset,
   });
 }
 
+constexpr std::pair<const char*, pcl_uvol::Scatter> scatters[] = {
+    {"uniform", pcl_uvol::Scatter::Uniform},
+    {"jittered", pcl_uvol::Scatter::Jittered},
+    {"lattice", pcl_uvol::Scatter::Lattice},
+    {"clustered", pcl_uvol::Scatter::Clustered},
+    {"tracks", pcl_uvol::Scatter::Tracks},
+    {"casts", pcl_uvol::Scatter::Casts},
+    {"holes", pcl_uvol::Scatter::Holes}};
+
+std::vector<std::string>
+listScatters()
+{
+  std::vector<std::string> names;
+  for (const auto& scatter : scatters)
+    names.emplace_back(scatter.first);
+  return names;
+}
+
 pcl_uvol::Scatter
 parseScatter(const std::string& name)
 {
-  return name == "uniform"    ? pcl_uvol::Scatter::Uniform
-         : name == "jittered" ? pcl_uvol::Scatter::Jittered
-         : name == "lattice"  ? pcl_uvol::Scatter::Lattice
-                              : pcl_uvol::Scatter::Clustered;
+  return std::find_if(std::begin(scatters),
+                      std::end(scatters),
+                      [&](const auto& known) { return known.first == name; })
+      ->second;
+}
+
+/** Tell the lines apart that samples lie on: by numbers, and holes by names. */
+void
+addLines(pcl_uvol::Scatter scatter, pcl_uvol::Dataset& dataset)
+{
+  std::vector<std::int32_t> lines;
+  for (std::uint64_t i = 0; i < dataset.cloud.width; ++i)
+    lines.push_back(
+        static_cast<std::int32_t>(pcl_uvol::lineOf(scatter, i, dataset.cloud.width)));
+  const char* const name = scatter == pcl_uvol::Scatter::Tracks  ? "track"
+                           : scatter == pcl_uvol::Scatter::Casts ? "cast"
+                                                                 : "hole";
+  setField(dataset, name, lines);
+  if (scatter != pcl_uvol::Scatter::Holes)
+    return;
+  const std::size_t digits = std::to_string(lines.back() + 1).size();
+  for (std::int32_t line = 1; line <= lines.back() + 1; ++line) {
+    const std::string number = std::to_string(line);
+    dataset.labels[name].push_back("DH-" + std::string(digits - number.size(), '0') +
+                                   number);
+  }
 }
 
 pcl_uvol::Dataset
@@ -115,6 +157,8 @@ generateField(const Arguments& arguments, unsigned threads)
                    [](double coordinate) { return static_cast<float>(coordinate); });
   });
   fillValues(dataset, arguments, threads, field.value);
+  if (pcl_uvol::isOnLines(scatter))
+    addLines(scatter, dataset);
   return dataset;
 }
 
@@ -181,9 +225,10 @@ run(int argc, char** argv)
   options.integer("n", arguments.n, 1, 4000000000ULL, "number of points");
   options.text("field", "name", arguments.field, "analytic field (default radial)");
   options.choice("samples",
-                 {"uniform", "jittered", "lattice", "clustered"},
+                 listScatters(),
                  arguments.scatter,
-                 "how samples of a field are scattered");
+                 "how samples of a field are scattered; tracks of a robot, casts of a "
+                 "ship and drill holes have a field that tells the lines apart");
   options.number(
       "noise",
       arguments.noise,

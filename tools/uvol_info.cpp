@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file of samples or a volume holds, before work is done with it.
 #include "common/number_range.h"
+#include "common/printable.h"
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include "shared/options.h"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -26,7 +29,7 @@ using uvol_tools::Options;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where, scale;
+  std::string input, field, where, scale, output;
   uvol_tools::InputOptions reading;
 };
 
@@ -134,7 +137,7 @@ chosenField(const Arguments& arguments, const pcl_uvol::Dataset& dataset)
   if (!arguments.field.empty())
     return arguments.field;
   try {
-    return pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
+    return pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(dataset));
   }
   catch (const pcl_uvol::InvalidArgument&) {
     return {}; // none, or several: the list of ranges tells
@@ -161,7 +164,7 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
 {
   std::size_t numbers = 0;
   Facts ranges;
-  for (const auto& field : dataset.cloud.fields)
+  for (const auto& field : pcl_uvol::fieldsOfNumbers(dataset))
     if (field.name != "x" && field.name != "y" && field.name != "z")
       for (std::size_t k = 0; k < field.count; ++k) {
         if (++numbers > most_listed)
@@ -178,6 +181,40 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
   if (numbers > most_listed)
     facts.emplace_back("further numbers per point",
                        static_cast<double>(numbers - most_listed));
+}
+
+/** The names in a column of them, ascending. */
+std::vector<std::string>
+listNames(const pcl_uvol::Dataset& dataset,
+          const std::string& field,
+          const std::vector<std::string>& names)
+{
+  std::set<std::string> found;
+  for (const double label : pcl_uvol::readFieldValues(
+           dataset, pcl_uvol::ScalarField(dataset.cloud.fields, field)))
+    found.insert(pcl_uvol::nameOfLabel(names, label));
+  found.erase("");
+  return {found.begin(), found.end()};
+}
+
+void
+addNames(const pcl_uvol::Dataset& dataset, Facts& facts)
+{
+  constexpr std::size_t most_shown = 5;
+  Facts counts;
+  for (const auto& [field, all] : dataset.labels) {
+    const std::vector<std::string> names = listNames(dataset, field, all);
+    const bool is_cut = names.size() > most_shown;
+    std::string text = std::to_string(names.size()) + " names";
+    for (std::size_t i = 0; i < (is_cut ? most_shown - 1 : names.size()); ++i)
+      text += (i > 0 ? ", " : ": ") + pcl_uvol::shortenText(names[i]);
+    if (is_cut)
+      text += " ... " + pcl_uvol::shortenText(names.back());
+    facts.push_back(Fact(field, text).withoutJson());
+    counts.emplace_back(field, static_cast<double>(names.size()));
+  }
+  if (!counts.empty())
+    facts.emplace_back("names", counts);
 }
 
 /** Bounds and spacing. */
@@ -215,6 +252,27 @@ addPositions(const std::string& path,
   report.count("duplicates", positions.duplicates);
 }
 
+/** Write the points with what the sampling is like around each. */
+void
+saveSampling(const Arguments& arguments,
+             unsigned threads,
+             pcl_uvol::Dataset& dataset,
+             Report& report)
+{
+  if (!dataset.has_coordinates)
+    throw pcl_uvol::InvalidArgument("The sampling of " + arguments.input +
+                                    " is that of its coordinates, and it names none: "
+                                    "-xyz chooses them.");
+  {
+    const pcl_uvol::StepTimer timer(report, "sampling");
+    pcl_uvol::addSamplingFields(dataset,
+                                uvol_tools::ScaleOption(arguments.scale)
+                                    .resolveScale(pcl_uvol::viewOf(dataset.cloud)),
+                                threads);
+  }
+  uvol_tools::savePoints(arguments.output, dataset, {}, report);
+}
+
 Facts
 describeCloud(const Options& options, const Arguments& arguments, Report& report)
 {
@@ -248,6 +306,7 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
   addRanges(dataset, facts);
+  addNames(dataset, facts);
   uvol_tools::addField(dataset, chosen, options, report);
   if (!chosen.empty()) {
     const auto statistics = pcl_uvol::describeValues(pcl_uvol::readFieldValues(
@@ -256,6 +315,8 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     facts.push_back(describeRange("histogram of " + chosen, statistics).withoutJson());
     addHistogram(statistics, facts);
   }
+  if (!arguments.output.empty())
+    saveSampling(arguments, threads, dataset, report);
   return facts;
 }
 
@@ -283,12 +344,23 @@ run(int argc, char** argv)
                "measure spacings in a stretched space; auto: equal spread per axis");
   arguments.reading.declare(options);
   uvol_tools::declareSeries(options);
+  options.group("Output");
+  options.output("out",
+                 "out.csv",
+                 arguments.output,
+                 "write the samples with the fields local_dimension (isolated, line, "
+                 "sheet, volume), spacing_along and spacing_across");
   if (!options.parse(argc, argv))
     return 0;
+  const bool is_volume = pcl_uvol::isVolumeFile(arguments.input);
+  if (!arguments.output.empty() && is_volume)
+    throw uvol_tools::UsageError("-out is for samples, and " + arguments.input +
+                                 " is a volume.");
+  if (!arguments.output.empty())
+    pcl_uvol::checkSavePath(arguments.output);
   Report report;
-  const Facts facts = pcl_uvol::isVolumeFile(arguments.input)
-                          ? describeVolume(arguments.input, report)
-                          : describeCloud(options, arguments, report);
+  const Facts facts = is_volume ? describeVolume(arguments.input, report)
+                                : describeCloud(options, arguments, report);
   uvol_tools::printReport(options, report, facts);
   return 0;
 }

@@ -297,7 +297,8 @@ run(int argc, char** argv)
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.initial = shift(parameters.initial, dataset.origin);
   if (parameters.field.empty())
-    parameters.field = pcl_uvol::ScalarField::defaultName(dataset.cloud.fields);
+    parameters.field =
+        pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(dataset));
   pcl_uvol::IsosurfaceParameters at_start;
   at_start.field = parameters.field;
   at_start.isovalues = arguments.iso;

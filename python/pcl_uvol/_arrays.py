@@ -9,6 +9,29 @@ _LETTERS = {"b": "?", "i": "i", "u": "u", "f": "f"}
 _LARGEST_SIZE = 8
 
 
+def as_labels(values):
+    """Numbers of names and the names, in alphabetical order, of a column of texts: strings
+    of numpy, objects, pandas' texts and categories; None for other columns. An empty text
+    and None are no name, -1."""
+    try:
+        array = values if hasattr(values, "dtype") else np.asarray(values)
+    except ValueError:  # rows of different lengths, which as_array tells of
+        return None
+    if array.dtype.kind not in "OU" or np.ndim(array) != 1:
+        return None
+    texts = ["" if _is_missing(value) else value for value in np.asarray(array, dtype=object)]
+    if not any(texts) or not all(isinstance(value, str) for value in texts):
+        return None
+    names = sorted(set(texts) - {""})
+    numbers = {"": -1, **{name: number for number, name in enumerate(names)}}
+    return np.array([numbers[text] for text in texts], np.int32), names
+
+
+def _is_missing(value):
+    is_nan = isinstance(value, float) and value != value
+    return value is None or is_nan or type(value).__name__ == "NAType"  # of pandas
+
+
 def as_array(values, what):
     """The values as a numpy array of numbers; missing ones of masked arrays and of
     pandas become NaN."""
@@ -130,9 +153,12 @@ def make_dataset(points, fields):
     """A dataset from coordinates and a mapping of names to columns."""
     xyz = coordinates(points)
     count = len(xyz)
-    columns = {}
+    columns, labels = {}, {}
     for name, values in _parameters.mapping(fields, "fields", "columns").items():
         _check_name(name)
+        texts = as_labels(values)
+        if texts is not None:
+            values, labels[name] = texts
         columns[name] = _column(name, values, count)
     axis_type = _number_type(xyz.dtype)
     specs = [(axis, axis_type, 1) for axis in "xyz"]
@@ -145,6 +171,8 @@ def make_dataset(points, fields):
         records[name] = xyz[:, axis]
     for name, column in columns.items():
         records[name] = column if column.ndim == 1 or column.shape[1] > 1 else column[:, 0]
+    for name, names in labels.items():
+        dataset.set_labels(name, names)
     dataset.settle()
     return dataset
 

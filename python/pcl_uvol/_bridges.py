@@ -10,10 +10,16 @@ class Bridges:
     def to_vtk(self):
         """A vtkPolyData with all fields: a copy. Points are vertices, a mesh polygons."""
         from vtkmodules.util.numpy_support import numpy_to_vtk
-        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
         from vtkmodules.vtkCommonDataModel import vtkPolyData
 
         def to_array(values, name):
+            if values.dtype.kind == "O":
+                array = vtkStringArray()
+                for text in values:
+                    array.InsertNextValue(text)
+                array.SetName(name)
+                return array
             if values.dtype.kind == "b":
                 values = values.astype(np.uint8)
             array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
@@ -68,12 +74,14 @@ class Bridges:
 
     def to_dataframe(self):
         """All fields as a pandas.DataFrame: x, y, z in double where they have an origin,
-        numbers of one field as `vel_0`, `vel_1`, ..."""
+        numbers of one field as `vel_0`, `vel_1`, ..., names as categories."""
         import pandas
         columns = {axis: self.points[:, place] for place, axis in enumerate("xyz")}
         for name in self.keys():
             values = self[name]
-            if values.ndim == 1:
+            if name in self.labels:
+                columns[name] = pandas.Categorical.from_codes(self.records[name], self.labels[name])
+            elif values.ndim == 1:
                 columns[name] = values
             else:
                 columns.update((f"{name}_{place}", values[:, place]) for place in range(values.shape[1]))

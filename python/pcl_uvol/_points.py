@@ -56,6 +56,12 @@ class Points(Bridges):
             self._points = points
         return self._points
 
+    @property
+    def labels(self):
+        """dict of str to list of str: the names that the numbers of columns of names stand
+        for, by column, in alphabetical order; -1 stands for none."""
+        return {name: names for name, names in self._dataset.labels.items() if name in self.keys()}
+
     def keys(self):
         """Names of the fields, coordinates left out.
 
@@ -74,10 +80,14 @@ class Points(Bridges):
     def __getitem__(self, name):
         """The values of a field, shape (n,) or (n, k): a view.
 
-        `vel[1]`, `|vel|` and `|vx,vy,vz|` are computed.
+        `vel[1]`, `|vel|` and `|vx,vy,vz|` are computed. Of a column of names an array of
+        texts, "" for none; its numbers are in `records`, its names in `labels`.
         """
         if not isinstance(name, str):
             raise TypeError(f"Fields are asked for by their names, not by {name!r}.")
+        if name in self.labels:
+            names = np.array(self.labels[name] + [""], dtype=object)
+            return names[np.clip(self.records[name], -1, len(names) - 1)]
         if name in self.keys():
             return self.records[name]
         if any(mark in name for mark in "[|"):

@@ -23,7 +23,8 @@ class Samples(Drawable, Points):
         records of `empty` are taken as they are, all others are copied once.
     fields : mapping of str to array_like, optional
         Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
-        values and pandas' missing ones are missing values.
+        values and pandas' missing ones are missing values. Columns of names, as texts or
+        categories, are kept as labels.
 
     Examples
     --------
@@ -33,6 +34,9 @@ class Samples(Drawable, Points):
     array([1., 2., 3.])
     >>> samples
     Samples of 3 points: rho (float64)
+    >>> holes = uvol.Samples(np.eye(3), {"hole": ["A-2", "A-1", "A-2"]})
+    >>> len(holes.where("hole = A-2")), holes.labels
+    (2, {'hole': ['A-1', 'A-2']})
     """
 
     def __init__(self, points, fields=None):
@@ -63,7 +67,7 @@ class Samples(Drawable, Points):
         points : sequence of three str
             Columns of the coordinates.
         fields : sequence of str, optional
-            Columns to take; by default all others that hold numbers.
+            Columns to take; by default all others that hold numbers or names.
 
         Returns
         -------
@@ -86,7 +90,7 @@ class Samples(Drawable, Points):
             if name not in names:
                 raise FieldError(describe_missing(str(name), [str(known) for known in names]))
         if fields is None:
-            fields = [name for name in names if name not in axes and _holds_numbers(frame[name])]
+            fields = [name for name in names if name not in axes and _is_field(frame[name])]
         xyz = np.stack([np.ravel(_arrays.as_array(frame[axis], f"The column {axis!r}")) for axis in axes], axis=1)
         return cls(xyz, {str(name): _flat(frame[name]) for name in fields})
 
@@ -203,6 +207,9 @@ class Samples(Drawable, Points):
     def __repr__(self):
         fields = []
         for name in self.keys():
+            if name in self.labels:
+                fields.append(f"{name} ({len(self.labels[name])} names)")
+                continue
             values = self.records.dtype[name]
             fields.append(f"{name} ({values.base}" + (f" x {values.shape[0]})" if values.shape else ")"))
         return f"Samples of {len(self)} points: {', '.join(fields) or 'no fields'}"
@@ -218,12 +225,14 @@ def _split(records, axes):
     return points, {name: records[name] for name in records.dtype.names if name not in axes}
 
 
-def _holds_numbers(column):
-    return getattr(getattr(column, "dtype", None), "kind", "O") in "biuf"
+def _is_field(column):
+    return getattr(getattr(column, "dtype", None), "kind", "O") in "biuf" or _arrays.as_labels(column) is not None
 
 
 def _flat(column):
-    """A column, or a variable of a grid, as one number per point."""
+    """A column, or a variable of a grid, as one number or name per point."""
+    if _arrays.as_labels(column) is not None:
+        return column
     values = _arrays.as_array(column, "A column")
     return values.reshape(-1) if values.ndim != 1 else values
 

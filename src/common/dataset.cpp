@@ -24,6 +24,7 @@ replaceField(Dataset& dataset,
                           " values for " + std::to_string(cloud.width) + " points.");
   if (axisOf(name) >= 0)
     throw InvalidArgument("The field '" + name + "' is a coordinate.");
+  dataset.labels.erase(name);
   // The old one becomes padding, which goes when the new one is packed.
   for (auto& field : cloud.fields)
     if (field.name == name)

@@ -164,6 +164,10 @@ RecordLayout::RecordLayout(const RecordInfo& info, std::size_t step)
   header_.has_coordinates = info.has_coordinates;
   header_.box = info.box;
   const Fields fields = namedFields(info.fields, header_.notes);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (const auto* const names =
+            findLabels(info.fields, info.labels, info.fields[i].name))
+      header_.labels.emplace(fields[i].name, *names);
   bool doubles = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& field = *findField(fields, axis_names[axis]);
@@ -371,7 +375,38 @@ withoutCloud(const Dataset& dataset)
   result.origin = dataset.origin;
   result.double_coordinates = dataset.double_coordinates;
   result.box = dataset.box;
+  result.labels = dataset.labels;
   return result;
+}
+
+const std::vector<std::string>*
+findLabels(const Fields& fields, const LabelNames& labels, const std::string& field)
+{
+  const auto names = labels.find(field);
+  if (names == labels.end())
+    return nullptr;
+  const pcl::PCLPointField* const stored = findField(fields, field);
+  return stored && stored->datatype == Type::INT32 && stored->count <= 1
+             ? &names->second
+             : nullptr;
+}
+
+std::string
+nameOfLabel(const std::vector<std::string>& names, double label)
+{
+  return label >= 0.0 && label < static_cast<double>(names.size())
+             ? names[static_cast<std::size_t>(label)]
+             : std::string();
+}
+
+Fields
+fieldsOfNumbers(const Dataset& dataset)
+{
+  Fields numbers;
+  for (const auto& field : dataset.cloud.fields)
+    if (!findLabels(dataset.cloud.fields, dataset.labels, field.name))
+      numbers.push_back(field);
+  return numbers;
 }
 
 } // namespace pcl_uvol

@@ -88,6 +88,7 @@ struct PCL_UVOL_EXPORTS RecordInfo {
   bool has_coordinates = true;
   std::optional<std::array<double, 3>> origin; ///< unset: the coordinates tell
   std::array<double, 3> box{{0.0, 0.0, 0.0}};  ///< as Dataset::box
+  LabelNames labels;                           ///< as Dataset::labels
 };
 
 /** \brief From records, in native byte order, to the points of a dataset: coordinates
@@ -180,5 +181,18 @@ makeUnique(std::vector<std::string>& names);
  * copy of all its points. */
 PCL_UVOL_EXPORTS Dataset
 withoutCloud(const Dataset& dataset);
+
+/** \brief The names that the values of a field stand for; null where they stand for
+ * none. */
+PCL_UVOL_EXPORTS const std::vector<std::string>*
+findLabels(const Fields& fields, const LabelNames& labels, const std::string& field);
+
+/** \brief The name of a label; "" for a value that stands for none. */
+PCL_UVOL_EXPORTS std::string
+nameOfLabel(const std::vector<std::string>& names, double label);
+
+/** \brief The fields but for those that hold labels. */
+PCL_UVOL_EXPORTS Fields
+fieldsOfNumbers(const Dataset& dataset);
 
 } // namespace pcl_uvol

@@ -57,7 +57,7 @@ public:
   {
     std::vector<Derivatives> found(samples_.size());
     std::atomic<std::uint64_t> reduced{0}, singular{0};
-    sweep(report, "gradients", [&](std::size_t i, const LocalFit& fit, auto outcome) {
+    sweep(report, "gradients", [&](std::size_t i, LocalFit& fit, auto outcome) {
       reduced += outcome == FitOutcome::Reduced;
       singular += outcome == FitOutcome::Singular;
       if (neighbors_[i].size() == 0) { // the only sample
@@ -65,6 +65,7 @@ public:
         found[i] = {Eigen::Vector3d::Constant(none), none};
         return;
       }
+      const bool has_curvature = outcome == FitOutcome::Full || fit.fitInPlane();
       double d[9] = {};
       for (std::size_t j = 0; j < neighbors_[i].size(); ++j) {
         const double difference =
@@ -72,7 +73,9 @@ public:
         for (std::size_t row = 0; row < derivativesOf(parameters_.scheme); ++row)
           d[row] += fit.getWeights(row)[j] * difference;
       }
-      found[i] = {Eigen::Vector3d(d), computeCurvature(d)};
+      found[i] = {Eigen::Vector3d(d),
+                  has_curvature ? computeCurvature(d)
+                                : std::numeric_limits<double>::quiet_NaN()};
     });
     report.count("reduced_fits", reduced);
     report.count("singular_fits", singular);
@@ -108,7 +111,7 @@ private:
   void
   findCurvatures(std::vector<Derivatives>& found, Report& report) const
   {
-    sweep(report, "curvatures", [&](std::size_t i, const LocalFit& fit, auto) {
+    sweep(report, "curvatures", [&](std::size_t i, LocalFit& fit, auto) {
       const double slope = found[i].gradient.norm();
       if (!(slope > 0.0)) {
         found[i].mean_curvature = std::numeric_limits<double>::quiet_NaN();

@@ -130,6 +130,51 @@ LocalFit::fitQuadratic()
 }
 
 bool
+LocalFit::fitInPlane()
+{
+  constexpr int plane_terms = 5; // u v, uu uv vv
+  const auto count = static_cast<Eigen::Index>(count_);
+  if (scheme_ != FitScheme::Quadratic || count < plane_terms)
+    return false;
+  const Eigen::Map<const Eigen::Matrix3Xd> offsets(offsets_.data(), 3, count);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(offsets *
+                                                             offsets.transpose());
+  if (eigen.eigenvalues()[0] > smallest_eigenvalue * eigen.eigenvalues()[2])
+    return false;
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << eigen.eigenvectors().col(2), eigen.eigenvectors().col(1);
+  const Eigen::Matrix2Xd in_plane = axes.transpose() * offsets;
+  Eigen::Matrix<double, plane_terms, Eigen::Dynamic> terms_of(plane_terms, count);
+  terms_of.topRows(2) = in_plane;
+  terms_of.row(2) = 0.5 * in_plane.row(0).cwiseAbs2();
+  terms_of.row(3) = in_plane.row(0).cwiseProduct(in_plane.row(1));
+  terms_of.row(4) = 0.5 * in_plane.row(1).cwiseAbs2();
+  const Eigen::RowVectorXd weights =
+      (-weight_exponent / (weight_radius * weight_radius) *
+       offsets.colwise().squaredNorm().array())
+          .exp();
+  const auto weighted = (terms_of * weights.asDiagonal()).eval();
+  const Eigen::Matrix<double, plane_terms, plane_terms> normal =
+      weighted * terms_of.transpose();
+  const Eigen::LDLT<Eigen::Matrix<double, plane_terms, plane_terms>> factors(normal);
+  if (!(factors.vectorD().minCoeff() > smallest_pivot * factors.vectorD().maxCoeff()))
+    return false;
+  const auto rows = factors.solve(weighted).eval();
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<Rows> all(weights_.data(), terms, count);
+  all.topRows(3) = axes * rows.topRows(2) / reach_;
+  Eigen::Index row = 3;
+  for (int i = 0; i < 3; ++i)
+    for (int k = i; k < 3; ++k, ++row)
+      all.row(row) =
+          (axes(i, 0) * axes(k, 0) * rows.row(2) +
+           (axes(i, 0) * axes(k, 1) + axes(i, 1) * axes(k, 0)) * rows.row(3) +
+           axes(i, 1) * axes(k, 1) * rows.row(4)) /
+          (reach_ * reach_);
+  return true;
+}
+
+bool
 LocalFit::fitPlane(double least_eigenvalue)
 {
   // About the mean of the neighbours and the sample itself, which takes care of the

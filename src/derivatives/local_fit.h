@@ -52,6 +52,13 @@ public:
       const std::uint32_t* neighbors,
       std::size_t count);
 
+  /** \brief After a fit that is not full: a quadratic in the plane that the neighbours
+   * lie on, the derivatives across which are 0. Quadratic scheme only.
+   * \return false, and the weights as they were, for neighbours that lie on no plane,
+   * on a curve of second degree in it, or are fewer than 5 */
+  bool
+  fitInPlane();
+
   /** \brief Trade the quadratic for a plane with one second derivative, the same along
    * all axes: for smoothing, where the quadratic's curvature would grow with the
    * sample's own deviation instead of against it, as beside the rim of a cloud. Exact

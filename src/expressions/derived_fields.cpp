@@ -89,7 +89,7 @@ findFormula(const Dataset& header,
   const bool is_name = !text.empty() && endOfName(text, 0) == text.size();
   if (is_name && findComponents(fields, text).empty())
     throw InvalidArgument(describeUnknown(fields, text));
-  Formula formula = parseFormula(fields, header.origin, text);
+  Formula formula = parseFormula(header, text);
   if (const std::size_t width = formula.width(); width > 1)
     throw ExpressionError(describeComponents(formula.operands.front()) + ".", text, 0);
   checkDerivatives(formula, options);
@@ -134,7 +134,7 @@ selectRows(Dataset& dataset,
            const DerivedFieldOptions& options)
 {
   const std::string text(trimmed(where));
-  const Formula formula = parseFormula(dataset.cloud.fields, dataset.origin, text);
+  const Formula formula = parseFormula(dataset, text);
   if (!formula.compares)
     throw InvalidArgument(quoteText(text) +
                           " is no comparison: write one of =, !=, <, <=, >, >= between "

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "common/scalar_field.h"
+#include <pcl_uvol/common/dataset.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -67,13 +67,11 @@ struct Formula {
   hasField() const;
 };
 
-/** Resolve an expression against the fields of a cloud.
- * \param origin what coordinates are relative to
+/** Resolve an expression against the fields of a dataset, whose points are not looked
+ * at. Fields of names are compared with a name, `hole="A-117"` or `hole=A-117`.
  * \throws ExpressionError */
 Formula
-parseFormula(const std::vector<pcl::PCLPointField>& fields,
-             const std::array<double, 3>& origin,
-             const std::string& expression);
+parseFormula(const Dataset& header, const std::string& expression);
 
 /** What is said of an operand of several components where one number is needed. */
 std::string

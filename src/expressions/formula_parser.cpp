@@ -5,7 +5,9 @@
 #include "common/numbers.h"
 #include "common/printable.h"
 #include "common/records.h"
+#include "common/similar_words.h"
 #include "expressions/formula.h"
+#include "expressions/label_text.h"
 #include "expressions/operand_names.h"
 #include "expressions/program.h"
 #include "expressions/tokens.h"
@@ -29,11 +31,10 @@ using Kind = Token::Kind;
 
 class FormulaParser {
 public:
-  FormulaParser(const Fields& fields,
-                const std::array<double, 3>& origin,
-                const std::string& text)
-      : fields_(fields)
-      , origin_(origin)
+  FormulaParser(const Dataset& header, const std::string& text)
+      : fields_(header.cloud.fields)
+      , origin_(header.origin)
+      , labels_(header.labels)
       , text_(text)
   {
   }
@@ -307,6 +308,40 @@ private:
     const std::size_t begin = at_;
     at_ += characters;
     addOperand(draft, std::move(operand), begin);
+    if (const auto* const labels = findLabels(fields_, labels_, name))
+      readLabel(draft, name, *labels);
+  }
+
+  /** The comparison of a field of names with one of them. */
+  void
+  readLabel(Draft& draft,
+            const std::string& field,
+            const std::vector<std::string>& labels)
+  {
+    skipBlanks();
+    if (peek() != '=' && !(peek() == '!' && peek(1) == '='))
+      fail(quoteText(field) + " holds names, which = and != compare, as in " + field +
+               "=\"" + shortenText(labels.empty() ? "A-1" : labels.front()) + "\"",
+           at_);
+    readOperator(draft, '\0');
+    skipBlanks();
+    std::string name;
+    const std::size_t begin = at_;
+    const bool is_quoted = peek() == '"';
+    if (!takeLabel(text_, at_, name))
+      fail("A quotation mark is not closed", begin);
+    if (name.empty() && !is_quoted)
+      fail("A name is missing", begin);
+    const auto found = std::find(labels.begin(), labels.end(), name);
+    if (found == labels.end() && !name.empty()) {
+      const std::string similar = findSimilar(labels, name);
+      fail("The field " + quoteText(field) + " has no name " + quoteText(name) +
+               (similar.empty() ? "" : "; did you mean " + quoteText(similar) + "?"),
+           begin);
+    }
+    const std::string label =
+        name.empty() ? "-1" : std::to_string(found - labels.begin());
+    draft.tokens.push_back({Kind::Number, begin, label, 0, std::stod(label)});
   }
 
   /** With the component that is chosen behind it. */
@@ -440,6 +475,7 @@ private:
 
   const Fields& fields_;
   const std::array<double, 3>& origin_;
+  const LabelNames& labels_;
   const std::string& text_;
   std::size_t at_ = 0, depth_ = 0;
 };
@@ -447,11 +483,9 @@ private:
 } // namespace
 
 Formula
-parseFormula(const Fields& fields,
-             const std::array<double, 3>& origin,
-             const std::string& expression)
+parseFormula(const Dataset& header, const std::string& expression)
 {
-  return FormulaParser(fields, origin, expression).parseAll();
+  return FormulaParser(header, expression).parseAll();
 }
 
 bool

@@ -15,6 +15,7 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 
 #include <cstring>
@@ -283,6 +284,23 @@ makeDataArray(const Dataset& dataset, const std::string& name, const Fields& fie
   return array;
 }
 
+/** The names that labels stand for. */
+vtkSmartPointer<vtkStringArray>
+makeNameArray(const Dataset& dataset,
+              const pcl::PCLPointField& field,
+              const std::vector<std::string>& names)
+{
+  auto array = vtkSmartPointer<vtkStringArray>::New();
+  array->SetName(field.name.c_str());
+  const std::size_t count = std::size_t{dataset.cloud.width} * dataset.cloud.height;
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  const FieldComponent label{field.offset, field.datatype};
+  const std::uint8_t* point = dataset.cloud.data.data();
+  for (std::size_t i = 0; i < count; ++i, point += dataset.cloud.point_step)
+    array->SetValue(static_cast<vtkIdType>(i), nameOfLabel(names, label.read(point)));
+  return array;
+}
+
 /** One vertex per point, so that ParaView shows and thresholds them. */
 vtkSmartPointer<vtkCellArray>
 makeVertices(vtkIdType count)
@@ -342,7 +360,10 @@ fromPointCloud(const Dataset& dataset)
   if (!normals.empty())
     data->GetPointData()->SetNormals(makeDataArray(dataset, "Normals", normals));
   for (const auto& field : fields)
-    if (!findField(xyz, field.name) && !findField(normals, field.name))
+    if (const auto* const names =
+            findLabels(dataset.cloud.fields, dataset.labels, field.name))
+      data->GetPointData()->AddArray(makeNameArray(dataset, field, *names));
+    else if (!findField(xyz, field.name) && !findField(normals, field.name))
       data->GetPointData()->AddArray(makeDataArray(dataset, field.name, {field}));
   return data;
 }

@@ -5,6 +5,7 @@
 #include "common/random.h"
 #include <pcl_uvol/common/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_uvol {
@@ -93,6 +94,52 @@ clusteredAt(std::uint64_t seed, std::uint64_t index, double lower, double upper)
            center + r * z}};
 }
 
+/** Of samples on lines across a cube: with m on each of n / m lines, which make a
+ * square, these lie sqrt(m^3 / n) times as far apart as the samples on them. */
+std::uint64_t
+samplesPerLine(Scatter scatter, std::uint64_t n)
+{
+  const double across_by_along = scatter == Scatter::Holes ? 25.0 : 10.0;
+  const double count =
+      std::cbrt(across_by_along * across_by_along * static_cast<double>(n));
+  return std::clamp<std::uint64_t>(std::llround(count), 1, n);
+}
+
+/** A place on a line, in the unit cube. */
+Position
+onLineAt(Scatter scatter, std::uint64_t seed, std::uint64_t index, std::uint64_t n)
+{
+  constexpr double margin = 0.1;  // of a line's cell, at each side
+  constexpr double meander = 0.2; // in parts of the cell
+  constexpr double drift = 0.5;   // of a hole sideways, at most: 60 degrees steep
+  const std::uint64_t length = samplesPerLine(scatter, n), line = index / length;
+  const auto side = static_cast<std::uint64_t>(std::ceil(
+      std::sqrt(std::ceil(static_cast<double>(n) / static_cast<double>(length)))));
+  const auto random = [&](std::size_t which) {
+    return uniformAt(seed, line, 11 + which);
+  };
+  const double along =
+      (static_cast<double>(index % length) + 0.5) / static_cast<double>(length);
+  double place[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto cell = static_cast<double>(i == 0 ? line % side : line / side);
+    const double jitter = margin + (1.0 - 2.0 * margin) * random(i);
+    double within = scatter == Scatter::Tracks ? 0.5 : jitter;
+    if (scatter == Scatter::Tracks)
+      within += meander *
+                std::sin(2 * pi * ((1.0 + 2.0 * random(2 + i)) * along + random(i)));
+    place[i] = (cell + within) / static_cast<double>(side);
+    if (scatter == Scatter::Holes) {
+      const double end =
+          std::clamp(place[i] + drift * (2.0 * random(4 + i) - 1.0), 0.0, 1.0);
+      place[i] += along * (end - place[i]);
+    }
+  }
+  if (scatter == Scatter::Tracks)
+    return {{along, place[0], place[1]}};
+  return {{place[0], place[1], 1.0 - along}};
+}
+
 } // namespace
 
 const std::vector<AnalyticField>&
@@ -122,10 +169,23 @@ findAnalyticField(const std::string& name)
                         names + ".");
 }
 
+bool
+isOnLines(Scatter scatter)
+{
+  return scatter == Scatter::Tracks || scatter == Scatter::Casts ||
+         scatter == Scatter::Holes;
+}
+
+std::uint64_t
+lineOf(Scatter scatter, std::uint64_t index, std::uint64_t n)
+{
+  return index / samplesPerLine(scatter, n);
+}
+
 std::uint64_t
 scatterCount(Scatter scatter, std::uint64_t n)
 {
-  if (scatter == Scatter::Uniform || scatter == Scatter::Clustered)
+  if (scatter != Scatter::Jittered && scatter != Scatter::Lattice)
     return n;
   const std::uint64_t side = latticeSide(n);
   return side * side * side;
@@ -141,6 +201,12 @@ scatterAt(Scatter scatter,
 {
   if (scatter == Scatter::Clustered)
     return clusteredAt(seed, index, lower, upper);
+  if (isOnLines(scatter)) {
+    Position place = onLineAt(scatter, seed, index, n);
+    for (double& coordinate : place)
+      coordinate = lower + coordinate * (upper - lower);
+    return place;
+  }
   Position position;
   const std::uint64_t side = scatter == Scatter::Uniform ? 1 : latticeSide(n);
   const std::uint64_t cell[3] = {

@@ -33,11 +33,23 @@ findAnalyticField(const std::string& name);
 
 /** \brief How samples are spread over a cube. */
 enum class Scatter {
-  Uniform,  ///< independent
-  Jittered, ///< one at random in every cell of a lattice
-  Lattice,  ///< the centres of these cells
-  Clustered ///< density falls with the squared distance from the centre, in a ball
+  Uniform,   ///< independent
+  Jittered,  ///< one at random in every cell of a lattice
+  Lattice,   ///< the centres of these cells
+  Clustered, ///< density falls with the squared distance from the centre, in a ball
+  Tracks,    ///< rows of a robot or a drone along x, which meander a little
+  Casts,     ///< vertical profiles below a ship's stations
+  Holes      ///< straight drill holes, steep, from collars on top
 };
+
+/** \brief True where samples lie on lines: along them ten times as dense as across,
+ * along drill holes 25 times. */
+PCL_UVOL_EXPORTS bool
+isOnLines(Scatter scatter);
+
+/** \brief The line that the sample of that index among n lies on, counted from 0. */
+PCL_UVOL_EXPORTS std::uint64_t
+lineOf(Scatter scatter, std::uint64_t index, std::uint64_t n);
 
 /** \brief Number of samples: Jittered and Lattice round down to a cube number. */
 PCL_UVOL_EXPORTS std::uint64_t

@@ -89,7 +89,8 @@ findColumns(const Dataset& dataset, const Fields& fields)
            field.datatype,
            field.offset + i * datatypeSize(field.datatype),
            widened,
-           widened ? dataset.origin[static_cast<std::size_t>(axis)] : 0.0});
+           widened ? dataset.origin[static_cast<std::size_t>(axis)] : 0.0,
+           findLabels(dataset.cloud.fields, dataset.labels, field.name)});
   }
   return columns;
 }

@@ -16,6 +16,8 @@ struct Column {
   std::size_t offset;    ///< in the point
   bool widened;          ///< float32 in the point, addend + float64 in the file
   double addend;
+  const std::vector<std::string>* labels =
+      nullptr; ///< names that the numbers stand for
 };
 
 /** \brief The numbers of savedFields(); components are called name_0, name_1, ... */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes CSV: a header line, missing values as empty cells.
+// Writes CSV: a header line, missing values as empty cells, labels as names.
 #include "io/columns.h"
 #include "io/files.h"
 #include "io/formats.h"
@@ -7,6 +7,23 @@
 
 namespace pcl_uvol {
 namespace io {
+namespace {
+
+void
+appendCell(std::string& text, const Column& column, const std::uint8_t* point)
+{
+  if (column.labels) {
+    const FieldComponent label{column.offset, column.datatype};
+    text += quotedCell(nameOfLabel(*column.labels, label.read(point)));
+    return;
+  }
+  const std::size_t start = text.size();
+  appendNumber(text, column, point);
+  if (text.compare(start, std::string::npos, "nan") == 0)
+    text.resize(start); // a missing value is an empty cell
+}
+
+} // namespace
 
 void
 writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
@@ -22,10 +39,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
   const std::uint8_t* point = cloud.data.data();
   for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
     for (const auto& column : columns) {
-      const std::size_t start = text.size();
-      appendNumber(text, column, point);
-      if (text.compare(start, std::string::npos, "nan") == 0)
-        text.resize(start); // a missing value is an empty cell
+      appendCell(text, column, point);
       text += ',';
     }
     text.back() = '\n';

@@ -7,6 +7,7 @@
 #include "io/columns.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/label_comments.h"
 #include "io/record_source.h"
 
 #include <pcl/io/lzf.h>
@@ -85,6 +86,7 @@ private:
   std::uint64_t width_ = 0, height_ = 0, points_ = 0;
   bool has_width_ = false, has_height_ = false, has_points_ = false;
   Encoding encoding_ = Encoding::Ascii;
+  LabelNames labels_;
 };
 
 std::uint64_t
@@ -102,8 +104,12 @@ HeaderParser::take(std::string_view line, std::size_t number)
   line_ = number;
   Words words;
   splitWords(line, words);
-  if (words.empty() || words[0][0] == '#')
+  if (words.empty())
     return false;
+  if (words[0][0] == '#') {
+    takeLabelComment(line.substr(line.find('#') + 1), labels_);
+    return false;
+  }
   const std::string_view key = words[0];
   const auto rest = [&words] {
     return std::vector<std::string>(words.begin() + 1, words.end());
@@ -185,6 +191,7 @@ HeaderParser::finish() const
                         " POINTS, but WIDTH " + std::to_string(width_) +
                         " and HEIGHT " + std::to_string(height));
   header.encoding = encoding_;
+  header.info.labels = labels_;
   return header;
 }
 
@@ -349,12 +356,14 @@ makeSource(const std::string& path,
 }
 
 std::string
-makeHeader(const Fields& fields, std::uint64_t count, const SaveOptions& options)
+makeHeader(const Dataset& dataset, const Fields& fields, const SaveOptions& options)
 {
   std::vector<std::string> names, comments = options.comments;
   for (const auto& field : fields)
     names.push_back(field.name);
+  const std::vector<std::string> originals = names;
   makeWords(names, comments);
+  addLabelComments(dataset, originals, names, comments);
   std::string text = "# .PCD v0.7 - Point Cloud Data file format\n";
   for (std::string comment : comments) {
     std::replace(comment.begin(), comment.end(), '\n', ' ');
@@ -372,7 +381,8 @@ makeHeader(const Fields& fields, std::uint64_t count, const SaveOptions& options
     types += real ? " F" : has_sign ? " I" : " U";
     counts += ' ' + std::to_string(fields[i].count);
   }
-  const std::string points = std::to_string(count);
+  const std::string points =
+      std::to_string(std::size_t{dataset.cloud.width} * dataset.cloud.height);
   return text + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" + counts + "\nWIDTH " +
          points + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + points + "\nDATA " +
          (options.ascii ? "ascii" : "binary") + '\n';
@@ -422,10 +432,8 @@ writePcd(const std::string& file,
   for (auto& field : fields)
     if (options.ascii && field.name == "rgb" && field.datatype == Type::FLOAT32)
       field.datatype = Type::UINT32;
-  const std::size_t count =
-      static_cast<std::size_t>(dataset.cloud.width) * dataset.cloud.height;
   OutputFile out(file, path);
-  out.buffer() = makeHeader(fields, count, options);
+  out.buffer() = makeHeader(dataset, fields, options);
   writeRecords(out, dataset, findColumns(dataset, fields), options.ascii);
   out.close();
 }

@@ -5,6 +5,7 @@
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/formats.h"
+#include "io/label_comments.h"
 #include "io/ply_types.h"
 #include "io/record_source.h"
 
@@ -54,6 +55,7 @@ enum class Format { None, Ascii, LittleEndian, BigEndian };
 struct Header {
   Format format = Format::None;
   std::vector<Element> elements;
+  LabelNames labels;
 };
 
 /** Parses the lines of a header, up to end_header. */
@@ -70,7 +72,7 @@ public:
 
 private:
   void
-  takeLine(const Words& words);
+  takeLine(std::string_view line, const Words& words);
   Format
   formatIn(const Words& words) const;
   void
@@ -125,8 +127,12 @@ HeaderParser::formatIn(const Words& words) const
 }
 
 void
-HeaderParser::takeLine(const Words& words)
+HeaderParser::takeLine(std::string_view line, const Words& words)
 {
+  if (words[0] == "comment" && words.size() > 1)
+    takeLabelComment(
+        line.substr(static_cast<std::size_t>(words[1].data() - line.data())),
+        header_.labels);
   if (words[0] == "comment" || words[0] == "obj_info")
     return;
   if (words[0] == "format")
@@ -151,13 +157,16 @@ HeaderParser::parse()
   if (!cursor_.nextLine(line) || line != "ply")
     throwUnreadable(path_, "it is no PLY file: its first line is not 'ply'");
   Words words;
-  while (cursor_.nextWords(words)) {
+  while (cursor_.nextLine(line)) {
+    splitWords(line, words);
+    if (words.empty())
+      continue;
     if (words[0] == "end_header") {
       if (header_.format == Format::None)
         throwUnreadable(path_, "its header has no format line");
       return std::move(header_);
     }
-    takeLine(words);
+    takeLine(line, words);
   }
   throwUnreadable(path_, "its header has no end_header line");
 }
@@ -490,7 +499,7 @@ findElement(const std::string& path,
 }
 
 RecordInfo
-makeInfo(const std::string& path, const Element& vertex)
+makeInfo(const std::string& path, const Element& vertex, LabelNames&& labels)
 {
   RecordInfo info;
   info.count = vertex.count;
@@ -503,6 +512,7 @@ makeInfo(const std::string& path, const Element& vertex)
   if (info.fields.empty())
     throwUnreadable(path, "its vertices have no coordinates");
   renameFields(info.fields, ply_normals, cloud_normals);
+  info.labels = std::move(labels);
   return info;
 }
 
@@ -516,7 +526,7 @@ openPly(const std::string& path)
   const Element* const vertex = findElement(path, *cursor, "vertex", header);
   if (!vertex)
     throwUnreadable(path, "it has no element 'vertex'");
-  RecordInfo info = makeInfo(path, *vertex);
+  RecordInfo info = makeInfo(path, *vertex, std::move(header.labels));
   const bool swapped = header.format == Format::BigEndian;
   if (header.format == Format::Ascii)
     return std::make_unique<AsciiSource>(

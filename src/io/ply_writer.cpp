@@ -3,6 +3,7 @@
 #include "io/columns.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/label_comments.h"
 #include "io/ply_types.h"
 
 #include <algorithm>
@@ -122,7 +123,9 @@ writePly(const std::string& file,
   std::vector<std::string> names, comments = options.comments;
   for (const auto& column : columns)
     names.push_back(column.name);
+  const std::vector<std::string> originals = names;
   makeWords(names, comments);
+  addLabelComments(dataset, originals, names, comments);
   OutputFile out(file, path);
   std::string& header = out.buffer();
   header = std::string("ply\nformat ") +

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <glob.h>
+#include <iterator>
 #include <limits>
 #include <unistd.h>
 
@@ -81,6 +82,7 @@ struct Layout {
   pcl::uindex_t point_step = 0;
   bool double_coordinates = false;
   Fields fields;
+  LabelNames labels; ///< those of all pieces
 
   Layout() = default;
   Layout(std::string name, const Dataset& dataset)
@@ -88,6 +90,7 @@ struct Layout {
       , point_step(dataset.cloud.point_step)
       , double_coordinates(dataset.double_coordinates)
       , fields(dataset.cloud.fields)
+      , labels(dataset.labels)
   {
   }
   explicit Layout(const Bytes& message)
@@ -101,6 +104,11 @@ struct Layout {
     path = getText();
     point_step = reader.get<pcl::uindex_t>();
     double_coordinates = reader.get<bool>();
+    for (auto columns = reader.get<std::uint64_t>(); columns > 0; --columns) {
+      std::vector<std::string>& names = labels[getText()];
+      for (auto count = reader.get<std::uint64_t>(); count > 0; --count)
+        names.push_back(getText());
+    }
     while (!reader.atEnd()) {
       pcl::PCLPointField field;
       field.name = getText();
@@ -116,11 +124,20 @@ struct Layout {
   {
     Bytes message;
     ByteWriter writer(message);
-    writer.put(std::vector<char>(path.begin(), path.end()));
+    const auto putText = [&](const std::string& text) {
+      writer.put(std::vector<char>(text.begin(), text.end()));
+    };
+    putText(path);
     writer.put(point_step);
     writer.put(double_coordinates);
+    writer.put(std::uint64_t{labels.size()});
+    for (const auto& [field, names] : labels) {
+      putText(field);
+      writer.put(std::uint64_t{names.size()});
+      std::for_each(names.begin(), names.end(), putText);
+    }
     for (const auto& field : fields) {
-      writer.put(std::vector<char>(field.name.begin(), field.name.end()));
+      putText(field.name);
       writer.put(field.offset);
       writer.put(field.datatype);
       writer.put(field.count);
@@ -155,6 +172,15 @@ struct Layout {
                             describeFields(other.fields) +
                             ": write all of them with the same arrays.");
     double_coordinates |= other.double_coordinates;
+    for (const auto& [field, names] : other.labels) {
+      const std::vector<std::string> own = std::move(labels[field]);
+      labels[field].clear();
+      std::set_union(own.begin(),
+                     own.end(),
+                     names.begin(),
+                     names.end(),
+                     std::back_inserter(labels[field]));
+    }
   }
 };
 
@@ -175,7 +201,7 @@ public:
       return;
     layout_.join({path, piece});
     auto& cloud = part_.cloud;
-    if (origins_.empty())
+    if (pieces_.empty())
       part_.cloud = piece.cloud;
     else {
       cloud.data.insert(
@@ -183,7 +209,7 @@ public:
       checkCount(std::uint64_t(cloud.width) + countPoints(piece));
       cloud.width += static_cast<pcl::uindex_t>(countPoints(piece));
     }
-    origins_.emplace_back(countPoints(piece), piece.origin);
+    pieces_.push_back({countPoints(piece), piece.origin, piece.labels});
   }
 
   Dataset
@@ -204,24 +230,57 @@ public:
     part_.double_coordinates = layout_.double_coordinates;
     if (part_.double_coordinates)
       findCommonOrigin();
+    part_.labels = layout_.labels;
+    for (const auto& [field, names] : part_.labels)
+      if (findLabels(cloud.fields, part_.labels, field))
+        numberLabels(*findField(cloud.fields, field), names);
     return std::move(part_);
   }
 
 private:
+  struct Piece {
+    std::size_t points;
+    std::array<double, 3> origin;
+    LabelNames labels;
+  };
+
   /** Call visit(coordinates in double, point) for all. */
   template <typename Visit>
   void
   forPoints(const Visit& visit)
   {
     std::uint8_t* point = part_.cloud.data.data();
-    for (const auto& [count, origin] : origins_)
-      for (std::size_t i = 0; i < count; ++i, point += part_.cloud.point_step) {
+    for (const Piece& piece : pieces_) {
+      const std::array<double, 3>& origin = piece.origin;
+      for (std::size_t i = 0; i < piece.points; ++i, point += part_.cloud.point_step) {
         std::array<float, 3> relative;
         std::memcpy(relative.data(), point, sizeof(relative));
         visit(
             {origin[0] + relative[0], origin[1] + relative[1], origin[2] + relative[2]},
             point);
       }
+    }
+  }
+
+  /** Each piece counts the names that it has: count those of all pieces instead. */
+  void
+  numberLabels(const pcl::PCLPointField& field, const std::vector<std::string>& names)
+  {
+    std::uint8_t* label = part_.cloud.data.data() + field.offset;
+    for (const Piece& piece : pieces_) {
+      const auto own = piece.labels.find(field.name);
+      for (std::size_t i = 0; i < piece.points; ++i, label += part_.cloud.point_step) {
+        std::int32_t number;
+        std::memcpy(&number, label, sizeof(number));
+        const std::string name =
+            own == piece.labels.end() ? "" : nameOfLabel(own->second, number);
+        if (name.empty())
+          continue;
+        number = static_cast<std::int32_t>(
+            std::lower_bound(names.begin(), names.end(), name) - names.begin());
+        std::memcpy(label, &number, sizeof(number));
+      }
+    }
   }
 
   void
@@ -243,8 +302,7 @@ private:
   Communicator& communicator_;
   Dataset part_;
   Layout layout_;
-  std::vector<std::pair<std::size_t, std::array<double, 3>>>
-      origins_; ///< of as many points
+  std::vector<Piece> pieces_;
 };
 
 Dataset

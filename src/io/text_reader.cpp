@@ -6,13 +6,12 @@
 #include "io/coordinate_columns.h"
 #include "io/formats.h"
 #include "io/record_source.h"
+#include "io/text_column.h"
 #include "io/text_rows.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <map>
 #include <optional>
 
 namespace pcl_uvol {
@@ -21,65 +20,8 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-constexpr double exact_integers = 0x1p53; ///< double holds the integers below
-
-struct TextColumn {
-  std::string name;
-  std::optional<std::size_t> cell; ///< of the row; without one all values are 0
-  std::vector<double> values;      ///< if they are kept
-  bool floats = true;              ///< float32 holds all digits
-  bool integers = true;            ///< all cells are whole numbers
-  bool inexact = false;            ///< double does not hold some of these
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  std::size_t numbers = 0;
-  std::size_t texts = 0;
-  std::size_t first_text_line = 0;
-  std::string first_text;
-};
-
-bool
-isMissing(std::string_view cell)
-{
-  if (cell.empty())
-    return true;
-  if (cell.size() > 4)
-    return false;
-  const std::string lower = lowerCase(cell);
-  return lower == "nan" || lower == "na" || lower == "n/a" || lower == "null";
-}
-
-/** NaN where the cell holds no number. */
-double
-numberIn(std::string_view cell)
-{
-  double value = std::numeric_limits<double>::quiet_NaN();
-  parseNumber(cell, value);
-  return value;
-}
-
-/** The smallest type that keeps the cells as they are given. */
-std::uint8_t
-datatypeOf(const TextColumn& column)
-{
-  if (column.integers && column.numbers > 0 &&
-      column.low >= std::numeric_limits<std::int32_t>::min() &&
-      column.high <= std::numeric_limits<std::int32_t>::max())
-    return Type::INT32;
-  return column.floats ? Type::FLOAT32 : Type::FLOAT64;
-}
-
-void
-putNumber(double value, std::uint8_t datatype, std::uint8_t* to)
-{
-  const auto put = [to](auto number) { std::memcpy(to, &number, sizeof(number)); };
-  if (datatype == Type::FLOAT64)
-    put(value);
-  else if (datatype == Type::FLOAT32)
-    put(static_cast<float>(value));
-  else
-    put(static_cast<std::int32_t>(value));
-}
+/** Names of a column that are kept: beyond it they rather describe single rows. */
+constexpr std::size_t most_names = 1u << 16;
 
 /** A table whose header was read. */
 class TextTable {
@@ -91,7 +33,7 @@ public:
   void
   scan(bool keep);
 
-  /** The columns that hold numbers; to be called after scan(). */
+  /** The columns that hold numbers or names; to be called after scan(). */
   RecordInfo
   describe();
 
@@ -121,8 +63,10 @@ private:
   orderColumns();
   void
   checkGuess() const;
-  double
-  takeCell(TextColumn& column, std::string_view cell);
+  void
+  scanNames();
+  void
+  checkColumn(const TextColumn& column, bool coordinate) const;
 
   const std::string path_;
   const LoadOptions options_;
@@ -175,13 +119,7 @@ TextTable::startColumns(std::string_view header, std::size_t line)
   rows_.split(header, cells);
   std::vector<std::string> names;
   for (const std::string_view cell : cells) {
-    std::string name(trimmed(cell));
-    std::size_t kept = 0; // of two quotes one
-    for (std::size_t at = 0; at < name.size(); ++at) {
-      name[kept++] = name[at];
-      at += name.compare(at, 2, "\"\"") == 0;
-    }
-    name.resize(kept);
+    std::string name = withoutDoubledQuotes(trimmed(cell));
     if (name.empty())
       name = "column_" + std::to_string(names.size());
     names.push_back(name);
@@ -358,33 +296,6 @@ TextTable::orderColumns()
   columns_ = std::move(ordered);
 }
 
-double
-TextTable::takeCell(TextColumn& column, std::string_view cell)
-{
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const bool parsed = parseNumber(cell, value);
-  if (parsed && !std::isnan(value)) {
-    ++column.numbers;
-    column.low = std::min(column.low, value);
-    column.high = std::max(column.high, value);
-    column.floats = column.floats && floatHoldsDigits(cell, value);
-    column.integers = column.integers && std::floor(value) == value &&
-                      cell.find_first_of(".eE") == std::string_view::npos;
-    column.inexact =
-        column.inexact || (column.integers && std::abs(value) >= exact_integers);
-  }
-  else {
-    column.integers = false;
-    const bool text = !parsed && !isMissing(cell);
-    if (text && column.texts == 0) {
-      column.first_text_line = cursor_->tell().line;
-      column.first_text = cell;
-    }
-    column.texts += text;
-  }
-  return value;
-}
-
 void
 TextTable::scan(bool keep)
 {
@@ -394,7 +305,8 @@ TextTable::scan(bool keep)
   for (; rows_.next(cells); ++count_) {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       TextColumn& column = columns_[i];
-      const double value = column.cell ? takeCell(column, cells[*column.cell]) : 0.0;
+      const double value =
+          column.cell ? column.take(cells[*column.cell], cursor_->tell().line) : 0.0;
       if (i < point.size())
         point[i] = value;
       if (keep)
@@ -404,35 +316,81 @@ TextTable::scan(bool keep)
   }
 }
 
+/** Which names columns hold is known before their values: these are put in after a
+ * second look at the rows. */
+void
+TextTable::scanNames()
+{
+  using Numbers = std::map<std::string, double>;
+  std::vector<std::pair<TextColumn*, Numbers>> found; // in the order of the rows
+  for (auto& column : columns_)
+    if (column.holdsNames())
+      found.emplace_back(&column, Numbers());
+  if (found.empty())
+    return;
+  cursor_->seek(start_);
+  Cells cells;
+  for (std::size_t row = 0; rows_.next(cells); ++row)
+    for (auto& [column, numbers] : found) {
+      const std::string_view cell = cells[*column->cell];
+      const std::string name = withoutDoubledQuotes(cell);
+      auto known = numbers.find(name);
+      if (known == numbers.end() && !isMissing(cell) && numbers.size() <= most_names)
+        known = numbers.emplace(name, static_cast<double>(numbers.size())).first;
+      if (!column->values.empty())
+        column->values[row] = known == numbers.end() ? no_name : known->second;
+    }
+  for (auto& [column, numbers] : found) {
+    if (numbers.size() > most_names)
+      continue;
+    std::vector<double> ranks(numbers.size());
+    for (const auto& [name, number] : numbers) {
+      ranks[static_cast<std::size_t>(number)] =
+          static_cast<double>(column->labels.size());
+      column->labels.push_back(name);
+    }
+    for (double& value : column->values)
+      value = value == no_name ? no_name : ranks[static_cast<std::size_t>(value)];
+  }
+}
+
+void
+TextTable::checkColumn(const TextColumn& column, bool coordinate) const
+{
+  if (column.texts > 0 && (coordinate || !column.holdsNames()))
+    throwUnreadable(path_,
+                    column.first_text_line,
+                    quoteText(column.first_text) + " in column " +
+                        quoteText(column.name) + " is no number");
+}
+
 RecordInfo
 TextTable::describe()
 {
   checkGuess();
+  for (const TextColumn& column : columns_)
+    checkColumn(column, &column - columns_.data() < 3);
+  scanNames();
   RecordInfo info;
   info.count = count_;
   info.notes = notes_;
   std::vector<TextColumn> taken;
   for (auto& column : columns_) {
-    const bool coordinate = &column - columns_.data() < 3;
-    // names that happen to be numbers ("34873" beside "B1-001") make no column of
-    // numbers
-    const bool names = column.texts > column.numbers && !coordinate;
-    if (column.texts > 0 && !names)
-      throwUnreadable(path_,
-                      column.first_text_line,
-                      quoteText(column.first_text) + " in column " +
-                          quoteText(column.name) + " is no number");
-    if (names) {
+    if (column.holdsNames() && column.labels.empty()) {
       info.notes.push_back("The column " + quoteText(column.name) +
-                           " holds names, not numbers, and is left out.");
+                           " holds more than " + std::to_string(most_names) +
+                           " different names, and is left out.");
       continue;
     }
+    if (column.holdsNames())
+      info.labels.emplace(column.name, column.labels);
     if (column.inexact)
       info.notes.push_back("The column " + quoteText(column.name) +
                            " holds integers beyond 2^53, which lose digits.");
+    const bool coordinate = &column - columns_.data() < 3;
     appendField(info.fields,
                 column.name,
-                coordinate ? std::uint8_t{Type::FLOAT64} : datatypeOf(column));
+                coordinate ? std::uint8_t{Type::FLOAT64} : column.getDatatype());
     taken.push_back(std::move(column));
   }
   columns_ = std::move(taken);
@@ -471,7 +429,7 @@ public:
   {
     rows_.setShape(shape);
     for (const auto& column : columns)
-      columns_.push_back(column.cell);
+      columns_.push_back({column.cell, column.labels});
   }
 
 private:
@@ -482,8 +440,7 @@ private:
       throwShorter();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const auto& field = info_.fields[i];
-      const double value = columns_[i] ? numberIn(cells_[*columns_[i]]) : 0.0;
-      putNumber(value, field.datatype, record + field.offset);
+      putNumber(valueOf(columns_[i]), field.datatype, record + field.offset);
     }
   }
 
@@ -495,6 +452,20 @@ private:
       throwShorter();
   }
 
+  struct SourceColumn {
+    std::optional<std::size_t> cell;
+    std::vector<std::string> labels;
+  };
+
+  double
+  valueOf(const SourceColumn& column) const
+  {
+    if (!column.cell)
+      return 0.0;
+    const std::string_view cell = cells_[*column.cell];
+    return column.labels.empty() ? numberIn(cell) : labelOf(cell, column.labels);
+  }
+
   [[noreturn]] void
   throwShorter() const
   {
@@ -503,7 +474,7 @@ private:
 
   TextRows rows_;
   Cells cells_;
-  std::vector<std::optional<std::size_t>> columns_;
+  std::vector<SourceColumn> columns_;
 };
 
 std::unique_ptr<RecordSource>

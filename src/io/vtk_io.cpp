@@ -23,10 +23,14 @@ namespace pcl_uvol {
 namespace io {
 namespace {
 
-/** "Float32", as VTK's XML files call it. */
+/** "Float32" or "String", as VTK's XML files call it. */
 std::string
-xmlTypeOf(vtkDataArray& array)
+xmlTypeOf(vtkAbstractArray& values)
 {
+  auto* const numbers = vtkDataArray::SafeDownCast(&values);
+  if (numbers == nullptr)
+    return "String";
+  vtkDataArray& array = *numbers;
   const int type = array.GetDataType();
   const bool is_float = type == VTK_FLOAT || type == VTK_DOUBLE;
   const bool has_sign = array.GetDataTypeMin() < 0.0;
@@ -49,7 +53,7 @@ addElement(const char* name, vtkXMLDataElement* parent)
 }
 
 void
-addArray(vtkDataArray& array, const char* name, vtkXMLDataElement* parent)
+addArray(vtkAbstractArray& array, const char* name, vtkXMLDataElement* parent)
 {
   const auto element = addElement("PDataArray", parent);
   element->SetAttribute("type", xmlTypeOf(array).c_str());
@@ -69,7 +73,7 @@ makeWritable(const Dataset& dataset)
     names.push_back(escapeAttribute(arrays->GetArrayName(i)));
   makeUnique(names);
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-    arrays->GetArray(i)->SetName(names[static_cast<std::size_t>(i)].c_str());
+    arrays->GetAbstractArray(i)->SetName(names[static_cast<std::size_t>(i)].c_str());
   return data;
 }
 
@@ -116,7 +120,7 @@ writePieceList(const std::string& file,
   if (arrays->GetNormals() != nullptr)
     point_data->SetAttribute("Normals", arrays->GetNormals()->GetName());
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-    addArray(*arrays->GetArray(i), arrays->GetArrayName(i), point_data);
+    addArray(*arrays->GetAbstractArray(i), arrays->GetArrayName(i), point_data);
   addArray(*data->GetPoints()->GetData(), "Points", addElement("PPoints", list));
   for (const std::string& piece : pieces)
     addElement("Piece", list)

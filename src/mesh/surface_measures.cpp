@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
+#include "common/records.h"
 #include "mesh/inner_samples.h"
 #include "mesh/measured_mesh.h"
 #include "mesh/measured_points.h"
@@ -386,7 +387,8 @@ SurfaceMeasures::compute()
   if (triangles_.empty() && samples_)
     throw InvalidArgument(
         "Samples inside are found by triangles, and the surface has none.");
-  const CloudView vertices = viewOf(vertices_->cloud);
+  CloudView vertices = viewOf(vertices_->cloud);
+  vertices.fields = fieldsOfNumbers(*vertices_); // names have no mean
   Measurement measurement(
       triangles_.empty()
           ? detail::measurePoints(vertices, threads_, report_)
@@ -394,7 +396,8 @@ SurfaceMeasures::compute()
       vertices,
       vertices_->origin);
   if (samples_) {
-    const CloudView samples = viewOf(samples_->cloud);
+    CloudView samples = viewOf(samples_->cloud);
+    samples.fields = fieldsOfNumbers(*samples_);
     measurement.lookInside(samples, samples_->origin, threads_, report_);
   }
   measurement.joinPieces();

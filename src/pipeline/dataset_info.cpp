@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pcl_uvol {
@@ -34,6 +35,19 @@ suggestIsovalues(const std::vector<double>& sorted)
     }
   isovalues.erase(std::unique(isovalues.begin(), isovalues.end()), isovalues.end());
   return isovalues;
+}
+
+/** Points with finite coordinates. */
+std::vector<std::uint32_t>
+listFinite(const CloudView& cloud)
+{
+  std::vector<std::uint32_t> finite;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const float* const p = cloud.xyz(i);
+    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
+      finite.push_back(static_cast<std::uint32_t>(i));
+  }
+  return finite;
 }
 
 } // namespace
@@ -81,12 +95,7 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
 {
   const CloudView cloud = viewOf(dataset.cloud);
   PositionStatistics statistics;
-  std::vector<std::uint32_t> finite;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const float* const p = cloud.xyz(i);
-    if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]))
-      finite.push_back(static_cast<std::uint32_t>(i));
-  }
+  const std::vector<std::uint32_t> finite = listFinite(cloud);
   statistics.non_finite = cloud.count - finite.size();
   if (finite.empty())
     return statistics;
@@ -133,6 +142,36 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
   statistics.spacing_max = unit.toInput(spacing.back());
   statistics.sampling = summarizeSampling(*samples, threads);
   return statistics;
+}
+
+void
+addSamplingFields(Dataset& dataset, const Eigen::Array3f& scale, unsigned threads)
+{
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  const std::size_t count = dataset.cloud.width;
+  std::vector<std::int32_t> dimension(count, -1);
+  std::vector<float> along(count, none), across(count, none);
+  const CloudView cloud = viewOf(dataset.cloud);
+  if (const auto finite = listFinite(cloud); !finite.empty()) {
+    Report report;
+    const auto samples = SampleSet::build(
+        cloud.xyz(0), cloud.stride(), finite, toPosition(scale), threads, report);
+    const std::vector<LocalSampling> found = diagnoseSampling(*samples, threads);
+    const auto assign = [&](std::uint32_t point, const LocalSampling& sampling) {
+      dimension[point] = static_cast<std::int32_t>(sampling.dimension);
+      along[point] = std::isfinite(sampling.along) ? sampling.along : none;
+      across[point] = std::isfinite(sampling.across) ? sampling.across : none;
+    };
+    for (std::size_t i = 0; i < found.size(); ++i)
+      assign(samples->getInputIndex(i), found[i]);
+    for (const SampleSet::Merged& merged : samples->getMerged())
+      for (const std::uint32_t member : merged.members)
+        assign(member, found[merged.sample]);
+  }
+  setField(dataset, "local_dimension", dimension);
+  dataset.labels["local_dimension"] = {"isolated", "line", "sheet", "volume"};
+  setField(dataset, "spacing_along", along);
+  setField(dataset, "spacing_across", across);
 }
 
 } // namespace pcl_uvol

@@ -87,7 +87,7 @@ DistributedIsosurfacePipeline::run()
   if (isosurface.interpolation == Interpolation::Auto)
     isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
-    isosurface.field = ScalarField::defaultName(part_->cloud.fields);
+    isosurface.field = ScalarField::defaultName(fieldsOfNumbers(*part_));
   const CloudView view = viewOf(part_->cloud);
   const ScalarField field(view.fields, isosurface.field);
   const std::uint64_t first_index = findFirstIndex(view.count, communicator_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/extract_out_of_core.h"
 
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/isopoint_choice.h"
@@ -125,7 +126,7 @@ runPipelineOutOfCore(PointSource& points,
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())
-    resolved.isosurface.field = ScalarField::defaultName(samples.cloud.fields);
+    resolved.isosurface.field = ScalarField::defaultName(fieldsOfNumbers(samples));
   Report report;
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "neighbors/anisotropy.h"
 #include "neighbors/periodic_box.h"
@@ -191,7 +192,7 @@ IsosurfacePipeline::resolveParameters() const
     throw InvalidArgument("IsosurfacePipeline has no input: call setInput.");
   IsosurfaceParameters parameters = parameters_.isosurface;
   if (parameters.field.empty())
-    parameters.field = ScalarField::defaultName(samples_->cloud.fields);
+    parameters.field = ScalarField::defaultName(fieldsOfNumbers(*samples_));
   if (parameters_.automatic_scale)
     parameters.scale = equalizingScale(viewOf(samples_->cloud));
   return parameters;
@@ -248,6 +249,7 @@ finish(const Dataset& samples,
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);
   result.surface.origin = samples.origin;
   result.surface.double_coordinates = samples.double_coordinates;
+  result.surface.labels = samples.labels;
   {
     const StepTimer timer(report, "fields");
     pcl::toPCLPointCloud2(isopoints, result.surface.cloud);

@@ -96,6 +96,17 @@ colorByCategory(const CloudView& cloud,
 
 } // namespace
 
+Rgba
+makePaler(Rgba color, const Color& background)
+{
+  constexpr Rgba channel = 0xff, opaque = 0xff000000;
+  const Rgba behind = toRgba(background);
+  Rgba paler = color & opaque;
+  for (const unsigned shift : {0u, 8u, 16u})
+    paler |= ((color >> shift & channel) + (behind >> shift & channel)) / 2 << shift;
+  return paler;
+}
+
 bool
 hasColors(const CloudView& cloud)
 {

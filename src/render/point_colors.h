@@ -20,6 +20,11 @@ struct PointColors {
   ColorScale scale;
 };
 
+/** \brief The colour of a point that is less sure than others: half that of the
+ * background. */
+PCL_UVOL_EXPORTS Rgba
+makePaler(Rgba color, const Color& background);
+
 /** \brief True for a cloud with colours of its own: rgb or rgba, as PCL packs them into
  * four bytes, or red, green and blue of a byte each, as PLY files have them. */
 PCL_UVOL_EXPORTS bool
@@ -44,6 +49,7 @@ listCategories(const CloudView& cloud, const std::string& field, std::size_t mos
 struct CategoryColor {
   double value;
   Color color;
+  std::string name = {}; ///< that the value stands for; "": none
 };
 
 /** \brief The categories of a field with colours of a map of categories, as

@@ -2,6 +2,7 @@
 #include "render/surface_cloud.h"
 
 #include "common/parallel.h"
+#include "render/point_colors.h"
 #include "surface/footprints.h"
 
 #include <algorithm>
@@ -41,6 +42,10 @@ SurfaceCloud::SurfaceCloud(const CloudView& cloud,
     setColorOf(i, 0xffffffff);
   }
   addBlocks(points_.samples->getTree().getRoot());
+  if (!points_.bridged.empty())
+    report.count("bridged",
+                 static_cast<std::uint64_t>(
+                     std::count(points_.bridged.begin(), points_.bridged.end(), 1)));
 }
 
 void
@@ -163,6 +168,17 @@ SurfaceCloud::setColor(Rgba color)
 {
   for (std::size_t i = 0; i < size(); ++i)
     setColorOf(i, color);
+  revision_ = nextRevision();
+}
+
+void
+SurfaceCloud::fadeBridged(const Color& background)
+{
+  if (points_.bridged.empty())
+    return;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (points_.bridged[i])
+      setColorOf(i, makePaler(looks_[i].color, background));
   revision_ = nextRevision();
 }
 

@@ -121,6 +121,11 @@ public:
   void
   setColor(Rgba color);
 
+  /** \brief Make the colours of isopoints in gaps of the sampling paler, once after
+   * each change of the colours. \param background what they are mixed with */
+  void
+  fadeBridged(const Color& background);
+
   /** \brief Find how large the discs of the points must be to leave no hole between
    * them, once; further calls return at once. The radius of a point's disc is the
    * distance to the farthest corner of its Voronoi cell in its tangent plane. */

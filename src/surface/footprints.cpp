@@ -70,6 +70,7 @@ public:
       , normals_(points.normals)
       , edge_lengths_(points.edge_lengths)
       , surfaces_(points.surfaces)
+      , bridged_(points.bridged)
       , two_sided_(points.two_sided)
       , few_(samples_, std::tuple_size_v<NearestPoints> + 1)
       , many_(samples_, many_neighbors + 1)
@@ -98,7 +99,7 @@ public:
     const Position& position = samples_.getPositions()[point];
     gather(few_.find(position, typical_distance), point);
     if (neighbors_.size() < few_neighbors &&
-        !surfaces_.empty()) // others crowd them out
+        !(surfaces_.empty() && bridged_.empty())) // others crowd them out
       gather(many_.find(position, typical_distance), point);
     nearest.fill(point);
     for (std::size_t i = 0; i < std::min(nearest.size(), neighbors_.size()); ++i)
@@ -176,9 +177,10 @@ private:
   }
 
   bool
-  isOfSameSurface(std::uint32_t a, std::uint32_t b) const
+  isOfSameSurface(std::uint32_t other, std::uint32_t point) const
   {
-    return surfaces_.empty() || surfaces_[a] == surfaces_[b];
+    return (surfaces_.empty() || surfaces_[other] == surfaces_[point]) &&
+           (bridged_.empty() || !bridged_[other]);
   }
 
   /** Spacing s of points with 1 / s^2 points per area, k of them in a circle of radius
@@ -277,7 +279,7 @@ private:
   const SampleSet& samples_;
   const std::vector<PackedNormal>& normals_;
   const std::vector<float>& edge_lengths_;
-  const std::vector<std::uint8_t>& surfaces_;
+  const std::vector<std::uint8_t>&surfaces_, &bridged_;
   bool two_sided_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_; ///< nearest first
@@ -350,6 +352,8 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
     footprints.radii[i] = room * std::min(reach[i].all, most);
     footprints.fillers[i] = room * std::min(reach[i].first, most);
     footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
+    if (!points.bridged.empty() && points.bridged[i])
+      footprints.radii[i] = footprints.fillers[i] = 0.0f;
   }
   return footprints;
 }

@@ -39,7 +39,8 @@ struct Footprints {
  * about the length that edges of isopoints have there, or twice that on a surface that
  * goes on all around, and the distance of the 16th neighbour on whatever side. Points
  * that have far fewer points about them than those have, and points whose disc would
- * meet hardly another one, are lonely.
+ * meet hardly another one, are lonely. Isopoints in gaps of the sampling get discs of
+ * radius 0, and the others do without them: nothing is known between them.
  */
 PCL_UVOL_EXPORTS Footprints
 computeFootprints(const OrientedPoints& points, unsigned threads, Report& report);

@@ -4,6 +4,7 @@
 #include "common/parallel.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <algorithm>
@@ -152,6 +153,22 @@ isFinite(const float* xyz)
 
 } // namespace
 
+std::vector<std::uint8_t>
+findBridged(const CloudView& cloud)
+{
+  for (const char* const name : {"support", "edge_length"}) // both: an isopoint's
+    if (findField(cloud.fields, name) == nullptr)
+      return {};
+  const ScalarField support(cloud.fields, "support");
+  constexpr auto bridged = static_cast<double>(IsoSupport::Bridged);
+  std::vector<std::uint8_t> found(cloud.count);
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    found[i] = support.read(cloud.point(i)) == bridged ? 1 : 0;
+  if (std::find(found.begin(), found.end(), 1) == found.end())
+    found.clear();
+  return found;
+}
+
 OrientedPoints
 orientPoints(const CloudView& cloud,
              const std::vector<std::uint32_t>& use,
@@ -191,6 +208,9 @@ orientPoints(const CloudView& cloud,
     points.normals[i] = normals.packed[points.samples->getInputIndex(i)];
   points.edge_lengths = readEdgeLengths(cloud, *points.samples, threads);
   points.surfaces = numberSurfaces(cloud, *points.samples);
+  const std::vector<std::uint8_t> bridged = findBridged(cloud);
+  for (std::size_t i = 0; !bridged.empty() && i < points.normals.size(); ++i)
+    points.bridged.push_back(bridged[points.samples->getInputIndex(i)]);
   return points;
 }
 

@@ -25,13 +25,21 @@ struct OrientedPoints {
   /** Per sample: the number of its isovalue, in ascending order, which starts again at
    * 0 after 255. Empty for points of one surface. */
   std::vector<std::uint8_t> surfaces;
+  /** Per sample: 1 for an isopoint in a gap of the sampling, IsoSupport::Bridged. Empty
+   * where there are none. */
+  std::vector<std::uint8_t> bridged;
 };
+
+/** \brief 1 for the points of a cloud that are isopoints in gaps of the sampling, as
+ * their field support tells; empty where there are none. */
+PCL_UVOL_EXPORTS std::vector<std::uint8_t>
+findBridged(const CloudView& cloud);
 
 /** \brief Take points and normals from a cloud. Points with a non-finite coordinate or
  * without a usable normal are left out and counted as "non_finite" and
  * "without_normal", exact duplicates merged. A cloud that has no normals at all gets
- * estimated ones, which have no meaningful sign, with a warning. The fields edge_length
- * and isovalue of a PointIso are read where the cloud has them.
+ * estimated ones, which have no meaningful sign, with a warning. The fields
+ * edge_length, isovalue and support of a PointIso are read where the cloud has them.
  * \param use indices of the points to take
  * \throws InvalidArgument if no point is left */
 PCL_UVOL_EXPORTS OrientedPoints

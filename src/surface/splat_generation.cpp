@@ -8,6 +8,8 @@
 #include "surface/splat_growth.h"
 #include <pcl_uvol/surface/splat_generation.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +30,10 @@ constexpr std::size_t fewest_at_once = 32, at_once_part = 4;
 constexpr std::size_t blocks_at_once = 16, largest_block = 256;
 /** Splats of a block whose neighbours are looked up in common. */
 constexpr std::size_t run_splats = 16;
+
+/** In parts of the diagonal of all points: somewhat more than half a pixel of a picture
+ * of 1000 of them. */
+constexpr float dot_radius = 7e-4f;
 
 /** Extents, in the samples' unit, whose squares, and those of the spacings, are numbers
  * in float. */
@@ -248,7 +254,8 @@ detail::generateSplats(const CloudView& cloud,
   checkParameters(parameters);
   if (use.empty())
     throw InvalidArgument("The splat generation was given an empty cloud.");
-  const OrientedPoints points = orientPoints(cloud, use, threads, report);
+  OrientedPoints points = orientPoints(cloud, use, threads, report);
+  points.bridged.clear(); // splats stand for all points
   const LengthUnit& unit = points.samples->getUnit();
   const double side = longestSide(points.samples->getPositions());
   const double delta = parameters.delta_is_length ? parameters.delta * unit.factor
@@ -344,6 +351,59 @@ readSplats(const CloudView& cloud, Report& report)
   return splats;
 }
 
+namespace {
+
+/** A disc that a picture shows as a point. \param radius of it */
+PointSplat
+makeDot(const CloudView& cloud,
+        const OrientedPoints& points,
+        std::size_t sample,
+        float radius)
+{
+  PointSplat dot;
+  const std::uint32_t index = points.samples->getInputIndex(sample);
+  dot.getVector3fMap() = Eigen::Map<const Eigen::Vector3f>(cloud.xyz(index));
+  float normal[3];
+  unpackNormal(points.normals[sample], normal);
+  dot.getNormalVector3fMap() = Eigen::Map<const Eigen::Vector3f>(normal).normalized();
+  dot.getTangentVector3fMap() = dot.getNormalVector3fMap().unitOrthogonal();
+  dot.radius = radius;
+  return dot;
+}
+
+/** Splats for points to be drawn: isopoints in gaps of the sampling become dots. */
+Splats
+coverForPicture(const CloudView& cloud,
+                const SplatParameters& parameters,
+                unsigned threads,
+                Report& report)
+{
+  const std::vector<std::uint8_t> bridged = findBridged(cloud);
+  std::vector<std::uint32_t> covered, dots;
+  for (std::uint32_t i = 0; i < cloud.count; ++i)
+    (bridged.empty() || !bridged[i] ? covered : dots).push_back(i);
+  Splats splats;
+  if (!covered.empty() || dots.empty())
+    splats = detail::generateSplats(cloud, covered, parameters, threads, report);
+  if (dots.empty())
+    return splats;
+  Report own; // the points are counted with the others
+  const OrientedPoints points = orientPoints(cloud, dots, threads, own);
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i)); place.allFinite())
+      box.extend(place);
+  for (std::size_t i = 0; i < points.normals.size(); ++i) {
+    splats.cloud.push_back(
+        makeDot(cloud, points, i, dot_radius * box.diagonal().norm()));
+    splats.sources.push_back(points.samples->getInputIndex(i));
+  }
+  report.count("bridged", dots.size());
+  return splats;
+}
+
+} // namespace
+
 Splats
 findSplats(const CloudView& cloud,
            const SplatParameters& parameters,
@@ -351,12 +411,8 @@ findSplats(const CloudView& cloud,
            unsigned threads,
            Report& report)
 {
-  if (!hasSplats(cloud)) {
-    std::vector<std::uint32_t> all(cloud.count);
-    std::iota(all.begin(), all.end(), 0u);
-    return takeDrawable(detail::generateSplats(cloud, all, parameters, threads, report),
-                        report);
-  }
+  if (!hasSplats(cloud))
+    return takeDrawable(coverForPicture(cloud, parameters, threads, report), report);
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "
                               "delta and lambda are not used.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hold-out test of isosurfaces: which samples that were left out lie on the right
 // side, beside what the nearest sample and a Delaunay tetrahedralisation say.
+#include "generation/analytic_fields.h"
 #include "pipeline/dataset_info.h"
 #include "pipeline/hold_out.h"
 #include "support/environment.h"
@@ -16,8 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -71,6 +70,9 @@ listCases()
        "random",
        "experiment=1",
        {"ix", "iy", "iz"}},
+      {"generated: tracks", "gyroid", 0, {1, 1, 1}, "line"},
+      {"generated: casts", "gyroid", 0, {1, 1, 1}, "line"},
+      {"generated: holes", "gyroid", 0, {1, 1, 1}, "line"},
       {"cfd/comb.vts", "Density", 0.3},
       {"cfd/bluntfin.vts", "Density", 0.9},
       {"cfd/disk_out_ref.vtu", "Temp", 450},
@@ -105,26 +107,37 @@ toSamples(const pcl_uvol::Volume& volume)
   return dataset;
 }
 
-/** The last column of a table, whose names become numbers. */
-std::vector<float>
-readNames(const std::string& path)
+/** Samples of a gyroid on lines, each of which has a number.
+ * \param lines their kind, as "generated: tracks" */
+Dataset
+generate(const std::string& lines)
 {
-  std::ifstream file(path);
-  std::map<std::string, float> numbers;
-  std::vector<float> column;
-  std::string line;
-  std::getline(file, line); // the header
-  while (std::getline(file, line)) {
-    const std::string name = line.substr(line.rfind(',') + 1);
-    column.push_back(
-        numbers.emplace(name, static_cast<float>(numbers.size())).first->second);
+  constexpr std::uint64_t count = 20000, seed = 1;
+  const pcl_uvol::AnalyticField& field = pcl_uvol::findAnalyticField("gyroid");
+  const auto scatter = lines == "generated: tracks"  ? pcl_uvol::Scatter::Tracks
+                       : lines == "generated: casts" ? pcl_uvol::Scatter::Casts
+                                                     : pcl_uvol::Scatter::Holes;
+  std::vector<double> xyz, values;
+  std::vector<std::int32_t> line;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto place =
+        pcl_uvol::scatterAt(scatter, seed, i, count, field.lower, field.upper);
+    xyz.insert(xyz.end(), place.begin(), place.end());
+    values.push_back(field.value(place));
+    line.push_back(static_cast<std::int32_t>(pcl_uvol::lineOf(scatter, i, count)));
   }
-  return column;
+  Dataset dataset;
+  pcl_uvol::setCoordinates(dataset, xyz);
+  pcl_uvol::setField(dataset, field.name, values);
+  pcl_uvol::setField(dataset, "line", line);
+  return dataset;
 }
 
 std::shared_ptr<Dataset>
 load(const Case& data)
 {
+  if (data.file.find("generated") == 0)
+    return std::make_shared<Dataset>(generate(data.file));
   const std::string path = uvol_test::dataFolder() + "/" + data.file;
   if (data.field.empty())
     return std::make_shared<Dataset>(toSamples(pcl_uvol::loadVolume(path)));
@@ -133,8 +146,6 @@ load(const Case& data)
   auto samples = std::make_shared<Dataset>(pcl_uvol::loadDataset(path, options));
   if (!data.where.empty())
     pcl_uvol::selectRows(*samples, data.where);
-  if (data.by == "hole")
-    pcl_uvol::setField(*samples, "hole", readNames(path));
   return samples;
 }
 

@@ -80,6 +80,47 @@ TEST(GradientEstimation, ExactForLinearFunctions)
   }
 }
 
+TEST(GradientEstimation, PlanarCloudsHaveAQuadraticInTheirPlane)
+{
+  const Vector across = Vector(1.0, 2.0, -2.0) / 3.0;
+  const Eigen::Matrix3d in_plane =
+      Eigen::Matrix3d::Identity() - across * across.transpose();
+  Eigen::Matrix3d form;
+  form << 2.0, 0.7, -0.4, 0.7, -1.0, 0.3, -0.4, 0.3, 1.5;
+  const Vector slope(1.0, -2.0, 0.5);
+  const auto cloud = sample([](const Vector&) { return 0.0; }, 2000);
+  for (pcl::PointXYZI& point : *cloud) {
+    const Vector place = in_plane * point.getVector3fMap().cast<double>();
+    point.getVector3fMap() = place.cast<float>();
+    point.intensity =
+        static_cast<float>(0.5 * place.dot(form * place) + slope.dot(place));
+  }
+  const auto gradients = estimate(cloud, FitScheme::Quadratic);
+  const Eigen::Matrix3d hessian = in_plane * form * in_plane;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const Vector place = (*cloud)[i].getVector3fMap().cast<double>();
+    const Vector gradient = hessian * place + in_plane * slope;
+    EXPECT_LT((vectorOf(gradients[i]) - gradient).norm(), 1e-3);
+    if (gradient.norm() < 0.5)
+      continue;
+    const Vector normal = gradient.normalized();
+    const double curvature =
+        (hessian.trace() - normal.dot(hessian * normal)) /
+        (2.0 * gradient.norm()); // nothing changes across the plane
+    EXPECT_NEAR(curvature, gradients[i].mean_curvature, 0.02);
+  }
+}
+
+TEST(GradientEstimation, ReducedFitsHaveNoCurvature)
+{
+  const auto cloud = sample([](const Vector& x) { return 3.0 * x[0] + x[1]; }, 8);
+  for (const pcl_uvol::PointGradient& gradient :
+       estimate(cloud, FitScheme::Quadratic)) {
+    EXPECT_LT((vectorOf(gradient) - Vector(3.0, 1.0, 0.0)).norm(), 1e-4);
+    EXPECT_TRUE(std::isnan(gradient.mean_curvature));
+  }
+}
+
 TEST(GradientEstimation, ExactForQuadraticFunctions)
 {
   const auto f = [](const Vector& x) {

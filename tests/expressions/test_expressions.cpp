@@ -305,3 +305,31 @@ TEST(SelectRows, MalformedExpressions)
                                   "1<2"})
     EXPECT_THROW(kept(where), InvalidArgument) << where;
 }
+
+TEST(Selection, ComparesNames)
+{
+  const std::string table = "x,y,z,T,hole\n0,0,0,1,A-1\n1,0,0,2,B (old)\n2,0,0,3,\n"
+                            "3,0,0,4,\"say \"\"a\"\" && b\"\n4,0,0,5,A-1\n";
+  const auto left = [&](const std::string& where) {
+    Dataset dataset = load(table);
+    selectRows(dataset, where);
+    return valuesOf(dataset, "x");
+  };
+  using Places = std::vector<double>;
+  EXPECT_EQ((Places{0, 4}), left("hole=\"A-1\""));
+  EXPECT_EQ((Places{0, 4}), left("hole == A-1"));
+  EXPECT_EQ((Places{1, 2, 3}), left("hole!=A-1"));
+  EXPECT_EQ((Places{1}), left("hole=\"B (old)\""));
+  EXPECT_EQ((Places{3}), left("hole=\"say \"\"a\"\" && b\""));
+  EXPECT_EQ((Places{2}), left("hole=\"\""));
+  EXPECT_EQ((Places{4}), left("T>1 && (hole=A-1 || T>4)"));
+  EXPECT_EQ((Places{1, 4}), left("hole=\"B (old)\"||hole=A-1&&T>1"));
+  for (const char* const wrong : {"hole=A-2",
+                                  "hole",
+                                  "hole=",
+                                  "hole=\"A-1",
+                                  "hole<A-1",
+                                  "hole+1=2",
+                                  "-hole=A-1&&"})
+    EXPECT_THROW(left(wrong), ExpressionError) << wrong;
+}

@@ -180,6 +180,23 @@ TEST(RankFiles, MoveDoubleCoordinatesToOneOrigin)
             x);
 }
 
+TEST(RankFiles, CountTheNamesOfAllPieces)
+{
+  const TemporaryFolder folder;
+  writeFile(folder / "a.csv", "x,y,z,hole\n0,0,0,B\n1,0,0,D\n");
+  writeFile(folder / "b.csv", "x,y,z,hole\n2,0,0,A\n3,0,0,\n4,0,0,B\n");
+  const Parts parts({folder / "a.csv", folder / "b.csv"}, 2);
+  const LabelNames names{{"hole", {"A", "B", "D"}}};
+  EXPECT_EQ(names, parts.parts[0].labels);
+  EXPECT_EQ(names, parts.parts[1].labels);
+  const Parts alone({folder / "a.csv", folder / "b.csv"}, 1);
+  EXPECT_EQ(names, alone.parts[0].labels);
+  EXPECT_EQ(alone.join(), parts.join());
+  const double labels[] = {1, 2, 0, -1, 1};
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(labels[i], valueOf(alone.parts[0], "hole", i)) << i;
+}
+
 TEST(RankFiles, RefuseWhatDoesNotFitTogether)
 {
   const TemporaryFolder folder;

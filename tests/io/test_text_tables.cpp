@@ -63,16 +63,44 @@ TEST(TextTables, TypesOfColumns)
                      "1,2,3,2147483647,1e-3,2,1,NaN,n/a,\"out, side\"\n"),
             xyz +
                 ", i (int32), f (float32), d (float64), big (float32), gap (float32), "
-                "none (float32)");
+                "none (float32), name (int32)");
   EXPECT_EQ(fieldsOf("x,y,z,big\n1,2,3,3000000001\n"), xyz + ", big (float64)");
   EXPECT_FALSE(load("x,y,z\n1.5,2,3\n").double_coordinates);
   EXPECT_TRUE(load("x,y,z\n1.123456789,2,3\n").double_coordinates);
   EXPECT_FALSE(load("x,y,z\n0.5000000000,2,3\n").double_coordinates);
-  const auto names = load("x,y,z,name\n1,2,3,a\n");
-  ASSERT_EQ(names.notes.size(), 1u);
-  EXPECT_NE(names.notes[0].find("'name'"), std::string::npos);
-  EXPECT_EQ(fieldsOf("x,y,z,name\n1,2,3,a1\n1,2,3,7\n1,2,3,b2\n"), xyz);
   EXPECT_EQ(load("x,y,z,id\n1,2,3,9007199254740993\n").notes.size(), 1u);
+}
+
+TEST(TextTables, NamesAreLabels)
+{
+  const auto dataset = load("x,y,z,name,a\n1,2,3,b2,1\n1,2,3,7,2\n1,2,3,,3\n"
+                            "1,2,3,\"say \"\"a\"\", b\",4\n1,2,3,n/a,5\n1,2,3,b2,6\n");
+  EXPECT_EQ(describeFields(dataset.cloud.fields), xyz + ", name (int32), a (int32)");
+  EXPECT_TRUE(dataset.notes.empty());
+  EXPECT_EQ(dataset.labels, (LabelNames{{"name", {"7", "b2", "say \"a\", b"}}}));
+  const double labels[] = {1, 0, -1, 2, -1, 1};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(labels[i], valueOf(dataset, "name", i)) << i;
+    EXPECT_EQ(static_cast<double>(i + 1), valueOf(dataset, "a", i));
+  }
+  // One name more often than numbers makes no column of names.
+  EXPECT_NE(errorOf("x,y,z,n\n1,2,3,4\n1,2,3,a\n").find("'a' in column 'n'"),
+            std::string::npos);
+  // What is a field of numbers does not become one of names by its order.
+  EXPECT_EQ(load("x,y,z,n\n1,2,3,b\n1,2,3,a\n").labels,
+            load("x,y,z,n\n1,2,3,a\n1,2,3,b\n").labels);
+}
+
+TEST(TextTables, NamesThatDescribeSingleRowsAreLeftOut)
+{
+  std::string text = "x,y,z,name\n";
+  for (int i = 0; i < (1 << 16); ++i)
+    text += "1,2,3,n" + std::to_string(i) + '\n';
+  EXPECT_EQ(load(text).labels.at("name").size(), 1u << 16);
+  const auto dataset = load(text + "1,2,3,one_more\n");
+  EXPECT_EQ(describeFields(dataset.cloud.fields), xyz);
+  ASSERT_EQ(dataset.notes.size(), 1u);
+  EXPECT_NE(dataset.notes[0].find("65536 different names"), std::string::npos);
 }
 
 TEST(TextTables, MissingCells)

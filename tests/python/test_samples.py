@@ -127,7 +127,7 @@ def test_dataframes():
     frame = pandas.DataFrame(POINTS, columns=["x", "y", "z"]).assign(
         T=[1.0, None, 3.0], n=pandas.array([1, None, 3], dtype="Int32"), b=[True, False, True], name=["a", "b", "c"])
     samples = uvol.Samples.from_dataframe(frame)
-    assert samples.keys() == ["T", "n", "b"]
+    assert samples.keys() == ["T", "n", "b", "name"] and list(samples["name"]) == ["a", "b", "c"]
     assert samples["b"].dtype == bool and np.isnan(samples["n"]).tolist() == [False, True, False]
     back = samples.to_dataframe()
     assert back[["x", "y", "z"]].to_numpy().tolist() == POINTS.tolist() and back["T"][2] == 3
@@ -180,7 +180,7 @@ def test_files_give_back_what_they_got(tmp_path, ending):
     (POINTS, {"a": [1, 2]}, "2 values for 3 points"),
     (POINTS, {"a": np.zeros((3, 2, 2))}, r"shape \(3, 2, 2\)"),
     (POINTS, {"a": np.zeros((3, 0))}, r"shape \(3, 0\)"),
-    (POINTS, {"a": ["x", "y", "z"]}, "must hold numbers"),
+    (POINTS, {"a": np.array([b"x", b"y", b"z"])}, "must hold numbers"),
     (POINTS, {"a": np.array(["2020-01-01"] * 3, "M8[D]")}, "must hold numbers"),
     (POINTS, {"x": [1, 2, 3]}, "is a coordinate"),
     (POINTS, {"": [1, 2, 3]}, "names are texts"),
@@ -243,3 +243,39 @@ def test_a_missing_field_gets_a_proposal():
 def test_a_missing_file_is_an_oserror(tmp_path):
     with pytest.raises(OSError, match="missing.ply"):
         uvol.read(tmp_path / "missing.ply")
+
+
+def test_columns_of_names_are_labels(tmp_path):
+    names = ["B-2", "A-1", None, "B-2", ""]
+    samples = uvol.Samples(np.arange(15.0).reshape(5, 3), {"T": np.arange(5.0), "hole": names})
+    assert samples.labels == {"hole": ["A-1", "B-2"]}
+    assert list(samples["hole"]) == ["B-2", "A-1", "", "B-2", ""]
+    assert list(samples.records["hole"]) == [1, 0, -1, 1, -1]
+    assert len(samples.where("hole = B-2 && T > 0")) == 1
+    assert samples.take([1]).labels == samples.labels
+    for ending in ("csv", "ply", "pcd"):
+        path = tmp_path / f"holes.{ending}"
+        samples.save(path)
+        assert list(uvol.read(path)["hole"]) == list(samples["hole"])
+    assert pickle.loads(pickle.dumps(samples)).labels == samples.labels
+    for texts in (np.array(["B-2", "A-1", "", "B-2", ""]), np.array(names, dtype=object)):
+        assert list(uvol.Samples(np.zeros((5, 3)), {"hole": texts})["hole"]) == list(samples["hole"])
+    assert "hole (2 names)" in repr(samples)
+    with pytest.raises(ValueError, match="Python objects"):
+        uvol.Samples(np.zeros((2, 3)), {"hole": np.array(["a", 1], dtype=object)})
+
+
+def test_names_reach_isopoints():
+    grid = np.stack(np.meshgrid(*[np.arange(8.0)] * 3), axis=-1).reshape(-1, 3)
+    sides = np.where(grid[:, 0] < 3.5, "west", "east")
+    surface = uvol.isosurface(uvol.Samples(grid, {"r": np.linalg.norm(grid - 3.5, axis=1), "side": sides}), field="r", iso=2.5)
+    assert set(surface["side"]) == {"west", "east"}
+    assert all((surface["side"] == "west") == (surface.points[:, 0] < 3.5))
+
+
+def test_names_in_tables():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": [0.0, 1.0], "y": 0.0, "z": 0.0, "hole": pandas.Categorical(["b", "a"])})
+    samples = uvol.Samples.from_dataframe(frame)
+    assert list(samples["hole"]) == ["b", "a"]
+    assert list(samples.to_dataframe()["hole"]) == ["b", "a"]

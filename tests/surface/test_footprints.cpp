@@ -262,6 +262,30 @@ TEST(Footprints, OfAnIsovalueDoNotSeeAnother)
   EXPECT_GT(alike, one.size() * 9 / 10);
 }
 
+TEST(Footprints, OfBridgedIsopointsAreNone)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> cloud;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, 4000, 10.0f, 0.06f, cloud);
+  const Surface without(cloud);
+  EXPECT_TRUE(without.points.bridged.empty());
+  for (std::size_t i = 0; i < cloud.size(); i += 40) // each alone among others
+    cloud[i].support = static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Bridged);
+  const Surface surface(cloud);
+  ASSERT_EQ(surface.size(), surface.points.bridged.size());
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const bool is_bridged = surface.points.samples->getInputIndex(i) % 40 == 0;
+    EXPECT_EQ(is_bridged, surface.points.bridged[i] == 1);
+    EXPECT_EQ(is_bridged, surface.footprints.radii[i] == 0.0f) << i;
+    if (!is_bridged)
+      continue;
+    bool is_covered = false; // by the others
+    for (std::size_t j = 0; j < surface.size(); ++j)
+      is_covered |= (surface.position(j) - surface.position(i)).norm() <
+                    surface.footprints.radii[j];
+    EXPECT_TRUE(is_covered) << i;
+  }
+}
+
 TEST(Footprints, TellTheRimFromTheMiddle)
 {
   const Surface surface(makePlane(4000));

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -51,6 +52,68 @@ TEST(UvolGenerate, ValuesAreThoseOfTheFieldAtTheWrittenPlace)
                       field.value({columns[0][i], columns[1][i], columns[2][i]})),
                   static_cast<float>(columns[3][i]));
     }
+}
+
+TEST(UvolGenerate, LinesAreDenserAlongThanAcross)
+{
+  const TemporaryFolder folder;
+  const auto& field = pcl_uvol::findAnalyticField("gyroid");
+  for (const std::string samples : {"tracks", "casts", "holes"}) {
+    SCOPED_TRACE(samples);
+    const std::string file = folder / "out.csv";
+    const auto result = runCommand("uvol_generate '" + file +
+                                   "' -n 20000 -field gyroid -samples " + samples);
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    EXPECT_EQ("", result.err);
+    const std::string line = samples.substr(0, samples.size() - 1);
+    const auto columns = findColumns(file, {"x", "y", "z", "gyroid", line});
+    ASSERT_EQ(20000u, columns[3].size());
+    double lines = 0.0, along = 0.0;
+    for (std::size_t i = 0; i < 20000; ++i) {
+      const std::array<double, 3> place{columns[0][i], columns[1][i], columns[2][i]};
+      EXPECT_NEAR(field.value(place), columns[3][i], 1e-5);
+      for (const double coordinate : place) {
+        EXPECT_GE(coordinate, field.lower - 1e-5);
+        EXPECT_LE(coordinate, field.upper + 1e-5);
+      }
+      lines = std::max(lines, columns[4][i] + 1.0);
+      if (i > 0 && columns[4][i] == columns[4][i - 1])
+        along += std::hypot(place[0] - columns[0][i - 1],
+                            place[1] - columns[1][i - 1],
+                            place[2] - columns[2][i - 1]);
+    }
+    along /= 20000.0 - lines;
+    const double across = (field.upper - field.lower) / std::sqrt(lines);
+    const double expected = samples == "holes" ? 25.0 : 10.0;
+    EXPECT_NEAR(expected, across / along, 0.2 * expected);
+    // The diagnosis sees lines.
+    EXPECT_NE(std::string::npos,
+              runCommand("uvol_info '" + file + "'").out.find("sampling: lines"));
+  }
+  EXPECT_NE(std::string::npos, uvol_test::readFile(folder / "out.csv").find("DH-01"));
+}
+
+TEST(UvolGenerate, LinesThatAreLeftOutAreToldBetterThanByTheNearestSample)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder / "lines.csv";
+  for (const std::string line : {"track", "cast"}) {
+    ASSERT_EQ(0,
+              runCommand("uvol_generate '" + file +
+                         "' -n 8000 -field gyroid -samples " + line + "s")
+                  .exit_code);
+    const auto result =
+        runCommand("uvol_isosurface '" + file + "' '" + (folder / "out.ply") +
+                   "' -field gyroid -iso 0 -json -validate 5 -validate-by " + line);
+    ASSERT_EQ(0, result.exit_code) << result.err;
+    const auto scores = nlohmann::json::parse(result.out)["validation"];
+    const auto score = [&](const char* name) { return scores[name].get<double>(); };
+    // 0.79 and 0.81 on the right side, the nearest sample 0.72 and 0.76.
+    EXPECT_GT(score("near"), 0.95 * 8000) << line;
+    EXPECT_GT(score("side"), score("side_of_nearest") + 0.03) << line;
+    EXPECT_GT(score("class"), score("class_of_nearest") + 0.03) << line;
+    EXPECT_LT(score("side_base"), 0.55) << line;
+  }
 }
 
 TEST(UvolGenerate, RadialSamplesHaveTheMeanSpacingOfTheThesis)

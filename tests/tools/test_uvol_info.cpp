@@ -39,6 +39,28 @@ protected:
 const std::string cloud = "x,y,z,rho\n500000.5,0,0,1\n500001.5,0,0,2\n500001.5,0,0,3\n"
                           "500003.5,0,0,nan\nnan,0,0,10\n";
 
+TEST_F(UvolInfo, WritesWhatTheSamplingIsLike)
+{
+  std::string text = "x,y,z,a\n";
+  for (int i = 0; i < 20; ++i) // a line, beside a sheet, and something far off
+    text += std::to_string(i) + ",0,300,1\n";
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j)
+      text += std::to_string(i) + "," + std::to_string(j) + ",0,1\n";
+  text += "2000,0,0,1\nnan,0,0,1\n";
+  const std::string out = folder_ / "out.csv";
+  const auto result = runOn(text, "-out '" + out + "'");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  const std::string written = uvol_test::readFile(out);
+  EXPECT_NE(std::string::npos, written.find("\n10,0,300,1,line,1,")) << written;
+  EXPECT_NE(std::string::npos, written.find("\n10,10,0,1,sheet,1,")) << written;
+  EXPECT_NE(std::string::npos, written.find("\n2000,0,0,1,isolated,")) << written;
+  EXPECT_NE(std::string::npos, written.find("\n,0,0,1,,,\n")) << written;
+  const std::string once = written;
+  EXPECT_EQ(0, runOn(text, "-threads 1 -out '" + out + "'").exit_code);
+  EXPECT_EQ(once, uvol_test::readFile(out));
+}
+
 TEST_F(UvolInfo, TellsRangesSpacingAndWhatIsMissing)
 {
   const auto result = runOn(cloud);

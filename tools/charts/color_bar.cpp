@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/color_bar.h"
 
+#include "common/printable.h"
+#include "common/records.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -170,6 +173,36 @@ drawColorBar(Image& image,
   legend.write(image, labels.offset, legend.top + legend.length + legend.size * 3 / 2);
 }
 
+std::vector<pcl_uvol::CategoryColor>
+listNamedCategories(const pcl_uvol::CloudView& cloud,
+                    const pcl_uvol::LabelNames& labels,
+                    const std::string& field,
+                    const pcl_uvol::ColorMap& map)
+{
+  if (!map.isCategorical())
+    return {};
+  auto categories = pcl_uvol::colorCategories(cloud, field, map, most_categories);
+  if (const auto* const names = pcl_uvol::findLabels(cloud.fields, labels, field))
+    for (pcl_uvol::CategoryColor& category : categories)
+      category.name = pcl_uvol::nameOfLabel(*names, category.value);
+  return categories;
+}
+
+std::string
+describeCategory(const pcl_uvol::CategoryColor& category)
+{
+  constexpr std::size_t most_letters = 10;
+  if (category.name.empty())
+    return shortNumber(category.value);
+  const std::string name = pcl_uvol::printable(category.name);
+  if (name.size() <= most_letters)
+    return name;
+  std::size_t end = most_letters - 2;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80)
+    --end; // within a letter of several bytes
+  return name.substr(0, end) + "..";
+}
+
 void
 drawCategories(Image& image,
                const std::vector<pcl_uvol::CategoryColor>& categories,
@@ -182,15 +215,15 @@ drawCategories(Image& image,
   const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
   const int top = legend.top + (legend.length - step * count) / 2;
   for (int i = 0; i < count; ++i) {
-    const auto& [category, shade] = categories[static_cast<std::size_t>(i)];
-    const Ink color = inkOf(shade);
+    const pcl_uvol::CategoryColor& category = categories[static_cast<std::size_t>(i)];
+    const Ink color = inkOf(category.color);
     // The lowest one is below, as on a bar.
     const int row = top + step * (count - 1 - i);
     for (int y = 0; y < std::max(step * 4 / 5, 1); ++y)
       for (int x = legend.left; x < legend.right; ++x)
         blend(image, x, row + y, color, 1.0);
     writeText(image,
-              shortNumber(category),
+              describeCategory(category),
               std::min(legend.size, std::max(step, 1)),
               legend.left - legend.size / 2,
               row + step * 2 / 5,

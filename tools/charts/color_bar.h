@@ -6,6 +6,7 @@
 #include "charts/drawing.h"
 #include "render/color_scale.h"
 #include "render/point_colors.h"
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
@@ -31,8 +32,22 @@ drawColorBar(pcl_uvol::Image& image,
 /** \brief Most categories that a legend lists. */
 constexpr std::size_t most_categories = 20;
 
-/** \brief Draw a square for each category with its number, and a title, in the place
- * of a bar.
+/** \brief The categories of a field that a legend lists, with the names that labels
+ * stand for; none for a map of shades, and as colorCategories. */
+std::vector<pcl_uvol::CategoryColor>
+listNamedCategories(const pcl_uvol::CloudView& cloud,
+                    const pcl_uvol::LabelNames& labels,
+                    const std::string& field,
+                    const pcl_uvol::ColorMap& map);
+
+/** \brief What a legend calls a category: its name, cut where it is long, or its
+ * number.
+ */
+std::string
+describeCategory(const pcl_uvol::CategoryColor& category);
+
+/** \brief Draw a square for each category with its name or number, and a title, in the
+ * place of a bar.
  * \param categories ascending, at most most_categories */
 void
 drawCategories(pcl_uvol::Image& image,

@@ -185,6 +185,7 @@ takePoints(const pcl_uvol::Dataset& dataset,
   pcl_uvol::Dataset result;
   pcl::toPCLPointCloud2(cloud, result.cloud);
   pcl_uvol::copyFields(dataset.cloud, points, result.cloud);
+  result.labels = dataset.labels;
   return result;
 }
 

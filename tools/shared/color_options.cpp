@@ -47,7 +47,7 @@ ColorOptions::getMap() const
 pcl_uvol::ColorMapping
 ColorOptions::mapFor(const pcl_uvol::CloudView& cloud, const std::string& field) const
 {
-  if (map_ == "auto" && !is_logarithmic_ && range_.empty())
+  if (isAutomatic())
     return pcl_uvol::usualColorMapping(cloud, field);
   return {getMap(), getRange(), is_logarithmic_};
 }

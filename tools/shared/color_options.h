@@ -37,6 +37,13 @@ public:
   std::optional<std::array<double, 2>>
   getRange() const;
 
+  /** \brief True if nothing says how values become colours. */
+  bool
+  isAutomatic() const
+  {
+    return map_ == "auto" && !is_logarithmic_ && range_.empty();
+  }
+
   bool
   isLogarithmic() const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/point_files.h"
 
+#include "io/label_comments.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -100,6 +101,16 @@ addField(pcl_uvol::Dataset& points,
 }
 
 void
+warnOfLabels(const std::string& path,
+             const pcl_uvol::Dataset& dataset,
+             pcl_uvol::Report& report)
+{
+  const std::string sentence = pcl_uvol::describeUnheldLabels(path, dataset);
+  if (!sentence.empty())
+    report.warnings.push_back(sentence);
+}
+
+void
 savePoints(const std::string& path,
            const pcl_uvol::Dataset& dataset,
            const pcl_uvol::SaveOptions& options,
@@ -107,6 +118,7 @@ savePoints(const std::string& path,
 {
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveDataset(path, dataset, options);
+  warnOfLabels(path, dataset, report);
 }
 
 } // namespace uvol_tools

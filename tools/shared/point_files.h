@@ -55,6 +55,12 @@ addField(pcl_uvol::Dataset& points,
          const Options& options,
          pcl_uvol::Report& report);
 
+/** \brief Warn of columns of names that a file has no place for. */
+void
+warnOfLabels(const std::string& path,
+             const pcl_uvol::Dataset& dataset,
+             pcl_uvol::Report& report);
+
 /** \brief Write a file, as a step of the report.
  * \throws IOError */
 void

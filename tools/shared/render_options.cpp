@@ -214,9 +214,10 @@ RenderOptions::writePage(const Options& options,
       page.field = field;
       page.map = mapping.map;
       page.scale = colors.scale;
-      page.categories = listCategories(cloud, mapping);
+      page.categories = listCategories(cloud, field, mapping);
     }
   }
+  points.fadeBridged(page.background);
   const pcl_uvol::StepTimer timer(report, "write");
   writeSurfacePage(output, points, page);
 }

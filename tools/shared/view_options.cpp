@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/view_options.h"
 
+#include "charts/color_bar.h"
+#include "common/printable.h"
+#include "common/records.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
 #include "render/camera_choice.h"
@@ -215,6 +218,7 @@ ViewOptions::addColor(const Options& options,
                       pcl_uvol::Dataset& points,
                       pcl_uvol::Report& report)
 {
+  labels_ = points.labels;
   if (!isColorName(color_))
     addField(points,
              color_,
@@ -222,6 +226,13 @@ ViewOptions::addColor(const Options& options,
              "computes them there",
              options,
              report);
+  if (pcl_uvol::findLabels(points.cloud.fields, labels_, color_) &&
+      pcl_uvol::listCategories(pcl_uvol::viewOf(points.cloud), color_, most_categories)
+          .empty())
+    report.warnings.push_back("The points have more than " +
+                              std::to_string(most_categories) + " names in " +
+                              pcl_uvol::quoteText(color_) +
+                              ": their colours repeat, and the picture has no legend.");
 }
 
 void
@@ -229,6 +240,7 @@ ViewOptions::addColorOfSamples(const Options& options,
                                pcl_uvol::Dataset& samples,
                                pcl_uvol::Report& report)
 {
+  labels_ = samples.labels;
   if (hasColorOfSamples())
     addField(samples, color_, options, report);
 }
@@ -263,6 +275,15 @@ ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
   if (color_ == "auto")
     return pcl_uvol::usualColorField(cloud);
   return color_ == "none" ? "" : color_;
+}
+
+pcl_uvol::ColorMapping
+ViewOptions::mapColors(const pcl_uvol::CloudView& cloud, const std::string& field) const
+{
+  pcl_uvol::ColorMapping mapping = colors_.mapFor(cloud, field);
+  if (colors_.isAutomatic() && pcl_uvol::findLabels(cloud.fields, labels_, field))
+    mapping.map = pcl_uvol::ColorMap("tab10");
+  return mapping;
 }
 
 void

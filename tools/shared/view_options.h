@@ -4,6 +4,7 @@
 #pragma once
 
 #include "common/memory.h"
+#include "render/point_colors.h"
 #include "shared/color_options.h"
 #include "shared/figure_options.h"
 #include "shared/options.h"
@@ -135,7 +136,8 @@ public:
   getBackgroundOfViews() const;
 
   /** \brief Compute the field of -color at the points of a surface where it is an
-   * expression, see addDerivedField; derivatives are refused. */
+   * expression, see addDerivedField; derivatives are refused. Legends name the labels
+   * of these points. */
   void
   addColor(const Options& options, pcl_uvol::Dataset& points, pcl_uvol::Report& report);
 
@@ -165,8 +167,18 @@ public:
   pcl_uvol::ColorMapping
   colorMapping(const pcl_uvol::CloudView& cloud) const
   {
-    return colors_.mapFor(cloud, colorField(cloud));
+    return mapColors(cloud, colorField(cloud));
   }
+
+  /** \brief How a field becomes colours: unasked, labels of names as categories. */
+  pcl_uvol::ColorMapping
+  mapColors(const pcl_uvol::CloudView& cloud, const std::string& field) const;
+
+  /** \brief The categories that a legend lists; none: it is a bar. */
+  std::vector<pcl_uvol::CategoryColor>
+  listCategories(const pcl_uvol::CloudView& cloud,
+                 const std::string& field,
+                 const pcl_uvol::ColorMapping& mapping) const;
 
   const ColorOptions&
   getColors() const
@@ -246,11 +258,6 @@ protected:
   bool
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
-  /** \brief The categories that a legend lists; none: it is a bar. */
-  std::vector<pcl_uvol::CategoryColor>
-  listCategories(const pcl_uvol::CloudView& cloud,
-                 const pcl_uvol::ColorMapping& mapping) const;
-
 private:
   /** Columns that are left to the surface: its colour bar stands beside it. */
   int
@@ -279,6 +286,7 @@ private:
 
   std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
   std::string color_ = "auto", lights_text_;
+  pcl_uvol::LabelNames labels_; ///< of the points that are drawn
   ColorOptions colors_;
   FigureOptions figure_;
   std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;

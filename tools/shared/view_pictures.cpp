@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of a surface, from views, legend and marks.
 #include "charts/color_bar.h"
+#include "common/records.h"
 #include "render/lighting.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/io/image_file.h>
@@ -146,7 +147,10 @@ bool
 ViewOptions::drawsBar(const pcl_uvol::CloudView& cloud) const
 {
   const std::string field = colorField(cloud);
-  return has_bar_ && !field.empty() && field != "rgb" && field != "rgba";
+  if (!has_bar_ || field.empty() || field == "rgb" || field == "rgba")
+    return false;
+  return !pcl_uvol::findLabels(cloud.fields, labels_, field) ||
+         !pcl_uvol::listCategories(cloud, field, most_categories).empty();
 }
 
 int
@@ -157,12 +161,10 @@ ViewOptions::viewsWidth(const pcl_uvol::CloudView& cloud) const
 
 std::vector<pcl_uvol::CategoryColor>
 ViewOptions::listCategories(const pcl_uvol::CloudView& cloud,
+                            const std::string& field,
                             const pcl_uvol::ColorMapping& mapping) const
 {
-  if (!mapping.map.isCategorical())
-    return {};
-  return pcl_uvol::colorCategories(
-      cloud, colorField(cloud), mapping.map, most_categories);
+  return listNamedCategories(cloud, labels_, field, mapping.map);
 }
 
 void
@@ -174,7 +176,7 @@ ViewOptions::drawLegend(const pcl_uvol::CloudView& cloud,
     return;
   const std::string field = colorField(cloud);
   const pcl_uvol::ColorMapping mapping = colorMapping(cloud);
-  const auto categories = listCategories(cloud, mapping);
+  const auto categories = listCategories(cloud, field, mapping);
   if (categories.empty())
     drawColorBar(
         image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);

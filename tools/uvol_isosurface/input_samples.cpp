@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/input_samples.h"
 
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "interpolation/outer_layer.h"
@@ -31,12 +32,13 @@ addOuterLayer(const Options& options,
         "surface "
         "may be theirs, and -interpolation linear, for points, has none.");
   const std::string& field = arguments.parameters.isosurface.field;
-  pcl_uvol::addOuterLayer(
-      samples,
-      field.empty() ? pcl_uvol::ScalarField::defaultName(samples.cloud.fields) : field,
-      arguments.outside_value,
-      options.threads(),
-      report);
+  pcl_uvol::addOuterLayer(samples,
+                          field.empty() ? pcl_uvol::ScalarField::defaultName(
+                                              pcl_uvol::fieldsOfNumbers(samples))
+                                        : field,
+                          arguments.outside_value,
+                          options.threads(),
+                          report);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_probe/interpolation_options.h"
 
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "common/scalar_names.h"
 #include "expressions/memory_need.h"
@@ -155,9 +156,10 @@ InterpolationOptions::resolve(const Options& options,
   InterpolationParameters parameters = parameters_;
   parameters.scale = ScaleOption(scale_).resolveScale(pcl_uvol::viewOf(samples.cloud));
   if (fields_.empty())
-    parameters.fields = {pcl_uvol::ScalarField::defaultName(fields)};
+    parameters.fields = {
+        pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(samples))};
   else if (fields_ == "all" && pcl_uvol::findField(fields, "all") == nullptr)
-    parameters.fields = pcl_uvol::listScalars(fields);
+    parameters.fields = pcl_uvol::listScalars(pcl_uvol::fieldsOfNumbers(samples));
   else
     parameters.fields = parseNames("field", fields_);
   for (std::string& field : parameters.fields)

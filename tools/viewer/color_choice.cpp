@@ -34,9 +34,9 @@ fill(vtkLookupTable& table,
     table.SetNumberOfTableValues(count);
     table.IndexedLookupOn();
     for (vtkIdType i = 0; i < count; ++i) {
-      const auto& [category, color] = categories[static_cast<std::size_t>(i)];
-      table.SetAnnotation(category, shortNumber(category));
-      set(i, color);
+      const pcl_uvol::CategoryColor& category = categories[static_cast<std::size_t>(i)];
+      table.SetAnnotation(category.value, describeCategory(category));
+      set(i, category.color);
     }
     return;
   }
@@ -113,7 +113,7 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
   legend_ = Legend();
   if (isScalar(field)) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-    pcl_uvol::ColorMapping mapping = look_.getColors().mapFor(view, field);
+    pcl_uvol::ColorMapping mapping = look_.mapColors(view, field);
     if (chosen_ != 0) // the range of the options is that of their field
       mapping.range.reset();
     const pcl_uvol::ColorScale scale = findColorScale(view, field, mapping);
@@ -121,9 +121,7 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     renderer.setLogarithmicColors(mapping.is_logarithmic);
     renderer.setColorRange(scale.low, scale.high);
     legend_ = {mapping, scale, {}};
-    if (mapping.map.isCategorical())
-      legend_.categories =
-          pcl_uvol::colorCategories(view, field, mapping.map, most_categories);
+    legend_.categories = look_.listCategories(view, field, mapping);
     vtkNew<vtkLookupTable> table;
     fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);

@@ -103,7 +103,7 @@ describeLegend(const SurfacePage& page)
     // The highest one above, as on a bar.
     for (auto it = page.categories.rbegin(); it != page.categories.rend(); ++it)
       legend["categories"].push_back(
-          {{"text", shortNumber(it->value)}, {"color", describeColor(it->color)}});
+          {{"text", describeCategory(*it)}, {"color", describeColor(it->color)}});
     return legend;
   }
   if (page.field.empty())

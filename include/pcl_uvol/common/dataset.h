@@ -10,10 +10,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief Names that the values of fields stand for, by the name of the field: 0 is the
+ * first one, 1 the second one. They are different, in ascending order of their bytes.
+ */
+using LabelNames = std::map<std::string, std::vector<std::string>>;
 
 /** \brief What a file gives and takes.
  *
@@ -35,6 +41,9 @@ struct PCL_UVOL_EXPORTS Dataset {
   /** Sides of the box that the file names, 0: none. Whether it repeats the user knows,
    * see IsosurfacePipelineParameters::periodic. */
   std::array<double, 3> box{{0.0, 0.0, 0.0}};
+  /** Columns of names: int32 fields of the cloud, -1 where a point has no name. Fields
+   * that are not there, and values beyond the names, are passed over. */
+  LabelNames labels;
   /** One sentence each: what reading had to decide (columns taken as coordinates, list
    * properties left out, ...). */
   std::vector<std::string> notes;

@@ -84,7 +84,8 @@ addDerivedField(Dataset& dataset,
 /** \brief Keep the points for which an expression holds, e.g. "experiment=1 && T>=4",
  * see addDerivedField; = and == mean the same. NaN satisfies nothing but !=. A field
  * that is compared with a number is compared with the float nearest to it where the
- * field is float32.
+ * field is float32. A field of names, see Dataset::labels, is compared by = and != with
+ * a name, `hole="A-117"`, whose quotes may be left out; `hole=""` stands for none.
  * \param dataset loses the other points
  * \param where the expression
  * \param options as of addDerivedField()

@@ -91,7 +91,8 @@ PCL_UVOL_EXPORTS Splats
 readSplats(const CloudView& cloud, Report& report);
 
 /** \brief The usable splats that a cloud holds, which may be none, else those generated
- * for all its points.
+ * for all its points; isopoints that bridge a gap become dots, a pixel in size in a
+ * picture of all points of 1000 by 1000 pixels.
  * \param is_asked_for the user chose parameters: a warning tells where they go unused
  * \param cloud with splats, or points of a surface
  * \param parameters of splats that are generated

@@ -33,10 +33,8 @@ drawLegend(py::array_t<std::uint8_t, py::array::c_style>& pixels,
   image.height = static_cast<std::uint32_t>(pixels.shape(0));
   image.width = static_cast<std::uint32_t>(pixels.shape(1));
   image.color.assign(pixels.data(), pixels.data() + pixels.size());
-  std::vector<CategoryColor> categories;
-  if (mapping.map.isCategorical())
-    categories =
-        colorCategories(cloud, field, mapping.map, uvol_tools::most_categories);
+  const auto categories =
+      uvol_tools::listNamedCategories(cloud, points.labels, field, mapping.map);
   if (categories.empty())
     uvol_tools::drawColorBar(
         image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);

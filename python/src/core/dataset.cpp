@@ -87,7 +87,9 @@ void
 settle(Dataset& dataset)
 {
   const py::gil_scoped_release unlocked;
-  dataset = makeDataset(std::move(dataset.cloud));
+  RecordInfo info;
+  info.labels = std::move(dataset.labels);
+  dataset = makeDataset(std::move(dataset.cloud), std::move(info));
 }
 
 /** The bytes of all points, a row each: no copy. */
@@ -180,7 +182,7 @@ withOuterLayer(const DatasetPtr& dataset,
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
     addOuterLayer(*result,
-                  field.empty() ? ScalarField::defaultName(dataset->cloud.fields)
+                  field.empty() ? ScalarField::defaultName(fieldsOfNumbers(*dataset))
                                 : field,
                   value,
                   threads,
@@ -224,6 +226,28 @@ takePoints(
   return result;
 }
 
+/** Say that an int32 field holds numbers of names. */
+void
+setLabels(Dataset& dataset, const std::string& field, std::vector<std::string> names)
+{
+  dataset.labels[field] = std::move(names);
+}
+
+/** Names of labels by field, as `convert` makes them of texts. */
+template <typename Convert>
+py::dict
+listLabels(const Dataset& dataset, const Convert& convert)
+{
+  py::dict labels;
+  for (const auto& [field, names] : dataset.labels) {
+    py::list list;
+    for (const std::string& name : names)
+      list.append(convert(name));
+    labels[convert(field)] = list;
+  }
+  return labels;
+}
+
 /** Values of a scalar that needs no computation: `vel[1]`, `|vel|`. */
 py::array_t<double>
 readScalar(const Dataset& dataset, const std::string& name)
@@ -250,7 +274,8 @@ getState(const Dataset& dataset)
       dataset.origin,
       dataset.double_coordinates,
       dataset.has_coordinates,
-      dataset.notes);
+      dataset.notes,
+      listLabels(dataset, [](const std::string& name) { return py::bytes(name); }));
 }
 
 DatasetPtr
@@ -278,6 +303,7 @@ setState(const py::tuple& state)
   dataset.double_coordinates = state[5].cast<bool>();
   dataset.has_coordinates = state[6].cast<bool>();
   dataset.notes = state[7].cast<std::vector<std::string>>();
+  dataset.labels = state[8].cast<LabelNames>();
   return share(std::move(dataset));
 }
 
@@ -297,6 +323,13 @@ bindDataset(py::module_& module)
       .def_readonly("double_coordinates", &Dataset::double_coordinates)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
       .def_readonly("notes", &Dataset::notes)
+      .def_property_readonly("labels",
+                             [](const Dataset& dataset) {
+                               return listLabels(dataset, [](const std::string& name) {
+                                 return toText(name);
+                               });
+                             })
+      .def("set_labels", &setLabels)
       .def("with_field", &withField)
       .def("with_density", &withDensity)
       .def("with_outer_layer", &withOuterLayer)

@@ -20,6 +20,7 @@ withCloud(const Dataset& dataset, Cloud&& cloud)
   auto result = std::make_shared<Dataset>();
   result->origin = dataset.origin;
   result->double_coordinates = dataset.double_coordinates;
+  result->labels = dataset.labels;
   result->cloud = std::move(cloud);
   return result;
 }

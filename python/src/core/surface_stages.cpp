@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Level sets, and what is made of points on a surface.
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
 #include "core/run_stage.h"
@@ -62,7 +63,7 @@ evolveLevelSet(const DatasetPtr& dataset,
     if (shifted.initial.kind == InitialKind::Box)
       shifted.initial.second -= origin;
     if (shifted.field.empty())
-      shifted.field = ScalarField::defaultName(dataset->cloud.fields);
+      shifted.field = ScalarField::defaultName(fieldsOfNumbers(*dataset));
     evolution.setParameters(shifted);
     evolution.setSnapshotCallback(
         every, [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {

@@ -166,18 +166,23 @@ ImageSpaceRendererBase::findBounds(const CloudView& cloud,
 void
 ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
 {
-  if (color_field_.empty()) {
-    surface_->setColor(toRgba(settings_.material.color));
-    for (const auto& layer : layers_)
-      layer->setColor(toRgba(settings_.material.color));
-    return;
-  }
-  const PointColors colors =
-      colorPoints(cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
-  used_range_ = {colors.scale.low, colors.scale.high};
-  surface_->setColors(colors.colors);
+  std::vector<SurfaceCloud*> surfaces = {surface_.get()};
   for (const auto& layer : layers_)
-    layer->setColors(colors.colors);
+    surfaces.push_back(layer.get());
+  PointColors colors;
+  if (!color_field_.empty()) {
+    colors = colorPoints(
+        cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
+    used_range_ = {colors.scale.low, colors.scale.high};
+  }
+  for (SurfaceCloud* const surface : surfaces) {
+    if (color_field_.empty())
+      surface->setColor(toRgba(settings_.material.color));
+    else
+      surface->setColors(colors.colors);
+    if (supersampling_ == 1) // else the pixels around make them paler
+      surface->fadeBridged(settings_.background.color);
+  }
 }
 
 void
@@ -249,10 +254,13 @@ void
 ImageSpaceRendererBase::updateColors(const CloudView& cloud)
 {
   const Rgba color = toRgba(settings_.material.color);
-  if (colored_ && (!color_field_.empty() || color == uniform_color_))
+  const Rgba behind = supersampling_ == 1 ? toRgba(settings_.background.color) : 0;
+  if (colored_ && behind == color_behind_ &&
+      (!color_field_.empty() || color == uniform_color_))
     return;
   colorSurface(cloud);
   uniform_color_ = color;
+  color_behind_ = behind;
   colored_ = true;
 }
 

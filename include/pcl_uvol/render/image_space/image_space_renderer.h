@@ -171,6 +171,7 @@ private:
   Report surface_report_;                             // what preparing it counted
   bool colored_ = false;
   Rgba uniform_color_ = 0; // of surface_ without a colour field
+  Rgba color_behind_ = 0;  // that bridged isopoints of surface_ are mixed with
   Image fine_;             // for supersampling
 };
 

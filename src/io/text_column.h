@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A column of a table as text: what its cells hold, and the type that keeps them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pcl_uvol {
+namespace io {
+
+/** \brief What is known of a column from the cells that were taken. */
+struct TextColumn {
+  std::string name;
+  std::optional<std::size_t> cell; ///< of the row; without one all values are 0
+  std::vector<double> values;      ///< if they are kept
+  bool floats = true;              ///< float32 holds all digits
+  bool integers = true;            ///< all cells are whole numbers
+  bool inexact = false;            ///< double does not hold some of these
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  std::size_t numbers = 0;
+  std::size_t texts = 0;
+  std::size_t first_text_line = 0;
+  std::string first_text;
+  std::vector<std::string> labels; ///< of a column of names, ascending
+
+  /** \brief Look at one more cell.
+   * \return NaN where it holds no number */
+  double
+  take(std::string_view text, std::size_t line);
+
+  /** \brief Names that happen to be numbers ("34873" beside "B1-001") make no column of
+   * numbers. */
+  bool
+  holdsNames() const
+  {
+    return texts > numbers;
+  }
+
+  /** \brief The smallest type that keeps the cells as they are given. */
+  std::uint8_t
+  getDatatype() const;
+};
+
+constexpr double no_name = -1.0; ///< the label of a missing name
+
+/** \brief True for an empty cell, "NaN", "n/a" and the like. */
+bool
+isMissing(std::string_view cell);
+
+/** \brief NaN where the cell holds no number. */
+double
+numberIn(std::string_view cell);
+
+/** \brief A cell as it is meant: of two quotes one. */
+std::string
+withoutDoubledQuotes(std::string_view cell);
+
+/** \brief The number of the name in a cell among all names of its column. */
+double
+labelOf(std::string_view cell, const std::vector<std::string>& names);
+
+/** \brief Write a number as INT32, FLOAT32 or FLOAT64. */
+void
+putNumber(double value, std::uint8_t datatype, std::uint8_t* to);
+
+} // namespace io
+} // namespace pcl_uvol
