@@ -37,9 +37,9 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, where, scale, label, tree, surface, probability, smoothing;
+  uvol_tools::ScaleOption scale;
+  std::string input, output, where, label, tree, surface, probability, smoothing;
   uvol_tools::AttributeOptions attributes;
-  std::optional<uvol_tools::ScaleOption> stretch; // set when the options are read
   std::uint64_t k = 10, min_size = 0, grid = 128;
   double cut = 0.0, distance = 0.0;
   std::vector<double> cluster;
@@ -112,11 +112,8 @@ declare(Options& options, Arguments& arguments)
                  huge,
                  "of the surface (default: just beyond the longest edge of the points' "
                  "minimum spanning tree)");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances of -surface in a stretched space; auto: equal spread "
-               "per axis");
+  arguments.scale.declare(
+      options, "distances of -surface", uvol_tools::AutomaticScale::Spacing);
   options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
@@ -132,8 +129,9 @@ check(const Options& options, const Arguments& arguments)
 {
   if (!arguments.surface.empty() && arguments.cluster.empty())
     throw UsageError("-surface needs -cluster: choose one.");
-  if (options.given("scale") && arguments.surface.empty())
-    throw UsageError("-scale needs -surface.");
+  for (const char* const name : {"scale", "rotate"})
+    if (options.given(name) && arguments.surface.empty())
+      throw UsageError(std::string("-") + name + " needs -surface.");
   if (!arguments.cluster.empty() &&
       (std::abs(arguments.cluster[0]) > std::numeric_limits<std::int32_t>::max() ||
        arguments.cluster[0] != std::round(arguments.cluster[0])))
@@ -239,6 +237,7 @@ enclose(const Options& options,
         const Arguments& arguments,
         const Dataset& dataset,
         const std::vector<std::uint32_t>& members,
+        const pcl_uvol::detail::Stretch& stretch,
         Report& report)
 {
   pcl_uvol::ClusterSurfaceGeneration<pcl::PCLPointCloud2> generation;
@@ -249,7 +248,8 @@ enclose(const Options& options,
   fromWord(arguments.surface, parameters.kind);
   parameters.cells = static_cast<std::uint32_t>(arguments.grid);
   parameters.distance = arguments.distance;
-  parameters.scale = arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud));
+  parameters.scale = stretch.scale;
+  parameters.rotation = stretch.rotation;
   generation.setParameters(parameters);
   generation.setNumberOfThreads(options.threads());
   generation.setProgressCallback(report.progress);
@@ -296,18 +296,22 @@ writeCluster(const Options& options,
   if (!dataset.has_coordinates)
     throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
                                     "in: uvol_project gives it some.");
+  Facts of_scale;
+  const auto stretch = arguments.scale.resolve(
+      pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);
+  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   if (!isMesh(arguments)) {
-    const Dataset surface = pcl_uvol::extractMembershipSurface(
-        dataset,
-        membership,
-        arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud)),
-        !arguments.smoothing.empty(),
-        options.threads(),
-        report);
+    const Dataset surface =
+        pcl_uvol::extractMembershipSurface(dataset,
+                                           membership,
+                                           stretch,
+                                           !arguments.smoothing.empty(),
+                                           options.threads(),
+                                           report);
     uvol_tools::savePoints(arguments.output, surface, save, report);
     return;
   }
-  const auto surface = enclose(options, arguments, dataset, members, report);
+  const auto surface = enclose(options, arguments, dataset, members, stretch, report);
   facts.emplace_back("distance", surface.distance);
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveMesh(
@@ -384,7 +388,7 @@ run(int argc, char** argv)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  arguments.stretch.emplace(arguments.scale);
+  arguments.scale.finish(options);
   check(options, arguments);
   uvol_tools::MemoryGuard memory("Clustering");
   memory.checkFile(arguments.input,

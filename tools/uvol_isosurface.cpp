@@ -204,6 +204,7 @@ loadSamples(const Options& options,
           forecast.run(uvol_tools::DensityOptions::getMemoryNeed(points, step));
         addFieldsNeed(arguments, points, step, forecast);
       });
+  arguments.resolveSpacing(*samples);
   const auto sides = arguments.periodic.findSides(*samples, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
   const auto add_fields = [&](pcl_uvol::Dataset& points) {
@@ -288,7 +289,8 @@ runInMemory(const Options& options,
   pipeline.setNumberOfThreads(options.threads());
   pipeline.setProgressCallback(report.progress);
   IsosurfacePipelineParameters resolved = parameters;
-  resolved.isosurface = pipeline.resolveParameters();
+  std::optional<pcl_uvol::ScaleChoice> choice;
+  resolved.isosurface = pipeline.resolveParameters(&choice);
   resolved.automatic_scale = false; // it is filled in now
   pipeline.setParameters(resolved);
   const auto sizes = pcl_uvol::estimateSurfaces(
@@ -303,6 +305,7 @@ runInMemory(const Options& options,
             isopoints, arguments.parameters.isosurface.isovalues.size(), forecast);
       });
   IsosurfaceResult result = pipeline.run();
+  result.scale_choice = choice;
   if ((resolved.periodic > 0.0).any()) {
     Report own; // the pipeline has told of samples outside
     figures.push_back(uvol_tools::describeBox(
@@ -403,9 +406,17 @@ run(int argc, char** argv)
       {"field", result.field},
       {"isovalues", joined(isovalues), isovalues},
       {"isopoints per isovalue", uvol_tools::toNumbers(result.isopoints)},
-      {"scale", uvol_tools::toNumbers(result.scale)},
-      {"interpolation", toWord(arguments.parameters.isosurface.interpolation)},
-      describeErrors(result.errors)};
+  };
+  const auto append = [&](const Facts& more) {
+    facts.insert(facts.end(), more.begin(), more.end());
+  };
+  append(uvol_tools::describe(
+      pcl_uvol::detail::Stretch{result.scale, arguments.parameters.rotation}));
+  if (result.scale_choice)
+    facts.push_back(uvol_tools::describe(*result.scale_choice));
+  facts.emplace_back("interpolation",
+                     toWord(arguments.parameters.isosurface.interpolation));
+  facts.push_back(describeErrors(result.errors));
   if (result.sampling)
     facts.push_back(uvol_tools::describeSampling(*result.sampling));
   if (result.gaps)
@@ -413,9 +424,6 @@ run(int argc, char** argv)
   const auto of_isovalue = [&](std::size_t i) {
     return isovalues.size() > 1 ? " at " + pcl_uvol::describeNumbers({isovalues[i]})[0]
                                 : "";
-  };
-  const auto append = [&](const Facts& more) {
-    facts.insert(facts.end(), more.begin(), more.end());
   };
   if (arguments.parameters.mesh)
     append(uvol_tools::describeMesh(result));
