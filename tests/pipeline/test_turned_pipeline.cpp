@@ -32,7 +32,9 @@ makeLayers()
         20.0 * random.uniform(), 20.0 * random.uniform(), random.uniform());
     pcl::PointXYZI point;
     point.getVector3fMap() = (back * seen).cast<float>();
-    point.intensity = static_cast<float>(seen[2] + 0.05 * std::sin(0.5 * seen[0]));
+    const double height = seen[2] + 0.05 * std::sin(0.5 * seen[0]);
+    point.intensity =
+        static_cast<float>(period > 0.0 ? std::sin(6.3 / period * height) : height);
     cloud.push_back(point);
   }
   auto samples = std::make_shared<Dataset>();
@@ -66,7 +68,7 @@ expectSameSurface(IsosurfacePipelineParameters parameters)
   StretchAxes(angles).turnBack(expected.surface.cloud);
   parameters.rotation = angles;
   const auto result = uvol_test::runPipeline(samples, parameters);
-  EXPECT_GT(result.surface.cloud.width, 1000u);
+  EXPECT_GT(result.surface.cloud.width, 500u);
   EXPECT_EQ(expected.surface.cloud.data, result.surface.cloud.data);
   EXPECT_EQ(expected.triangles, result.triangles);
 }
@@ -105,8 +107,8 @@ TEST(TurnedPipeline, NormalsStandOnTheLayer)
         sum += along;
         steep += along < 0.7;
       }
-      EXPECT_GT(sum, 0.97 * static_cast<double>(points.size()));
-      EXPECT_LT(steep, points.size() / 50);
+      EXPECT_GT(sum, 0.94 * static_cast<double>(points.size()));
+      EXPECT_LT(steep, points.size() / 20);
     }
   }
 }
@@ -116,22 +118,22 @@ TEST(TurnedPipeline, FindsTheScaleAlongTheAxes)
   IsosurfacePipelineParameters parameters = makeParameters();
   parameters.rotation = angles;
   parameters.automatic_scale = true;
-  const auto result = uvol_test::runPipeline(makeLayers(), parameters);
+  const auto result = uvol_test::runPipeline(makeLayers(0.4), parameters);
   ASSERT_TRUE(result.scale_choice);
   EXPECT_TRUE((result.scale == result.scale_choice->scale).all());
   EXPECT_GT(result.scale[2], 5.0f);
   parameters.automatic_scale = false;
-  EXPECT_FALSE(uvol_test::runPipeline(makeLayers(), parameters).scale_choice);
+  EXPECT_FALSE(uvol_test::runPipeline(makeLayers(0.4), parameters).scale_choice);
 }
 
 TEST(TurnedPipeline, RefusesABoxThatRepeatsAndBadAngles)
 {
   IsosurfacePipelineParameters parameters = makeParameters();
   parameters.rotation = {0.0, 30.0, 31.0};
-  EXPECT_THROW(uvol_test::runPipeline(makeLayers(), parameters), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(makeLayers(0.4), parameters), InvalidArgument);
   parameters.rotation = angles;
   parameters.periodic = {20.0, 0.0, 0.0};
-  EXPECT_THROW(uvol_test::runPipeline(makeLayers(), parameters), InvalidArgument);
+  EXPECT_THROW(uvol_test::runPipeline(makeLayers(0.4), parameters), InvalidArgument);
 }
 
 } // namespace
