@@ -62,22 +62,34 @@ check(const Eigen::Array3d& rotation)
            "no steeper than the dip of the plane, " + std::to_string(dip));
 }
 
-/** Where the components of vectors lie in a point: positions, and normals. */
-std::vector<std::array<std::size_t, 3>>
+/** The components of vectors: of positions, and of normals, which files may hold in
+ * double. */
+std::vector<std::array<FieldComponent, 3>>
 findVectors(const CloudView& cloud)
 {
-  const std::size_t step = sizeof(float);
-  std::vector<std::array<std::size_t, 3>> vectors = {
-      {cloud.xyz_offset, cloud.xyz_offset + step, cloud.xyz_offset + 2 * step}};
-  std::array<std::size_t, 3> normal{};
-  std::size_t found = 0;
-  for (const char* const name : {"normal_x", "normal_y", "normal_z"})
-    if (const auto* const field = findField(cloud.fields, name);
-        field && field->datatype == pcl::PCLPointField::FLOAT32)
-      normal[found++] = field->offset;
-  if (found == 3)
-    vectors.push_back(normal);
+  constexpr std::array<std::array<const char*, 3>, 2> names = {
+      {{"x", "y", "z"}, {"normal_x", "normal_y", "normal_z"}}};
+  std::vector<std::array<FieldComponent, 3>> vectors;
+  for (const auto& of_vector : names) {
+    std::array<FieldComponent, 3> components{};
+    std::size_t found = 0;
+    for (const char* const name : of_vector)
+      if (const auto* const field = findField(cloud.fields, name);
+          field && (field->datatype == pcl::PCLPointField::FLOAT32 ||
+                    field->datatype == pcl::PCLPointField::FLOAT64))
+        components[found++] = {field->offset, field->datatype};
+    if (found == 3)
+      vectors.push_back(components);
+  }
   return vectors;
+}
+
+template <typename Number>
+void
+put(double number, std::uint8_t* place)
+{
+  const auto rounded = static_cast<Number>(number);
+  std::memcpy(place, &rounded, sizeof(Number));
 }
 
 void
@@ -85,18 +97,17 @@ apply(const Matrix3d& map, const CloudView& cloud, std::uint8_t* points)
 {
   const auto vectors = findVectors(cloud);
   for (std::size_t i = 0; i < cloud.count; ++i)
-    for (const auto& offsets : vectors) {
+    for (const auto& components : vectors) {
       std::uint8_t* const point = points + i * cloud.point_step;
-      Eigen::Vector3f vector;
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        std::memcpy(&vector[axis],
-                    point + offsets[static_cast<std::size_t>(axis)],
-                    sizeof(float));
-      const Eigen::Vector3f mapped = (map * vector.cast<double>()).cast<float>();
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        std::memcpy(point + offsets[static_cast<std::size_t>(axis)],
-                    &mapped[axis],
-                    sizeof(float));
+      const Vector3d mapped = map * Vector3d(components[0].read(point),
+                                             components[1].read(point),
+                                             components[2].read(point));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const FieldComponent& to = components[axis];
+        (to.datatype == pcl::PCLPointField::FLOAT64
+             ? put<double>
+             : put<float>)(mapped[static_cast<Eigen::Index>(axis)], point + to.offset);
+      }
     }
 }
 

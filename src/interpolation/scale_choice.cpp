@@ -30,8 +30,9 @@ constexpr double tried_powers[] = {0.25, 0.5, 0.75, 1.0};
  * is so many of its standard errors. */
 constexpr double least_gain = 0.9, least_certainty = 4.0;
 
-/** Of the error: of powers as good as that the lowest is taken. */
-constexpr double alike = 1.03;
+/** Of powers that are worse than the best one by less than that part of its error, or
+ * by fewer standard errors, the lowest is taken. */
+constexpr double alike = 1.05, alike_errors = 2.0;
 
 double
 meanOf(const std::vector<double>& numbers)
@@ -83,23 +84,21 @@ choosePower(const detail::GapTest& test,
   const std::vector<double> before = errorsOf(0.0);
   const double mean_before = meanOf(before);
   std::vector<std::vector<double>> tried;
-  double least = mean_before;
+  std::size_t best = 0;
   for (const double power : tried_powers) {
     tried.push_back(errorsOf(power));
-    least = std::min(least, meanOf(tried.back()));
+    if (meanOf(tried.back()) < meanOf(tried[best]))
+      best = tried.size() - 1;
   }
-  error_ratio = 1.0;
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    const double mean = meanOf(tried[i]);
-    if (mean > alike * least)
-      continue;
-    if (!(mean < least_gain * mean_before) ||
-        !(certaintyOf(tried[i], before) > least_certainty))
-      return 0.0;
-    error_ratio = mean / mean_before;
-    return tried_powers[i];
-  }
-  return 0.0;
+  std::size_t lowest = 0;
+  while (lowest < best && meanOf(tried[lowest]) > alike * meanOf(tried[best]) &&
+         certaintyOf(tried[best], tried[lowest]) > alike_errors)
+    ++lowest;
+  const double ratio = meanOf(tried[lowest]) / mean_before;
+  if (!(ratio < least_gain) || !(certaintyOf(tried[lowest], before) > least_certainty))
+    return 0.0;
+  error_ratio = ratio;
+  return tried_powers[lowest];
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Axes by strike, dip and plunge, and linear maps taken apart into them and factors.
+#include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "support/environment.h"
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +12,8 @@
 #include <pcl/point_types.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -121,6 +125,29 @@ TEST(StretchAxes, TurnPositionsAndNormalsAndBack)
   }
   const StretchAxes none(Array3d::Zero());
   EXPECT_EQ(cloud.data.data(), none.turn(pcl_uvol::viewOf(cloud)).data);
+}
+
+TEST(StretchAxes, TurnNormalsInDouble)
+{
+  pcl::PointCloud<pcl::PointXYZ> points;
+  points.push_back({1.0f, 2.0f, 3.0f});
+  pcl_uvol::Dataset samples;
+  pcl::toPCLPointCloud2(points, samples.cloud);
+  const Vector3d normal(0.36, 0.48, 0.8);
+  for (const auto& [name, value] : {std::pair("normal_x", normal[0]),
+                                    std::pair("normal_y", normal[1]),
+                                    std::pair("normal_z", normal[2])})
+    pcl_uvol::setField(samples, name, std::vector<double>{value});
+  const StretchAxes axes(Array3d(20.0, 50.0, 10.0));
+  axes.turn(samples.cloud);
+  const Vector3d expected = axes.getRows() * normal;
+  for (const auto& [name, value] : {std::pair("normal_x", expected[0]),
+                                    std::pair("normal_y", expected[1]),
+                                    std::pair("normal_z", expected[2])})
+    EXPECT_NEAR(value,
+                pcl_uvol::ScalarField(samples.cloud.fields, name)
+                    .read(samples.cloud.data.data()),
+                1e-15);
 }
 
 TEST(Stretch, OfAMapMeasuresItsLengths)

@@ -19,10 +19,10 @@ using detail::StretchAxes;
 
 const Eigen::Array3d angles(30.0, 40.0, 15.0);
 
-/** Layers that are level along turned axes, a wave on them: a hundred samples across
- * and ten from layer to layer. */
+/** Layers that are level along turned axes, a wave on them, twenty times as wide as
+ * they are thick. \param period of the values across the layers; 0: they only grow */
 std::shared_ptr<Dataset>
-makeLayers()
+makeLayers(double period = 0.0)
 {
   const Eigen::Matrix3d back = StretchAxes(angles).getRows().transpose();
   uvol_test::Random random(6);

@@ -117,7 +117,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
   /** Predict samples in gaps of the sampling, between lines of samples above all, and
-   * extract from both, see GapFilling. The field is one of single numbers. */
+   * extract from both, see GapFilling: best with an automatic scale, since what is
+   * predicted lives on distances. The field is one of single numbers. */
   bool fill_gaps = false;
   ValidationParameters validation;
   /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
