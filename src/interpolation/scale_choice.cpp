@@ -24,7 +24,7 @@ constexpr std::size_t least_samples = 100;
 
 /** Powers of the factors that the variogram asks for, which are tried. It sees how a
  * field changes over all distances, and asks for too much where large ones differ. */
-constexpr double tried_powers[] = {0.25, 0.5, 0.75, 1.0};
+constexpr double tried_powers[] = {0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0};
 
 /** Factors other than 1 are taken if the error is below that part, and the difference
  * is so many of its standard errors. */

@@ -314,14 +314,17 @@ printCase(const Case& data, std::size_t folds_at_most)
 
 } // namespace
 
-/** holdout [FOLDS [PART OF A FILE'S NAME]] */
+/** holdout [FOLDS [PART OF A FILE'S NAME [found]]]; found: those cases only whose scale
+ * is found from the field. */
 int
 main(int argc, char** argv)
 {
   const std::size_t folds = argc > 1 ? std::stoul(argv[1]) : 10;
   const std::string part = argc > 2 ? argv[2] : "";
+  const bool only_found = argc > 3 && std::string(argv[3]) == "found";
   for (const Case& data : listCases())
-    if (data.file.find(part) != std::string::npos)
+    if (data.file.find(part) != std::string::npos &&
+        (!only_found || (data.scale == 0.0f).all()))
       printCase(data, folds);
   return 0;
 }

@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -103,6 +107,36 @@ TEST_F(ScaleOptions, TellHowTheScaleWasFound)
             runCommand(job + "-fill-gaps").out.find("\"scale_choice\""));
   EXPECT_EQ(std::string::npos,
             runCommand(job + "-fill-gaps -scale 1,1,1").out.find("\"scale_choice\""));
+}
+
+TEST(ScaleOfRealData, IsThatOfTheOceanAndOneElsewhere)
+{
+  if (uvol_test::dataFolder().empty())
+    GTEST_SKIP() << "the folder of real data is not there ($PCL_UVOL_DATA)";
+  struct Case {
+    const char *file, *field;
+    double isovalue, least, most; ///< of the factor of z
+  };
+  const Case cases[] = {
+      {"sensors/seaglider_sg542.csv", "temperature_C", 6, 50, 300},
+      {"sensors/seaglider_sg542.csv", "oxygen_umol_kg", 225, 50, 300},
+      {"sensors/argo_4901079_gulfstream.csv", "temperature_C", 12, 1, 1},
+      {"sensors/babbitt_drillholes.csv", "cu_pct", 0.6, 1, 1},
+      {"particles/starsmasher_giant.csv", "rho", 0.01, 1, 1},
+      {"cfd/bluntfin.vts", "Density", 0.9, 1, 1}};
+  const uvol_test::TemporaryFolder folder;
+  for (const Case& data : cases) {
+    SCOPED_TRACE(data.file);
+    std::ostringstream job;
+    job << "uvol_isosurface " << uvol_test::dataFolder() << '/' << data.file << ' '
+        << (folder / "out.ply") << " -field " << data.field << " -iso " << data.isovalue
+        << " -scale auto -interpolation linear -normals edge -json";
+    const auto report = nlohmann::json::parse(runCommand(job.str()).out);
+    const auto scale = report.at("scale").get<std::vector<double>>();
+    EXPECT_GE(scale[2], data.least);
+    EXPECT_LE(scale[2], data.most);
+    EXPECT_LE(std::max(scale[0], scale[1]), data.most == 1.0 ? 1.0 : 4.0);
+  }
 }
 
 } // namespace
