@@ -113,6 +113,7 @@ enclose(const Options& options,
         const Arguments& arguments,
         const Dataset& dataset,
         const std::vector<std::uint32_t>& members,
+        const pcl_uvol::detail::Stretch& stretch,
         Report& report)
 {
   pcl_uvol::ClusterSurfaceGeneration<pcl::PCLPointCloud2> generation;
@@ -123,7 +124,8 @@ enclose(const Options& options,
   fromWord(arguments.surface, parameters.kind);
   parameters.cells = static_cast<std::uint32_t>(arguments.grid);
   parameters.distance = arguments.distance;
-  parameters.scale = arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud));
+  parameters.scale = stretch.scale;
+  parameters.rotation = stretch.rotation;
   generation.setParameters(parameters);
   generation.setNumberOfThreads(options.threads());
   generation.setProgressCallback(report.progress);
@@ -170,18 +172,22 @@ writeCluster(const Options& options,
   if (!dataset.has_coordinates)
     throw pcl_uvol::InvalidArgument("The input has no coordinates to draw a surface "
                                     "in: uvol_project gives it some.");
+  Facts of_scale;
+  const auto stretch = arguments.scale.resolve(
+      pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);
+  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   if (!arguments.isMesh()) {
-    const Dataset surface = pcl_uvol::extractMembershipSurface(
-        dataset,
-        membership,
-        arguments.stretch->resolveScale(pcl_uvol::viewOf(dataset.cloud)),
-        !arguments.smoothing.empty(),
-        options.threads(),
-        report);
+    const Dataset surface =
+        pcl_uvol::extractMembershipSurface(dataset,
+                                           membership,
+                                           stretch,
+                                           !arguments.smoothing.empty(),
+                                           options.threads(),
+                                           report);
     uvol_tools::savePoints(arguments.output, surface, save, report);
     return;
   }
-  const auto surface = enclose(options, arguments, dataset, members, report);
+  const auto surface = enclose(options, arguments, dataset, members, stretch, report);
   facts.emplace_back("distance", surface.distance);
   const pcl_uvol::StepTimer timer(report, "write");
   pcl_uvol::saveMesh(

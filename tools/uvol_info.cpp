@@ -29,7 +29,8 @@ using uvol_tools::Options;
 using uvol_tools::toNumbers;
 
 struct Arguments {
-  std::string input, field, where, scale, output;
+  uvol_tools::ScaleOption scale;
+  std::string input, field, where, output;
   uvol_tools::InputOptions reading;
 };
 
@@ -221,12 +222,12 @@ addNames(const pcl_uvol::Dataset& dataset, Facts& facts)
 void
 addPositions(const std::string& path,
              const pcl_uvol::Dataset& dataset,
-             const Eigen::Array3f& scale,
+             const pcl_uvol::detail::Stretch& stretch,
              unsigned threads,
              Facts& facts,
              Report& report)
 {
-  const auto positions = pcl_uvol::describePositions(dataset, scale, threads);
+  const auto positions = pcl_uvol::describePositions(dataset, stretch, threads);
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
@@ -294,14 +295,16 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     report.warnings.push_back(arguments.input + " has no points.");
     return facts;
   }
+  Facts facts_of_scale;
   if (dataset.has_coordinates)
-    addPositions(arguments.input,
-                 dataset,
-                 uvol_tools::ScaleOption(arguments.scale)
-                     .resolveScale(pcl_uvol::viewOf(dataset.cloud)),
-                 threads,
-                 facts,
-                 report);
+    addPositions(
+        arguments.input,
+        dataset,
+        arguments.scale.resolve(
+            pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale),
+        threads,
+        facts,
+        report);
   else
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
@@ -338,10 +341,7 @@ run(int argc, char** argv)
       "scalar field to draw a histogram of, or an expression: log10(rho), Q(vel)");
   options.text(
       "where", "expr", arguments.where, "look only at the points it holds for");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure spacings in a stretched space; auto: equal spread per axis");
+  arguments.scale.declare(options, "spacings", uvol_tools::AutomaticScale::Spacing);
   arguments.reading.declare(options);
   uvol_tools::declareSeries(options);
   options.group("Output");
@@ -352,6 +352,7 @@ run(int argc, char** argv)
                  "sheet, volume), spacing_along and spacing_across");
   if (!options.parse(argc, argv))
     return 0;
+  arguments.scale.finish(options);
   const bool is_volume = pcl_uvol::isVolumeFile(arguments.input);
   if (!arguments.output.empty() && is_volume)
     throw uvol_tools::UsageError("-out is for samples, and " + arguments.input +

@@ -65,9 +65,9 @@ declare(Options& options, Arguments& arguments)
 
 /** What can be said before any file is read. */
 void
-finishParameters(Arguments& arguments)
+finishParameters(const Options& options, Arguments& arguments)
 {
-  arguments.finish();
+  arguments.finish(options);
   if (arguments.parameters.automatic_scale)
     throw UsageError("-scale auto is not offered, as no process sees all samples: give "
                      "three factors.");
@@ -171,7 +171,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
-  finishParameters(arguments);
+  finishParameters(options, arguments);
   if (arguments.inPieces())
     uvol_tools::checkDistinct(
         pcl_uvol::findPieces(arguments.inputs),

@@ -38,7 +38,8 @@ using uvol_tools::Options;
 using uvol_tools::UsageError;
 
 struct Arguments {
-  std::string input, output, scale, mu = "auto", table, plot, start_field;
+  uvol_tools::ScaleOption scale;
+  std::string input, output, mu = "auto", table, plot, start_field;
   uvol_tools::PeriodicOption periodic;
   LevelSetParameters parameters;
   std::vector<double> iso, sphere, box, plane;
@@ -119,10 +120,7 @@ declare(Options& options, Arguments& arguments)
                  arguments.parameters.outside,
                  "the outside of -sphere, -box and -plane is where values are so");
   options.group("Input");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               arguments.scale,
-               "measure distances in a stretched space; auto: equal spread per axis");
+  arguments.scale.declare(options, "distances", uvol_tools::AutomaticScale::Field);
   arguments.periodic.declare(options);
   options.group("Output");
   options.integer("snapshots",
@@ -263,8 +261,12 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   LevelSetParameters parameters = makeParameters(options, arguments);
-  const uvol_tools::ScaleOption scale(arguments.scale);
+  arguments.scale.finish(options);
   arguments.periodic.check();
+  if (arguments.periodic.isAskedFor() &&
+      (arguments.scale.getStretch().rotation != 0.0).any())
+    throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
+                     "sides of the box lie along x, y and z.");
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
     pcl_uvol::checkTablePath(arguments.table);
@@ -288,7 +290,19 @@ run(int argc, char** argv)
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   const std::size_t points = dataset.cloud.width;
   const auto sides = arguments.periodic.findSides(dataset, report);
-  parameters.scale = scale.resolveScale(pcl_uvol::viewOf(dataset.cloud));
+  if (arguments.scale.isFromField()) // which images across faces need
+    uvol_tools::addField(dataset, parameters.field, options, report);
+  uvol_tools::Facts of_scale;
+  const auto stretch = arguments.scale.resolve(
+      pcl_uvol::viewOf(dataset.cloud),
+      parameters.field.empty()
+          ? pcl_uvol::ScalarField::defaultName(dataset.cloud.fields)
+          : parameters.field,
+      options.threads(),
+      report,
+      of_scale);
+  parameters.scale = stretch.scale;
+  parameters.rotation = stretch.rotation;
   uvol_tools::BoxedSamples boxed(
       dataset, sides, parameters.scale, options.threads(), report);
   uvol_tools::addField(dataset, parameters.field, options, report);
@@ -345,6 +359,7 @@ run(int argc, char** argv)
                              {"output", arguments.output},
                              {"field", parameters.field}};
   boxed.tell(facts);
+  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

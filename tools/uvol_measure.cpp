@@ -78,13 +78,20 @@ void
 check(const Options& options, Arguments& arguments)
 {
   const bool has_isovalues = options.given("iso");
-  for (const char* const name :
-       {"field", "where", "scale", "xyz", "outside", "smooth", "drop-pieces", "png"})
+  for (const char* const name : {"field",
+                                 "where",
+                                 "scale",
+                                 "rotate",
+                                 "xyz",
+                                 "outside",
+                                 "smooth",
+                                 "drop-pieces",
+                                 "png"})
     if (options.given(name) && !has_isovalues)
       throw UsageError(std::string("-") + name +
                        " is for isosurfaces of samples, which need -iso.");
   if (has_isovalues) {
-    arguments.finish();
+    arguments.finish(options);
     if (options.given("samples"))
       throw UsageError("-samples is for meshes: those that -iso is for are known.");
     arguments.parameters.mesh.emplace();
@@ -149,6 +156,7 @@ extractSurface(const Options& options,
                                                        arguments.makeLoadOptions(),
                                                        arguments.where,
                                                        options.threads()));
+  arguments.resolveSpacing(*samples);
   uvol_tools::addField(
       *samples, arguments.parameters.isosurface.field, options, report);
   memory.checkCloud(

@@ -6,6 +6,7 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/scale_option.h"
 #include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
@@ -66,7 +67,8 @@ int
 run(int argc, char** argv)
 {
   std::string input, output;
-  std::vector<double> view_point, scale;
+  std::vector<double> view_point;
+  uvol_tools::ScaleOption scale;
   std::uint64_t k = 30;
   bool ascii = false;
   uvol_tools::Options options(
@@ -84,12 +86,12 @@ run(int argc, char** argv)
                   3,
                   view_point,
                   "points without a normal look there (default 0,0,0)");
-  options.numbers(
-      "scale", "sx,sy,sz", 3, scale, "measure distances in a stretched space");
+  scale.declare(options, "distances", uvol_tools::AutomaticScale::Spacing);
   options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
   if (!options.parse(argc, argv))
     return 0;
+  scale.finish(options);
   pcl_uvol::checkSavePath(output);
   uvol_tools::MemoryGuard memory("Estimating normals");
   memory.checkFile(input, forecastMemory(k));
@@ -102,8 +104,13 @@ run(int argc, char** argv)
   memory.checkCloud(dataset, forecastMemory(k));
   pcl_uvol::SurfaceNormalParameters parameters;
   parameters.k = k;
-  if (!scale.empty())
-    parameters.scale = Eigen::Array3d(scale.data()).cast<float>();
+  uvol_tools::Facts facts = {{"input", input}, {"output", output}};
+  uvol_tools::Facts of_scale;
+  const auto stretch = scale.resolve(
+      pcl_uvol::viewOf(dataset.cloud), "", options.threads(), report, of_scale);
+  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+  parameters.scale = stretch.scale;
+  parameters.rotation = stretch.rotation;
   if (view_point.empty())
     view_point.assign(3, 0.0);
   parameters.view_point =
@@ -121,8 +128,8 @@ run(int argc, char** argv)
   save.ascii = ascii;
   uvol_tools::savePoints(output, result, save, report);
   report.count("points", result.cloud.width);
-  uvol_tools::printReport(
-      options, report, {{"input", input}, {"output", output}, memory.describe()});
+  facts.push_back(memory.describe());
+  uvol_tools::printReport(options, report, facts);
   return 0;
 }
 

@@ -234,8 +234,9 @@ run(int argc, char** argv)
                                        Eigen::Array3f::Ones(),
                                        options.threads(),
                                        report);
+  Facts of_scale;
   InterpolationParameters parameters =
-      arguments.model.resolve(options, samples, report);
+      arguments.model.resolve(options, samples, report, of_scale);
   std::optional<Slice> lattice;
   if (kind != Kind::None && kind != Kind::Points)
     lattice = arguments.queries.makeLattice(findBounds(samples, boxed.getSides()));
@@ -254,6 +255,7 @@ run(int argc, char** argv)
   Facts facts = {{"input", arguments.input}};
   if (!arguments.output.empty())
     facts.emplace_back("output", arguments.output);
+  facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   if (parameters.model == InterpolationModel::Auto) {
     const StepTimer timer(report, "choice");
     const auto choice = chooseModel(view, own, parameters, options.threads(), report);

@@ -338,7 +338,44 @@ def draw_ranks():
     return picture
 
 
-DIAGRAMS = {"kd_tree": draw_tree, "neighbors": draw_neighbors, "root": draw_root, "dual": draw_dual, "ranks": draw_ranks}
+def draw_axes():
+    """The axes of -rotate: a plane that dips to the right of its strike, and a line that plunges in it."""
+    strike, dip, plunge = (math.radians(angle) for angle in (30.0, 40.0, 12.0))
+    along = (math.sin(strike), math.cos(strike), 0.0)
+    down = (math.cos(dip) * math.cos(strike), -math.cos(dip) * math.sin(strike), -math.sin(dip))
+    normal = (math.sin(dip) * math.cos(strike), -math.sin(dip) * math.sin(strike), math.cos(dip))
+    sine = math.sin(plunge) / math.sin(dip)
+    cosine = math.sqrt(1.0 - sine * sine)
+    first = [cosine * d - sine * a for d, a in zip(down, along)]
+    second = [cosine * a + sine * d for d, a in zip(down, along)]
+
+    def at(*terms, shift=(0.0, 0.0)):
+        """A sum of vectors, seen from the south-west and from above."""
+        x, y, z = (sum(factor * vector[axis] for factor, vector in terms) for axis in range(3))
+        return 190 + 150 * (0.9 * x + 0.35 * y) + shift[0], 210 + 150 * (-0.3 * x + 0.45 * y + 0.8 * z) + shift[1]
+
+    picture = Picture(620, 400)
+    east, north, up = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+    for way, word in ((east, "x, east"), (north, "y, north"), (up, "z, up")):
+        picture.line(at((0, east)), at((1.3, way)), GREY, arrow=True)
+        picture.text(at((1.3, way), shift=(6, 6)), word, color=GREY, anchor="start")
+    corners = [at((u, along), (v, down)) for u, v in ((-0.6, 0.0), (1.4, 0.0), (1.4, 1.0), (-0.6, 1.0))]
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        picture.line(a, b, LIGHT, 2)
+    picture.line(at((-0.6, along)), at((1.4, along)), BLUE, 1.5, dash="5 4")
+    picture.text(at((1.4, along), shift=(6, 8)), "strike, 30 from y", color=BLUE, anchor="start")
+    picture.line(at((0, down)), at((1.0, down)), BLUE, 1.5, dash="5 4")
+    picture.text(at((1.0, down), shift=(6, -12)), "dip, 40 down to the right", color=BLUE, anchor="start")
+    for way, length, word, shift in ((first, 0.9, "first axis, sx", (-96, -8)),
+                                     (second, 1.2, "second axis, sy: plunges by 12", (8, -6)),
+                                     (normal, 1.0, "third axis, sz", (8, 4))):
+        picture.line(at((0, east)), at((length, way)), ORANGE, 2.5, arrow=True)
+        picture.text(at((length, way), shift=shift), word, color=ORANGE, anchor="start")
+    return picture
+
+
+DIAGRAMS = {"kd_tree": draw_tree, "neighbors": draw_neighbors, "root": draw_root, "dual": draw_dual, "ranks": draw_ranks,
+            "axes": draw_axes}
 
 
 def main():

@@ -63,8 +63,8 @@ class Interpolator:
         Give values outside of the data as well; else NaN there.
     gradients, errors : bool
         Compute these beside the values.
-    scale : sequence of three float, or "auto"
-        Factors per axis of the space that distances are measured in.
+    scale, rotate
+        As those of `isosurface`; of several fields "auto" goes by the first one.
     kriging, sph, shepard : dict, optional
         Parameters of these models, by the library's names: `kriging={"variogram":
         "gaussian", "nugget": 0.1}`.
@@ -91,10 +91,10 @@ class Interpolator:
     """
 
     def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
-                 scale=(1.0, 1.0, 1.0), kriging=None, sph=None, shepard=None, threads=0, progress=None):
+                 scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, threads=0, progress=None):
         samples = as_samples(points, fields)
         self._made_of = functools.partial(Interpolator, samples, field=field, model=model, extrapolate=extrapolate,
-                                          gradients=gradients, errors=errors, scale=scale, kriging=kriging, sph=sph,
+                                          gradients=gradients, errors=errors, scale=scale, rotate=rotate, kriging=kriging, sph=sph,
                                           shepard=shepard, threads=threads)
         self._is_single = isinstance(field, str)
         self._threads = _parameters.count(threads, "threads")
@@ -104,13 +104,15 @@ class Interpolator:
             samples, found = samples._with_field(name, threads, progress)
             names += [found] if found else []
         self.samples = samples
+        stretch = _parameters.Stretch(scale, rotate)
         parameters = {
             "fields": names,
             "model": model,
             "extrapolate": extrapolate,
             "gradients": gradients,
             "errors": errors,
-            "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
+            "scale": stretch.resolve(samples._dataset, names[0] if names else "", self._threads),
+            "rotation": stretch.rotation,
             "kriging": _parameters.mapping(kriging, "kriging"),
             "sph": _parameters.mapping(sph, "sph"),
             "shepard": _parameters.mapping(shepard, "shepard"),

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from . import _core
+
 
 def plain(value):
     """The value as Python's own numbers, texts, lists and dictionaries; what is not a
@@ -56,16 +58,34 @@ def mapping(value, what, of="parameters"):
     return {name: value[name] for name in value.keys()}
 
 
-def scale(value):
-    """Factors per axis; None for "auto"."""
-    if isinstance(value, str):
-        if value != "auto":
-            raise ValueError(f"scale is {value!r}: it must be three factors, or 'auto'.")
-        return None
-    factors = numbers(value, "scale")
-    if len(factors) != 3:
-        raise ValueError(f"scale has {len(factors)} factors: there must be three, one for each axis.")
-    return factors
+class Stretch:
+    """The space that distances are measured in: factors along axes, and the angles of these; with no factors, the
+    word of what they are found from."""
+
+    def __init__(self, scale, rotate=None):
+        self.word = scale if isinstance(scale, str) else None
+        self.factors = None
+        self.rotation = [0.0, 0.0, 0.0] if rotate is None else numbers(rotate, "rotate")
+        if len(self.rotation) != 3:
+            raise ValueError(f"rotate has {len(self.rotation)} angles: there must be three: strike, dip and plunge.")
+        if self.word is not None:
+            if self.word not in ("auto", "spacing"):
+                raise ValueError(f"scale is {scale!r}: it must be three factors, a matrix, 'auto' or 'spacing'.")
+            return
+        self.factors = numbers(np.ravel(scale), "scale")
+        if len(self.factors) == 9 and rotate is None:
+            self.factors, self.rotation = _core.split_map(self.factors)
+        elif len(self.factors) != 3:
+            raise ValueError(f"scale has {len(self.factors)} factors: there must be three, one for each axis, or the "
+                             "nine numbers of a matrix, without rotate.")
+
+    def resolve(self, dataset, field=None, threads=0):
+        """The factors for samples; "auto" goes by a field, and without one by their spacing."""
+        if self.word == "auto" and field is not None:
+            return _core.scale_of_field(dataset, field, self.rotation, threads)
+        if self.word is not None:
+            return _core.equalizing_scale(dataset, self.rotation)
+        return self.factors
 
 
 def count(value, what):

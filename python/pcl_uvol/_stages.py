@@ -23,8 +23,8 @@ def _with_report(dataset, report):
     return samples
 
 
-def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), start=None, outside="lower",
-              snapshots=0, threads=0, progress=None, **parameters):
+def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), rotate=None, start=None,
+              outside="lower", snapshots=0, threads=0, progress=None, **parameters):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -37,7 +37,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         As that of `isosurface`.
     mu : float, optional
         Weight of the data against smoothness, in [0, 1]; by default from the values.
-    scale : sequence of three float, or "auto"
+    scale, rotate
+        As those of `isosurface`.
     start : str or dict, optional
         A field in units of length, or a shape: {"kind": "sphere", "first": centre,
         "radius": r}, {"kind": "box", "first": low, "second": high}, {"kind": "plane",
@@ -76,9 +77,9 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     isovalues = _parameters.numbers(iso, "iso")
     if len(isovalues) != 1:
         raise ValueError("A level set has one isovalue.")
-    factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
+    stretch = _parameters.Stretch(scale, rotate)
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
-                      scale=factors)
+                      scale=stretch.resolve(samples._dataset, name), rotation=stretch.rotation)
     dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,
                                   _parameters.count(snapshots, "snapshots"))
     result = _with_report(dataset, report)
@@ -86,7 +87,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     return result
 
 
-def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0, 0.0, 0.0), threads=0, progress=None):
+def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
+            progress=None):
     """Estimate normals of a surface given as points (thesis 4.1).
 
     Parameters
@@ -96,7 +98,8 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0
         normal_y, normal_z) orient the new ones.
     k : int
         Nearest neighbours besides the point, at least 2.
-    scale : sequence of three float
+    scale, rotate
+        As those of `isosurface`; "auto" is "spacing".
     view_point : array_like
         Where points without a normal of their own are seen from.
 
@@ -106,7 +109,8 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), view_point=(0.0
         With normals and `curvature`, and a `report`.
     """
     samples = as_samples(points, fields)
-    parameters = {"k": k, "scale": _parameters.scale(scale) or _core.equalizing_scale(samples._dataset),
+    stretch = _parameters.Stretch(scale, rotate)
+    parameters = {"k": k, "scale": stretch.resolve(samples._dataset), "rotation": stretch.rotation,
                   "view_point": _parameters.numbers(view_point, "view_point")}
     return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
@@ -165,7 +169,7 @@ class Clusters:
         return self._samples.take(self.labels == cluster)
 
     def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
-                scale=(1.0, 1.0, 1.0), threads=0, progress=None):
+                scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
         """A surface around a cluster (thesis, Figure 2.23).
 
         Parameters
@@ -183,8 +187,8 @@ class Clusters:
         distance : float
             In units of the coordinates; 0: just beyond the longest edge of the points'
             minimum spanning tree.
-        scale : sequence of three float, or "auto"
-            Factors per axis of the space that distances are measured in.
+        scale, rotate
+            As those of `isosurface`; "auto" is "spacing".
 
         Returns
         -------
@@ -202,13 +206,14 @@ class Clusters:
         True
         """
         dataset = self._samples._dataset
-        factors = _parameters.scale(scale) or _core.equalizing_scale(dataset)
+        stretch = _parameters.Stretch(scale, rotate)
+        factors = stretch.resolve(dataset)
         count = _parameters.count(threads, "threads")
         if kind == "membership":
             how = dict(cluster=cluster, probability=probability, smoothing_length=smoothing_length)
             with listening(progress) as listener:
-                surface, report = _core.separate_cluster(dataset, self.labels, factors, _parameters.to_json(how), count,
-                                                         listener)
+                surface, report = _core.separate_cluster(dataset, self.labels, factors, stretch.rotation,
+                                                         _parameters.to_json(how), count, listener)
             _report.tell(report["warnings"])
             return _with_report(surface, report)
         if kind not in ("distance", "hull", "hull-distance"):
@@ -218,7 +223,7 @@ class Clusters:
         except ImportError as error:
             raise ImportError("This build of pcl_uvol has no component VTK, which makes surfaces at distances and "
                               "hulls.") from error
-        how = dict(kind=kind, cells=cells, distance=distance, scale=factors)
+        how = dict(kind=kind, cells=cells, distance=distance, scale=factors, rotation=stretch.rotation)
         members = np.flatnonzero(self.labels == cluster)
         if len(members) == 0:
             known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
@@ -381,7 +386,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     return VoronoiGrid(*_run(_core.compute_voronoi, as_samples(points, fields), parameters, threads, progress))
 
 
-def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0):
+def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0):
     """What samples hold: bounds, spacings, and the range of every number.
 
     Returns
@@ -399,8 +404,9 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0):
     (3.0, [1.0, 1.0, 1.0])
     """
     samples = as_samples(points, fields)
-    factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
-    facts = _core.describe_places(samples._dataset, factors, _parameters.count(threads, "threads"))
+    stretch = _parameters.Stretch(scale, rotate)
+    facts = _core.describe_places(samples._dataset, stretch.resolve(samples._dataset), stretch.rotation,
+                                  _parameters.count(threads, "threads"))
     facts["points"] = len(samples)
     facts["fields"] = {}
     for name in samples.keys():

@@ -173,7 +173,7 @@ class Extractor:
         self.samples = as_samples(points, fields)
         self._extractor = _core.Extractor()
 
-    def extract(self, *, iso, field="", scale=(1.0, 1.0, 1.0), outside="lower", interpolation="auto",
+    def extract(self, *, iso, field="", scale=None, rotate=None, outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
                 validate=0, validate_by="random", mesh=False, periodic=None, threads=0, progress=None):
@@ -185,7 +185,10 @@ class Extractor:
             With `mesh` a Mesh.
         """
         samples, field = self.samples._with_field(field, threads, progress)
-        factors = _parameters.scale(scale)
+        if scale is None:
+            scale = "auto" if fill_gaps else (1.0, 1.0, 1.0)
+        stretch = _parameters.Stretch(scale, rotate)
+        by_field = stretch.word == "auto"
         parameters = {
             "isosurface": {
                 "field": field,
@@ -195,9 +198,10 @@ class Extractor:
                 "neighbors": neighbors,
                 "voronoi_cells": voronoi_cells,
                 "criterion": criterion,
-                "scale": factors or [1.0, 1.0, 1.0],
+                "scale": [1.0, 1.0, 1.0] if by_field else stretch.resolve(samples._dataset),
             },
-            "automatic_scale": factors is None,
+            "automatic_scale": by_field,
+            "rotation": stretch.rotation,
             "smooth": smooth,
             "level_set": {**_parameters.mapping(level_set, "level_set"), **({} if mu is None else {"mu": mu})},
             "normals": normals,
@@ -249,9 +253,15 @@ def isosurface(points, fields=None, **options):
     field : str
         The scalar: a field's name, `vel[1]`, `|vel|`, or an expression as `log10(rho)`.
         By default `intensity`, else the only candidate.
-    scale : sequence of three float, or "auto"
-        Factors per axis of the space that neighbours are found in; "auto": equal spread
-        along each.
+    scale : sequence of three float, matrix of 3 rows, "auto" or "spacing", optional
+        Factors per axis of the space that neighbours are found in, or the map to it;
+        "auto": as the field changes along each axis (`report["scale_choice"]` tells how
+        sure that is); "spacing": as far apart as samples lie along each. By default 1,
+        with `fill_gaps` "auto".
+    rotate : sequence of three float, optional
+        Strike, dip and plunge in degrees of the axes of the scale: x is east, y north.
+        The second axis is a line that plunges in a plane that dips, the third one the
+        plane's normal.
     outside : {"lower", "higher"}
         The side that normals point to: where values are lower, or higher.
     interpolation : {"auto", "fit", "linear"}

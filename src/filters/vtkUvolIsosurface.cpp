@@ -26,6 +26,23 @@ toCells(const std::vector<pcl_uvol::Triangle>& triangles)
   return cells;
 }
 
+/** Edges between measured samples: predicted ones, whose indices follow, are replaced
+ * by those whose fields they have. */
+pcl_uvol::IsoEdges
+toMeasured(pcl_uvol::IsoEdges edges,
+           const std::vector<std::uint32_t>& sources,
+           std::uint32_t measured)
+{
+  const auto source_of = [&](std::uint32_t sample) {
+    return sample < measured ? sample : sources[sample - measured];
+  };
+  for (pcl_uvol::IsoEdge& edge : edges) {
+    edge.first = source_of(edge.first);
+    edge.second = source_of(edge.second);
+  }
+  return edges;
+}
+
 } // namespace
 
 /** The input as it was read last, and the pipeline that keeps its tree. */
@@ -59,6 +76,7 @@ vtkUvolIsosurface::PrintSelf(std::ostream& out, vtkIndent indent)
       << indent << "Mesh: " << (this->Mesh ? "On" : "Off") << '\n'
       << indent << "Scale: " << this->Scale[0] << ' ' << this->Scale[1] << ' '
       << this->Scale[2] << '\n'
+      << indent << "FillGaps: " << (this->FillGaps ? "On" : "Off") << '\n'
       << indent << "Values:\n";
   this->Values->PrintSelf(out, indent.GetNextIndent());
 }
@@ -108,6 +126,8 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
   isosurface.criterion = this->AngleCriterion == CRITERION_KEPT
                              ? pcl_uvol::AngleCriterion::Kept
                              : pcl_uvol::AngleCriterion::All;
+  parameters.fill_gaps = this->FillGaps;
+  parameters.automatic_scale = this->FillGaps && (isosurface.scale == 1.0f).all();
   if (this->Mesh)
     parameters.mesh.emplace();
   pcl_uvol::IsosurfacePipeline& pipeline = this->Read->pipeline;
@@ -116,7 +136,13 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
   pipeline.setProgressCallback(run.report.progress);
   const pcl_uvol::IsosurfaceResult result = pipeline.run();
   run.report.merge(result.report);
-  pcl_uvol::fillOutput(result.surface, points, result.edges, run);
+  const std::uint32_t measured = points.dataset.cloud.width;
+  pcl_uvol::fillOutput(result.surface,
+                       points,
+                       result.gaps
+                           ? toMeasured(result.edges, result.gaps->sources, measured)
+                           : result.edges,
+                       run);
   if (!this->Mesh)
     return;
   run.output.SetVerts(nullptr);

@@ -2,6 +2,7 @@
 #include "common/parallel.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include "common/value_frame.h"
 #include "interpolation/blended_fits.h"
 #include "interpolation/field_model.h"
@@ -102,6 +103,7 @@ struct FieldInterpolator::Group {
   std::vector<ValueFrame> frames;           ///< of each of them
   std::vector<std::vector<double>> columns; ///< of each of them, by input index; empty
                                             ///< once the model is made
+  Eigen::Matrix3d turn;                     ///< to the axes of the samples
   SampledFields sampled;
   std::unique_ptr<FieldModel> model;
 
@@ -152,9 +154,10 @@ struct FieldInterpolator::Group {
 
   /** A query's place among the samples; false if it has none. */
   bool
-  locate(const std::array<double, 3>& at, Query& query) const
+  locate(const std::array<double, 3>& asked, Query& query) const
   {
     const LengthUnit& unit = sampled.samples->getUnit();
+    const std::array<double, 3> at = toAxes(asked);
     const Position rounded{{static_cast<float>(at[0]),
                             static_cast<float>(at[1]),
                             static_cast<float>(at[2])}};
@@ -169,6 +172,21 @@ struct FieldInterpolator::Group {
                           : at[i] * static_cast<double>(unit.scale[axis]);
     }
     return true;
+  }
+
+  /** A place as it is seen along the axes; rounded to float, as samples are, where it
+   * is given in float. */
+  std::array<double, 3>
+  toAxes(const std::array<double, 3>& at) const
+  {
+    if (turn.isIdentity(0.0))
+      return at;
+    const Eigen::Vector3d place(at.data());
+    const bool is_float = place == place.cast<float>().cast<double>();
+    Eigen::Vector3d seen = turn * place;
+    if (is_float)
+      seen = seen.cast<float>().cast<double>().eval();
+    return {seen[0], seen[1], seen[2]};
   }
 
   /** Bring the answer to a query of a block to its place, in units of the fields.
@@ -189,11 +207,15 @@ struct FieldInterpolator::Group {
       result.values[target] = frames[f].toInput(answers.values[source]);
       if (answers.errors)
         result.errors[target] = answers.errors[source] / frames[f].factor;
-      if (answers.gradients)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          result.gradients[3 * target + axis] =
-              answers.gradients[3 * source + axis] / frames[f].factor *
-              static_cast<double>(scale[static_cast<int>(axis)]);
+      if (!answers.gradients)
+        continue;
+      Eigen::Map<Eigen::Vector3d> gradient(&result.gradients[3 * target]);
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        gradient[axis] =
+            answers.gradients[3 * source + static_cast<std::size_t>(axis)] /
+            frames[f].factor * static_cast<double>(scale[static_cast<int>(axis)]);
+      if (!turn.isIdentity(0.0))
+        gradient = (turn.transpose() * gradient).eval();
     }
   }
 };
@@ -247,7 +269,7 @@ countSupport(const std::vector<FieldSupport>& support, Report& report)
 
 } // namespace
 
-FieldInterpolator::FieldInterpolator(const CloudView& cloud,
+FieldInterpolator::FieldInterpolator(const CloudView& input,
                                      const pcl::Indices& indices,
                                      const InterpolationParameters& parameters,
                                      unsigned threads,
@@ -256,10 +278,12 @@ FieldInterpolator::FieldInterpolator(const CloudView& cloud,
     , names_(parameters.fields)
 {
   checkParameters(parameters);
-  checkIndices(indices, cloud.count, "FieldInterpolation");
+  checkIndices(indices, input.count, "FieldInterpolation");
   if (parameters.model == InterpolationModel::Auto)
     parameters_.model =
-        chooseModel(cloud, indices, parameters, threads, report).scores.front().model;
+        chooseModel(input, indices, parameters, threads, report).scores.front().model;
+  const StretchAxes axes(parameters.rotation);
+  const CloudView cloud = axes.turn(input);
   if (names_.empty())
     names_.push_back(ScalarField::defaultName(cloud.fields));
   for (std::size_t f = 0; f < names_.size(); ++f) {
@@ -273,6 +297,7 @@ FieldInterpolator::FieldInterpolator(const CloudView& cloud,
         });
     Group& group = same == groups_.end() ? groups_.emplace_back() : *same;
     group.use = std::move(use);
+    group.turn = axes.getRows();
     group.fields.push_back(f);
     group.frames.push_back(frame);
     group.columns.push_back(std::move(values));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
+#include "common/stretch_axes.h"
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
 #include <cmath>
@@ -71,6 +72,7 @@ checkParameters(const InterpolationParameters& parameters)
           "scale",
           static_cast<double>(factor),
           "finite and positive");
+  const detail::StretchAxes axes(parameters.rotation);
   const ShepardParameters& shepard = parameters.shepard;
   check(shepard.k >= 1,
         "number of samples of a weighted mean",

@@ -71,6 +71,21 @@ measureShape(const CloudView& cloud,
 
 } // namespace
 
+InitialFunction
+turnShape(const InitialFunction& initial, const detail::StretchAxes& axes)
+{
+  InitialFunction turned = initial;
+  if (!axes.areTurned() || !initial.isShape())
+    return turned;
+  if (initial.kind == InitialKind::Box)
+    throw InvalidArgument("A level set that starts from a box goes without a rotation: "
+                          "its sides lie along x, y and z.");
+  turned.first = (axes.getRows() * initial.first.matrix()).array();
+  if (initial.kind == InitialKind::Plane)
+    turned.second = (axes.getRows() * initial.second.matrix()).array();
+  return turned;
+}
+
 void
 checkParameters(const LevelSetParameters& parameters)
 {
@@ -86,6 +101,7 @@ checkParameters(const LevelSetParameters& parameters)
   if (parameters.mu && !(*parameters.mu >= 0.0 && *parameters.mu <= 1.0))
     fail("The weight mu", *parameters.mu, "in [0, 1]");
   parameters.initial.check();
+  turnShape(parameters.initial, detail::StretchAxes(parameters.rotation));
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isfinite(parameters.scale[axis]) || parameters.scale[axis] <= 0.0f)
       fail("The scale", parameters.scale[axis], "finite and positive");

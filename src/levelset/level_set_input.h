@@ -2,6 +2,7 @@
 // What a level set is made from: samples, values near 1, a function to start from.
 #pragma once
 
+#include "common/stretch_axes.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
@@ -22,6 +23,11 @@ struct LevelSetInput {
   bool had_spikes;                     ///< see TamedValues
   double spacing; ///< the median one of these, in the unit of the samples
 };
+
+/** \brief The function that a level set starts from, as it is seen along axes.
+ * \throws InvalidArgument for a box, whose sides lie along x, y and z */
+InitialFunction
+turnShape(const InitialFunction& initial, const detail::StretchAxes& axes);
 
 /** \throws InvalidArgument for parameters out of range */
 void

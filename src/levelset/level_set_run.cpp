@@ -516,9 +516,13 @@ detail::evolveLevelSet(const CloudView& cloud,
                        Report& report)
 {
   checkParameters(parameters);
-  return LevelSetRun(cloud,
-                     readInput(cloud, indices, parameters, threads, report),
-                     parameters,
+  const StretchAxes axes(parameters.rotation);
+  const CloudView turned = axes.turn(cloud);
+  LevelSetParameters along_axes = parameters;
+  along_axes.initial = turnShape(parameters.initial, axes);
+  return LevelSetRun(turned,
+                     readInput(turned, indices, along_axes, threads, report),
+                     along_axes,
                      snapshot_steps,
                      snapshot,
                      threads,

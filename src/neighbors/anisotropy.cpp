@@ -30,23 +30,6 @@ percentile(std::vector<float>& values, double fraction)
   return values[static_cast<std::size_t>(rank)];
 }
 
-/** Factors that make samples spread equally: between percentiles, so that a few strays
- * do not decide. */
-Eigen::Array3f
-scaleOfExtents(const CloudView& cloud, const std::vector<std::uint32_t>& use)
-{
-  Eigen::Array3f spread;
-  std::vector<float> values(use.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(use.begin(), use.end(), values.begin(), [&](std::uint32_t i) {
-      return cloud.xyz(i)[axis];
-    });
-    spread[axis] =
-        percentile(values, high_percentile) - percentile(values, low_percentile);
-  }
-  return (spread > 0.0f).select(spread.maxCoeff() / spread, Eigen::Array3f::Ones());
-}
-
 /** Median spacings along the axes; nothing for samples on a plane or a line. */
 std::optional<Eigen::Array3f>
 findSpacings(const SampleSet& samples)
@@ -73,6 +56,27 @@ findSpacings(const SampleSet& samples)
 } // namespace
 
 Eigen::Array3f
+findSpread(const CloudView& cloud, const std::vector<std::uint32_t>& use)
+{
+  Eigen::Array3f spread;
+  std::vector<float> values(use.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(use.begin(), use.end(), values.begin(), [&](std::uint32_t i) {
+      return cloud.xyz(i)[axis];
+    });
+    spread[axis] =
+        percentile(values, high_percentile) - percentile(values, low_percentile);
+  }
+  return spread;
+}
+
+Eigen::Array3f
+equalizeSpread(const Eigen::Array3f& spread)
+{
+  return (spread > 0.0f).select(spread.maxCoeff() / spread, Eigen::Array3f::Ones());
+}
+
+Eigen::Array3f
 equalizingScale(const CloudView& cloud)
 {
   std::vector<std::uint32_t> use;
@@ -82,7 +86,7 @@ equalizingScale(const CloudView& cloud)
       use.push_back(static_cast<std::uint32_t>(i));
   if (use.empty())
     throw InvalidArgument("No sample has finite coordinates to find a scale from.");
-  const Eigen::Array3f scale = scaleOfExtents(cloud, use);
+  const Eigen::Array3f scale = equalizeSpread(findSpread(cloud, use));
   Report report;
   const auto samples = SampleSet::build(cloud.xyz(0),
                                         cloud.stride(),

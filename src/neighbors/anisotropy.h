@@ -8,6 +8,9 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
+#include <vector>
+
 namespace pcl_uvol {
 
 /** \brief Factors per axis that make the spacing of the samples equal along all of
@@ -21,5 +24,16 @@ namespace pcl_uvol {
  * \throws InvalidArgument if no sample has finite coordinates */
 PCL_UVOL_EXPORTS Eigen::Array3f
 equalizingScale(const CloudView& cloud);
+
+/** \brief Extent of samples along each axis, between the 5th and the 95th percentile of
+ * their coordinates, so that a few strays do not decide.
+ * \param use samples, with finite coordinates */
+Eigen::Array3f
+findSpread(const CloudView& cloud, const std::vector<std::uint32_t>& use);
+
+/** \brief Factors per axis that make a spread equal. The axis of the largest one has
+ * factor 1, and so has one without spread. */
+Eigen::Array3f
+equalizeSpread(const Eigen::Array3f& spread);
 
 } // namespace pcl_uvol

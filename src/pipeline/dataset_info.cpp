@@ -7,6 +7,8 @@
 #include "neighbors/sampling.h"
 #include <pcl_uvol/common/cloud_view.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -91,7 +93,9 @@ readFieldValues(const Dataset& dataset, const ScalarField& field)
 }
 
 PositionStatistics
-describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned threads)
+describePositions(const Dataset& dataset,
+                  const detail::Stretch& stretch,
+                  unsigned threads)
 {
   const CloudView cloud = viewOf(dataset.cloud);
   PositionStatistics statistics;
@@ -100,22 +104,24 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
   if (finite.empty())
     return statistics;
   Report report;
-  const auto samples = SampleSet::build(
-      cloud.xyz(0), cloud.stride(), finite, toPosition(scale), threads, report);
+  const CloudView turned = detail::StretchAxes(stretch.rotation).turn(cloud);
+  const auto samples = SampleSet::build(turned.xyz(0),
+                                        turned.stride(),
+                                        finite,
+                                        toPosition(stretch.scale),
+                                        threads,
+                                        report);
   statistics.duplicates = report.getCount("duplicates");
   statistics.warnings = report.warnings;
   const auto& positions = samples->getPositions();
   const LengthUnit& unit = samples->getUnit();
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < samples->size(); ++i)
+    box.extend(Eigen::Vector3f(cloud.xyz(samples->getInputIndex(i))));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int a = static_cast<int>(axis);
-    const auto [low, high] = std::minmax_element(
-        positions.begin(), positions.end(), [&](const Position& p, const Position& q) {
-          return p[a] < q[a];
-        });
-    statistics.lower[axis] =
-        dataset.origin[axis] + static_cast<double>((*low)[a]) / unit.scale[a];
-    statistics.upper[axis] =
-        dataset.origin[axis] + static_cast<double>((*high)[a]) / unit.scale[a];
+    const auto a = static_cast<Eigen::Index>(axis);
+    statistics.lower[axis] = dataset.origin[axis] + static_cast<double>(box.min()[a]);
+    statistics.upper[axis] = dataset.origin[axis] + static_cast<double>(box.max()[a]);
   }
   if (positions.size() < 2)
     return statistics;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
@@ -48,10 +49,10 @@ struct PositionStatistics {
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is
  * finite.
- * \param scale factors per axis; spacings are those of the stretched space */
+ * \param stretch of the space that spacings are measured in */
 PCL_UVOL_EXPORTS PositionStatistics
 describePositions(const Dataset& dataset,
-                  const Eigen::Array3f& scale,
+                  const detail::Stretch& stretch,
                   unsigned threads);
 
 /** \brief Add what the sampling is like around each point, see LocalSampling, to a

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/records.h"
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include "distributed/fetch_points.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
@@ -24,6 +25,9 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.automatic_scale)
     throw InvalidArgument("An automatic scale is not offered for samples of several "
                           "processes, as none sees them all: give three factors.");
+  if (detail::StretchAxes(parameters.rotation).areTurned())
+    throw InvalidArgument(
+        "A rotated scale is not offered for samples of several processes.");
   if (parameters.mesh)
     throw InvalidArgument("A mesh is not offered for samples of several processes: its "
                           "cells would have to be joined across their borders.");

@@ -3,6 +3,7 @@
 
 #include "common/records.h"
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -118,11 +119,12 @@ runPipelineOutOfCore(PointSource& points,
   if (parameters.smooth || parameters.automatic_scale || parameters.mesh ||
       parameters.fill_gaps || parameters.validation.folds > 0 ||
       (parameters.periodic > 0.0).any() ||
+      detail::StretchAxes(parameters.rotation).areTurned() ||
       parameters.isosurface.neighbors != NeighborSource::KdTree)
     throw InvalidArgument(
-        "Level sets, an automatic scale, hold-out tests, meshes, filled gaps, boxes "
-        "that "
-        "repeat and neighbours from Voronoi diagrams need all samples in memory.");
+        "Level sets, an automatic or rotated scale, hold-out tests, meshes, filled "
+        "gaps, boxes that repeat and neighbours from Voronoi diagrams need all samples "
+        "in memory.");
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())

@@ -329,6 +329,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
                     axis,
                     &filled->cloud.data[(cloud.count + i) * filled->cloud.point_step]);
   }
+  summary_.sources = std::move(sources);
   setField(*filled, parameters.field, values); // double: integers hold no estimates
   filled_ = filled;
 }

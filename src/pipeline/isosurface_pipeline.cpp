@@ -2,7 +2,8 @@
 #include "common/parameter_json.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "neighbors/anisotropy.h"
+#include "common/stretch_axes.h"
+#include "levelset/level_set_input.h"
 #include "neighbors/periodic_box.h"
 #include "neighbors/sampling.h"
 #include "pipeline/gap_filling.h"
@@ -151,7 +152,11 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
+  const bool is_turned = detail::StretchAxes(parameters.rotation).areTurned();
   checkPeriodic(sidesOf(parameters));
+  if (isPeriodic(sidesOf(parameters)) && is_turned)
+    throw InvalidArgument("A box that repeats goes without a rotation: its sides lie "
+                          "along x, y and z.");
   if (isPeriodic(sidesOf(parameters)) && parameters.validation.folds > 0)
     throw InvalidArgument("A hold-out test goes without a box that repeats: images of "
                           "samples that are left out would tell what they are.");
@@ -186,15 +191,25 @@ IsosurfacePipeline::setIndices(const pcl::IndicesPtr& indices)
 }
 
 IsosurfaceParameters
-IsosurfacePipeline::resolveParameters() const
+IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
 {
   if (!samples_)
     throw InvalidArgument("IsosurfacePipeline has no input: call setInput.");
   IsosurfaceParameters parameters = parameters_.isosurface;
   if (parameters.field.empty())
     parameters.field = ScalarField::defaultName(fieldsOfNumbers(*samples_));
-  if (parameters_.automatic_scale)
-    parameters.scale = equalizingScale(viewOf(samples_->cloud));
+  if (!parameters_.automatic_scale)
+    return parameters;
+  Report own;
+  const ScaleChoice found = chooseScale(viewOf(samples_->cloud),
+                                        listPoints(),
+                                        parameters.field,
+                                        parameters_.rotation,
+                                        threads_,
+                                        own);
+  parameters.scale = found.scale;
+  if (choice)
+    *choice = found;
   return parameters;
 }
 
@@ -297,27 +312,35 @@ IsosurfacePipeline::listPoints() const
 }
 
 IsosurfaceResult
-IsosurfacePipeline::runFilled()
+IsosurfacePipeline::runOther(const std::shared_ptr<const Dataset>& samples,
+                             const pcl::IndicesPtr& indices,
+                             const IsosurfacePipelineParameters& parameters,
+                             const detail::FilledGaps* gaps) const
 {
-  IsosurfacePipelineParameters parameters = parameters_;
-  parameters.isosurface = resolveParameters();
-  parameters.automatic_scale = false; // it is filled in now
+  IsosurfacePipeline other;
+  other.gaps_ = gaps;
+  other.setInput(samples);
+  other.setIndices(indices);
+  other.setNumberOfThreads(threads_);
+  other.setProgressCallback(report_.progress);
+  other.setParameters(parameters);
+  return other.run();
+}
+
+IsosurfaceResult
+IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
+{
+  parameters.automatic_scale = false; // it is filled in
   startReport();
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
   const detail::FilledGaps gaps(
       samples_, listPoints(), parameters.isosurface, threads_, report_);
-  IsosurfacePipeline of_filled;
-  of_filled.gaps_ = &gaps;
-  of_filled.setInput(gaps.getSamples());
-  of_filled.setIndices(gaps.getIndices());
-  of_filled.setNumberOfThreads(threads_);
-  of_filled.setProgressCallback(report_.progress);
   IsosurfacePipelineParameters of_result = parameters;
   of_result.fill_gaps = false;
   of_result.validation = {};
-  of_filled.setParameters(of_result);
-  IsosurfaceResult result = of_filled.run();
+  IsosurfaceResult result =
+      runOther(gaps.getSamples(), gaps.getIndices(), of_result, &gaps);
   report_.merge(result.report);
   result.report = std::move(report_);
   result.gaps = gaps.getSummary();
@@ -330,16 +353,39 @@ IsosurfacePipeline::runFilled()
 }
 
 IsosurfaceResult
+IsosurfacePipeline::runTurned()
+{
+  const detail::StretchAxes axes(parameters_.rotation);
+  const auto turned = std::make_shared<Dataset>(*samples_);
+  axes.turn(turned->cloud);
+  IsosurfacePipelineParameters along_axes = parameters_;
+  along_axes.rotation.setZero();
+  along_axes.level_set.initial = turnShape(parameters_.level_set.initial, axes);
+  IsosurfaceResult result = runOther(turned, indices_, along_axes, nullptr);
+  axes.turnBack(result.surface.cloud);
+  report_ = result.report;
+  return result;
+}
+
+IsosurfaceResult
 IsosurfacePipeline::run()
 {
   checkParameters(parameters_);
-  if (parameters_.fill_gaps)
-    return runFilled();
+  if (samples_ && detail::StretchAxes(parameters_.rotation).areTurned())
+    return runTurned();
+  std::optional<ScaleChoice> choice;
   IsosurfacePipelineParameters parameters = parameters_;
-  parameters.isosurface = resolveParameters();
-  startReport();
-  return isPeriodic(sidesOf(parameters)) ? runInBox(std::move(parameters))
-                                         : runOnSamples(std::move(parameters));
+  parameters.isosurface = resolveParameters(&choice);
+  IsosurfaceResult result;
+  if (parameters.fill_gaps)
+    result = runFilled(parameters);
+  else {
+    startReport();
+    result = isPeriodic(sidesOf(parameters)) ? runInBox(parameters)
+                                             : runOnSamples(parameters);
+  }
+  result.scale_choice = choice;
+  return result;
 }
 
 IsosurfaceResult

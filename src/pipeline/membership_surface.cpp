@@ -10,17 +10,20 @@ namespace pcl_uvol {
 Dataset
 extractMembershipSurface(const Dataset& samples,
                          const std::vector<float>& members,
-                         const Eigen::Array3f& scale,
+                         const detail::Stretch& stretch,
                          bool is_smooth,
                          unsigned threads,
                          Report& report)
 {
-  Dataset with_field = samples;
+  const detail::StretchAxes axes(stretch.rotation);
+  Dataset turned = samples;
+  axes.turn(turned.cloud);
+  Dataset with_field = turned;
   setField(with_field, "membership", members);
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.field = "membership";
   parameters.isosurface.isovalues = {0.5};
-  parameters.isosurface.scale = scale;
+  parameters.isosurface.scale = stretch.scale;
   parameters.isosurface.interpolation =
       is_smooth ? Interpolation::Fit : Interpolation::Linear;
   parameters.normals = NormalMethod::Edge;
@@ -34,13 +37,14 @@ extractMembershipSurface(const Dataset& samples,
   extraction.extract(isopoints);
   report.merge(extraction.getReport());
   // Without the field, whose value is the same everywhere.
-  auto result = finishIsosurface(samples,
+  auto result = finishIsosurface(turned,
                                  std::move(isopoints),
                                  IsoEdges(extraction.getEdges()),
                                  parameters,
                                  threads,
                                  std::move(report));
   report = std::move(result.report);
+  axes.turnBack(result.surface.cloud);
   return std::move(result.surface);
 }
 

@@ -66,6 +66,8 @@ addMemoryNeed(const IsosurfacePipelineParameters& parameters,
     points *= imagesFactor(parameters, points);
     forecast.hold(point_step * points); // the samples with images
   }
+  if ((parameters.rotation != 0.0).any()) // the samples as they are seen
+    forecast.hold(point_step * points);
   if (parameters.isosurface.neighbors == NeighborSource::Exact)
     forecast.hold(ExactNeighbors::bytesPerSample() * points);
   if (parameters.fill_gaps) // a copy of the samples with more behind them

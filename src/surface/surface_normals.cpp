@@ -2,6 +2,7 @@
 #include "common/parallel.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include "neighbors/nearest_neighbors.h"
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -216,7 +217,7 @@ orient(const Fit& fit,
 namespace detail {
 
 std::vector<SurfaceNormal>
-estimateSurfaceNormals(const CloudView& cloud,
+estimateSurfaceNormals(const CloudView& input,
                        const std::vector<std::uint32_t>& indices,
                        const SurfaceNormalParameters& parameters,
                        const pcl::search::Search<pcl::PointXYZ>::Ptr& search,
@@ -227,6 +228,9 @@ estimateSurfaceNormals(const CloudView& cloud,
   if (indices.empty())
     throw InvalidArgument("The normal estimation was given an empty cloud.");
   const Eigen::Array3f& scale = parameters.scale;
+  const StretchAxes axes(parameters.rotation);
+  const CloudView cloud = axes.turn(input);
+  const Eigen::Matrix3f rows = axes.getRows().cast<float>();
   const auto samples = SampleSet::build(cloud.xyz(0),
                                         cloud.stride(),
                                         indices,
@@ -237,7 +241,7 @@ estimateSurfaceNormals(const CloudView& cloud,
       findNeighbors(*samples, parameters.k, search, threads, report);
   const StepTimer timer(report, "normals");
   const Orientation orientation(
-      cloud, parameters.view_point, samples->getUnit().factor);
+      cloud, rows * parameters.view_point.matrix(), samples->getUnit().factor);
   const std::vector<Eigen::Vector3f> sides =
       collectSides(*samples, orientation, threads);
   std::vector<Fit> fits(samples->size());
@@ -260,6 +264,10 @@ estimateSurfaceNormals(const CloudView& cloud,
         continue;
       normals[i] =
           orient(fits[sample], indices[i], graph[sample], sides, orientation, scale);
+      if (axes.areTurned()) {
+        Eigen::Map<Eigen::Vector3f> normal(normals[i].normal);
+        normal = (rows.transpose() * normal).eval();
+      }
       if (fits[sample].degenerate)
         ++degenerate;
     }

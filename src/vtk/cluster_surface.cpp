@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
+#include "common/stretch_axes.h"
 #include "multivariate/cluster_hull.h"
 #include "multivariate/mesh_distance.h"
 #include "multivariate/spanning_tree.h"
@@ -198,7 +199,8 @@ detail::encloseCluster(const CloudView& cloud,
 {
   const ClusterSurfaceKind kind = parameters.kind;
   checkScale(parameters.scale);
-  const Members finite = finiteMembers(cloud, members, parameters.scale);
+  const StretchAxes axes(parameters.rotation);
+  const Members finite = finiteMembers(axes.turn(cloud), members, parameters.scale);
   const std::vector<Position>& positions = finite.positions;
   report.count("non_finite", members.size() - positions.size());
   if (positions.empty())
@@ -237,9 +239,15 @@ detail::encloseCluster(const CloudView& cloud,
     contour(distanceToMesh(shape, surface.mesh, threads, report));
     surface.points.clear();
   }
-  for (auto& vertex : surface.mesh.vertices)
+  const Eigen::Matrix3d back = axes.getRows().transpose();
+  for (auto& vertex : surface.mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       vertex[axis] /= parameters.scale[static_cast<Eigen::Index>(axis)];
+    if (axes.areTurned()) {
+      Eigen::Map<Eigen::Vector3f> place(vertex.data());
+      place = (back * place.cast<double>()).cast<float>();
+    }
+  }
   // Exactly the points, whatever the scale.
   for (std::size_t i = 0; i < surface.points.size(); ++i)
     std::copy_n(cloud.xyz(surface.points[i]), 3, surface.mesh.vertices[i].begin());

@@ -36,7 +36,7 @@ using pcl_uvol::ValidateBy;
 struct Case {
   std::string file, field;
   double isovalue;
-  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f}; ///< 0: to be found from the field
   std::string by = "random";
   std::string where{};
   std::array<std::string, 3> columns{};
@@ -51,12 +51,17 @@ listCases()
       {"particles/planet_remnant.csv", "rho_g_cm3", 4.5},
       {"particles/planet_remnant.csv", "rho_g_cm3", 8},
       {"particles/dam_break_frame_9.csv", "density", 900},
+      {"particles/dam_break_frame_9.csv", "density", 900, {0, 0, 0}},
       {"particles/dam_break_frame_9.csv", "|vx,vy,vz|", 2},
       {"particles/double_dam_break_frame_26.vtk", "|velocity|", 2},
       {"sensors/seaglider_sg542.csv", "temperature_C", 6, {1, 1, 100}, "dive"},
       {"sensors/seaglider_sg542.csv", "temperature_C", 6, {1, 1, 1}, "dive"},
       {"sensors/seaglider_sg542.csv", "oxygen_umol_kg", 225, {1, 1, 100}, "dive"},
       {"sensors/seaglider_sg542.csv", "salinity_psu", 34.3, {1, 1, 100}, "dive"},
+      {"sensors/seaglider_sg542.csv", "temperature_C", 6, {0, 0, 0}, "dive"},
+      {"sensors/seaglider_sg542.csv", "temperature_C", 4, {0, 0, 0}, "dive"},
+      {"sensors/seaglider_sg542.csv", "oxygen_umol_kg", 225, {0, 0, 0}, "dive"},
+      {"sensors/seaglider_sg542.csv", "salinity_psu", 34.3, {0, 0, 0}, "dive"},
       {"sensors/argo_4901079_gulfstream.csv", "temperature_C", 12, {1, 1, 1}, "cycle"},
       {"sensors/argo_4901079_gulfstream.csv", "temperature_C", 16, {1, 1, 1}, "cycle"},
       {"sensors/argo_4901079_gulfstream.csv", "salinity_psu", 35.5, {1, 1, 1}, "cycle"},
@@ -252,6 +257,15 @@ printCase(const Case& data, std::size_t folds_at_most)
   parameters.isosurface.field = data.field.empty() ? "intensity" : data.field;
   parameters.isosurface.isovalues = {data.isovalue};
   parameters.isosurface.scale = data.scale;
+  pcl::Indices all(cloud.count);
+  std::iota(all.begin(), all.end(), 0);
+  if ((data.scale == 0.0f).all()) {
+    pcl_uvol::Report report;
+    parameters.isosurface.scale =
+        pcl_uvol::chooseScale(
+            cloud, all, parameters.isosurface.field, Eigen::Array3d::Zero(), 0, report)
+            .scale;
+  }
   parameters.validation.folds = folds_at_most;
   parameters.validation.by =
       data.by == "random" ? ValidateBy::Random : ValidateBy::Field;
@@ -259,13 +273,15 @@ printCase(const Case& data, std::size_t folds_at_most)
   const auto folds = pcl_uvol::makeFolds(cloud, parameters.validation, 0);
   DelaunayClass delaunay(*samples, parameters, folds);
   std::vector<bool> by_delaunay;
-  std::printf("%s %s %g, by %s\n",
+  const Eigen::Array3f& scale = parameters.isosurface.scale;
+  std::printf("%s %s %g, by %s, scale %.3g,%.3g,%.3g\n",
               data.file.c_str(),
               data.field.c_str(),
               data.isovalue,
-              data.by.c_str());
-  pcl::Indices all(cloud.count);
-  std::iota(all.begin(), all.end(), 0);
+              data.by.c_str(),
+              static_cast<double>(scale[0]),
+              static_cast<double>(scale[1]),
+              static_cast<double>(scale[2]));
   for (const Method& method : methods) {
     parameters.isosurface.interpolation = method.interpolation;
     parameters.normals = method.normals;
@@ -309,14 +325,17 @@ printCase(const Case& data, std::size_t folds_at_most)
 
 } // namespace
 
-/** holdout [FOLDS [PART OF A FILE'S NAME]] */
+/** holdout [FOLDS [PART OF A FILE'S NAME [found]]]; found: those cases only whose scale
+ * is found from the field. */
 int
 main(int argc, char** argv)
 {
   const std::size_t folds = argc > 1 ? std::stoul(argv[1]) : 10;
   const std::string part = argc > 2 ? argv[2] : "";
+  const bool only_found = argc > 3 && std::string(argv[3]) == "found";
   for (const Case& data : listCases())
-    if (data.file.find(part) != std::string::npos)
+    if (data.file.find(part) != std::string::npos &&
+        (!only_found || (data.scale == 0.0f).all()))
       printCase(data, folds);
   return 0;
 }

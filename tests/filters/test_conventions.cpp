@@ -307,6 +307,7 @@ TEST_P(Convention, PrintsItself)
                                                                  "Interpolation: Fit",
                                                                  "AngleCriterion: Kept",
                                                                  "Scale: 1 1 1",
+                                                                 "FillGaps: Off",
                                                                  "Value 0: 5"}
       : GetParam().name == "LevelSet"
           ? std::vector<std::string>{"Isovalue: 5",

@@ -7,8 +7,11 @@
 #include <pcl_uvol/filters/vtkUvolSplats.h>
 
 #include <vtkCell.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -107,6 +110,61 @@ TEST(VtkIsosurface, SamePointsAsTheTool)
     expectSameData(*filter->GetOutput(), *expected);
     EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 400);
   }
+}
+
+/** Profiles of a layer that rises and falls, with words that are no numbers. */
+vtkSmartPointer<vtkPolyData>
+makeProfiles()
+{
+  Random random(3);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> height;
+  height->SetName("height");
+  vtkNew<vtkStringArray> names;
+  names->SetName("profile");
+  for (int profile = 0; profile < 40; ++profile) {
+    const double x = random.uniform(), y = random.uniform();
+    for (int i = 0; i < 40; ++i) {
+      const double z = (i + 0.3 * random.uniform()) / 40.0;
+      points->InsertNextPoint(x, y, z);
+      height->InsertNextValue(static_cast<float>(z - 0.5 - 0.1 * std::sin(6.0 * x)));
+      names->InsertNextValue("p" + std::to_string(profile));
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->GetPointData()->SetScalars(height);
+  data->GetPointData()->AddArray(names);
+  return data;
+}
+
+TEST(VtkIsosurface, FillsGapsAsTheTool)
+{
+  const auto samples = makeProfiles();
+  const auto expected =
+      outputOf("uvol_isosurface", samples, "-field height -iso 0 -fill-gaps");
+  vtkNew<vtkUvolIsosurface> filter;
+  filter->SetInputData(samples);
+  filter->SetValue(0, 0.0);
+  filter->FillGapsOn();
+  filter->Update();
+  vtkPolyData& surface = *filter->GetOutput();
+  expectSamePoints(surface, *expected);
+  EXPECT_GT(surface.GetNumberOfPoints(), 100);
+  ASSERT_NE(surface.GetPointData()->GetArray("confidence"), nullptr);
+  double range[2];
+  surface.GetPointData()->GetArray("support")->GetRange(range);
+  EXPECT_EQ(range[1], 4.0);
+  // Words are those of a measured sample.
+  auto* const names =
+      vtkStringArray::SafeDownCast(surface.GetPointData()->GetAbstractArray("profile"));
+  ASSERT_NE(names, nullptr);
+  ASSERT_EQ(names->GetNumberOfValues(), surface.GetNumberOfPoints());
+  for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i)
+    ASSERT_EQ(names->GetValue(i).substr(0, 1), "p");
+  filter->FillGapsOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("confidence"), nullptr);
 }
 
 TEST(VtkIsosurface, ComponentsAndLengthsOfVectors)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The field between samples: what every model has to keep to.
 #include "common/scalar_field.h"
+#include "common/stretch_axes.h"
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/interpolation_cases.h"
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <gtest/gtest.h>
@@ -79,6 +81,40 @@ TEST_P(EveryModel, ConstantStaysWhatItIs)
       EXPECT_EQ(along, 0.0);
     EXPECT_FALSE(result.errors[i] > 0.0);
   }
+}
+
+TEST_P(EveryModel, FollowsAxesThatAreTurned)
+{
+  const Eigen::Array3d angles(30.0, 40.0, 15.0);
+  const Eigen::Matrix3d rows = detail::StretchAxes(angles).getRows();
+  const Places places = randomPlaces(1500, 3), queries = randomPlaces(300, 4, 0.1, 0.9);
+  const auto samples = sampleFunctions(places, {franke});
+  parameters_.scale = {1.0f, 2.0f, 1.5f};
+  const auto expected = [&] { // of samples and queries that are turned by hand
+    auto turned = samples;
+    detail::StretchAxes(angles).turn(turned);
+    Places seen = queries;
+    for (auto& place : seen) {
+      const Vector3d at = rows * Vector3d(place.data());
+      place = {at[0], at[1], at[2]};
+    }
+    return interpolate(turned, parameters_, seen);
+  }();
+  parameters_.rotation = angles;
+  const auto result = interpolate(samples, parameters_, queries);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < result.size; ++i) {
+    if (std::isnan(expected.values[i]) || std::isnan(result.values[i]))
+      continue;
+    ++covered;
+    EXPECT_NEAR(result.values[i], expected.values[i], 1e-6);
+    const Vector3d found(result.getGradient(0, i).data()),
+        seen(expected.getGradient(0, i).data());
+    EXPECT_LT((found - rows.transpose() * seen).norm(), 1e-4 * (1.0 + seen.norm()));
+  }
+  EXPECT_GT(covered, 200u);
+  parameters_.rotation = {0.0, 95.0, 0.0};
+  EXPECT_THROW(interpolate(samples, parameters_, queries), InvalidArgument);
 }
 
 TEST_P(EveryModel, AnswersDependOnTheQueryAlone)

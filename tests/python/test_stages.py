@@ -21,6 +21,7 @@ def compare(tmp_path, run_tool, tool, samples, arguments, make):
      dict(start={"kind": "sphere", "first": [1000.5, 0.5, 0.5], "radius": 0.2}, outside="higher", max_steps=20)),
     (["-start", "r-0.3", "-scale", "auto", "-flow", "mean"],
      dict(start="r-0.3", scale="auto", flow="mean")),
+    (["-mu", "0.5", "-scale", "1,1,2", "-rotate", "20,30,0"], dict(mu=0.5, scale=(1, 1, 2), rotate=(20, 30, 0))),
 ])
 def test_level_sets(tmp_path, run_tool, ball, arguments, options):
     points, fields = ball
@@ -100,7 +101,9 @@ def test_clusters(tmp_path, run_tool, groups):
 @pytest.mark.parametrize("kind, options, arguments", [
     ("membership", {}, []),
     ("membership", dict(smoothing_length="h", scale="auto"), ["-smoothing-length", "h", "-scale", "auto"]),
+    ("membership", dict(scale=(1, 1, 2), rotate=(0, 30, 10)), ["-scale", "1,1,2", "-rotate", "0,30,10"]),
     ("distance", dict(cells=30, distance=0.2), ["-grid", "30", "-distance", "0.2"]),
+    ("hull", dict(scale=(1, 1, 2), rotate=(0, 30, 10)), ["-scale", "1,1,2", "-rotate", "0,30,10"]),
     ("hull", {}, []),
     ("hull-distance", dict(cells=20), ["-grid", "20"]),
 ])

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/isosurface_options.h"
 
-#include "shared/scale_option.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -27,11 +25,8 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
                "expr",
                where,
                "use only the points for which it holds: \"experiment=1 && T>4\"");
-  options.text("scale",
-               automatic ? "sx,sy,sz|auto" : "sx,sy,sz",
-               scale_,
-               std::string("measure distances in a stretched space") +
-                   (automatic ? "; auto: equal spread per axis" : ""));
+  scale_.declare(
+      options, "distances", automatic ? AutomaticScale::Field : AutomaticScale::None);
   input_files_.declare(options);
   options.group("Surface");
   options.numbers(
@@ -62,14 +57,26 @@ IsosurfaceOptions::declareMethod(Options& options)
 }
 
 void
-IsosurfaceOptions::finish()
+IsosurfaceOptions::finish(const Options& options)
 {
   if (parameters.isosurface.isovalues.empty())
     throw UsageError(
         "-iso is missing: give one isovalue or several, as in -iso 0.3,0.6.");
-  const ScaleOption scale(scale_);
-  parameters.automatic_scale = scale.isAutomatic();
-  parameters.isosurface.scale = scale.getFactors();
+  scale_.finish(options);
+  parameters.automatic_scale = scale_.isFromField();
+  parameters.isosurface.scale = scale_.getStretch().scale;
+  parameters.rotation = scale_.getStretch().rotation;
+}
+
+void
+IsosurfaceOptions::resolveSpacing(const pcl_uvol::Dataset& samples)
+{
+  if (!scale_.isFromSpacing())
+    return;
+  pcl_uvol::Report own;
+  Facts facts; // the scale is told with the result
+  parameters.isosurface.scale =
+      scale_.resolve(pcl_uvol::viewOf(samples.cloud), "", 0, own, facts).scale;
 }
 
 pcl_uvol::LoadOptions

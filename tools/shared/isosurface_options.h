@@ -4,6 +4,7 @@
 
 #include "shared/options.h"
 #include "shared/point_files.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
 
 #include <limits>
@@ -20,8 +21,8 @@ struct IsosurfaceOptions {
 
   IsosurfaceOptions();
 
-  /** \brief -iso, -field, -where, -scale, -xyz, -particles, -outside.
-   * \param automatic -scale takes auto */
+  /** \brief -iso, -field, -where, -scale, -rotate, -xyz, -particles, -outside.
+   * \param automatic -scale finds factors, and there is -rotate */
   void
   declareSamples(Options& options, bool automatic = true);
 
@@ -32,14 +33,24 @@ struct IsosurfaceOptions {
   /** \brief Complete the parameters by what has been parsed.
    * \throws UsageError without an isovalue, and for a scale that is none */
   void
-  finish();
+  finish(const Options& options);
+
+  /** \brief Complete the parameters by what is found from the places of samples. */
+  void
+  resolveSpacing(const pcl_uvol::Dataset& samples);
+
+  const ScaleOption&
+  getScale() const
+  {
+    return scale_;
+  }
 
   /** \throws UsageError for columns that are none */
   pcl_uvol::LoadOptions
   makeLoadOptions() const;
 
 private:
-  std::string scale_;
+  ScaleOption scale_;
   InputOptions input_files_;
 };
 

@@ -2,24 +2,131 @@
 #include "shared/scale_option.h"
 
 #include "neighbors/anisotropy.h"
-#include "shared/options.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
 
 namespace uvol_tools {
 
-ScaleOption::ScaleOption(const std::string& text)
-    : is_automatic_(text == "auto")
-    , factors_(3, 1.0)
+using pcl_uvol::detail::Stretch;
+
+void
+ScaleOption::declare(Options& options,
+                     const std::string& purpose,
+                     AutomaticScale automatic)
 {
-  if (!is_automatic_ && !text.empty())
-    factors_ = parseNumbers("scale", text, 3);
+  automatic_ = automatic;
+  const bool is_found = automatic != AutomaticScale::None;
+  std::string help = "measure " + purpose + " in a stretched space: factors per axis";
+  if (is_found)
+    help += ", or a matrix row by row";
+  if (automatic == AutomaticScale::Field)
+    help += "; auto: as the field changes along each axis";
+  if (is_found)
+    help += std::string("; spacing") +
+            (automatic == AutomaticScale::Spacing ? " or auto" : "") +
+            ": as far apart as the samples lie";
+  options.text("scale",
+               is_found ? "sx,sy,sz|a11,a12,...,a33|auto|spacing" : "sx,sy,sz",
+               scale_,
+               help);
+  if (is_found)
+    options.numbers("rotate",
+                    "strike,dip,plunge",
+                    3,
+                    angles_,
+                    "degrees that turn the axes of -scale: the second one is a line "
+                    "that plunges in a plane that dips, the third one the plane's "
+                    "normal");
 }
 
-Eigen::Array3f
-ScaleOption::resolveScale(const pcl_uvol::CloudView& cloud) const
+void
+ScaleOption::finish(const Options& options)
 {
-  if (is_automatic_)
-    return pcl_uvol::equalizingScale(cloud);
-  return getFactors();
+  is_given_ = options.given("scale") || !angles_.empty();
+  const bool is_found = automatic_ != AutomaticScale::None;
+  const bool is_automatic = scale_ == "auto";
+  is_from_field_ = is_automatic && automatic_ != AutomaticScale::Spacing;
+  is_from_spacing_ =
+      is_found && (scale_ == "spacing" || (is_automatic && !is_from_field_));
+  try {
+    if (is_found && std::count(scale_.begin(), scale_.end(), ',') == 8) {
+      const auto numbers = parseNumbers("scale", scale_, 9);
+      if (!angles_.empty())
+        throw UsageError("-scale with nine numbers has its axes: -rotate goes with "
+                         "three factors, auto or spacing.");
+      using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+      stretch_ = Stretch::ofMap(Eigen::Map<const Rows>(numbers.data()));
+    }
+    else if (!scale_.empty() && !is_automatic && !is_from_spacing_)
+      stretch_.scale =
+          Eigen::Array3d(parseNumbers("scale", scale_, 3).data()).cast<float>();
+    if (!angles_.empty())
+      stretch_.rotation = Eigen::Array3d(angles_.data());
+    pcl_uvol::detail::StretchAxes checked(stretch_.rotation);
+  }
+  catch (const pcl_uvol::InvalidArgument& error) {
+    throw UsageError(error.message());
+  }
+}
+
+Stretch
+ScaleOption::resolve(const pcl_uvol::CloudView& cloud,
+                     const std::string& field,
+                     unsigned threads,
+                     pcl_uvol::Report& report,
+                     Facts& facts) const
+{
+  Stretch stretch = stretch_;
+  if (isFromField()) {
+    pcl::Indices all(cloud.count);
+    std::iota(all.begin(), all.end(), 0);
+    const auto choice =
+        pcl_uvol::chooseScale(cloud, all, field, stretch.rotation, threads, report);
+    stretch.scale = choice.scale;
+    facts = describe(stretch);
+    facts.push_back(describe(choice));
+  }
+  if (isFromSpacing()) {
+    stretch.scale = pcl_uvol::equalizingScale(
+        pcl_uvol::detail::StretchAxes(stretch.rotation).turn(cloud));
+    facts = describe(stretch);
+  }
+  return stretch;
+}
+
+Facts
+describe(const Stretch& stretch)
+{
+  Facts facts = {{"scale", toNumbers(stretch.scale)}};
+  if ((stretch.rotation != 0.0).any())
+    facts.emplace_back("rotation", toNumbers(stretch.rotation));
+  return facts;
+}
+
+Fact
+describe(const pcl_uvol::ScaleChoice& choice)
+{
+  std::ostringstream text;
+  text.precision(2);
+  if ((choice.scale == 1.0f).all())
+    text << "1: no other one tells clearly more of " << choice.tested
+         << " samples left out";
+  else
+    text << "from the field: the error at " << choice.tested
+         << " samples left out is that with 1 times " << choice.error_ratio
+         << "; distance explains " << std::round(100.0 * choice.explained)
+         << " % of differences, before " << std::round(100.0 * choice.explained_before)
+         << " %";
+  return {"scale choice",
+          text.str(),
+          Fact::Members{{"error_ratio", {choice.error_ratio}},
+                        {"tested", {static_cast<double>(choice.tested)}},
+                        {"explained", {choice.explained}},
+                        {"explained_before", {choice.explained_before}}}};
 }
 
 } // namespace uvol_tools

@@ -1,45 +1,88 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// -scale sx,sy,sz|auto: factors per axis of the space that distances are measured in.
+// -scale and -rotate: the space that distances are measured in.
 #pragma once
 
-#include <pcl_uvol/common/cloud_view.h>
+#include "common/stretch_axes.h"
+#include "shared/facts.h"
+#include "shared/options.h"
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/interpolation/cross_validation.h>
 
-#include <Eigen/Core>
-
+#include <optional>
 #include <string>
-#include <vector>
 
 namespace uvol_tools {
 
-/** \brief The value of the option, checked before any file is read. */
+/** \brief What a tool can find a scale from. */
+enum class AutomaticScale {
+  None,    ///< nothing: not all samples are seen at once
+  Spacing, ///< where the samples lie: auto is spacing
+  Field    ///< how fast a field changes
+};
+
+/** \brief Both options. */
 class ScaleOption {
 public:
-  /** \param text empty for factors of 1
+  /** \param purpose of distances, as in "distances" or "spacings"
+   * \param automatic None leaves out -rotate as well */
+  void
+  declare(Options& options, const std::string& purpose, AutomaticScale automatic);
+
+  /** \brief Check what was given, before any file is read.
    * \throws UsageError */
-  explicit ScaleOption(const std::string& text);
+  void
+  finish(const Options& options);
 
   bool
-  isAutomatic() const
+  isGiven() const
   {
-    return is_automatic_;
+    return is_given_;
   }
 
-  /** \brief The factors that were given, 1 if none were. */
-  Eigen::Array3f
-  getFactors() const
+  /** \brief Whether the scale is found from a field, or from the samples alone. @{ */
+  bool
+  isFromField() const
   {
-    return Eigen::Array3d(factors_.data()).cast<float>();
+    return is_from_field_;
+  }
+  bool
+  isFromSpacing() const
+  {
+    return is_from_spacing_;
+  }
+  /** @} */
+
+  /** \brief What was given: factors of 1 where they have to be found. */
+  const pcl_uvol::detail::Stretch&
+  getStretch() const
+  {
+    return stretch_;
   }
 
-  /** \brief The factors for a cloud: with auto the one that makes the spacing equal
-   * along all axes.
-   */
-  Eigen::Array3f
-  resolveScale(const pcl_uvol::CloudView& cloud) const;
+  /** \brief The stretch for some samples.
+   * \param field of them; none is asked for unless isFromField()
+   * \param facts tell how a scale was found */
+  pcl_uvol::detail::Stretch
+  resolve(const pcl_uvol::CloudView& cloud,
+          const std::string& field,
+          unsigned threads,
+          pcl_uvol::Report& report,
+          Facts& facts) const;
 
 private:
-  bool is_automatic_;
-  std::vector<double> factors_;
+  AutomaticScale automatic_ = AutomaticScale::None;
+  std::string scale_;
+  std::vector<double> angles_;
+  bool is_given_ = false, is_from_field_ = false, is_from_spacing_ = false;
+  pcl_uvol::detail::Stretch stretch_;
 };
+
+/** \brief The factors along the axes, and these where they are turned. */
+Facts
+describe(const pcl_uvol::detail::Stretch& stretch);
+
+/** \brief How the scale was found, and how sure it is. */
+Fact
+describe(const pcl_uvol::ScaleChoice& choice);
 
 } // namespace uvol_tools

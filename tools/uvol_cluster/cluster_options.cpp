@@ -74,11 +74,7 @@ ClusterOptions::declare(Options& options)
                  huge,
                  "of the surface (default: just beyond the longest edge of the points' "
                  "minimum spanning tree)");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               scale_,
-               "measure distances of -surface in a stretched space; auto: equal spread "
-               "per axis");
+  scale.declare(options, "distances of -surface", AutomaticScale::Spacing);
   options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");
 }
@@ -86,11 +82,12 @@ ClusterOptions::declare(Options& options)
 void
 ClusterOptions::finish(const Options& options)
 {
-  stretch.emplace(scale_);
+  scale.finish(options);
   if (!surface.empty() && cluster.empty())
     throw UsageError("-surface needs -cluster: choose one.");
-  if (options.given("scale") && surface.empty())
-    throw UsageError("-scale needs -surface.");
+  for (const char* const name : {"scale", "rotate"})
+    if (options.given(name) && surface.empty())
+      throw UsageError(std::string("-") + name + " needs -surface.");
   if (!cluster.empty() &&
       (std::abs(cluster[0]) > std::numeric_limits<std::int32_t>::max() ||
        cluster[0] != std::round(cluster[0])))

@@ -7,7 +7,6 @@
 #include "shared/scale_option.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,9 @@ namespace uvol_tools {
 
 /** \brief What the command line asks for. */
 struct ClusterOptions {
+  ScaleOption scale;
   std::string input, output, where, label, tree, surface, probability, smoothing;
   AttributeOptions attributes;
-  std::optional<ScaleOption> stretch; ///< set by finish()
   std::uint64_t k = 10, min_size = 0, grid = 128;
   double cut = 0.0, distance = 0.0;
   std::vector<double> cluster;
@@ -40,9 +39,6 @@ struct ClusterOptions {
   {
     return !surface.empty() && surface != "membership";
   }
-
-private:
-  std::string scale_;
 };
 
 } // namespace uvol_tools

@@ -80,6 +80,7 @@ loadSamples(const Options& options,
           forecast.run(DensityOptions::getMemoryNeed(points, step));
         addFieldsNeed(arguments, points, step, forecast);
       });
+  arguments.resolveSpacing(*samples);
   const auto sides = arguments.periodic.findSides(*samples, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
   const auto add_fields = [&](pcl_uvol::Dataset& points) {

@@ -14,6 +14,16 @@ namespace uvol_tools {
 
 using pcl_uvol::NeighborSource;
 
+namespace {
+
+bool
+isTurned(const pcl_uvol::IsosurfacePipelineParameters& parameters)
+{
+  return (parameters.rotation != 0.0).any();
+}
+
+} // namespace
+
 void
 PipelineOptions::declare(Options& options)
 {
@@ -59,7 +69,8 @@ PipelineOptions::declare(Options& options)
   options.flag("fill-gaps",
                parameters.fill_gaps,
                "predict samples between lines or sheets of samples by kriging, up to "
-               "the range of the variogram, and extract from both");
+               "the range of the variogram, and extract from both; with -scale auto "
+               "unless it is given");
   options.integer(
       "validate",
       parameters.validation.folds,
@@ -105,9 +116,9 @@ PipelineOptions::needsAllSamples() const
 {
   return hasFieldsOfNeighbors() || periodic.isAskedFor() ||
          std::isfinite(outside_value) || parameters.smooth ||
-         parameters.automatic_scale || !where.empty() ||
-         parameters.validation.folds > 0 || parameters.mesh || parameters.fill_gaps ||
-         mesh_.isMeasured() ||
+         parameters.automatic_scale || getScale().isFromSpacing() ||
+         isTurned(parameters) || !where.empty() || parameters.validation.folds > 0 ||
+         parameters.mesh || parameters.fill_gaps || mesh_.isMeasured() ||
          parameters.isosurface.neighbors != NeighborSource::KdTree;
 }
 
@@ -140,10 +151,14 @@ PipelineOptions::checkCombinations(const Options& options) const
   if (options.given("max-memory") && needsAllSamples())
     throw UsageError(
         "-max-memory goes without -density, -outside-value, -periodic, -smooth, "
-        "-where, -scale auto, -validate, -fill-gaps, -mesh, -measure, -neighbors "
+        "-where, -scale auto, -scale spacing, -rotate, -validate, -fill-gaps, -mesh, "
+        "-measure, -neighbors "
         "voronoi "
         "or exact and derivatives as fields, which need all samples in "
         "memory.");
+  if (periodic.isAskedFor() && isTurned(parameters))
+    throw UsageError("-periodic goes without -rotate and a -scale of nine numbers: the "
+                     "sides of the box lie along x, y and z.");
   if (periodic.isAskedFor() && (std::isfinite(outside_value) ||
                                 options.given("validate") || parameters.fill_gaps))
     throw UsageError(
@@ -165,7 +180,10 @@ PipelineOptions::checkCombinations(const Options& options) const
 void
 PipelineOptions::finish(const Options& options)
 {
-  IsosurfaceOptions::finish();
+  IsosurfaceOptions::finish(options);
+  // What kriging predicts between lines lives on distances that mean something.
+  if (parameters.fill_gaps && !getScale().isGiven())
+    parameters.automatic_scale = true;
   parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(grid_);
   parameters.normal_neighbors = k_;
   parameters.level_set.mu = parseMu(mu_);

@@ -10,6 +10,7 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>
+#include <optional>
 
 namespace uvol_tools {
 
@@ -79,7 +80,8 @@ runInMemory(const Options& options,
   pipeline.setNumberOfThreads(options.threads());
   pipeline.setProgressCallback(report.progress);
   IsosurfacePipelineParameters resolved = parameters;
-  resolved.isosurface = pipeline.resolveParameters();
+  std::optional<pcl_uvol::ScaleChoice> choice;
+  resolved.isosurface = pipeline.resolveParameters(&choice);
   resolved.automatic_scale = false; // it is filled in now
   pipeline.setParameters(resolved);
   const auto sizes = pcl_uvol::estimateSurfaces(
@@ -94,6 +96,7 @@ runInMemory(const Options& options,
             isopoints, arguments.parameters.isosurface.isovalues.size(), forecast);
       });
   IsosurfaceResult result = pipeline.run();
+  result.scale_choice = choice;
   if ((resolved.periodic > 0.0).any()) {
     Report own; // the pipeline has told of samples outside
     figures.push_back(describeBox(

@@ -6,6 +6,7 @@
 #include "shared/isosurface_options.h"
 #include "shared/level_set.h"
 #include "shared/sampling_fact.h"
+#include "shared/scale_option.h"
 
 #include <optional>
 #include <sstream>
@@ -148,12 +149,16 @@ describeSurface(const pcl_uvol::IsosurfaceResult& result,
                 const pcl_uvol::IsosurfacePipelineParameters& parameters)
 {
   const auto& isovalues = parameters.isosurface.isovalues;
-  Facts facts = {{"field", result.field},
-                 {"isovalues", joined(isovalues), isovalues},
-                 {"isopoints per isovalue", toNumbers(result.isopoints)},
-                 {"scale", toNumbers(result.scale)},
-                 {"interpolation", toWord(parameters.isosurface.interpolation)},
-                 describeErrors(result.errors)};
+  Facts facts = {
+      {"field", result.field},
+      {"isovalues", joined(isovalues), isovalues},
+      {"isopoints per isovalue", toNumbers(result.isopoints)},
+  };
+  append(facts, describe(pcl_uvol::detail::Stretch{result.scale, parameters.rotation}));
+  if (result.scale_choice)
+    facts.push_back(describe(*result.scale_choice));
+  facts.emplace_back("interpolation", toWord(parameters.isosurface.interpolation));
+  facts.push_back(describeErrors(result.errors));
   if (result.sampling)
     facts.push_back(describeSampling(*result.sampling));
   if (result.gaps)

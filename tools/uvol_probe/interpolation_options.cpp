@@ -6,7 +6,6 @@
 #include "common/scalar_names.h"
 #include "expressions/memory_need.h"
 #include "shared/point_files.h"
-#include "shared/scale_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 
 #include <algorithm>
@@ -72,10 +71,7 @@ InterpolationOptions::declare(Options& options)
                "with sph: the field h of the particles");
   options.text(
       "mass", "field", parameters_.sph.mass_field, "with sph: masses (default: equal)");
-  options.text("scale",
-               "sx,sy,sz|auto",
-               scale_,
-               "measure distances in a stretched space; auto: equal spread per axis");
+  scale_.declare(options, "distances", AutomaticScale::Field);
   options.integer("validate",
                   folds_,
                   2,
@@ -93,7 +89,7 @@ void
 InterpolationOptions::finish(const Options& options)
 {
   parseNames("field", fields_);
-  const ScaleOption checked(scale_);
+  scale_.finish(options);
   checkModel(options);
   if (!options.given("gradients"))
     parameters_.gradients = false;
@@ -150,11 +146,11 @@ InterpolationOptions::parseVariogram()
 InterpolationParameters
 InterpolationOptions::resolve(const Options& options,
                               pcl_uvol::Dataset& samples,
-                              pcl_uvol::Report& report) const
+                              pcl_uvol::Report& report,
+                              Facts& facts) const
 {
   const auto& fields = samples.cloud.fields;
   InterpolationParameters parameters = parameters_;
-  parameters.scale = ScaleOption(scale_).resolveScale(pcl_uvol::viewOf(samples.cloud));
   if (fields_.empty())
     parameters.fields = {
         pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(samples))};
@@ -164,6 +160,14 @@ InterpolationOptions::resolve(const Options& options,
     parameters.fields = parseNames("field", fields_);
   for (std::string& field : parameters.fields)
     addField(samples, field, options, report);
+  // Of several fields the first one tells how distances are measured.
+  const auto stretch = scale_.resolve(pcl_uvol::viewOf(samples.cloud),
+                                      parameters.fields.front(),
+                                      options.threads(),
+                                      report,
+                                      facts);
+  parameters.scale = stretch.scale;
+  parameters.rotation = stretch.rotation;
   return parameters;
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/memory.h"
 #include "shared/options.h"
+#include "shared/scale_option.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
@@ -28,11 +29,13 @@ public:
 
   /** \brief The parameters for samples, with fields and scale. Expressions become
    * fields of the samples, see addDerivedField.
+   * \param facts tell how a scale was found
    * \throws InvalidArgument for a field that is not there, or no expression */
   pcl_uvol::InterpolationParameters
   resolve(const Options& options,
           pcl_uvol::Dataset& samples,
-          pcl_uvol::Report& report) const;
+          pcl_uvol::Report& report,
+          Facts& facts) const;
 
   /** \brief Add the memory of these expressions to a forecast.
    * \param point_step of the samples; becomes that with the fields */
@@ -74,7 +77,8 @@ private:
   makeFolds(const pcl_uvol::Dataset& samples, unsigned threads) const;
 
   pcl_uvol::InterpolationParameters parameters_;
-  std::string fields_, scale_, variogram_, validate_by_ = "random";
+  ScaleOption scale_;
+  std::string fields_, variogram_, validate_by_ = "random";
   std::uint64_t k_ = 0, folds_ = 0;
 };
 

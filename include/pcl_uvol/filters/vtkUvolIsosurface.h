@@ -105,6 +105,15 @@ public:
   vtkGetVector3Macro(Scale, double);
   /** @} */
 
+  /** \brief Predict samples between lines or sheets of samples by kriging, and extract
+   * from both, see pcl_uvol::GapFilling: isopoints there have support 4, and all have
+   * the further array confidence. A scale of 1, 1, 1 is then found from the field, see
+   * pcl_uvol::chooseScale. Default: off. @{ */
+  vtkSetMacro(FillGaps, bool);
+  vtkGetMacro(FillGaps, bool);
+  vtkBooleanMacro(FillGaps, bool);
+  /** @} */
+
   vtkMTimeType
   GetMTime() override;
 
@@ -131,6 +140,7 @@ private:
   int AngleCriterion = CRITERION_KEPT;
   bool Mesh = false;
   double Scale[3] = {1.0, 1.0, 1.0};
+  bool FillGaps = false;
 
   struct Samples;
   std::unique_ptr<Samples> Read; ///< with the tree

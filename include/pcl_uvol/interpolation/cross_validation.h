@@ -136,4 +136,44 @@ chooseModel(const CloudView& cloud,
             unsigned threads,
             Report& report);
 
+/** \brief Factors along three axes that make a field change alike along all of them. */
+struct ScaleChoice {
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f}; ///< to take; the least of them is 1
+  /** Shares of the variance of differences, of their logarithm over classes of pairs,
+   * that distance explains: in the space stretched by the factors that explain most,
+   * and in the original one. @{ */
+  double explained = 0.0, explained_before = 0.0;
+  /** @} */
+  /** Mean error at samples that were left out, by that with factors of 1: of the roots
+   * of absolute errors, so that a few large ones do not decide. */
+  double error_ratio = 1.0;
+  std::size_t tested = 0; ///< samples left out
+};
+
+/** \brief Find the scale of a field from its samples.
+ *
+ * Pairs of samples of all parts of the cloud tell how the difference of two values
+ * grows with the distance along each axis, a variogram in every direction; the factors
+ * are sought that make it one function of the stretched distance. They are then tried,
+ * and factors between them and 1, at samples that are left out with all others that are
+ * nearer than gaps of the sampling are wide. Factors of 1 are taken unless others lower
+ * the error there by a tenth and clearly so: where the field changes alike along all
+ * axes, where samples are dense enough for it not to matter, and where nothing is to be
+ * told, for noise and for few samples. Takes the time of a tree.
+ *
+ * \param cloud the samples
+ * \param indices points to take part
+ * \param field see ScalarField
+ * \param rotation of the axes, see InterpolationParameters::rotation
+ * \param threads 0: all cores; the choice does not depend on it
+ * \param report gets the time of "scale"
+ * \throws InvalidArgument for an unknown field, and for one without a finite value */
+PCL_UVOL_EXPORTS ScaleChoice
+chooseScale(const CloudView& cloud,
+            const pcl::Indices& indices,
+            const std::string& field,
+            const Eigen::Array3d& rotation,
+            unsigned threads,
+            Report& report);
+
 } // namespace pcl_uvol

@@ -201,6 +201,12 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
   /** Factors per axis, finite and positive: distances are measured in the stretched
    * space, queries and gradients belong to the original one. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  /** Strike, dip and plunge in degrees of the axes that these factors belong to: x is
+   * east, y north. The second axis is a line in a plane: the plane goes down, by the
+   * dip of 0 to 90, to the right of its strike, which is clockwise from y; the line
+   * plunges by no more than the dip. The first axis lies in the plane, the third one is
+   * its normal. 0, 0, 0 (default): x, y and z. */
+  Eigen::Array3d rotation{0.0, 0.0, 0.0};
   ShepardParameters shepard;
   KrigingParameters kriging;
   SphParameters sph;
@@ -215,6 +221,7 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
                            Member{"gradients", &Own::gradients},
                            Member{"errors", &Own::errors},
                            Member{"scale", &Own::scale},
+                           Member{"rotation", &Own::rotation},
                            Member{"shepard", &Own::shepard},
                            Member{"kriging", &Own::kriging},
                            Member{"sph", &Own::sph});

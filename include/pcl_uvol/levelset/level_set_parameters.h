@@ -136,6 +136,9 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** Factors per axis, finite and positive: neighbours, curvature and phi belong to the
    * stretched space. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  /** Of the axes that these factors belong to, see InterpolationParameters::rotation.
+   */
+  Eigen::Array3d rotation{0.0, 0.0, 0.0};
   /** Nearest neighbours of a stencil: at least 3, with the quadratic scheme 9. */
   std::size_t k = 26;
   /** A run that ends there has a warning in its report. */
@@ -163,6 +166,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
                            Member{"initial", &Own::initial},
                            Member{"outside", &Own::outside},
                            Member{"scale", &Own::scale},
+                           Member{"rotation", &Own::rotation},
                            Member{"k", &Own::k},
                            Member{"max_steps", &Own::max_steps},
                            Member{"tolerance", &Own::tolerance},

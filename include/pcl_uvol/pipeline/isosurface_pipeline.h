@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
@@ -75,6 +76,9 @@ struct GapFilling {
    * measured one. */
   double range = 0.0;
   double nugget = 0.0, sill = 0.0; ///< of the variogram, in squared units of the field
+  /** Of each predicted sample, the index of the nearest measured one, whose other
+   * fields it has. */
+  std::vector<std::uint32_t> sources;
 };
 
 namespace detail {
@@ -98,6 +102,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
   std::vector<std::size_t> isopoints; ///< how many of each isovalue the surface has
   std::string field;                  ///< that was taken
   Eigen::Array3f scale;               ///< that was taken
+  /** With an automatic scale: how it was found. */
+  std::optional<ScaleChoice> scale_choice;
   /** With `smooth`: one per isovalue; spacing 0 where there was no surface to smooth.
    */
   std::vector<LevelSetSummary> level_sets;
@@ -149,10 +155,11 @@ public:
 
   /** \brief The field and the scale that run() takes: those of the parameters, with the
    * automatic ones filled in.
-   * \throws InvalidArgument without an input, and where the samples do not tell which
-   * field is meant */
+   * \param choice where it is not null, how an automatic scale was found; else as it is
+   * \throws InvalidArgument without an input, where the samples do not tell which field
+   * is meant, and as chooseScale */
   IsosurfaceParameters
-  resolveParameters() const;
+  resolveParameters(std::optional<ScaleChoice>* choice = nullptr) const;
 
   /** \brief Bytes that run() will take at most besides its input, about, from some of
    * the samples.
@@ -182,8 +189,22 @@ private:
   pcl::Indices
   listPoints() const;
 
+  /** Of samples as they are and those that are predicted in their gaps.
+   * \param parameters with the field and the scale that are taken */
   IsosurfaceResult
-  runFilled();
+  runFilled(IsosurfacePipelineParameters parameters);
+
+  /** Along axes that are not those of the coordinates. */
+  IsosurfaceResult
+  runTurned();
+
+  /** Of samples that were made from the input.
+   * \param gaps that were filled in them; null: none */
+  IsosurfaceResult
+  runOther(const std::shared_ptr<const Dataset>& samples,
+           const pcl::IndicesPtr& indices,
+           const IsosurfacePipelineParameters& parameters,
+           const detail::FilledGaps* gaps) const;
 
   std::vector<ValidationScore>
   validate(const IsosurfacePipelineParameters& parameters, Report& report) const;

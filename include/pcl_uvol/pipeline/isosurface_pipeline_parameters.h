@@ -98,12 +98,15 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * stays on its fit unless it reaches across a gap, or lies beside one and has no fit.
    */
   IsosurfaceParameters isosurface;
-  /** Take the scale from the samples, see equalizingScale, instead of
-   * isosurface.scale. */
+  /** Take the scale from the samples instead of isosurface.scale: from how fast the
+   * field changes along each axis. */
   bool automatic_scale = false;
+  /** Of the axes that the factors of the scale belong to, see
+   * InterpolationParameters::rotation. */
+  Eigen::Array3d rotation{0.0, 0.0, 0.0};
   /** Smooth noisy or uneven samples by a level set first. */
   bool smooth = false;
-  /** How; field, isovalue, scale and outside are those of the isosurface. */
+  /** How; field, isovalue, scale, rotation and outside are those of the isosurface. */
   LevelSetParameters level_set;
   NormalMethod normals = NormalMethod::Auto;
   /** Isopoints that a normal by principal components is fitted to: at least 2. */
@@ -114,7 +117,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
   /** Predict samples in gaps of the sampling, between lines of samples above all, and
-   * extract from both, see GapFilling. The field is one of single numbers. */
+   * extract from both, see GapFilling: best with an automatic scale, since what is
+   * predicted lives on distances. The field is one of single numbers. */
   bool fill_gaps = false;
   ValidationParameters validation;
   /** Make a mesh, see SurfaceMesh, whose vertices are the isopoints. None: isopoints
@@ -132,6 +136,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
     using Own = IsosurfacePipelineParameters;
     return std::make_tuple(Member{"isosurface", &Own::isosurface},
                            Member{"automatic_scale", &Own::automatic_scale},
+                           Member{"rotation", &Own::rotation},
                            Member{"smooth", &Own::smooth},
                            Member{"level_set", &Own::level_set},
                            Member{"normals", &Own::normals},

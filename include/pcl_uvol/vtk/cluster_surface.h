@@ -45,6 +45,9 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
   double distance = 0.0;
   /** Factors per axis, > 0: distances are measured in the stretched space. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+  /** Of the axes that these factors belong to, see InterpolationParameters::rotation.
+   */
+  Eigen::Array3d rotation{0.0, 0.0, 0.0};
 
   static auto
   listMembers()
@@ -53,7 +56,8 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
     return std::make_tuple(Member{"kind", &Own::kind},
                            Member{"cells", &Own::cells},
                            Member{"distance", &Own::distance},
-                           Member{"scale", &Own::scale});
+                           Member{"scale", &Own::scale},
+                           Member{"rotation", &Own::rotation});
   }
 
   std::string

@@ -103,6 +103,7 @@ py::tuple
 separateCluster(const DatasetPtr& dataset,
                 const std::vector<int>& labels,
                 const std::array<float, 3>& scale,
+                const std::array<double, 3>& rotation,
                 const std::string& parameters,
                 unsigned threads,
                 const py::object& progress)
@@ -117,12 +118,13 @@ separateCluster(const DatasetPtr& dataset,
     std::iota(all.begin(), all.end(), 0);
     const std::vector<float> members =
         detail::computeMembership(cloud, all, labels, how, threads, report);
-    surface = extractMembershipSurface(*dataset,
-                                       members,
-                                       Eigen::Array3f(scale.data()),
-                                       !how.smoothing_length.empty(),
-                                       threads,
-                                       report);
+    surface = extractMembershipSurface(
+        *dataset,
+        members,
+        {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
+        !how.smoothing_length.empty(),
+        threads,
+        report);
   });
   return py::make_tuple(share(std::move(surface)), toDict(report));
 }

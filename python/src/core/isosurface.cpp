@@ -115,6 +115,14 @@ describe(const IsosurfaceResult& result)
   report["field"] = toText(result.field);
   report["isopoints"] = result.isopoints;
   report["scale"] = std::vector<float>(result.scale.data(), result.scale.data() + 3);
+  if (result.scale_choice) {
+    py::dict choice;
+    choice["error_ratio"] = result.scale_choice->error_ratio;
+    choice["tested"] = result.scale_choice->tested;
+    choice["explained"] = result.scale_choice->explained;
+    choice["explained_before"] = result.scale_choice->explained_before;
+    report["scale_choice"] = choice;
+  }
   report["level_sets"] = toList(result.level_sets);
   report["validation"] = toList(result.validation);
   if (result.errors) {

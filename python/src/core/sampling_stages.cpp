@@ -6,9 +6,11 @@
 #include "core/run_stage.h"
 #include "neighbors/anisotropy.h"
 #include "pipeline/dataset_info.h"
+#include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <array>
+#include <numeric>
 #include <pybind11/stl.h>
 #include <string>
 #include <vector>
@@ -76,12 +78,16 @@ describeField(const Dataset& dataset, const std::string& field)
 py::dict
 describePlaces(const Dataset& dataset,
                const std::array<float, 3>& scale,
+               const std::array<double, 3>& rotation,
                unsigned threads)
 {
   PositionStatistics statistics;
   {
     const py::gil_scoped_release unlocked;
-    statistics = describePositions(dataset, Eigen::Array3f(scale.data()), threads);
+    statistics = describePositions(
+        dataset,
+        {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
+        threads);
   }
   py::dict dict;
   dict["non_finite"] = statistics.non_finite;
@@ -99,11 +105,45 @@ describePlaces(const Dataset& dataset,
 }
 
 std::array<float, 3>
-equalScale(const Dataset& dataset)
+equalScale(const Dataset& dataset, const std::array<double, 3>& rotation)
 {
   const py::gil_scoped_release unlocked;
-  const Eigen::Array3f scale = equalizingScale(viewOf(dataset.cloud));
+  const detail::StretchAxes axes{Eigen::Array3d(rotation.data())};
+  const Eigen::Array3f scale = equalizingScale(axes.turn(viewOf(dataset.cloud)));
   return {scale[0], scale[1], scale[2]};
+}
+
+std::array<float, 3>
+scaleOfField(const Dataset& dataset,
+             const std::string& field,
+             const std::array<double, 3>& rotation,
+             unsigned threads)
+{
+  const py::gil_scoped_release unlocked;
+  Report own;
+  pcl::Indices all(dataset.cloud.width);
+  std::iota(all.begin(), all.end(), 0);
+  const Eigen::Array3f scale =
+      chooseScale(viewOf(dataset.cloud),
+                  all,
+                  field.empty() ? ScalarField::defaultName(dataset.cloud.fields)
+                                : field,
+                  Eigen::Array3d(rotation.data()),
+                  threads,
+                  own)
+          .scale;
+  return {scale[0], scale[1], scale[2]};
+}
+
+/** \param map row by row
+ * \return factors along axes, and the rotation of these */
+std::pair<std::array<float, 3>, std::array<double, 3>>
+splitMap(const std::array<double, 9>& map)
+{
+  using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const auto stretch = detail::Stretch::ofMap(Eigen::Map<const Rows>(map.data()));
+  return {{stretch.scale[0], stretch.scale[1], stretch.scale[2]},
+          {stretch.rotation[0], stretch.rotation[1], stretch.rotation[2]}};
 }
 
 } // namespace
@@ -115,6 +155,8 @@ bindSamplingStages(py::module_& module)
   module.def("describe_field", &describeField);
   module.def("describe_places", &describePlaces);
   module.def("equalizing_scale", &equalScale);
+  module.def("scale_of_field", &scaleOfField);
+  module.def("split_map", &splitMap);
 }
 
 } // namespace pcl_uvol::python
