@@ -418,7 +418,8 @@ run(int argc, char** argv)
     facts.insert(facts.end(), more.begin(), more.end());
   };
   if (arguments.parameters.mesh)
-    append(uvol_tools::describeMesh(result));
+    append(uvol_tools::describeMesh(
+        result, arguments.getMesh().isMeasured() && !result.triangles.empty()));
   append(figures);
   for (std::size_t i = 0; i < result.level_sets.size(); ++i)
     append(uvol_tools::describe(

@@ -54,12 +54,16 @@ public:
 
   /** False without an estimate, where the vertices have a field of them. */
   bool
-  add(std::uint32_t vertex, double share, SurfaceIntegrals& integrals) const
+  add(std::uint32_t vertex,
+      double share,
+      double rim_length,
+      SurfaceIntegrals& integrals) const
   {
     const double error = error_ ? error_->read(vertices_.point(vertex)) : 0.0;
     if (!std::isfinite(error))
       return false;
     integrals.volume_error += share * error;
+    integrals.area_error += rim_length * error;
     const double curvature =
         curvature_ ? std::abs(curvature_->read(vertices_.point(vertex))) : 0.0;
     if (!std::isfinite(curvature))
@@ -125,7 +129,10 @@ public:
     forVertices([&](std::size_t piece, std::size_t vertex) {
       const double share = surface_.shares[vertex];
       area_ += share;
-      if (!errors.add(surface_.sources[vertex], share, surface_.integrals[piece]) &&
+      const double rim =
+          surface_.rim_lengths.empty() ? 0.0 : surface_.rim_lengths[vertex];
+      if (!errors.add(
+              surface_.sources[vertex], share, rim, surface_.integrals[piece]) &&
           !surface_.corners[vertex].is_on_cap)
         without_error_ += share;
     });

@@ -117,17 +117,7 @@ readSamples(const CloudView& cloud,
 void
 openCaps(WorkingMesh& mesh)
 {
-  const auto is_on_cap = [&](std::uint32_t vertex) {
-    return mesh.vertices[vertex].cap >= 0;
-  };
-  mesh.triangles.erase(
-      std::remove_if(mesh.triangles.begin(),
-                     mesh.triangles.end(),
-                     [&](const Triangle& triangle) {
-                       return std::any_of(triangle.begin(), triangle.end(), is_on_cap);
-                     }),
-      mesh.triangles.end());
-  mesh.dropUnused();
+  mesh.dropTriangles([&](std::size_t i) { return mesh.regions[i] != surface_region; });
   std::vector<std::uint32_t> source_of;
   splitPinchedVertices(mesh.triangles, mesh.vertices.size(), source_of);
   for (const std::uint32_t source : source_of)
@@ -140,14 +130,10 @@ dropSmallPieces(WorkingMesh& mesh, std::size_t least, Report& report)
   if (least == 0)
     return;
   const PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
-  const auto is_small = [&](const Triangle& triangle) {
-    const auto piece = static_cast<std::size_t>(list.of_vertex[triangle[0]]);
+  mesh.dropTriangles([&](std::size_t i) {
+    const auto piece = static_cast<std::size_t>(list.of_vertex[mesh.triangles[i][0]]);
     return list.pieces[piece].triangles < least;
-  };
-  mesh.triangles.erase(
-      std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_small),
-      mesh.triangles.end());
-  mesh.dropUnused();
+  });
   report.count("dropped_pieces",
                static_cast<std::uint64_t>(std::count_if(
                    list.pieces.begin(), list.pieces.end(), [&](const auto& piece) {
@@ -219,10 +205,10 @@ makeSurfaceMesh(const CloudView& cloud,
       continue;
     }
     WorkingMesh mesh = makeBandSurface(input, rounded, report);
-    if (parameters.meshing.open)
-      openCaps(mesh);
     if (parameters.meshing.remesh == Remeshing::Even)
       remesh(mesh, parameters.meshing.edge_length, threads, report);
+    if (parameters.meshing.open)
+      openCaps(mesh);
     dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
     SurfaceTriangles surface =
         finishMesh(input, rounded, std::move(mesh), read.values.sources, report);

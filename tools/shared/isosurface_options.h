@@ -21,9 +21,12 @@ struct IsosurfaceOptions {
   IsosurfaceOptions();
 
   /** \brief -iso, -field, -where, -scale, -xyz, -particles, -outside.
-   * \param automatic -scale takes auto */
+   * \param automatic -scale takes auto
+   * \param need when -iso is needed */
   void
-  declareSamples(Options& options, bool automatic = true);
+  declareSamples(Options& options,
+                 bool automatic = true,
+                 const std::string& need = "required");
 
   /** \brief -criterion, -interpolation. */
   void

@@ -64,7 +64,7 @@ MeshOptions::finish(const Options& options, const std::string& output) const
 }
 
 Facts
-describeMesh(const pcl_uvol::IsosurfaceResult& result)
+describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
 {
   constexpr std::size_t most_shown = 6;
   std::ostringstream text;
@@ -86,12 +86,13 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result)
   std::ostringstream angle;
   angle.precision(3);
   angle << result.smallest_angle << " degrees";
-  return {{"pieces",
-           text.str(),
-           Fact::Members{{"isovalue", isovalues},
-                         {"triangles", triangles},
-                         {"genus", genus},
-                         {"rims", rims}}},
+  const Fact pieces("pieces",
+                    text.str(),
+                    Fact::Members{{"isovalue", isovalues},
+                                  {"triangles", triangles},
+                                  {"genus", genus},
+                                  {"rims", rims}});
+  return {is_measured ? pieces.withoutJson() : pieces,
           {"smallest angle", angle.str(), result.smallest_angle}};
 }
 

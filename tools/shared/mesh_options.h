@@ -43,8 +43,9 @@ private:
   pcl_uvol::MeshingParameters parameters_;
 };
 
-/** \brief Triangles, pieces with their genus and rims, and the smallest angle. */
+/** \brief Triangles, pieces with their genus and rims, and the smallest angle.
+ * \param is_measured whether describeMeasures() tells programs of the pieces */
 Facts
-describeMesh(const pcl_uvol::IsosurfaceResult& result);
+describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured);
 
 } // namespace uvol_tools
