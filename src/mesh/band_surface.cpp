@@ -190,10 +190,9 @@ private:
     std::vector<bool> is_smooth(values_.getBand().size(), true);
     for (const WorkingVertex& vertex : mesh.vertices)
       for (const std::uint32_t cell : {vertex.pair.lower, vertex.pair.higher})
-        if (!tiling_.isGhost(cell) && values_.isInBand(cell)) {
+        if (vertex.is_on_surface && values_.isInBand(cell)) {
           const BandCell& own = values_.getCell(cell);
-          if (!vertex.is_on_surface || !own.has_foot ||
-              own.normal.dot(vertex.foot.normal) < least_agreement)
+          if (!own.has_foot || own.normal.dot(vertex.foot.normal) < least_agreement)
             is_smooth[values_.placeOf(cell)] = false;
         }
     return is_smooth;

@@ -164,6 +164,9 @@ private:
   WorkingMesh& mesh_;
 };
 
+/** In degrees: no triangle of a smooth surface has an angle as small. */
+constexpr double sliver_angle = 5.0;
+
 /** In degrees; 0 for a triangle without area. */
 double
 smallestAngleOf(const WorkingMesh& mesh, const Triangle& triangle)
@@ -177,18 +180,20 @@ void
 measure(const WorkingMesh& mesh, SurfaceTriangles& surface, Report& report)
 {
   double area = 0.0, on_caps = 0.0;
-  std::uint64_t folds = 0;
+  std::uint64_t folds = 0, slivers = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& triangle = mesh.triangles[i];
     const double own = mesh.normalOf(triangle).norm();
     area += own;
     on_caps += mesh.regions[i] == surface_region ? 0.0 : own;
     folds += mesh.agreementOf(triangle, mesh.regions[i]) <= 0.0;
-    surface.smallest_angle =
-        std::min(surface.smallest_angle, smallestAngleOf(mesh, triangle));
+    const double angle = smallestAngleOf(mesh, triangle);
+    slivers += angle < sliver_angle;
+    surface.smallest_angle = std::min(surface.smallest_angle, angle);
   }
   surface.cap_part = area > 0.0 ? on_caps / area : 0.0;
   report.count("folds", folds);
+  report.count("slivers", slivers);
   report.count("cap_vertices",
                static_cast<std::uint64_t>(
                    std::count(surface.is_on_cap.begin(), surface.is_on_cap.end(), 1)));

@@ -190,7 +190,9 @@ private:
     for (const std::uint32_t other : around)
       if (mesh_.vertices[other].is_on_surface && mesh_.vertices[other].sides == 0)
         feet.push_back(feet_[other]);
-    return feet.empty() ? own.foot : mesh_.footBelow(own, place, feet);
+    if (feet.empty())
+      feet.push_back(feet_[vertex]);
+    return mesh_.footBelow(own, place, feet);
   }
 
   /** Whether the surface meets a cap here, or caps one another. */

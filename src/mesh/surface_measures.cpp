@@ -246,6 +246,10 @@ private:
       piece.high[static_cast<std::size_t>(axis)] = bounds.max()[axis] + origin_[axis];
     }
     describeSize(surface_.integrals[i], piece);
+    if (!surface_.cap_areas.empty() && surface_.cap_areas[i] > 0.0) {
+      piece.cap_area = surface_.cap_areas[i];
+      piece.capped_volume = piece.rims == 0 ? piece.volume.value : 0.0;
+    }
     describeShape(surface_.integrals[i], bounds.center() + origin_, piece);
     return piece;
   }
@@ -325,6 +329,8 @@ private:
       all.vertices += piece.vertices;
       all.triangles += piece.triangles;
       all.rims += piece.rims;
+      all.cap_area += piece.cap_area;
+      all.capped_volume += piece.capped_volume;
       if (piece.genus)
         all.genus = all.genus.value_or(0) + *piece.genus;
       integrals.add(surface_.integrals[i].shifted(centers_[i] + origin_ - center));

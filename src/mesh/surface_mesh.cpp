@@ -75,7 +75,7 @@ namespace {
 /** A cap that closes more of a surface than this may be on the wrong side of it. */
 constexpr double large_cap = 0.1;
 
-/** Of the triangles: smooth fields have none that is folded. */
+/** Of the triangles: smooth fields have none that is folded or a sliver. */
 constexpr double many_folds = 0.01;
 
 /** Samples in a tree of compact cells, and their values. */
@@ -158,18 +158,24 @@ warnOfCaps(const SurfaceTriangles& surface,
       " outside of the surface you want, ask for the other outside.");
 }
 
+/** \param is_even whether triangles were made even, so that slivers are a defect */
 void
-warnOfFolds(Report& report)
+warnOfFolds(bool is_even, Report& report)
 {
   const std::uint64_t folds = report.getCount("folds"),
+                      slivers = is_even ? report.getCount("slivers") : 0,
                       triangles = report.getCount("triangles");
-  if (static_cast<double>(folds) <= many_folds * static_cast<double>(triangles))
+  if (static_cast<double>(folds + slivers) <=
+      many_folds * static_cast<double>(triangles))
     return;
   report.warnings.push_back(
-      std::to_string(folds) + " of " + std::to_string(triangles) +
-      " triangles look away from the surface they are on: the samples there are too "
-      "sparse, too noisy or too stretched for a mesh; a level set or a scale may "
-      "help.");
+      "Of " + std::to_string(triangles) + " triangles " + std::to_string(folds) +
+      " look away from the surface they are on" +
+      (is_even ? " and " + std::to_string(slivers) + " have an angle below 5 degrees"
+               : std::string()) +
+      ": the samples are too sparse, noisy or stretched there; filled gaps help "
+      "between "
+      "lines of samples, a level set in noise, and isopoints without a mesh anyway.");
 }
 
 } // namespace
@@ -221,7 +227,7 @@ makeSurfaceMesh(const CloudView& cloud,
   }
   report.setCount("vertices", all.vertices.size());
   report.setCount("triangles", all.triangles.size());
-  warnOfFolds(report);
+  warnOfFolds(parameters.meshing.remesh == Remeshing::Even, report);
   return all;
 }
 
