@@ -109,7 +109,10 @@ run(int argc, char** argv)
   const auto append = [&](const Facts& more) {
     facts.insert(facts.end(), more.begin(), more.end());
   };
-  append(uvol_tools::describeSurface(result, arguments.parameters));
+  append(uvol_tools::describeSurface(result,
+                                     arguments.parameters,
+                                     arguments.getMesh().isMeasured() &&
+                                         !result.triangles.empty()));
   append(figures);
   append(uvol_tools::describeModels(result, arguments.parameters));
   if (arguments.picture.isAskedFor())

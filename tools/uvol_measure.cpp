@@ -40,7 +40,7 @@ declare(Options& options, Arguments& arguments)
 {
   options.file("in", arguments.input);
   options.file("out", arguments.output, false);
-  arguments.declareSamples(options);
+  arguments.declareSamples(options, true, "of samples");
   options.flag("smooth",
                arguments.parameters.smooth,
                "smooth noisy or uneven samples by a level set first");

@@ -2,6 +2,7 @@
 #include "mesh/band_surface.h"
 
 #include "common/parallel.h"
+#include "mesh/creases.h"
 #include "mesh/dual_surface.h"
 
 #include <algorithm>
@@ -59,6 +60,7 @@ public:
       values_.turn(wrong, report_);
       mesh = join();
     }
+    splitCreases(mesh);
     smoothSizes(mesh);
     return mesh;
   }
@@ -188,10 +190,9 @@ private:
     std::vector<bool> is_smooth(values_.getBand().size(), true);
     for (const WorkingVertex& vertex : mesh.vertices)
       for (const std::uint32_t cell : {vertex.pair.lower, vertex.pair.higher})
-        if (!tiling_.isGhost(cell) && values_.isInBand(cell)) {
+        if (vertex.is_on_surface && values_.isInBand(cell)) {
           const BandCell& own = values_.getCell(cell);
-          if (vertex.cap >= 0 || !own.has_foot ||
-              own.normal.dot(vertex.foot.normal) < least_agreement)
+          if (!own.has_foot || own.normal.dot(vertex.foot.normal) < least_agreement)
             is_smooth[values_.placeOf(cell)] = false;
         }
     return is_smooth;
@@ -330,7 +331,8 @@ private:
     const KdBox box = tiling_.boxOf(pair.lower, tiling_.cellOf(pair.lower));
     WorkingVertex vertex;
     vertex.pair = pair;
-    vertex.cap = static_cast<std::int8_t>(side);
+    vertex.is_on_surface = false;
+    vertex.sides = static_cast<BoxSides>(1u << side);
     const Position& scale = input_.samples.getScale();
     for (int i = 0; i < 3; ++i)
       vertex.foot.place[i] =

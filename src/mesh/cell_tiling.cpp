@@ -56,46 +56,68 @@ CellTiling::cellOf(std::uint32_t cell) const
     found.low[side / 2] = found.high[side / 2] = outerBound(is_high);
     return found;
   }
-  for (KdNode node = tree_.getRoot(); !node.isLeaf();) {
-    const auto axis = static_cast<std::size_t>(tree_.getAxis(node));
-    const KdNode left = node.left();
-    const bool is_below = cell < left.begin + left.count;
-    (is_below ? found.high : found.low)[axis] = {tree_.getPlane(node), node};
-    node = is_below ? left : node.right();
-  }
+  for (KdNode node = tree_.getRoot(); !node.isLeaf();)
+    node = descend(node, cell, found);
   return found;
 }
 
 KdBox
 CellTiling::boxOf(std::uint32_t sample, const TileCell& cell) const
 {
-  // Of the longest side between planes: the tree leaves no side of a cell longer, but
-  // where the samples end.
-  constexpr float longest_side = 3.0f;
   KdBox box = tree_.getBox(tree_.getRoot());
-  float longest = 0.0f;
+  bool is_bounded = true;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (!isOuter(cell.low[a]))
       box.low[axis] = cell.low[a].plane.coordinate;
     if (!isOuter(cell.high[a]))
       box.high[axis] = cell.high[a].plane.coordinate;
-    if (!isOuter(cell.low[a]) && !isOuter(cell.high[a]))
-      longest = std::max(longest, box.high[axis] - box.low[axis]);
+    is_bounded = is_bounded && !isOuter(cell.low[a]) && !isOuter(cell.high[a]);
   }
-  if (longest == 0.0f)
+  if (is_bounded)
     return box;
+  const float longest = longestSideAround(sample);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const float place = positions_[sample][axis];
     if (isOuter(cell.low[a]) && !isOuter(cell.high[a]))
-      box.low[axis] = std::max(
-          box.low[axis], std::min(place, box.high[axis] - longest_side * longest));
+      box.low[axis] =
+          std::max(box.low[axis], std::min(place, box.high[axis] - longest));
     if (isOuter(cell.high[a]) && !isOuter(cell.low[a]))
-      box.high[axis] = std::min(
-          box.high[axis], std::max(place, box.low[axis] + longest_side * longest));
+      box.high[axis] =
+          std::min(box.high[axis], std::max(place, box.low[axis] + longest));
   }
   return box;
+}
+
+float
+CellTiling::longestSideAround(std::uint32_t sample) const
+{
+  // A single cell may be thin; this many are about two cells wide along every axis.
+  constexpr std::uint32_t group = 8;
+  // Of the group's longest side between planes: the tree leaves no side of a cell
+  // longer, but where the samples end.
+  constexpr float longest_side = 2.0f;
+  TileCell cell = unboundedCell();
+  KdNode node = tree_.getRoot();
+  while (node.count >= 2 * group)
+    node = descend(node, sample, cell);
+  float longest = 0.0f;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!isOuter(cell.low[axis]) && !isOuter(cell.high[axis]))
+      longest = std::max(
+          longest, cell.high[axis].plane.coordinate - cell.low[axis].plane.coordinate);
+  return longest > 0.0f ? longest_side * longest : infinity;
+}
+
+KdNode
+CellTiling::descend(const KdNode& node, std::uint32_t sample, TileCell& cell) const
+{
+  const auto axis = static_cast<std::size_t>(tree_.getAxis(node));
+  const KdNode left = node.left();
+  const bool is_below = sample < left.begin + left.count;
+  (is_below ? cell.high : cell.low)[axis] = {tree_.getPlane(node), node};
+  return is_below ? left : node.right();
 }
 
 std::uint32_t

@@ -67,8 +67,8 @@ public:
   cellOf(std::uint32_t cell) const;
 
   /** \brief The part of a sample's cell that stands for it: within the box around all
-   * samples, and towards the border of the domain at most three times as long as
-   * between planes, or up to the sample: samples may fill a ball within their box. */
+   * samples, and towards the border of the domain not much longer than cells around, or
+   * up to the sample: samples may fill a ball within their box. */
   KdBox
   boxOf(std::uint32_t sample, const TileCell& cell) const;
 
@@ -84,6 +84,14 @@ private:
   /** The planes that a corner lies on, all but the one across which a cell is looked
    * for. */
   using CornerPlanes = std::array<SplitPlane, 3>;
+
+  /** The longest that a cell at the border may be across it, by the cells around. */
+  float
+  longestSideAround(std::uint32_t sample) const;
+
+  /** The child of a node that holds a sample, whose plane becomes one of a cell. */
+  KdNode
+  descend(const KdNode& node, std::uint32_t sample, TileCell& cell) const;
 
   bool
   isBelow(int axis, const CellBound& a, const CellBound& b) const

@@ -22,12 +22,6 @@ constexpr double least_agreement = 0.5, steepest = 0.7071067811865476;
 constexpr double missed_bulge = 0.1, missed_area = 0.01;
 /** @} */
 
-/** Where caps meet the surface, or one another, triangles cut the corner: a right angle
- * with legs of one length has so much more volume, per area and length of the cut, and
- * area, per area of the cut. @{ */
-constexpr double cut_volume = 0.25, cut_area = 0.41421356237309515;
-/** @} */
-
 constexpr double far_place = 0.44594849091596488632,
                  far_weight = 0.22338158967801146570;
 constexpr double near_place = 0.09157621350977074346,
@@ -46,7 +40,7 @@ isBent(const SurfaceCorner& a, const SurfaceCorner& b)
 {
   const Eigen::Vector3d edge = b.place - a.place;
   const double most = steepest * edge.norm();
-  return a.is_on_cap == b.is_on_cap && a.normal.dot(b.normal) >= least_agreement &&
+  return a.normal.dot(b.normal) >= least_agreement &&
          std::abs(edge.dot(a.normal)) <= most && std::abs(edge.dot(b.normal)) <= most;
 }
 
@@ -65,6 +59,12 @@ bulgeOf(const SurfaceCorner& a, const SurfaceCorner& b)
 }
 
 } // namespace
+
+bool
+isOnCap(const std::array<SurfaceCorner, 3>& corners)
+{
+  return corners[0].is_on_cap || corners[1].is_on_cap || corners[2].is_on_cap;
+}
 
 const std::array<QuadraturePoint, 6>&
 triangleQuadrature()
@@ -101,16 +101,21 @@ SurfaceIntegrals::shifted(const Eigen::Vector3d& offset) const
 }
 
 CurvedTriangle::CurvedTriangle(const std::array<SurfaceCorner, 3>& corners,
-                               const Eigen::Vector3d& center)
+                               const Eigen::Vector3d& center,
+                               const EdgePlanes& planes)
 {
+  const bool is_cap = isOnCap(corners);
   for (std::size_t i = 0; i < 3; ++i) {
-    const SurfaceCorner &a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
+    SurfaceCorner a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
     flat_[i] = bent_[i] = corners[i].place - center;
     flat_[3 + i] = bent_[3 + i] = 0.5 * (a.place + b.place) - center;
-    if (!isBent(a, b)) {
-      cuts_corner_ |= a.is_on_cap || b.is_on_cap;
+    const bool is_bound = !planes[i].isZero(0.0);
+    if (is_bound)
+      for (SurfaceCorner* const end : {&a, &b})
+        end->normal =
+            (end->normal - planes[i].dot(end->normal) * planes[i]).stableNormalized();
+    if ((is_cap && !is_bound) || !isBent(a, b))
       continue;
-    }
     bent_[3 + i] += bulgeOf(a, b);
     sq_turn_ = std::max(sq_turn_, (b.normal - a.normal).squaredNorm());
   }
@@ -156,20 +161,7 @@ CurvedTriangle::integrate(std::array<double, 3>& shares) const
     bulge += (bent_[i] - flat_[i]).norm() / 3.0;
   sum.volume_error = missed_bulge * sq_turn_ * bulge * sum.area;
   sum.area_error = missed_area * sq_turn_ * sq_turn_ * sum.area;
-  addCutCorner(sum);
   return sum;
-}
-
-void
-CurvedTriangle::addCutCorner(SurfaceIntegrals& sum) const
-{
-  if (!cuts_corner_)
-    return;
-  const double longest = std::max({(flat_[1] - flat_[0]).norm(),
-                                   (flat_[2] - flat_[1]).norm(),
-                                   (flat_[0] - flat_[2]).norm()});
-  sum.volume_error += cut_volume * longest * sum.area;
-  sum.area_error += cut_area * sum.area;
 }
 
 SurfaceIntegrals
@@ -179,7 +171,6 @@ CurvedTriangle::integrateFlat(std::array<double, 3>& shares) const
   SurfaceIntegrals sum = integrate(flat_, shares);
   sum.area_error = std::abs(bent.area - sum.area);
   sum.volume_error = std::abs(bent.volume - sum.volume);
-  addCutCorner(sum);
   return sum;
 }
 

@@ -26,8 +26,12 @@ triangleQuadrature();
 struct SurfaceCorner {
   Eigen::Vector3d place;
   Eigen::Vector3d normal; ///< of unit length; 0: none
-  bool is_on_cap = false; ///< on a side of the samples' box, see SurfaceTriangles
+  bool is_on_cap = false; ///< a triangle with such a corner closes the samples' box
 };
+
+/** \brief Whether a triangle closes the samples' box. */
+PCL_UVOL_EXPORTS bool
+isOnCap(const std::array<SurfaceCorner, 3>& corners);
 
 /** \brief Integrals over a surface, and over what it encloses: of 1, of the place and
  * of the products of coordinates. Places are those relative to a centre. */
@@ -56,6 +60,15 @@ struct PCL_UVOL_EXPORTS SurfaceIntegrals {
   shifted(const Eigen::Vector3d& offset) const;
 };
 
+/** \brief Normals of the planes that the edges of a triangle stay in. */
+using EdgePlanes = std::array<Eigen::Vector3d, 3>;
+
+inline EdgePlanes
+freeEdges()
+{
+  return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+}
+
 /** \brief A triangle with quadratic edges.
  *
  * An edge e between corners with normals n, m goes through the middle of an arc: above
@@ -63,14 +76,18 @@ struct PCL_UVOL_EXPORTS SurfaceIntegrals {
  * e (m - n) / (2 |e|). To first order that is the middle of the edge of a PN triangle
  * (Vlachos et al. 2001); on circles it is exact. It depends on the two corners alone,
  * so that triangles fit together without gaps. Edges stay straight where the normals
- * are no help: without one, farther apart than 60 degrees, more than 45 degrees off the
- * right angle to the edge, and between a cap and the surface. */
+ * are no help: without one, farther apart than 60 degrees, and more than 45 degrees off
+ * the right angle to the edge. A triangle of a cap is flat, and the edge between it and
+ * the surface bends within its plane, by the parts of the normals there. */
 class PCL_UVOL_EXPORTS CurvedTriangle {
 public:
   /** \param corners counter-clockwise as seen from outside
-   * \param center that places are to be relative to */
+   * \param center that places are to be relative to
+   * \param planes unit normals of those that the edges opposite of the corners stay in;
+   * 0: none */
   CurvedTriangle(const std::array<SurfaceCorner, 3>& corners,
-                 const Eigen::Vector3d& center);
+                 const Eigen::Vector3d& center,
+                 const EdgePlanes& planes = freeEdges());
 
   /** \brief Integrals over the bent triangle.
    * \param[out] shares of the area that the corners have: linear functions with their
@@ -90,13 +107,8 @@ private:
   static SurfaceIntegrals
   integrate(const Nodes& nodes, std::array<double, 3>& shares);
 
-  /** Add the corner that is cut to the errors. */
-  void
-  addCutCorner(SurfaceIntegrals& sum) const;
-
   Nodes flat_, bent_;
-  bool cuts_corner_ = false; // between a cap and the surface, or another cap
-  double sq_turn_ = 0.0;     // of normals along an edge that is bent, squared, at most
+  double sq_turn_ = 0.0; // of normals along an edge that is bent, squared, at most
 };
 
 } // namespace pcl_uvol::detail

@@ -7,8 +7,12 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Steps towards the surface, of which one nearly arrives. */
-constexpr int steps = 2;
+/** Steps towards the surface, of which one nearly arrives; within a side, which the
+ * surface may cross at a small angle, more are needed. */
+constexpr int free_steps = 2, bound_steps = 5;
+
+/** Sine of the angle between surface and side, squared: below it no way leads down. */
+constexpr double least_slope = 0.01;
 
 /** Share of the length between feet: nearer ones weigh no more. */
 constexpr double least_distance = 0.1;
@@ -40,14 +44,39 @@ blend(const std::vector<Foot>& feet, const Eigen::Vector3d& place, double length
 
 } // namespace
 
+Eigen::Vector3d
+keepWithin(BoxSides sides, const Eigen::Vector3d& direction)
+{
+  Eigen::Vector3d kept = direction;
+  for (int axis = 0; axis < 3; ++axis)
+    if (isBound(sides, axis))
+      kept[axis] = 0.0;
+  return kept;
+}
+
+Eigen::Vector3d
+wayDown(double height, const Eigen::Vector3d& normal, BoxSides sides)
+{
+  if (sides == 0)
+    return -height * normal;
+  const Eigen::Vector3d slope = keepWithin(sides, normal);
+  const double square = slope.squaredNorm();
+  return square < least_slope ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                              : Eigen::Vector3d(-height / square * slope);
+}
+
 Foot
-blendFeet(const std::vector<Foot>& feet, const Eigen::Vector3d& place, double length)
+blendFeet(const std::vector<Foot>& feet,
+          const Eigen::Vector3d& place,
+          double length,
+          BoxSides sides)
 {
   Foot foot;
   foot.place = place;
+  const int steps = sides == 0 ? free_steps : bound_steps;
   for (int step = 0; step < steps; ++step) {
     const Blend found = blend(feet, foot.place, length);
-    foot.place -= found.height * found.normal;
+    foot.place += wayDown(found.height, found.normal, sides);
   }
   const Blend found = blend(feet, foot.place, length);
   foot.normal = found.normal;

@@ -2,8 +2,11 @@
 // A known point of a surface, and what it tells of the surface around it.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -34,10 +37,34 @@ struct Foot {
   }
 };
 
+/** \brief Sides of the samples' box: a bit per side, by the numbers of ghosts. */
+using BoxSides = std::uint8_t;
+
+inline bool
+isBound(BoxSides sides, int axis)
+{
+  return (sides >> (2 * axis) & 3) != 0;
+}
+
+/** \brief A direction without its parts at right angles to sides. */
+PCL_UVOL_EXPORTS Eigen::Vector3d
+keepWithin(BoxSides sides, const Eigen::Vector3d& direction);
+
+/** \brief The way to a surface within sides.
+ * \param height above the surface
+ * \param normal of it, of unit length
+ * \return 0 where the surface hardly crosses the sides */
+PCL_UVOL_EXPORTS Eigen::Vector3d
+wayDown(double height, const Eigen::Vector3d& normal, BoxSides sides);
+
 /** \brief The foot below a place, by the mean of others that weighs near ones more.
  * \param feet at least one
- * \param length about the distance between feet */
+ * \param length about the distance between feet
+ * \param sides that the foot is to stay within */
 Foot
-blendFeet(const std::vector<Foot>& feet, const Eigen::Vector3d& place, double length);
+blendFeet(const std::vector<Foot>& feet,
+          const Eigen::Vector3d& place,
+          double length,
+          BoxSides sides = 0);
 
 } // namespace pcl_uvol::detail

@@ -60,34 +60,102 @@ addTriangleNormals(const std::vector<Triangle>& triangles,
     corners[i].normal = Eigen::Vector3d(normals[i][0], normals[i][1], normals[i][2]);
 }
 
+/** Of a triangle of a cap only the normals of its own corners count. */
 bool
-isAgainstNormals(const SurfaceCorner& a, const SurfaceCorner& b, const SurfaceCorner& c)
+isAgainstNormals(const std::array<SurfaceCorner, 3>& corners)
 {
-  return (b.place - a.place)
-             .cross(c.place - a.place)
-             .dot(a.normal + b.normal + c.normal) < 0.0;
+  const auto& [a, b, c] = corners;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (const SurfaceCorner& corner : corners)
+    if (corner.is_on_cap == isOnCap(corners))
+      normal += corner.normal;
+  return (b.place - a.place).cross(c.place - a.place).dot(normal) < 0.0;
 }
+
+/** Tells of triangles which close the box, and where these meet the surface. */
+class CapEdges {
+public:
+  explicit CapEdges(MeasuredSurface& surface)
+      : surface_(surface)
+      , edges_(surface.triangles, surface.corners.size())
+  {
+  }
+
+  std::array<SurfaceCorner, 3>
+  cornersOf(std::size_t triangle) const
+  {
+    const auto& [a, b, c] = surface_.triangles[triangle];
+    return {surface_.corners[a], surface_.corners[b], surface_.corners[c]};
+  }
+
+  /** For each edge, by the corner opposite of it, of the cap that meets the surface
+   * there. */
+  EdgePlanes
+  findPlanes(std::size_t triangle) const
+  {
+    EdgePlanes planes = freeEdges();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const HalfEdge twin = twinOf(triangle, i);
+      if (twin == HalfEdges::none ||
+          isOnCap(cornersOf(triangle)) == isOnCap(cornersOf(twin / 3)))
+        continue;
+      const auto [a, b, c] =
+          cornersOf(isOnCap(cornersOf(triangle)) ? triangle : twin / 3);
+      planes[i] = (b.place - a.place).cross(c.place - a.place).stableNormalized();
+    }
+    return planes;
+  }
+
+  bool
+  isAtRim(std::size_t triangle, std::size_t corner) const
+  {
+    return twinOf(triangle, corner) == HalfEdges::none;
+  }
+
+private:
+  /** Of the edge opposite of a corner. */
+  HalfEdge
+  twinOf(std::size_t triangle, std::size_t corner) const
+  {
+    return edges_.twinOf(static_cast<HalfEdge>(3 * triangle + (corner + 1) % 3));
+  }
+
+  const MeasuredSurface& surface_;
+  HalfEdges edges_;
+};
 
 void
 integrate(MeasuredSurface& surface, bool curved)
 {
-  const std::vector<SurfaceCorner>& corners = surface.corners;
   surface.integrals.resize(surface.list.pieces.size());
-  surface.shares.assign(corners.size(), 0.0);
+  surface.cap_areas.assign(surface.list.pieces.size(), 0.0);
+  surface.shares.assign(surface.corners.size(), 0.0);
+  surface.rim_lengths.assign(surface.corners.size(), 0.0);
   std::vector<double> against(surface.list.pieces.size()); // areas
-  for (const Triangle& triangle : surface.triangles) {
+  const CapEdges caps(surface);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& triangle = surface.triangles[t];
     const auto piece = static_cast<std::size_t>(surface.list.of_vertex[triangle[0]]);
-    const SurfaceCorner &a = corners[triangle[0]], &b = corners[triangle[1]],
-                        &c = corners[triangle[2]];
-    const CurvedTriangle bent({a, b, c}, surface.bounds[piece].center());
+    const std::array<SurfaceCorner, 3> corners = caps.cornersOf(t);
+    const EdgePlanes planes = caps.findPlanes(t);
+    const CurvedTriangle bent(corners, surface.bounds[piece].center(), planes);
     std::array<double, 3> own;
     const SurfaceIntegrals added =
         curved ? bent.integrate(own) : bent.integrateFlat(own);
     surface.integrals[piece].add(added);
-    if (isAgainstNormals(a, b, c))
+    if (isOnCap(corners))
+      surface.cap_areas[piece] += added.area;
+    if (isAgainstNormals(corners))
       against[piece] += added.area;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       surface.shares[triangle[i]] += own[i];
+      if (planes[i].isZero(0.0) && !caps.isAtRim(t, i))
+        continue;
+      const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+      const double length = (corners[b].place - corners[a].place).norm();
+      surface.rim_lengths[triangle[a]] += 0.5 * length;
+      surface.rim_lengths[triangle[b]] += 0.5 * length;
+    }
   }
   // Where some triangles are folded over others, the surface is counted three times.
   for (std::size_t i = 0; i < against.size(); ++i) {

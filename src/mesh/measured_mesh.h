@@ -43,6 +43,10 @@ struct MeasuredSurface {
   std::vector<SurfaceIntegrals> integrals;
   /** @} */
   std::vector<double> shares; ///< by vertex, in the area
+  /** By vertex: half of the edges there along which the surface ends, or meets a cap,
+   * for each triangle beside them; empty of a surface that is given as points. */
+  std::vector<double> rim_lengths;
+  std::vector<double> cap_areas; ///< by piece; as above
 };
 
 /** \brief The place of a point with its unit normal: 0 where that is not finite;

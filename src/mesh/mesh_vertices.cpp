@@ -26,7 +26,7 @@ constexpr double least_agreement = 0.5;
 IsoEdge
 edgeOf(const IsopointInput& input, const WorkingVertex& vertex, float isovalue)
 {
-  if (vertex.cap >= 0)
+  if (!vertex.is_on_surface)
     return {vertex.pair.lower, vertex.pair.lower, 0.0f};
   const auto [a, b] = vertex.pair;
   const double at_a = static_cast<double>(input.values[a]) - isovalue,
@@ -44,7 +44,7 @@ makePoint(const IsopointInput& input, const WorkingVertex& vertex)
   for (int axis = 0; axis < 3; ++axis) {
     point.data[axis] = static_cast<float>(vertex.foot.place[axis]);
     point.data_n[axis] = static_cast<float>(side * vertex.foot.normal[axis]);
-    if (vertex.cap >= 0)
+    if (!vertex.is_on_surface)
       continue;
     const auto& positions = input.samples.getPositions();
     const double along = (static_cast<double>(positions[vertex.pair.lower][axis]) -
@@ -53,7 +53,7 @@ makePoint(const IsopointInput& input, const WorkingVertex& vertex)
     sq_length += along * along;
   }
   point.edge_length = static_cast<float>(std::sqrt(sq_length));
-  if (vertex.cap >= 0)
+  if (!vertex.is_on_surface)
     point.support = static_cast<std::uint8_t>(IsoSupport::Rim);
   return point;
 }
@@ -78,7 +78,7 @@ public:
       const WorkingVertex& vertex = mesh_.vertices[i];
       points.push_back(makePoint(input_, vertex));
       edges.push_back(edgeOf(input_, vertex, isovalue_));
-      if (vertex.cap >= 0)
+      if (!vertex.is_on_surface)
         continue;
       vertices.push_back(i);
       fitted.push_back(points.back());
@@ -107,6 +107,32 @@ private:
     return point.getVector3fMap().cast<double>();
   }
 
+  bool
+  agrees(std::size_t triangle) const
+  {
+    return mesh_.agreementOf(mesh_.triangles[triangle], mesh_.regions[triangle]) >=
+           least_agreement;
+  }
+
+  /** Where a vertex that stays on sides of the box meets the surface that a fit tells.
+   * A small angle between them makes the place less certain. */
+  Eigen::Vector3d
+  placeWithinSides(const WorkingVertex& vertex, PointIso& fitted) const
+  {
+    const Eigen::Vector3d& normal = vertex.foot.normal;
+    const double height = normal.dot(vertex.foot.place - placeOf(fitted));
+    const Eigen::Vector3d way = wayDown(height, normal, vertex.sides);
+    const double slope = keepWithin(vertex.sides, normal).norm();
+    const bool is_found = !way.isZero(0.0) && way.norm() <= farthest_move * vertex.size;
+    const Eigen::Vector3d met = is_found ? vertex.foot.place + way : vertex.foot.place,
+                          place = mesh_.keepInBox(vertex, met);
+    const double off = normal.dot(place - placeOf(fitted));
+    fitted.error =
+        (is_found ? fitted.error / static_cast<float>(slope) : fitted.error) +
+        static_cast<float>(std::abs(off));
+    return place;
+  }
+
   /** Take the places of the fits where these are near and turn no triangle over. */
   void
   settle(const std::vector<std::uint32_t>& vertices)
@@ -116,17 +142,18 @@ private:
     for (const WorkingVertex& vertex : mesh_.vertices)
       before.push_back(vertex.foot);
     std::vector<bool> agreed;
-    for (const Triangle& triangle : mesh_.triangles)
-      agreed.push_back(mesh_.agreementOf(triangle) >= least_agreement);
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+      agreed.push_back(agrees(i));
     for (const std::uint32_t i : vertices) {
       WorkingVertex& vertex = mesh_.vertices[i];
-      const Eigen::Vector3d place = placeOf(points[i]);
+      vertex.foot.normal = side * points[i].getNormalVector3fMap().cast<double>();
+      const Eigen::Vector3d place =
+          vertex.sides == 0 ? placeOf(points[i]) : placeWithinSides(vertex, points[i]);
       if ((place - vertex.foot.place).norm() <= farthest_move * vertex.size)
         vertex.foot.place = place;
-      vertex.foot.normal = side * points[i].getNormalVector3fMap().cast<double>();
     }
     for (std::size_t i = 0; i < agreed.size(); ++i)
-      if (agreed[i] && mesh_.agreementOf(mesh_.triangles[i]) < least_agreement)
+      if (agreed[i] && !agrees(i))
         for (const std::uint32_t vertex : mesh_.triangles[i])
           mesh_.vertices[vertex].foot.place = before[vertex].place;
     for (const std::uint32_t i : vertices)
@@ -137,6 +164,9 @@ private:
   float isovalue_;
   WorkingMesh& mesh_;
 };
+
+/** In degrees: no triangle of a smooth surface has an angle as small. */
+constexpr double sliver_angle = 5.0;
 
 /** In degrees; 0 for a triangle without area. */
 double
@@ -151,20 +181,20 @@ void
 measure(const WorkingMesh& mesh, SurfaceTriangles& surface, Report& report)
 {
   double area = 0.0, on_caps = 0.0;
-  std::uint64_t folds = 0;
-  for (const Triangle& triangle : mesh.triangles) {
+  std::uint64_t folds = 0, slivers = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& triangle = mesh.triangles[i];
     const double own = mesh.normalOf(triangle).norm();
-    const bool is_cap = std::any_of(triangle.begin(), triangle.end(), [&](auto vertex) {
-      return mesh.vertices[vertex].cap >= 0;
-    });
     area += own;
-    on_caps += is_cap ? own : 0.0;
-    folds += !is_cap && mesh.agreementOf(triangle) <= 0.0;
-    surface.smallest_angle =
-        std::min(surface.smallest_angle, smallestAngleOf(mesh, triangle));
+    on_caps += mesh.regions[i] == surface_region ? 0.0 : own;
+    folds += mesh.agreementOf(triangle, mesh.regions[i]) <= 0.0;
+    const double angle = smallestAngleOf(mesh, triangle);
+    slivers += angle < sliver_angle;
+    surface.smallest_angle = std::min(surface.smallest_angle, angle);
   }
   surface.cap_part = area > 0.0 ? on_caps / area : 0.0;
   report.count("folds", folds);
+  report.count("slivers", slivers);
   report.count("cap_vertices",
                static_cast<std::uint64_t>(
                    std::count(surface.is_on_cap.begin(), surface.is_on_cap.end(), 1)));
@@ -186,7 +216,7 @@ finishMesh(const IsopointInput& input,
   for (const IsoEdge& edge : fits.edges)
     surface.edges.push_back({sources[edge.first], sources[edge.second], edge.t});
   for (const WorkingVertex& vertex : mesh.vertices)
-    surface.is_on_cap.push_back(vertex.cap >= 0);
+    surface.is_on_cap.push_back(!vertex.is_on_surface);
   PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
   measure(mesh, surface, report);
   std::uint64_t handles = 0;

@@ -16,7 +16,7 @@ namespace pcl_uvol::detail {
  * support, and check what came out. Isovalues are those of the input's frame.
  * \param sources input index of each sample
  * \param report gets the counts of countRoots, "pieces", "handles", "rim_edges",
- * "cap_vertices" and "folds", and the time of "smooth_roots"
+ * "cap_vertices", "folds" and "slivers", and the time of "smooth_roots"
  * \throws std::logic_error unless the mesh is an oriented manifold */
 SurfaceTriangles
 finishMesh(const IsopointInput& input,

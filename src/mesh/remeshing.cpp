@@ -121,12 +121,7 @@ public:
   void
   finish()
   {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      if (!is_gone_[i])
-        mesh_.triangles[kept++] = mesh_.triangles[i];
-    mesh_.triangles.resize(kept);
-    mesh_.dropUnused();
+    mesh_.dropTriangles([&](std::size_t i) { return is_gone_[i]; });
   }
 
 private:
@@ -178,7 +173,7 @@ private:
   }
 
   /** The foot of a place that belongs to a vertex, by the feet that were there before
-   * anything moved. */
+   * anything moved; where the surface meets a cap they are hardly known. */
   Foot
   footBelow(std::uint32_t vertex,
             const Eigen::Vector3d& place,
@@ -186,19 +181,30 @@ private:
             std::vector<Foot>& feet) const
   {
     const WorkingVertex& own = mesh_.vertices[vertex];
-    if (own.cap >= 0) {
+    if (!own.is_on_surface) {
       Foot foot = own.foot;
       foot.place = place;
       return foot;
     }
-    feet.assign(1, feet_[vertex]);
+    feet.clear();
+    if (own.sides == 0)
+      feet.push_back(feet_[vertex]);
     for (const std::uint32_t other : around)
-      if (mesh_.vertices[other].cap < 0)
+      if (mesh_.vertices[other].is_on_surface && mesh_.vertices[other].sides == 0)
         feet.push_back(feet_[other]);
-    return blendFeet(feet, place, own.size);
+    if (feet.empty())
+      feet.push_back(feet_[vertex]);
+    return mesh_.footBelow(own, place, feet);
   }
 
-  /** Where a vertex glides to; at a rim, along it. */
+  /** Whether the surface meets a cap here, or caps one another. */
+  bool
+  isCrease(HalfEdge edge) const
+  {
+    return mesh_.regions[edge / 3] != mesh_.regions[edges_.twinOf(edge) / 3];
+  }
+
+  /** Where a vertex glides to; along the crease that it is on, if it is on one. */
   Foot
   glide(std::uint32_t vertex,
         std::vector<std::uint32_t>& around,
@@ -206,48 +212,73 @@ private:
   {
     const WorkingVertex& own = mesh_.vertices[vertex];
     edges_.findAround(vertex, around);
+    const int freedom = freedomOf(vertex);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    if (edges_.isAtRim(vertex))
-      mean = 0.5 * (placeOf(around.front()) + placeOf(around.back()));
-    else {
-      for (const std::uint32_t other : around)
-        mean += placeOf(other);
-      mean /= static_cast<double>(around.size());
-    }
+    std::size_t count = 0;
+    edges_.forEachAround(vertex, [&](HalfEdge edge) {
+      if (freedom == 2 || (freedom == 1 && isCrease(edge))) {
+        mean += placeOf(edges_.targetOf(edge));
+        ++count;
+      }
+    });
+    mean =
+        count > 0 ? Eigen::Vector3d(mean / static_cast<double>(count)) : own.foot.place;
     Eigen::Vector3d way = relaxation * (mean - own.foot.place);
     way -= own.foot.normal.dot(way) * own.foot.normal;
+    way = keepWithin(own.sides, way);
     const Foot moved = footBelow(vertex, own.foot.place + way, around, feet);
     const bool is_near =
         (moved.place - own.foot.place).norm() < farthest_move * own.size &&
-        isWithinBox(moved.place);
+        mesh_.isWithinBox(moved.place);
     return is_near ? moved : own.foot;
   }
 
-  bool
-  isWithinBox(const Eigen::Vector3d& place) const
+  /** In how many directions a vertex may move: within the surface or a cap in two,
+   * along a crease in one. */
+  int
+  freedomOf(std::uint32_t vertex) const
   {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto low = static_cast<std::size_t>(2 * axis);
-      if (place[axis] < mesh_.sides[low] || place[axis] > mesh_.sides[low + 1])
+    const WorkingVertex& own = mesh_.vertices[vertex];
+    int freedom = own.is_on_surface ? 2 : 3;
+    for (BoxSides sides = own.sides; sides != 0; sides &= sides - 1)
+      --freedom;
+    return std::max(freedom, 0);
+  }
+
+  /** Whether the ends of an edge may become one as far as regions go, where the first
+   * one is the less free one: these keep their parts and their creases. */
+  bool
+  mayShrink(HalfEdge edge) const
+  {
+    const int freedom = freedomOf(edges_.targetOf(edge));
+    if (freedom == 2)
+      return true;
+    for (const HalfEdge side : {edge, edges_.twinOf(edge)})
+      if (isCrease(nextOf(side)) && isCrease(previousOf(side)))
         return false;
-    }
-    return true;
+    return freedom == 1 && isCrease(edge);
   }
 
   bool
   collapse(HalfEdge edge)
   {
+    if (freedomOf(edges_.targetOf(edge)) < freedomOf(edges_.originOf(edge)))
+      edge = edges_.twinOf(edge);
     const std::uint32_t a = edges_.originOf(edge), b = edges_.targetOf(edge);
     WorkingVertex &kept = mesh_.vertices[a], &gone = mesh_.vertices[b];
-    if (kept.cap != gone.cap || edges_.isAtRim(a) || edges_.isAtRim(b))
+    if (!mayShrink(edge))
       return false;
     edges_.findAround(a, around_);
     edges_.findAround(b, other_around_);
     if (!mayMerge(edge))
       return false;
     around_.insert(around_.end(), other_around_.begin(), other_around_.end());
+    const bool is_fixed = freedomOf(a) < freedomOf(b);
     const Foot foot =
-        footBelow(a, 0.5 * (kept.foot.place + gone.foot.place), around_, nearby_feet_);
+        is_fixed
+            ? kept.foot
+            : footBelow(
+                  a, 0.5 * (kept.foot.place + gone.foot.place), around_, nearby_feet_);
     const double longest = longest_edge * sizeOf(edge);
     for (const std::uint32_t other : around_)
       if (other != a && other != b && (placeOf(other) - foot.place).norm() > longest)
@@ -294,9 +325,16 @@ private:
     edges_.forEachAround(vertex, [&](HalfEdge out) {
       if (out / 3 != edge / 3 && out / 3 != edges_.twinOf(edge) / 3)
         agrees =
-            agrees && mesh_.agreementOf(mesh_.triangles[out / 3]) >= least_agreement;
+            agrees && agreementOf(mesh_.triangles[out / 3], out) >= least_agreement;
     });
     return agrees;
+  }
+
+  /** Of a triangle in the region of an edge. */
+  double
+  agreementOf(const Triangle& triangle, HalfEdge edge) const
+  {
+    return mesh_.agreementOf(triangle, mesh_.regions[edge / 3]);
   }
 
   bool
@@ -307,12 +345,14 @@ private:
                         c = edges_.originOf(previousOf(edge)),
                         d = edges_.originOf(previousOf(twin));
     const Triangle first{a, d, c}, second{b, c, d};
-    const double before = std::min(mesh_.agreementOf(mesh_.triangles[edge / 3]),
-                                   mesh_.agreementOf(mesh_.triangles[twin / 3]));
+    if (isCrease(edge))
+      return false;
+    const double before = std::min(agreementOf(mesh_.triangles[edge / 3], edge),
+                                   agreementOf(mesh_.triangles[twin / 3], edge));
     const bool is_bad = before < least_agreement;
     if (!is_bad && !isAgainstDelaunay(a, b, c, d))
       return false;
-    const double after = std::min(mesh_.agreementOf(first), mesh_.agreementOf(second));
+    const double after = std::min(agreementOf(first, edge), agreementOf(second, edge));
     if (is_bad ? after <= before : after < least_agreement)
       return false;
     for (const std::uint32_t end : {a, b}) {

@@ -56,12 +56,16 @@ public:
 
   /** False without an estimate, where the vertices have a field of them. */
   bool
-  add(std::uint32_t vertex, double share, SurfaceIntegrals& integrals) const
+  add(std::uint32_t vertex,
+      double share,
+      double rim_length,
+      SurfaceIntegrals& integrals) const
   {
     const double error = error_ ? error_->read(vertices_.point(vertex)) : 0.0;
     if (!std::isfinite(error))
       return false;
     integrals.volume_error += share * error;
+    integrals.area_error += rim_length * error;
     const double curvature =
         curvature_ ? std::abs(curvature_->read(vertices_.point(vertex))) : 0.0;
     if (!std::isfinite(curvature))
@@ -127,7 +131,10 @@ public:
     forVertices([&](std::size_t piece, std::size_t vertex) {
       const double share = surface_.shares[vertex];
       area_ += share;
-      if (!errors.add(surface_.sources[vertex], share, surface_.integrals[piece]) &&
+      const double rim =
+          surface_.rim_lengths.empty() ? 0.0 : surface_.rim_lengths[vertex];
+      if (!errors.add(
+              surface_.sources[vertex], share, rim, surface_.integrals[piece]) &&
           !surface_.corners[vertex].is_on_cap)
         without_error_ += share;
     });
@@ -241,6 +248,10 @@ private:
       piece.high[static_cast<std::size_t>(axis)] = bounds.max()[axis] + origin_[axis];
     }
     describeSize(surface_.integrals[i], piece);
+    if (!surface_.cap_areas.empty() && surface_.cap_areas[i] > 0.0) {
+      piece.cap_area = surface_.cap_areas[i];
+      piece.capped_volume = piece.rims == 0 ? piece.volume.value : 0.0;
+    }
     describeShape(surface_.integrals[i], bounds.center() + origin_, piece);
     return piece;
   }
@@ -320,6 +331,8 @@ private:
       all.vertices += piece.vertices;
       all.triangles += piece.triangles;
       all.rims += piece.rims;
+      all.cap_area += piece.cap_area;
+      all.capped_volume += piece.capped_volume;
       if (piece.genus)
         all.genus = all.genus.value_or(0) + *piece.genus;
       integrals.add(surface_.integrals[i].shifted(centers_[i] + origin_ - center));

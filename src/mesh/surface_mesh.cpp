@@ -75,7 +75,7 @@ namespace {
 /** A cap that closes more of a surface than this may be on the wrong side of it. */
 constexpr double large_cap = 0.1;
 
-/** Share of the triangles: smooth fields have none that is folded. */
+/** Share of the triangles: smooth fields have none that is folded or a sliver. */
 constexpr double many_folds = 0.01;
 
 /** Samples in a tree of compact cells, and their values. */
@@ -117,17 +117,7 @@ readSamples(const CloudView& cloud,
 void
 openCaps(WorkingMesh& mesh)
 {
-  const auto is_on_cap = [&](std::uint32_t vertex) {
-    return mesh.vertices[vertex].cap >= 0;
-  };
-  mesh.triangles.erase(
-      std::remove_if(mesh.triangles.begin(),
-                     mesh.triangles.end(),
-                     [&](const Triangle& triangle) {
-                       return std::any_of(triangle.begin(), triangle.end(), is_on_cap);
-                     }),
-      mesh.triangles.end());
-  mesh.dropUnused();
+  mesh.dropTriangles([&](std::size_t i) { return mesh.regions[i] != surface_region; });
   std::vector<std::uint32_t> source_of;
   splitPinchedVertices(mesh.triangles, mesh.vertices.size(), source_of);
   for (const std::uint32_t source : source_of)
@@ -140,14 +130,10 @@ dropSmallPieces(WorkingMesh& mesh, std::size_t least, Report& report)
   if (least == 0)
     return;
   const PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
-  const auto is_small = [&](const Triangle& triangle) {
-    const auto piece = static_cast<std::size_t>(list.of_vertex[triangle[0]]);
+  mesh.dropTriangles([&](std::size_t i) {
+    const auto piece = static_cast<std::size_t>(list.of_vertex[mesh.triangles[i][0]]);
     return list.pieces[piece].triangles < least;
-  };
-  mesh.triangles.erase(
-      std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), is_small),
-      mesh.triangles.end());
-  mesh.dropUnused();
+  });
   report.count("dropped_pieces",
                static_cast<std::uint64_t>(std::count_if(
                    list.pieces.begin(), list.pieces.end(), [&](const auto& piece) {
@@ -172,18 +158,24 @@ warnOfCaps(const SurfaceTriangles& surface,
       " outside of the surface you want, ask for the other outside.");
 }
 
+/** \param is_even whether triangles were made even, so that slivers are a defect */
 void
-warnOfFolds(Report& report)
+warnOfFolds(bool is_even, Report& report)
 {
   const std::uint64_t folds = report.getCount("folds"),
+                      slivers = is_even ? report.getCount("slivers") : 0,
                       triangles = report.getCount("triangles");
-  if (static_cast<double>(folds) <= many_folds * static_cast<double>(triangles))
+  if (static_cast<double>(folds + slivers) <=
+      many_folds * static_cast<double>(triangles))
     return;
   report.warnings.push_back(
-      std::to_string(folds) + " of " + std::to_string(triangles) +
-      " triangles look away from the surface they are on: the samples there are too "
-      "sparse, too noisy or too stretched for a mesh; a level set or a scale may "
-      "help.");
+      "Of " + std::to_string(triangles) + " triangles " + std::to_string(folds) +
+      " look away from the surface they are on" +
+      (is_even ? " and " + std::to_string(slivers) + " have an angle below 5 degrees"
+               : std::string()) +
+      ": the samples are too sparse, noisy or stretched there; filled gaps help "
+      "between "
+      "lines of samples, a level set in noise, and isopoints without a mesh anyway.");
 }
 
 } // namespace
@@ -219,10 +211,10 @@ makeSurfaceMesh(const CloudView& cloud,
       continue;
     }
     WorkingMesh mesh = makeBandSurface(input, rounded, report);
-    if (parameters.meshing.open)
-      openCaps(mesh);
     if (parameters.meshing.remesh == Remeshing::Even)
       remesh(mesh, parameters.meshing.edge_length, threads, report);
+    if (parameters.meshing.open)
+      openCaps(mesh);
     dropSmallPieces(mesh, parameters.meshing.drop_pieces, report);
     SurfaceTriangles surface =
         finishMesh(input, rounded, std::move(mesh), read.values.sources, report);
@@ -235,7 +227,7 @@ makeSurfaceMesh(const CloudView& cloud,
   }
   report.setCount("vertices", all.vertices.size());
   report.setCount("triangles", all.triangles.size());
-  warnOfFolds(report);
+  warnOfFolds(parameters.meshing.remesh == Remeshing::Even, report);
   return all;
 }
 

@@ -28,14 +28,61 @@ smallestAngle(const std::array<Eigen::Vector3d, 3>& corners)
 }
 
 double
-WorkingMesh::agreementOf(const Triangle& triangle) const
+WorkingMesh::agreementOf(const Triangle& triangle, MeshRegion region) const
 {
   const Eigen::Vector3d normal = normalOf(triangle);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const std::uint32_t vertex : triangle)
-    mean += vertices[vertex].foot.normal;
+    if (vertices[vertex].is_on_surface == (region == surface_region))
+      mean += vertices[vertex].foot.normal;
   const double lengths = normal.norm() * mean.norm();
   return lengths > 0.0 ? normal.dot(mean) / lengths : -1.0;
+}
+
+bool
+WorkingMesh::isWithinBox(const Eigen::Vector3d& place) const
+{
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto low = static_cast<std::size_t>(2 * axis);
+    if (place[axis] < sides[low] || place[axis] > sides[low + 1])
+      return false;
+  }
+  return true;
+}
+
+Eigen::Vector3d
+WorkingMesh::keepInBox(const WorkingVertex& vertex, const Eigen::Vector3d& place) const
+{
+  constexpr double least_distance = 0.05; // of the local length
+  Eigen::Vector3d kept = place;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto low = static_cast<std::size_t>(2 * axis);
+    const double margin =
+        std::min(least_distance * vertex.size, 0.5 * (sides[low + 1] - sides[low]));
+    if (!isBound(vertex.sides, axis))
+      kept[axis] = std::clamp(kept[axis], sides[low] + margin, sides[low + 1] - margin);
+  }
+  return kept;
+}
+
+Foot
+WorkingMesh::footBelow(const WorkingVertex& vertex,
+                       const Eigen::Vector3d& place,
+                       const std::vector<Foot>& feet) const
+{
+  Foot foot = blendFeet(feet, place, vertex.size, vertex.sides);
+  if (vertex.sides == 0)
+    return foot;
+  // Back and forth between the surface and the box until the place is on both.
+  constexpr int rounds = 5;
+  for (int round = 0; round < rounds; ++round) {
+    const Eigen::Vector3d kept = keepInBox(vertex, foot.place);
+    if (kept == foot.place)
+      break;
+    foot = blendFeet(feet, kept, vertex.size, vertex.sides);
+  }
+  foot.place = keepInBox(vertex, foot.place);
+  return foot;
 }
 
 void

@@ -249,6 +249,7 @@ makeGlobe(std::uint32_t n)
       mesh.triangles.push_back({here + j, there + j + 1, here + j + 1});
     }
   }
+  mesh.regions.assign(mesh.triangles.size(), surface_region);
   return mesh;
 }
 
@@ -268,7 +269,7 @@ TEST(Remesh, EvensOutAGlobe)
   EXPECT_EQ(0u, findPieces(mesh.triangles, mesh.vertices.size()).pieces[0].genus);
   double shortest = 9.0, longest = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
-    EXPECT_GT(mesh.agreementOf(triangle), 0.9);
+    EXPECT_GT(mesh.agreementOf(triangle, surface_region), 0.9);
     for (std::size_t i = 0; i < 3; ++i) {
       const double length = (mesh.vertices[triangle[i]].foot.place -
                              mesh.vertices[triangle[(i + 1) % 3]].foot.place)

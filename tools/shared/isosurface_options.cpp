@@ -12,7 +12,9 @@ IsosurfaceOptions::IsosurfaceOptions()
 }
 
 void
-IsosurfaceOptions::declareSamples(Options& options, bool automatic)
+IsosurfaceOptions::declareSamples(Options& options,
+                                  bool automatic,
+                                  const std::string& need)
 {
   options.group("Input");
   options.text("field",
@@ -29,13 +31,13 @@ IsosurfaceOptions::declareSamples(Options& options, bool automatic)
       options, "distances", automatic ? AutomaticScale::Field : AutomaticScale::None);
   input_files_.declare(options);
   options.group("Surface");
-  options.numbers(
-      "iso",
-      "v,...",
-      0,
-      parameters.isosurface.isovalues,
-      "isovalues (required), ranges as well: 0.1:0.1:0.6 from first to last "
-      "by a step, 0.01:1:5log five of them from 0.01 to 1");
+  options.numbers("iso",
+                  "v,...",
+                  0,
+                  parameters.isosurface.isovalues,
+                  "isovalues (" + need +
+                      "), ranges as well: 0.1:0.1:0.6 from first to last "
+                      "by a step, 0.01:1:5log five of them from 0.01 to 1");
   options.choice("outside",
                  parameters.isosurface.outside,
                  "the side normals point to: where values are lower or higher");

@@ -22,9 +22,14 @@ struct IsosurfaceOptions {
   IsosurfaceOptions();
 
   /** \brief -iso, -field, -where, -scale, -rotate, -xyz, -particles, -outside.
-   * \param automatic -scale finds factors, and there is -rotate */
+   *
+   * \param automatic -scale finds factors, and there is -rotate
+   *
+   * \param need when -iso is needed */
   void
-  declareSamples(Options& options, bool automatic = true);
+  declareSamples(Options& options,
+                 bool automatic = true,
+                 const std::string& need = "required");
 
   /** \brief -criterion, -interpolation. */
   void

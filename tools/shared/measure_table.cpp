@@ -45,6 +45,11 @@ std::string
 describeSize(const PieceMeasures& surface, std::int64_t pieces)
 {
   std::string text = "area " + describe(surface.area);
+  if (surface.cap_area > 0.0) {
+    std::ostringstream caps;
+    caps << " (caps " << surface.cap_area << ")";
+    text += caps.str();
+  }
   if (surface.rims == 0)
     text += ", volume " + describe(surface.volume);
   else
@@ -161,6 +166,10 @@ MeasureTable::addRow(const PieceMeasures& measures, double piece)
   put("genus", measures.genus ? static_cast<double>(*measures.genus) : none);
   putMeasure("area", measures.area);
   putMeasure("volume", measures.volume);
+  if (measures.triangles > 0) {
+    put("cap_area", measures.cap_area);
+    put("capped_volume", measures.capped_volume);
+  }
   for (int axis = 0; axis < 3; ++axis)
     put(axis_names[axis], measures.centroid[axis]);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -105,7 +105,7 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
 
 /** Triangles, pieces with their genus and rims, and the smallest angle. */
 Facts
-describeMesh(const pcl_uvol::IsosurfaceResult& result)
+describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
 {
   constexpr std::size_t most_shown = 6;
   std::ostringstream text;
@@ -127,12 +127,13 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result)
   std::ostringstream angle;
   angle.precision(3);
   angle << result.smallest_angle << " degrees";
-  return {{"pieces",
-           text.str(),
-           Fact::Members{{"isovalue", isovalues},
-                         {"triangles", triangles},
-                         {"genus", genus},
-                         {"rims", rims}}},
+  const Fact pieces("pieces",
+                    text.str(),
+                    Fact::Members{{"isovalue", isovalues},
+                                  {"triangles", triangles},
+                                  {"genus", genus},
+                                  {"rims", rims}});
+  return {is_measured ? pieces.withoutJson() : pieces,
           {"smallest angle", angle.str(), result.smallest_angle}};
 }
 
@@ -146,7 +147,8 @@ append(Facts& facts, const Facts& more)
 
 Facts
 describeSurface(const pcl_uvol::IsosurfaceResult& result,
-                const pcl_uvol::IsosurfacePipelineParameters& parameters)
+                const pcl_uvol::IsosurfacePipelineParameters& parameters,
+                bool is_measured)
 {
   const auto& isovalues = parameters.isosurface.isovalues;
   Facts facts = {
@@ -164,7 +166,7 @@ describeSurface(const pcl_uvol::IsosurfaceResult& result,
   if (result.gaps)
     facts.push_back(describeGaps(*result.gaps));
   if (parameters.mesh)
-    append(facts, describeMesh(result));
+    append(facts, describeMesh(result, is_measured));
   return facts;
 }
 

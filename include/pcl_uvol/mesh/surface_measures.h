@@ -81,9 +81,11 @@ struct PCL_UVOL_EXPORTS PieceMeasures {
   /** Handles, of several pieces together; none given for points. */
   std::optional<std::uint32_t> genus;
   Measure area;
+  double cap_area = 0.0; ///< of it, of the caps that close the surface
   /** Enclosed, negative for a piece that looks inwards, as the wall of a cavity does;
    * NaN where it is open. */
   Measure volume;
+  double capped_volume = 0.0; ///< of it, of pieces that caps close
   /** Centre and axes of the enclosed volume, or of the area where that is open or 0. @{
    */
   Eigen::Vector3d centroid;
@@ -137,8 +139,8 @@ struct PCL_UVOL_EXPORTS SurfaceFigures {
  * What lies inside is not looked at, and handles are not counted. A mesh is more
  * accurate.
  *
- * Where caps meet the surface, or one another, triangles cut the corner, which counts
- * as an error as well.
+ * Where a surface ends, or meets a cap, what its vertices may be off by along it counts
+ * as an error of the area.
  *
  * A field of the samples is integrated over the space inside as the sum over the
  * samples there of value times volume of the kd-tree's cell (thesis 2.2.1); where cells
