@@ -381,7 +381,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     return VoronoiGrid(*_run(_core.compute_voronoi, as_samples(points, fields), parameters, threads, progress))
 
 
-def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0):
+def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
 
     Returns
@@ -400,7 +400,8 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), threads=0):
     """
     samples = as_samples(points, fields)
     factors = _parameters.scale(scale) or _core.equalizing_scale(samples._dataset)
-    facts = _core.describe_places(samples._dataset, factors, _parameters.count(threads, "threads"))
+    with listening(progress) as listener:
+        facts = _core.describe_places(samples._dataset, factors, _parameters.count(threads, "threads"), listener)
     facts["points"] = len(samples)
     facts["fields"] = {}
     for name in samples.keys():

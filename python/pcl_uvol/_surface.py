@@ -143,10 +143,9 @@ class Mesh(Surface):
         """Figures of this mesh: see `Surface.measure`."""
         return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
 
-    def save(self, path, ascii=False):
+    def save(self, path, ascii=False, progress=None):
         """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
-        from . import _io
-        _io.write(os.fspath(path), self._dataset, self.triangles, bool(ascii), self._comments())
+        self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
         return f"{super()._describe()}, {len(self.triangles)} triangles"

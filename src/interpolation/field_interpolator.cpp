@@ -37,7 +37,8 @@ makeModel(const SampledFields& sampled,
           const std::vector<ValueFrame>& frames,
           const std::vector<std::string>& names,
           const CloudView& cloud,
-          unsigned threads)
+          unsigned threads,
+          Report& report)
 {
   switch (parameters.model) {
   case InterpolationModel::Nearest:
@@ -55,7 +56,8 @@ makeModel(const SampledFields& sampled,
         sampled,
         parameters.sph,
         readParticles(cloud, *sampled.samples, parameters.sph),
-        threads);
+        threads,
+        report);
   default:
     return std::make_unique<BlendedFits>(sampled, threads);
   }
@@ -123,7 +125,7 @@ struct FieldInterpolator::Group {
     std::vector<std::string> own_names;
     for (const std::size_t field : fields)
       own_names.push_back(names[field]);
-    model = makeModel(sampled, parameters, frames, own_names, cloud, threads);
+    model = makeModel(sampled, parameters, frames, own_names, cloud, threads, report);
   }
 
   /** Values into leaf order; a merged sample takes the lower median of its members'. */

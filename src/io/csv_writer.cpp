@@ -9,7 +9,10 @@ namespace pcl_uvol {
 namespace io {
 
 void
-writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
+writeCsv(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options)
 {
   const std::vector<Column> columns = findColumns(dataset, savedFields(dataset));
   OutputFile out(file, path);
@@ -20,6 +23,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
   const auto& cloud = dataset.cloud;
   const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
   const std::uint8_t* point = cloud.data.data();
+  WriteProgress progress(count, options);
   for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
     for (const auto& column : columns) {
       const std::size_t start = text.size();
@@ -30,6 +34,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
     }
     text.back() = '\n';
     out.flushFull();
+    progress.advance();
   }
   out.close();
 }

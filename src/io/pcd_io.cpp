@@ -381,13 +381,13 @@ makeHeader(const Fields& fields, std::uint64_t count, const SaveOptions& options
 } // namespace
 
 Dataset
-readPcd(const std::string& path)
+readPcd(const std::string& path, const ProgressCallback& progress)
 {
   auto cursor = std::make_unique<FileCursor>(path);
   const Header header = readHeader(*cursor, path);
   if (header.encoding == Encoding::Compressed)
     return makeDataset(readCompressed(cursor->getFile(), path, header), header.info);
-  return readWhole(makeSource(path, std::move(cursor), header));
+  return readWhole(makeSource(path, std::move(cursor), header), progress);
 }
 
 std::unique_ptr<RecordSource>
@@ -426,7 +426,7 @@ writePcd(const std::string& file,
       static_cast<std::size_t>(dataset.cloud.width) * dataset.cloud.height;
   OutputFile out(file, path);
   out.buffer() = makeHeader(fields, count, options);
-  writeRecords(out, dataset, findColumns(dataset, fields), options.ascii);
+  writeRecords(out, dataset, findColumns(dataset, fields), options);
   out.close();
 }
 

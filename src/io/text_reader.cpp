@@ -21,7 +21,8 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-constexpr double exact_integers = 0x1p53; ///< double holds the integers below
+constexpr std::size_t told_rows = 1u << 14; ///< between two looks at the progress
+constexpr double exact_integers = 0x1p53;   ///< double holds the integers below
 
 struct TextColumn {
   std::string name;
@@ -389,9 +390,17 @@ void
 TextTable::scan(bool keep)
 {
   cursor_->seek(start_);
+  Report report;
+  report.progress = options_.progress;
+  StepTimer step(report, "read", cursor_->left());
+  std::uint64_t left = cursor_->left();
   Cells cells;
   CoordinateRange::Point point{};
   for (; rows_.next(cells); ++count_) {
+    if (count_ % told_rows == 0) {
+      step.advance(left - cursor_->left());
+      left = cursor_->left();
+    }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       TextColumn& column = columns_[i];
       const double value = column.cell ? takeCell(column, cells[*column.cell]) : 0.0;

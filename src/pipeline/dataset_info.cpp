@@ -77,7 +77,10 @@ readFieldValues(const Dataset& dataset, const ScalarField& field)
 }
 
 PositionStatistics
-describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned threads)
+describePositions(const Dataset& dataset,
+                  const Eigen::Array3f& scale,
+                  unsigned threads,
+                  const ProgressCallback& progress)
 {
   const CloudView cloud = viewOf(dataset.cloud);
   PositionStatistics statistics;
@@ -91,6 +94,7 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
   if (finite.empty())
     return statistics;
   Report report;
+  report.progress = progress;
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), finite, toPosition(scale), threads, report);
   statistics.duplicates = report.getCount("duplicates");
@@ -111,6 +115,7 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
   if (positions.size() < 2)
     return statistics;
   std::vector<float> spacing(positions.size());
+  StepTimer step(report, "spacing", positions.size());
   parallelBlocks(
       positions.size(),
       block_samples,
@@ -126,6 +131,7 @@ describePositions(const Dataset& dataset, const Eigen::Array3f& scale, unsigned 
                                   positions[i][1] - other[1],
                                   positions[i][2] - other[2]);
         }
+        step.advance(end - begin);
       });
   std::sort(spacing.begin(), spacing.end());
   statistics.spacing_min = unit.toInput(spacing.front());

@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
 
 #include <array>
@@ -48,10 +49,12 @@ struct PositionStatistics {
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is
  * finite.
- * \param scale factors per axis; spacings are those of the stretched space */
+ * \param scale factors per axis; spacings are those of the stretched space
+ * \param progress told of "tree" and "spacing"; empty: nobody is told */
 PCL_UVOL_EXPORTS PositionStatistics
 describePositions(const Dataset& dataset,
                   const Eigen::Array3f& scale,
-                  unsigned threads);
+                  unsigned threads,
+                  const ProgressCallback& progress);
 
 } // namespace pcl_uvol

@@ -235,7 +235,7 @@ estimateSurfaceNormals(const CloudView& cloud,
                                         report);
   const NeighborGraph graph =
       findNeighbors(*samples, parameters.k, search, threads, report);
-  const StepTimer timer(report, "normals");
+  StepTimer step(report, "normals", samples->size() + indices.size());
   const Orientation orientation(
       cloud, parameters.view_point, samples->getUnit().factor);
   const std::vector<Eigen::Vector3f> sides =
@@ -248,6 +248,7 @@ estimateSurfaceNormals(const CloudView& cloud,
       findOwnSheet(sides, sample, graph[i], own_sheet);
       fits[i] = fitPlane(samples->getPositions(), sample, own_sheet);
     }
+    step.advance(end - begin);
   });
   const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -263,6 +264,7 @@ estimateSurfaceNormals(const CloudView& cloud,
       if (fits[sample].degenerate)
         ++degenerate;
     }
+    step.advance(end - begin);
   });
   report.count("degenerate_normals", degenerate);
   return normals;

@@ -131,8 +131,9 @@ load(const Case& data)
   pcl_uvol::LoadOptions options;
   options.xyz_columns = data.columns;
   auto samples = std::make_shared<Dataset>(pcl_uvol::loadDataset(path, options));
+  pcl_uvol::Report report;
   if (!data.where.empty())
-    pcl_uvol::selectRows(*samples, data.where);
+    pcl_uvol::selectRows(*samples, data.where, {}, report);
   if (data.by == "hole")
     pcl_uvol::setField(*samples, "hole", readNames(path));
   return samples;
