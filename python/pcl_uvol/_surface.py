@@ -256,10 +256,11 @@ def isosurface(points, fields=None, **options):
     interpolation : {"auto", "fit", "linear"}
         Isopoints on local polynomial fits, or along the edges between samples; "auto"
         decides for each point.
-    neighbors : {"kdtree", "voronoi"}
+    neighbors : {"kdtree", "voronoi", "exact"}
         Where neighbours are looked for; voronoi_cells along the longest side, 0: 4
-        samples to a cell.
-    criterion : {"kept", "all"}
+        samples to a cell; "exact": natural neighbours by their Voronoi cells, which
+        takes much longer, and goes with the criterion "none".
+    criterion : {"kept", "all", "none"}
         See the library's AngleCriterion.
     smooth : bool
         Smooth noisy or uneven samples by a level set first, with the weight `mu` of the

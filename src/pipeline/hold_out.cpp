@@ -2,6 +2,7 @@
 #include "pipeline/hold_out.h"
 
 #include "common/parallel.h"
+#include "common/progress_reminder.h"
 #include "common/scalar_field.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
@@ -269,15 +270,12 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
 
   std::vector<std::vector<HeldOutSample>> told(isosurface.isovalues.size());
   StepTimer step(report, "validation", folds.size());
-  std::size_t fold = 0;
   ProgressCallback tell; // steps of a fold count as none of their own
+  ProgressReminder reminder(report.progress, "validation");
   if (report.progress)
-    tell = [&](const std::string&, double) {
-      report.progress("validation",
-                      static_cast<double>(fold) / static_cast<double>(folds.size()));
-    };
+    tell = [&](const std::string&, double) { reminder.remind(); };
   pipeline.setProgressCallback(tell);
-  for (; fold < folds.size(); ++fold) {
+  for (std::size_t fold = 0; fold < folds.size(); ++fold) {
     const Division division = divide(measured, folds, fold);
     if (division.left_out.empty())
       continue;
@@ -307,6 +305,7 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
                      });
     }
     step.advance(1);
+    reminder.setDone(static_cast<double>(fold + 1) / static_cast<double>(folds.size()));
   }
   return told;
 }
