@@ -227,7 +227,8 @@ addPositions(const std::string& path,
              Facts& facts,
              Report& report)
 {
-  const auto positions = pcl_uvol::describePositions(dataset, stretch, threads);
+  const auto positions =
+      pcl_uvol::describePositions(dataset, stretch, threads, report.progress);
   report.warnings.insert(
       report.warnings.end(), positions.warnings.begin(), positions.warnings.end());
   if (positions.non_finite == dataset.cloud.width)
@@ -284,7 +285,7 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
   report.warnings = dataset.notes;
   if (!arguments.where.empty())
     report.count("removed_by_where",
-                 pcl_uvol::selectRows(dataset, arguments.where, {threads, ""}));
+                 pcl_uvol::selectRows(dataset, arguments.where, {threads, ""}, report));
   auto fields = dataset.cloud.fields;
   if (!dataset.has_coordinates) // x, y and z stand in front of those of the file
     fields.erase(fields.begin(), fields.begin() + 3);

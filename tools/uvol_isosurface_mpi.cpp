@@ -98,7 +98,7 @@ load(Arguments& arguments,
   report.count("points", part.cloud.width);
   if (!arguments.where.empty())
     report.count("removed_by_where",
-                 pcl_uvol::selectRows(part, arguments.where, options));
+                 pcl_uvol::selectRows(part, arguments.where, options, report));
   std::vector<std::uint64_t> left{part.cloud.width};
   communicator.allReduce(left);
   if (left[0] == 0)

@@ -4,10 +4,11 @@
 import os
 
 from . import _report
+from ._progress import listening
 from ._samples import Samples
 
 
-def read(path, xyz=("", "", ""), particles=""):
+def read(path, xyz=("", "", ""), particles="", progress=None):
     """Read samples from a file, as the tools do.
 
     Parameters
@@ -22,6 +23,8 @@ def read(path, xyz=("", "", ""), particles=""):
     particles : str
         Of a snapshot: gas, dm, disk, bulge, stars, bh, or a number; by default gas, else
         the first kind there is.
+    progress : bool or callable, optional
+        See `isosurface`; files of VTK tell none.
 
     Returns
     -------
@@ -36,12 +39,13 @@ def read(path, xyz=("", "", ""), particles=""):
     columns = [str(column) for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
-    dataset = _io.read(os.fspath(path), columns, str(particles))
+    with listening(progress) as listener:
+        dataset = _io.read(os.fspath(path), columns, str(particles), listener)
     _report.tell(dataset.notes)
     return Samples._of(dataset)
 
 
-def write(path, points, fields=None, ascii=False):
+def write(path, points, fields=None, ascii=False, progress=None):
     """Write samples, a surface or a mesh to a file: their `save`.
 
     Parameters
@@ -51,10 +55,12 @@ def write(path, points, fields=None, ascii=False):
         As those of `Samples`, or something that has `save`.
     ascii : bool
         PCD and PLY as text.
+    progress : bool or callable, optional
+        See `isosurface`; told where points are written as text.
     """
     if not hasattr(points, "save"):
         points = Samples(points, fields)
-    points.save(path, ascii=ascii)
+    points.save(path, ascii=ascii, progress=progress)
 
 
 def read_mesh(path):

@@ -8,6 +8,7 @@ import numpy as np
 from . import _arrays, _core
 from ._bridges import Bridges
 from ._errors import FieldError
+from ._progress import listening
 
 
 class Points(Bridges):
@@ -94,7 +95,7 @@ class Points(Bridges):
             return self._dataset.read_scalar(name)
         raise FieldError(describe_missing(name, self.keys()))
 
-    def save(self, path, ascii=False):
+    def save(self, path, ascii=False, progress=None):
         """Write a file as the tools do: pcd, ply, vtp or csv, by the ending of its name.
 
         Parameters
@@ -102,9 +103,15 @@ class Points(Bridges):
         path : str or os.PathLike
         ascii : bool
             PCD and PLY as text.
+        progress : bool or callable, optional
+            See `isosurface`; told where points are written as text.
         """
+        self._save(path, np.empty((0, 3), np.uint32), ascii, progress)
+
+    def _save(self, path, triangles, ascii, progress):
         from . import _io
-        _io.write(os.fspath(path), self._dataset, np.empty((0, 3), np.uint32), bool(ascii), self._comments())
+        with listening(progress) as listener:
+            _io.write(os.fspath(path), self._dataset, triangles, bool(ascii), self._comments(), listener)
 
     def _comments(self):
         """Lines for files that have comments."""

@@ -164,14 +164,16 @@ class Samples(Drawable, Points):
                 str(field), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
         return Samples._of(dataset)
 
-    def where(self, expression, threads=0):
+    def where(self, expression, threads=0, progress=None):
         """The samples for which an expression holds, as `T > 4 && depth < 100`.
 
         Returns
         -------
         Samples
         """
-        return Samples._of(self._dataset.select(str(expression), _parameters.count(threads, "threads"))[0])
+        with listening(progress) as listener:
+            dataset, _ = self._dataset.select(str(expression), _parameters.count(threads, "threads"), listener)
+        return Samples._of(dataset)
 
     def take(self, indices):
         """The samples of some indices, or of a mask.

@@ -386,7 +386,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     return VoronoiGrid(*_run(_core.compute_voronoi, as_samples(points, fields), parameters, threads, progress))
 
 
-def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0):
+def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
 
     Returns
@@ -405,8 +405,9 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0):
     """
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
-    facts = _core.describe_places(samples._dataset, stretch.resolve(samples._dataset), stretch.rotation,
-                                  _parameters.count(threads, "threads"))
+    with listening(progress) as listener:
+        facts = _core.describe_places(samples._dataset, stretch.resolve(samples._dataset), stretch.rotation,
+                                      _parameters.count(threads, "threads"), listener)
     facts["points"] = len(samples)
     facts["fields"] = {}
     for name in samples.keys():

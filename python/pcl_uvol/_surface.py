@@ -143,10 +143,9 @@ class Mesh(Surface):
         """Figures of this mesh: see `Surface.measure`."""
         return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
 
-    def save(self, path, ascii=False):
+    def save(self, path, ascii=False, progress=None):
         """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
-        from . import _io
-        _io.write(os.fspath(path), self._dataset, self.triangles, bool(ascii), self._comments())
+        self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
         return f"{super()._describe()}, {len(self.triangles)} triangles"
@@ -267,10 +266,11 @@ def isosurface(points, fields=None, **options):
     interpolation : {"auto", "fit", "linear"}
         Isopoints on local polynomial fits, or along the edges between samples; "auto"
         decides for each point.
-    neighbors : {"kdtree", "voronoi"}
+    neighbors : {"kdtree", "voronoi", "exact"}
         Where neighbours are looked for; voronoi_cells along the longest side, 0: 4
-        samples to a cell.
-    criterion : {"kept", "all"}
+        samples to a cell; "exact": natural neighbours by their Voronoi cells, which
+        takes much longer, and goes with the criterion "none".
+    criterion : {"kept", "all", "none"}
         See the library's AngleCriterion.
     smooth : bool
         Smooth noisy or uneven samples by a level set first, with the weight `mu` of the

@@ -131,7 +131,8 @@ addDerivedField(Dataset& dataset,
 std::size_t
 selectRows(Dataset& dataset,
            const std::string& where,
-           const DerivedFieldOptions& options)
+           const DerivedFieldOptions& options,
+           Report& report)
 {
   const std::string text(trimmed(where));
   const Formula formula = parseFormula(dataset, text);
@@ -140,7 +141,6 @@ selectRows(Dataset& dataset,
                           " is no comparison: write one of =, !=, <, <=, >, >= between "
                           "two fields or numbers, as in T>=4.");
   std::uint64_t undefined = 0;
-  Report report;
   return keepRows(
       dataset.cloud,
       computeColumn(

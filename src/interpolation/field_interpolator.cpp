@@ -38,7 +38,8 @@ makeModel(const SampledFields& sampled,
           const std::vector<ValueFrame>& frames,
           const std::vector<std::string>& names,
           const CloudView& cloud,
-          unsigned threads)
+          unsigned threads,
+          Report& report)
 {
   switch (parameters.model) {
   case InterpolationModel::Nearest:
@@ -56,7 +57,8 @@ makeModel(const SampledFields& sampled,
         sampled,
         parameters.sph,
         readParticles(cloud, *sampled.samples, parameters.sph),
-        threads);
+        threads,
+        report);
   default:
     return std::make_unique<BlendedFits>(sampled, threads);
   }
@@ -125,7 +127,7 @@ struct FieldInterpolator::Group {
     std::vector<std::string> own_names;
     for (const std::size_t field : fields)
       own_names.push_back(names[field]);
-    model = makeModel(sampled, parameters, frames, own_names, cloud, threads);
+    model = makeModel(sampled, parameters, frames, own_names, cloud, threads, report);
   }
 
   /** Values into leaf order; a merged sample takes the lower median of its members'. */

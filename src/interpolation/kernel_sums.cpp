@@ -173,14 +173,16 @@ readParticles(const CloudView& cloud,
 KernelSums::KernelSums(const SampledFields& sampled,
                        const SphParameters& parameters,
                        Particles particles,
-                       unsigned threads)
+                       unsigned threads,
+                       Report& report)
     : sampled_(sampled)
     , parameters_(parameters)
     , kernel_(smoothingKernel(parameters.kernel))
     , sparse_(sparseSamples(*sampled.samples))
     , lengths_(std::move(particles.lengths))
 {
-  completeLengths(threads);
+  StepTimer step(report, "density", 2 * sampled.samples->size());
+  completeLengths(threads, step);
   balls_.emplace(
       *sampled.samples,
       [this](const BallTree::Bucket& bucket) {
@@ -189,11 +191,11 @@ KernelSums::KernelSums(const SampledFields& sampled,
                                  lengths_.begin() + bucket.begin + bucket.count);
       },
       threads);
-  setVolumes(particles, threads);
+  setVolumes(particles, threads, step);
 }
 
 void
-KernelSums::completeLengths(unsigned threads)
+KernelSums::completeLengths(unsigned threads, StepTimer& step)
 {
   const SampleSet& samples = *sampled_.samples;
   lengths_.resize(samples.size(), 0.0);
@@ -210,11 +212,12 @@ KernelSums::completeLengths(unsigned threads)
         reach = 1.0f;
       lengths_[i] = static_cast<double>(reach) / kernel_.reach;
     }
+    step.advance(end - begin);
   });
 }
 
 void
-KernelSums::setVolumes(const Particles& particles, unsigned threads)
+KernelSums::setVolumes(const Particles& particles, unsigned threads, StepTimer& step)
 {
   const SampleSet& samples = *sampled_.samples;
   volumes_.resize(samples.size());
@@ -256,6 +259,7 @@ KernelSums::setVolumes(const Particles& particles, unsigned threads)
       }
       volumes_[i] = massOf(i) * power(lengths_[i], 3) / density;
     }
+    step.advance(end - begin);
   });
 }
 

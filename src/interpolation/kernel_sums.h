@@ -41,13 +41,15 @@ readParticles(const CloudView& cloud,
 /** \brief The sum over particles j of V_j f_j W(|x - x_j|, h_j), V_j = m_j / rho_j; by
  * default divided by the same sum of ones. The standard error is the weighted standard
  * deviation of the values. Beyond all kernels the sum is 0, and a quotient the value of
- * the nearest particle. Memory: 40 bytes per particle. */
+ * the nearest particle. Memory: 40 bytes per particle. The time and progress of making
+ * it are those of "density". */
 class KernelSums : public FieldModel {
 public:
   KernelSums(const SampledFields& sampled,
              const SphParameters& parameters,
              Particles particles,
-             unsigned threads);
+             unsigned threads,
+             Report& report);
 
   void
   evaluate(const Query* queries,
@@ -63,10 +65,10 @@ public:
 
 private:
   void
-  completeLengths(unsigned threads);
+  completeLengths(unsigned threads, StepTimer& step);
 
   void
-  setVolumes(const Particles& particles, unsigned threads);
+  setVolumes(const Particles& particles, unsigned threads, StepTimer& step);
 
   const SampledFields& sampled_;
   SphParameters parameters_;

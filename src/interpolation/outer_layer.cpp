@@ -50,8 +50,9 @@ listDirections()
 }
 
 std::vector<Outer>
-findOuter(const SampleSet& samples, unsigned threads)
+findOuter(const SampleSet& samples, unsigned threads, Report& report)
 {
+  StepTimer step(report, "outer_layer", samples.size());
   const std::vector<Position> directions = listDirections();
   return parallelGather<Outer>(
       samples.size(),
@@ -80,6 +81,7 @@ findOuter(const SampleSet& samples, unsigned threads)
               found.push_back(outer);
           }
         }
+        step.advance(end - begin);
       });
 }
 
@@ -107,13 +109,14 @@ addOuterLayer(Dataset& dataset,
   const CloudView cloud = viewOf(dataset.cloud);
   std::vector<std::uint32_t> use(cloud.count);
   std::iota(use.begin(), use.end(), 0u);
-  Report own;
+  Report own; // the samples are counted by whoever uses them
+  own.progress = report.progress;
   const auto samples = SampleSet::build(
       cloud.xyz(0), cloud.stride(), use, Position{{1.0f, 1.0f, 1.0f}}, threads, own);
   if (samples->size() <= empty_neighbors)
     throw InvalidArgument("A value outside needs more than " +
                           std::to_string(empty_neighbors) + " distinct samples.");
-  const std::vector<Outer> outer = findOuter(*samples, threads);
+  const std::vector<Outer> outer = findOuter(*samples, threads, report);
   const std::size_t step = dataset.cloud.point_step, before = dataset.cloud.width;
   checkSize(before + outer.size(), step);
   const pcl::PCLPointField layout = *stored;

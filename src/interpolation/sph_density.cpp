@@ -95,7 +95,7 @@ computeSphDensity(const CloudView& cloud,
                            cloud.point(static_cast<std::size_t>(member)));
   }
   const std::vector<double> masses = particles.masses;
-  const detail::KernelSums sums(sampled, own, std::move(particles), threads);
+  const detail::KernelSums sums(sampled, own, std::move(particles), threads, report);
   const double volume = factor * factor * factor; // of the input's unit
   std::vector<double> densities(cloud.count, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < samples.size(); ++i)

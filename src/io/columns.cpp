@@ -147,19 +147,20 @@ void
 writeRecords(OutputFile& file,
              const Dataset& dataset,
              const std::vector<Column>& columns,
-             bool ascii)
+             const SaveOptions& options)
 {
   const auto& cloud = dataset.cloud;
   const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
   const RecordPacker packer(columns);
-  if (!ascii && packer.isIdentity(cloud.point_step)) {
+  if (!options.ascii && packer.isIdentity(cloud.point_step)) {
     file.write(cloud.data.data(), count * cloud.point_step);
     return;
   }
   std::string& buffer = file.buffer();
   const std::uint8_t* point = cloud.data.data();
+  WriteProgress progress(count, options);
   for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
-    if (ascii) {
+    if (options.ascii) {
       for (const Column& column : columns) {
         appendNumber(buffer, column, point);
         buffer += ' ';
@@ -172,6 +173,7 @@ writeRecords(OutputFile& file,
       packer.pack(point, reinterpret_cast<std::uint8_t*>(buffer.data()) + start);
     }
     file.flushFull();
+    progress.advance();
   }
 }
 

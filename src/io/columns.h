@@ -3,6 +3,8 @@
 #pragma once
 
 #include "common/records.h"
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/io/dataset.h>
 
 namespace pcl_uvol {
 namespace io {
@@ -18,6 +20,29 @@ struct Column {
   double addend;
   const std::vector<std::string>* labels =
       nullptr; ///< names that the numbers stand for
+};
+
+/** \brief Tells of points that are written, one after another. */
+class WriteProgress {
+public:
+  WriteProgress(std::size_t count, const SaveOptions& options)
+      : report_{{}, {}, {}, options.progress}
+      , step_(report_, "write", count)
+  {
+  }
+
+  void
+  advance()
+  {
+    constexpr std::size_t together = 1u << 14;
+    if (++written_ % together == 0)
+      step_.advance(together);
+  }
+
+private:
+  Report report_;
+  StepTimer step_;
+  std::size_t written_ = 0;
 };
 
 /** \brief The numbers of savedFields(); components are called name_0, name_1, ... */
@@ -40,13 +65,13 @@ packRecords(const Dataset& dataset,
             std::size_t first,
             std::size_t count);
 
-/** \brief Write the columns of every point: a line of numbers between blanks, or
- * their bytes one behind the other. */
+/** \brief Write the columns of every point: as text a line of numbers between blanks,
+ * else their bytes one behind the other. */
 void
 writeRecords(OutputFile& file,
              const Dataset& dataset,
              const std::vector<Column>& columns,
-             bool ascii);
+             const SaveOptions& options);
 
 } // namespace io
 } // namespace pcl_uvol

@@ -26,7 +26,10 @@ appendCell(std::string& text, const Column& column, const std::uint8_t* point)
 } // namespace
 
 void
-writeCsv(const std::string& file, const std::string& path, const Dataset& dataset)
+writeCsv(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options)
 {
   const std::vector<Column> columns = findColumns(dataset, savedFields(dataset));
   OutputFile out(file, path);
@@ -37,6 +40,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
   const auto& cloud = dataset.cloud;
   const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
   const std::uint8_t* point = cloud.data.data();
+  WriteProgress progress(count, options);
   for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
     for (const auto& column : columns) {
       appendCell(text, column, point);
@@ -44,6 +48,7 @@ writeCsv(const std::string& file, const std::string& path, const Dataset& datase
     }
     text.back() = '\n';
     out.flushFull();
+    progress.advance();
   }
   out.close();
 }

@@ -64,13 +64,13 @@ loadDataset(const std::string& path, const LoadOptions& options)
   return io::reading(path, [&] {
     switch (format) {
     case io::FileFormat::Pcd:
-      return io::readPcd(path);
+      return io::readPcd(path, options.progress);
     case io::FileFormat::Text:
       return io::readText(path, options);
     case io::FileFormat::Vtk:
       return io::readVtk(path);
     default:
-      return io::readWhole(io::openRecords(path, format, options));
+      return io::readWhole(io::openRecords(path, format, options), options.progress);
     }
   });
 }
@@ -90,7 +90,7 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
     else if (ending == ".npz")
       io::writeNpz(file, path, dataset);
     else
-      io::writeCsv(file, path, dataset);
+      io::writeCsv(file, path, dataset, options);
   });
 }
 

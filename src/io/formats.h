@@ -62,7 +62,7 @@ throwNoStream(const std::string& path, const std::string& what);
 
 /** Readers of whole files. @{ */
 Dataset
-readPcd(const std::string& path);
+readPcd(const std::string& path, const ProgressCallback& progress);
 
 /** \brief Vertices, and faces as fans of triangles. */
 struct LoadedMesh {
@@ -180,7 +180,10 @@ writePly(const std::string& file,
          const SaveOptions& options);
 
 void
-writeCsv(const std::string& file, const std::string& path, const Dataset& dataset);
+writeCsv(const std::string& file,
+         const std::string& path,
+         const Dataset& dataset,
+         const SaveOptions& options);
 
 /** \brief An array per field. */
 void

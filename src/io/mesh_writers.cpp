@@ -35,11 +35,13 @@ void
 writeLines(OutputFile& out,
            const Dataset& dataset,
            const std::vector<Column>& columns,
-           const char* word)
+           const char* word,
+           const SaveOptions& options)
 {
   const auto& cloud = dataset.cloud;
   const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
   const std::uint8_t* point = cloud.data.data();
+  WriteProgress progress(count, options);
   for (std::size_t i = 0; i < count; ++i, point += cloud.point_step) {
     std::string& text = out.buffer();
     text += word;
@@ -49,6 +51,7 @@ writeLines(OutputFile& out,
     }
     text.back() = '\n';
     out.flushFull();
+    progress.advance();
   }
 }
 
@@ -78,12 +81,12 @@ writeObj(const std::string& file,
 {
   OutputFile out(file, path);
   writeComments(out, options);
-  writeLines(out, vertices, positionColumns(vertices), "v ");
+  writeLines(out, vertices, positionColumns(vertices), "v ", options);
   const std::vector<Column> normals =
       chooseColumns(findColumns(vertices, savedFields(vertices)),
                     {"normal_x", "normal_y", "normal_z"});
   if (!normals.empty())
-    writeLines(out, vertices, normals, "vn ");
+    writeLines(out, vertices, normals, "vn ", options);
   for (const Triangle& triangle : triangles) {
     std::string& text = out.buffer();
     text += 'f';
@@ -111,7 +114,7 @@ writeOff(const std::string& file,
   writeComments(out, options);
   out.buffer() += std::to_string(vertices.cloud.width) + ' ' +
                   std::to_string(triangles.size()) + " 0\n";
-  writeLines(out, vertices, positionColumns(vertices), "");
+  writeLines(out, vertices, positionColumns(vertices), "", options);
   for (const Triangle& triangle : triangles) {
     out.buffer() += "3 " + std::to_string(triangle[0]) + ' ' +
                     std::to_string(triangle[1]) + ' ' + std::to_string(triangle[2]) +

@@ -391,13 +391,13 @@ makeHeader(const Dataset& dataset, const Fields& fields, const SaveOptions& opti
 } // namespace
 
 Dataset
-readPcd(const std::string& path)
+readPcd(const std::string& path, const ProgressCallback& progress)
 {
   auto cursor = std::make_unique<FileCursor>(path);
   const Header header = readHeader(*cursor, path);
   if (header.encoding == Encoding::Compressed)
     return makeDataset(readCompressed(cursor->getFile(), path, header), header.info);
-  return readWhole(makeSource(path, std::move(cursor), header));
+  return readWhole(makeSource(path, std::move(cursor), header), progress);
 }
 
 std::unique_ptr<RecordSource>
@@ -434,7 +434,7 @@ writePcd(const std::string& file,
       field.datatype = Type::UINT32;
   OutputFile out(file, path);
   out.buffer() = makeHeader(dataset, fields, options);
-  writeRecords(out, dataset, findColumns(dataset, fields), options.ascii);
+  writeRecords(out, dataset, findColumns(dataset, fields), options);
   out.close();
 }
 

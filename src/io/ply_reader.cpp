@@ -542,7 +542,7 @@ LoadedMesh
 readPlyMesh(const std::string& path)
 {
   FileCursor::Place behind_vertices;
-  LoadedMesh mesh{readWhole(openPly(path), &behind_vertices), {}};
+  LoadedMesh mesh{readWhole(openPly(path), nullptr, &behind_vertices), {}};
   FileCursor cursor(path);
   Header header;
   const Element* const face =

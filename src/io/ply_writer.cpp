@@ -144,7 +144,7 @@ writePly(const std::string& file,
     header += "element face " + std::to_string(triangles.size()) +
               "\nproperty list uchar int vertex_indices\n";
   header += "end_header\n";
-  writeRecords(out, dataset, columns, options.ascii);
+  writeRecords(out, dataset, columns, options);
   writeFaces(out, triangles, options.ascii);
   out.close();
 }

@@ -16,6 +16,8 @@ namespace {
 constexpr std::uint64_t mark_spacing = 1u << 14;
 /** Records that are handled again while they are in the cache. */
 constexpr std::size_t cached_bytes = std::size_t(1) << 18;
+/** Records between two looks at the progress: text takes milliseconds. */
+constexpr std::size_t told_records = 1u << 14;
 
 void
 swapBytes(const Fields& fields, std::size_t step, std::uint8_t* at, std::size_t count)
@@ -165,8 +167,35 @@ PointReader::read(std::size_t count, std::uint8_t* points)
   });
 }
 
+namespace {
+
+/** Read as many points or records as a cloud has.
+ * \param source PointReader or RecordSource */
+template <typename Source>
+void
+readInParts(Source& source,
+            std::size_t count,
+            const ProgressCallback& progress,
+            pcl::PCLPointCloud2& cloud)
+{
+  Report report;
+  report.progress = progress;
+  StepTimer step(report, "read", count);
+  std::size_t done = 0;
+  do { // at the end, too, where sources look at what follows
+    const std::size_t now = std::min(told_records, count - done);
+    source.read(now, cloud.data.data() + done * cloud.point_step);
+    done += now;
+    step.advance(now);
+  } while (done < count);
+}
+
+} // namespace
+
 Dataset
-readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end)
+readWhole(std::unique_ptr<RecordSource> source,
+          const ProgressCallback& progress,
+          FileCursor::Place* end)
 {
   PointReader reader(std::move(source));
   const RecordInfo& info = reader.getSource().getInfo();
@@ -174,7 +203,7 @@ readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end)
   if (reader.getLayout().needsOrigin()) {
     // Reading twice would take longer than all records take memory.
     auto records = makeRecords(info.fields, count);
-    reader.getSource().read(count, records.data.data());
+    readInParts(reader.getSource(), count, progress, records);
     if (end)
       *end = reader.getSource().tellEnd();
     return makeDataset(std::move(records), info);
@@ -182,7 +211,7 @@ readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end)
   Dataset dataset = reader.getLayout().getHeader();
   checkSize(count, dataset.cloud.point_step);
   resizePoints(dataset.cloud, count);
-  reader.read(count, dataset.cloud.data.data());
+  readInParts(reader, count, progress, dataset.cloud);
   if (end)
     *end = reader.getSource().tellEnd();
   return dataset;

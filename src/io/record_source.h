@@ -4,6 +4,7 @@
 
 #include "common/records.h"
 #include "io/file_cursor.h"
+#include <pcl_uvol/common/report.h>
 
 #include <memory>
 
@@ -195,11 +196,14 @@ private:
 
 /** \brief The dataset of all the records of a source.
  * \param[out] end gets what follows them in the file
+ * \param progress told of "read"; empty: nobody is
  * \throws IOError
  * \throws InvalidArgument without x, y, z, for a coordinate beyond float, and for more
  * points than PCL can number */
 Dataset
-readWhole(std::unique_ptr<RecordSource> source, FileCursor::Place* end = nullptr);
+readWhole(std::unique_ptr<RecordSource> source,
+          const ProgressCallback& progress,
+          FileCursor::Place* end = nullptr);
 
 } // namespace io
 } // namespace pcl_uvol

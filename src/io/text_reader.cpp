@@ -22,6 +22,7 @@ using Type = pcl::PCLPointField;
 
 /** Names of a column that are kept: beyond it they rather describe single rows. */
 constexpr std::size_t most_names = 1u << 16;
+constexpr std::size_t told_rows = 1u << 14; ///< between two looks at the progress
 
 /** A table whose header was read. */
 class TextTable {
@@ -300,9 +301,17 @@ void
 TextTable::scan(bool keep)
 {
   cursor_->seek(start_);
+  Report report;
+  report.progress = options_.progress;
+  StepTimer step(report, "read", cursor_->left());
+  std::uint64_t left = cursor_->left();
   Cells cells;
   CoordinateRange::Point point{};
   for (; rows_.next(cells); ++count_) {
+    if (count_ % told_rows == 0) {
+      step.advance(left - cursor_->left());
+      left = cursor_->left();
+    }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       TextColumn& column = columns_[i];
       const double value =

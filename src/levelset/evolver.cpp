@@ -263,7 +263,7 @@ Evolver::averageTwice(const std::vector<float>& values,
 }
 
 void
-Evolver::advanceByClasses()
+Evolver::advanceByClasses(ProgressReminder* reminder)
 {
   forCenters([&](std::size_t i) { start_[i] = phi_[i]; });
   const std::size_t ticks = std::size_t{1} << (classes_.size() - 1);
@@ -276,6 +276,8 @@ Evolver::advanceByClasses()
     const auto time = static_cast<float>(tick) / static_cast<float>(ticks);
     evaluate(groups, time, 1.0);
     commit(groups, time);
+    if (reminder)
+      reminder->remind();
   }
   forCenters([&](std::size_t i) {
     phi_[i] += rate_[i];
@@ -284,7 +286,7 @@ Evolver::advanceByClasses()
 }
 
 LevelSetStep
-Evolver::advance()
+Evolver::advance(ProgressReminder* reminder)
 {
   updateReference();
   if (parameters_.reinitialization == Reinitialization::Diffusion)
@@ -297,7 +299,7 @@ Evolver::advance()
     });
   }
   else
-    advanceByClasses();
+    advanceByClasses(reminder);
   ++steps_;
   return summarize();
 }

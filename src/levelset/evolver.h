@@ -2,6 +2,7 @@
 // Time integration of the level-set equation on a band (thesis 3.5).
 #pragma once
 
+#include "common/progress_reminder.h"
 #include "levelset/band.h"
 #include "levelset/data_term.h"
 #include "levelset/evolution_kernel.h"
@@ -50,9 +51,10 @@ public:
   }
 
   /** \brief Advance all samples by getStep(). Returns what changed; time and
-   * reinitialized are the caller's. */
+   * reinitialized are the caller's. \param reminder of the step that this is a part of;
+   * null: there is none */
   LevelSetStep
-  advance();
+  advance(ProgressReminder* reminder = nullptr);
 
   /** \brief phi by place. */
   const std::vector<float>&
@@ -82,7 +84,7 @@ private:
   updateReference();
 
   void
-  advanceByClasses();
+  advanceByClasses(ProgressReminder* reminder);
 
   /** Weighted means over the neighbours of the neighbours: about three spacings. More
    * would flatten what lies a few spacings from something else.

@@ -85,12 +85,14 @@ public:
   {
     {
       StepTimer timer(report_, "evolution", progress_parts);
+      ProgressReminder reminder(report_.progress, "evolution");
       std::uint64_t told = 0;
       for (std::size_t i = 0; i < parameters_.max_steps && !summary_.converged; ++i) {
-        advance();
+        advance(reminder);
         const std::uint64_t done = std::max(told, partsDone());
         timer.advance(done - told);
         told = done;
+        reminder.setDone(static_cast<double>(told) / progress_parts);
         if (snapshot_steps_ > 0 && summary_.steps.size() % snapshot_steps_ == 0)
           snapshot_(summary_, phiOfCloud(current()));
       }
@@ -244,9 +246,9 @@ private:
   }
 
   void
-  advance()
+  advance(ProgressReminder& reminder)
   {
-    LevelSetStep step = evolver_->advance();
+    LevelSetStep step = evolver_->advance(&reminder);
     report_.count("updates", evolver_->getUpdates());
     const double before = summary_.steps.empty() ? 0.0 : summary_.steps.back().time;
     step.time = before + evolver_->getStep();

@@ -135,6 +135,36 @@ countWeights()
   return count;
 }
 
+/** Steps of all weights, of which each may take long. */
+class MuProgress {
+public:
+  MuProgress(Report& report, const std::string& step, std::size_t total)
+      : timer_(report, step, total)
+      , reminder_(report.progress, step)
+      , total_(total)
+  {
+  }
+
+  void
+  advance(std::size_t steps)
+  {
+    timer_.advance(steps);
+    done_ += steps;
+    reminder_.setDone(static_cast<double>(done_) / static_cast<double>(total_));
+  }
+
+  ProgressReminder&
+  getReminder()
+  {
+    return reminder_;
+  }
+
+private:
+  StepTimer timer_;
+  ProgressReminder reminder_;
+  std::size_t total_, done_ = 0;
+};
+
 /** The data and a copy with known noise on it, smoothed alike. */
 class Search {
 public:
@@ -144,7 +174,7 @@ public:
          const LevelSetParameters& parameters,
          double spacing,
          unsigned threads,
-         StepTimer& timer)
+         MuProgress& progress)
       : band_(band)
       , samples_(samples)
       , term_(term)
@@ -152,7 +182,7 @@ public:
       , parameters_(parameters)
       , spacing_(spacing)
       , threads_(threads)
-      , timer_(timer)
+      , progress_(progress)
       , shift_(static_cast<float>(level_set.probe_part * term.noise))
       , best_risk_(std::numeric_limits<double>::infinity())
   {
@@ -197,9 +227,9 @@ private:
     misses_ = 0;
     std::size_t step = 1;
     for (; !is_calm && misses_ < patience; ++step) {
-      timer_.advance(1);
-      const double change = evolver.advance().change;
-      other.advance();
+      progress_.advance(1);
+      const double change = evolver.advance(&progress_.getReminder()).change;
+      other.advance(&progress_.getReminder());
       stages_.back().time += evolver.getStep();
       // Not a number is no calm either, and ends the search.
       is_calm = !(change >= level_set.calm) || step == level_set.steps_of_weight;
@@ -209,7 +239,7 @@ private:
         start(evolver.getPhi());
       look(evolver.getPhi(), other.getPhi());
     }
-    timer_.advance(level_set.steps_of_weight + 1 - step);
+    progress_.advance(level_set.steps_of_weight + 1 - step);
     phi_ = evolver.getPhi();
     probed_ = other.getPhi();
   }
@@ -275,7 +305,7 @@ private:
   LevelSetParameters parameters_;
   double spacing_;
   unsigned threads_;
-  StepTimer& timer_;
+  MuProgress& progress_;
   float shift_;
   std::vector<float> phi_, probed_;
   std::vector<FitWeights> fits_;
@@ -297,10 +327,10 @@ chooseMu(const Band& band,
          unsigned threads,
          Report& report)
 {
-  StepTimer timer(report, "mu", countWeights() * level_set.steps_of_weight);
+  MuProgress progress(report, "mu", countWeights() * level_set.steps_of_weight);
   if (term.noise < level_set.invisible_noise * spacing)
     return {};
-  return Search(band, samples, term, parameters, spacing, threads, timer).run();
+  return Search(band, samples, term, parameters, spacing, threads, progress).run();
 }
 
 NoiseShares
@@ -313,10 +343,11 @@ measureShares(const Band& band,
               unsigned threads,
               Report& report)
 {
-  StepTimer timer(report, "shares", level_set.steps_of_weight);
+  MuProgress progress(report, "shares", level_set.steps_of_weight);
   if (term.noise < level_set.invisible_noise * spacing)
     return {};
-  return Search(band, samples, term, parameters, spacing, threads, timer).measure(mu);
+  return Search(band, samples, term, parameters, spacing, threads, progress)
+      .measure(mu);
 }
 
 } // namespace pcl_uvol

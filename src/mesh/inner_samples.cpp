@@ -42,6 +42,7 @@ std::vector<InnerPoint>
 findInner(const MeshColumns& columns,
           std::size_t count,
           unsigned threads,
+          StepTimer& step,
           const PlaceOf& place_of)
 {
   return parallelGather<
@@ -52,6 +53,7 @@ findInner(const MeshColumns& columns,
       for (const Winding& winding : around)
         found.push_back({static_cast<std::uint32_t>(i), winding.piece, winding.turns});
     }
+    step.advance(end - begin);
   });
 }
 
@@ -90,6 +92,7 @@ public:
   CellIntegrals(const MeshColumns& columns,
                 const CloudView& cloud,
                 unsigned threads,
+                StepTimer& step,
                 Report& report)
       : cloud_(cloud)
   {
@@ -103,7 +106,7 @@ public:
                                 report,
                                 SplitRule::LongestSide);
     volumes_ = computeCellVolumes(*samples_, threads);
-    inner_ = findInner(columns, samples_->size(), threads, [&](std::size_t i) {
+    inner_ = findInner(columns, samples_->size(), threads, step, [&](std::size_t i) {
       const float* const place = cloud.xyz(samples_->getInputIndex(i));
       return Eigen::Vector3d(place[0], place[1], place[2]);
     });
@@ -201,17 +204,18 @@ measureInside(const ClosedMesh& mesh,
               std::vector<PieceMeasures>& pieces,
               Report& report)
 {
-  const StepTimer timer(report, "inside");
+  const std::vector<std::string> names = listScalars(samples.fields);
+  StepTimer step(report, "inside", (2 + names.size()) * samples.count);
   const MeshColumns columns(mesh.places, mesh.triangles, mesh.piece_of);
   const std::vector<InnerPoint> inner =
-      findInner(columns, samples.count, threads, [&](std::size_t i) {
+      findInner(columns, samples.count, threads, step, [&](std::size_t i) {
         const float* const place = samples.xyz(i);
         return Eigen::Vector3d(place[0], place[1], place[2]);
       });
-  const CellIntegrals cells(columns, samples, threads, report);
+  const CellIntegrals cells(columns, samples, threads, step, report);
   for (const InnerPoint& point : inner)
     pieces[static_cast<std::size_t>(point.piece)].samples += point.turns;
-  for (const std::string& name : listScalars(samples.fields)) {
+  for (const std::string& name : names) {
     const ScalarField field(samples.fields, name);
     std::vector<double> at_surface, sums(pieces.size(), 0.0);
     for (const PieceMeasures& piece : pieces)
@@ -229,6 +233,7 @@ measureInside(const ClosedMesh& mesh,
       pieces[i].inside.push_back(
           {name, integral, integral.value / pieces[i].volume.value, sums[i]});
     }
+    step.advance(samples.count);
   }
   for (PieceMeasures& piece : pieces)
     if (piece.rims > 0)

@@ -131,8 +131,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>>
 findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       const std::vector<Triangle>& triangles,
                       const std::vector<double>& surface_of,
-                      unsigned threads)
+                      unsigned threads,
+                      Report& report)
 {
+  StepTimer step(report, "intersections", triangles.size());
   const auto areOfOne = [&](const Triangle& a, const Triangle& b) {
     return surface_of.empty() || surface_of[a[0]] == surface_of[b[0]];
   };
@@ -156,6 +158,7 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                 doIntersect(places, triangles[first], triangles[second]))
               pairs.emplace_back(first, second);
         }
+        step.advance(end - begin);
       });
 }
 
@@ -166,7 +169,6 @@ describeIntersections(const CloudView& vertices,
                       unsigned threads,
                       Report& report)
 {
-  const StepTimer timer(report, "intersections");
   std::vector<Eigen::Vector3d> places;
   std::vector<double> isovalues;
   const std::optional<ScalarField> isovalue = findScalar(vertices, "isovalue");
@@ -178,7 +180,7 @@ describeIntersections(const CloudView& vertices,
   }
   std::vector<TriangleIntersection> found;
   for (const auto& [first, second] :
-       findSelfIntersections(places, triangles, isovalues, threads)) {
+       findSelfIntersections(places, triangles, isovalues, threads, report)) {
     const auto& [a, b, c] = triangles[first];
     found.push_back({first,
                      second,

@@ -106,13 +106,16 @@ struct PCL_UVOL_EXPORTS PeriodicSamples {
  *
  * \param use samples that get images, and whose neighbours count
  *
+ * \param report gets the time and progress of "images"
+ *
  * \throws InvalidArgument as SampleSet::build */
 PCL_UVOL_EXPORTS PeriodicSamples
 addPeriodicImages(const Dataset& samples,
                   const std::vector<std::uint32_t>& use,
                   const PeriodicBox& box,
                   const PeriodicReach& reach,
-                  unsigned threads);
+                  unsigned threads,
+                  Report& report);
 
 /** \brief The samples that came in, at their own places, with the fields that have been
  * added since. */

@@ -174,7 +174,8 @@ measureNeed(const BoxedSamples& boxed,
             const std::vector<Image>& images,
             const PeriodicReach& how,
             double reach,
-            unsigned threads)
+            unsigned threads,
+            const ProgressCallback& progress)
 {
   std::vector<Position> places;
   places.reserve(use.size() + images.size());
@@ -184,10 +185,12 @@ measureNeed(const BoxedSamples& boxed,
     places.push_back(boxed.getPlace(image));
   std::vector<std::uint32_t> all(places.size());
   std::iota(all.begin(), all.end(), 0u);
-  Report own;
+  Report own; // of samples that others count as well
+  own.progress = progress;
   const auto set = SampleSet::build(places[0].x, 3, all, how.scale, threads, own);
   if (set->size() < how.neighbors)
     return std::numeric_limits<double>::infinity();
+  StepTimer step(own, "images", set->size());
   std::vector<double> needs((set->size() + block_samples - 1) / block_samples, 0.0);
   parallelBlocks(set->size(), block_samples, threads, [&](auto begin, auto end) {
     NearestFinder finder(*set, how.neighbors);
@@ -204,6 +207,7 @@ measureNeed(const BoxedSamples& boxed,
       need =
           std::max(need, set->getUnit().toInput(static_cast<double>(length)) - depth);
     }
+    step.advance(end - begin);
   });
   return *std::max_element(needs.begin(), needs.end());
 }
@@ -222,8 +226,10 @@ addPeriodicImages(const Dataset& samples,
                   const std::vector<std::uint32_t>& use,
                   const PeriodicBox& box,
                   const PeriodicReach& reach,
-                  unsigned threads)
+                  unsigned threads,
+                  Report& report)
 {
+  const StepTimer timer(report, "images");
   const BoxedSamples boxed(viewOf(samples.cloud), use, box, reach.scale);
   const double most = std::min({boxed.getSide(0), boxed.getSide(1), boxed.getSide(2)});
   PeriodicSamples result;
@@ -232,7 +238,8 @@ addPeriodicImages(const Dataset& samples,
       std::min(most, std::max(reach.least, reach.spacings * boxed.getSpacing()));
   std::vector<Image> images = boxed.findImages(result.reach, threads);
   while (result.reach < most && !use.empty()) {
-    const double need = measureNeed(boxed, use, images, reach, result.reach, threads);
+    const double need =
+        measureNeed(boxed, use, images, reach, result.reach, threads, report.progress);
     if (need <= result.reach)
       break;
     result.reach = std::min(most, more * need);

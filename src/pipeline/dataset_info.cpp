@@ -95,7 +95,8 @@ readFieldValues(const Dataset& dataset, const ScalarField& field)
 PositionStatistics
 describePositions(const Dataset& dataset,
                   const detail::Stretch& stretch,
-                  unsigned threads)
+                  unsigned threads,
+                  const ProgressCallback& progress)
 {
   const CloudView cloud = viewOf(dataset.cloud);
   PositionStatistics statistics;
@@ -104,6 +105,7 @@ describePositions(const Dataset& dataset,
   if (finite.empty())
     return statistics;
   Report report;
+  report.progress = progress;
   const CloudView turned = detail::StretchAxes(stretch.rotation).turn(cloud);
   const auto samples = SampleSet::build(turned.xyz(0),
                                         turned.stride(),
@@ -126,6 +128,7 @@ describePositions(const Dataset& dataset,
   if (positions.size() < 2)
     return statistics;
   std::vector<float> spacing(positions.size());
+  StepTimer step(report, "spacing", positions.size());
   parallelBlocks(
       positions.size(),
       block_samples,
@@ -141,6 +144,7 @@ describePositions(const Dataset& dataset,
                                   positions[i][1] - other[1],
                                   positions[i][2] - other[2]);
         }
+        step.advance(end - begin);
       });
   std::sort(spacing.begin(), spacing.end());
   statistics.spacing_min = unit.toInput(spacing.front());

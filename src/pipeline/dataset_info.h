@@ -6,6 +6,7 @@
 #include "common/stretch_axes.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
 
 #include <array>
@@ -49,11 +50,15 @@ struct PositionStatistics {
 
 /** \brief Bounds, duplicates and spacing; nothing but the count where no position is
  * finite.
- * \param stretch of the space that spacings are measured in */
+ *
+ * \param stretch of the space that spacings are measured in
+ *
+ * \param progress told of "tree" and "spacing"; empty: nobody is told */
 PCL_UVOL_EXPORTS PositionStatistics
 describePositions(const Dataset& dataset,
                   const detail::Stretch& stretch,
-                  unsigned threads);
+                  unsigned threads,
+                  const ProgressCallback& progress);
 
 /** \brief Add what the sampling is like around each point, see LocalSampling, to a
  * dataset with coordinates: the labels `local_dimension` (isolated, line, sheet,

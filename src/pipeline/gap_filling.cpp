@@ -169,6 +169,7 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   InterpolationParameters kriging = gapKriging(parameters);
   kriging.extrapolate = kriging.errors = true;
   Report own; // of samples that the extraction tells of as well
+  own.progress = report.progress;
   field_ = std::make_unique<FieldInterpolator>(
       viewOf(samples->cloud), use, kriging, threads, own);
   const Variogram variogram = *field_->findVariogram(0);
@@ -182,11 +183,12 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   extraction.setParameters(parameters);
   extraction.setInterpolation(Interpolation::Linear);
   extraction.setNumberOfThreads(threads);
+  extraction.setProgressCallback(report.progress);
   pcl::PointCloud<PointIso> roots;
   extraction.extract(roots);
   measured_ = extraction.getSamples();
   sampling_ = summarizeSampling(*measured_, threads);
-  findSpacing(roots, extraction.getEdges(), parameters, threads);
+  findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
   filled_ = samples;
   if (summary_.spacing > 0.0)
     predict(roots, parameters, threads, report);
@@ -218,12 +220,14 @@ void
 FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
                         const IsoEdges& edges,
                         const IsosurfaceParameters& parameters,
-                        unsigned threads)
+                        unsigned threads,
+                        const ProgressCallback& progress)
 {
   std::vector<Place> places;
   for (const PointIso& root : roots)
     places.push_back({root.x, root.y, root.z});
   Report own;
+  own.progress = progress;
   const auto support = field_->interpolate(places, threads, own).support;
   const auto thin = findThin(places, threads, nullptr);
   const CloudView cloud = viewOf(samples_->cloud);
@@ -259,6 +263,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
                     Report& report)
 {
   Report own;
+  own.progress = report.progress;
   std::vector<std::pair<LatticeNode, double>> nodes;
   for (bool is_complete = false; !is_complete;) {
     const Lattice lattice(summary_.spacing, parameters.scale, *measured_);

@@ -100,7 +100,8 @@ private:
   findSpacing(const pcl::PointCloud<PointIso>& roots,
               const IsoEdges& edges,
               const IsosurfaceParameters& parameters,
-              unsigned threads);
+              unsigned threads,
+              const ProgressCallback& progress);
 
   void
   predict(const pcl::PointCloud<PointIso>& roots,

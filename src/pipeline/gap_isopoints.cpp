@@ -115,6 +115,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
       }
   }
   Report own;
+  own.progress = report.progress;
   const InterpolatedFields field = field_->interpolate(places, threads, own);
   const auto thin = findThin(roots, threads, nullptr);
   const double variance = summary_.nugget + summary_.sill;

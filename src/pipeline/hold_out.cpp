@@ -2,6 +2,7 @@
 #include "pipeline/hold_out.h"
 
 #include "common/parallel.h"
+#include "common/progress_reminder.h"
 #include "common/scalar_field.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
@@ -124,7 +125,8 @@ std::vector<double>
 interpolateLeftOut(const CloudView& cloud,
                    const Division& division,
                    const IsosurfaceParameters& isosurface,
-                   unsigned threads)
+                   unsigned threads,
+                   const ProgressCallback& progress)
 {
   std::vector<std::array<double, 3>> places;
   for (const int index : division.left_out) {
@@ -132,6 +134,7 @@ interpolateLeftOut(const CloudView& cloud,
     places.push_back({xyz[0], xyz[1], xyz[2]});
   }
   Report report;
+  report.progress = progress;
   return detail::FieldInterpolator(
              cloud, division.rest, detail::gapKriging(isosurface), threads, report)
       .interpolate(places, threads, report)
@@ -144,9 +147,11 @@ public:
   Remaining(const CloudView& cloud,
             const Division& division,
             const Position& scale,
-            unsigned threads)
+            unsigned threads,
+            const ProgressCallback& progress)
   {
     Report report;
+    report.progress = progress;
     samples_ = SampleSet::build(cloud.xyz(0),
                                 cloud.stride(),
                                 {division.rest.begin(), division.rest.end()},
@@ -265,14 +270,20 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
 
   std::vector<std::vector<HeldOutSample>> told(isosurface.isovalues.size());
   StepTimer step(report, "validation", folds.size());
+  ProgressCallback tell; // steps of a fold count as none of their own
+  ProgressReminder reminder(report.progress, "validation");
+  if (report.progress)
+    tell = [&](const std::string&, double) { reminder.remind(); };
+  pipeline.setProgressCallback(tell);
   for (std::size_t fold = 0; fold < folds.size(); ++fold) {
     const Division division = divide(measured, folds, fold);
     if (division.left_out.empty())
       continue;
     pipeline.setIndices(std::make_shared<pcl::Indices>(division.rest));
     const auto surfaces = splitSurface(pipeline.run());
-    const auto interpolated = interpolateLeftOut(cloud, division, isosurface, threads);
-    const Remaining remaining(cloud, division, scale, threads);
+    const auto interpolated =
+        interpolateLeftOut(cloud, division, isosurface, threads, tell);
+    const Remaining remaining(cloud, division, scale, threads, tell);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       const double isovalue = isosurface.isovalues[i];
       const Sides sides(surfaces[i], scale, isosurface.outside, threads);
@@ -294,6 +305,7 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
                      });
     }
     step.advance(1);
+    reminder.setDone(static_cast<double>(fold + 1) / static_cast<double>(folds.size()));
   }
   return told;
 }

@@ -232,6 +232,7 @@ judgeSurface(const Surface& surface,
              std::size_t last,
              const pcl::PointCloud<PointIso>& isopoints,
              unsigned threads,
+             StepTimer& step,
              std::vector<std::uint8_t>& returns,
              std::vector<Eigen::Vector3f>& bisectors)
 {
@@ -252,6 +253,7 @@ judgeSurface(const Surface& surface,
                    static_cast<double>(as_it_is) +
                        least_gain * 2.0 * static_cast<double>(around.size());
     }
+    step.advance(end - begin);
   });
 }
 
@@ -313,6 +315,7 @@ returnDoubtful(const StretchedEdges& stretched,
                const IsoEdges& edges,
                const IsosurfacePipelineParameters& parameters,
                unsigned threads,
+               StepTimer& step,
                pcl::PointCloud<PointIso>& isopoints,
                IsopointChoice& choice)
 {
@@ -324,7 +327,7 @@ returnDoubtful(const StretchedEdges& stretched,
       ++last;
     const Surface surface(isopoints, first, last, stretched, parameters, threads);
     judgeSurface(
-        surface, stretched, first, last, isopoints, threads, returns, bisectors);
+        surface, stretched, first, last, isopoints, threads, step, returns, bisectors);
   }
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     if (returns[i] == 0)
@@ -354,7 +357,7 @@ chooseIsopoints(const CloudView& samples,
                 pcl::PointCloud<PointIso>& isopoints,
                 Report& report)
 {
-  const StepTimer timer(report, "normals");
+  StepTimer step(report, "normals", isopoints.size());
   const Interpolation interpolation = parameters.isosurface.interpolation;
   IsopointChoice choice;
   // Samples whose field made the isopoints are needed only where these may go back.
@@ -371,7 +374,7 @@ chooseIsopoints(const CloudView& samples,
   choice.orientation.resize(isopoints.size());
   orientIsopoints(parameters, threads, isopoints, choice, report);
   if (interpolation == Interpolation::Auto)
-    returnDoubtful(*stretched, edges, parameters, threads, isopoints, choice);
+    returnDoubtful(*stretched, edges, parameters, threads, step, isopoints, choice);
   return choice;
 }
 

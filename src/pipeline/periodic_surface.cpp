@@ -222,7 +222,8 @@ makeImages(const Dataset& samples,
            const pcl::IndicesPtr& use,
            const PeriodicBox& box,
            const IsosurfacePipelineParameters& parameters,
-           unsigned threads)
+           unsigned threads,
+           Report& report)
 {
   const CloudView cloud = viewOf(samples.cloud);
   const ScalarField field(cloud.fields, parameters.isosurface.field);
@@ -243,7 +244,8 @@ makeImages(const Dataset& samples,
                            parameters.mesh ? box
                                            : cutAtWidestGap(samples, box, threads),
                            reach,
-                           threads);
+                           threads,
+                           report);
 }
 
 /** The samples to use among those with images. */
@@ -284,12 +286,8 @@ IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
 {
   parameters.automatic_scale = false; // it is filled in
   const PeriodicBox box = findPeriodicBox(*samples_, sidesOf(parameters), report_);
-  std::shared_ptr<PeriodicSamples> images;
-  {
-    const StepTimer timer(report_, "images");
-    images = std::make_shared<PeriodicSamples>(
-        makeImages(*samples_, indices_, box, parameters, threads_));
-  }
+  const auto images = std::make_shared<PeriodicSamples>(
+      makeImages(*samples_, indices_, box, parameters, threads_, report_));
   // Images go beyond all faces: caps would close the surface where it is cut.
   if (parameters.mesh && (parameters.periodic > 0.0).all())
     parameters.mesh->open = true;

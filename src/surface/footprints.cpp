@@ -312,8 +312,8 @@ usualDistance(const NearestPoints& points,
 Footprints
 computeFootprints(const OrientedPoints& points, unsigned threads, Report& report)
 {
-  const StepTimer timer(report, "footprints");
   const SampleSet& samples = *points.samples;
+  StepTimer step(report, "footprints", 2 * samples.size());
   Footprints footprints;
   footprints.nearest.resize(samples.size());
   std::vector<FootprintFinder::Reach> reach(samples.size());
@@ -336,25 +336,29 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
       reach[i] = finder.find(
           static_cast<std::uint32_t>(i), typical_distance, footprints.nearest[i]);
     }
+    step.advance(end - begin);
   });
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const NearestPoints& nearest = footprints.nearest[i];
-    float most = 0.0f;
-    for (std::size_t k = 0; k < compared_neighbors; ++k)
-      most = std::max(most, largest_growth * reach[nearest[k]].all);
-    const bool is_lonely =
-        reach[i].around > lonely_distance * usualDistance(nearest, reach);
-    if (is_lonely)
-      most = 0.0f;
-    footprints.radii[i] = room * std::min(reach[i].all, most);
-    footprints.fillers[i] = room * std::min(reach[i].first, most);
-    footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
-    if (!points.bridged.empty() && points.bridged[i])
-      footprints.radii[i] = footprints.fillers[i] = 0.0f;
-  }
+  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NearestPoints& nearest = footprints.nearest[i];
+      float most = 0.0f;
+      for (std::size_t k = 0; k < compared_neighbors; ++k)
+        most = std::max(most, largest_growth * reach[nearest[k]].all);
+      const bool is_lonely =
+          reach[i].around > lonely_distance * usualDistance(nearest, reach);
+      if (is_lonely)
+        most = 0.0f;
+      footprints.radii[i] = room * std::min(reach[i].all, most);
+      footprints.fillers[i] = room * std::min(reach[i].first, most);
+      footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
+      if (!points.bridged.empty() && points.bridged[i])
+        footprints.radii[i] = footprints.fillers[i] = 0.0f;
+    }
+    step.advance(end - begin);
+  });
   return footprints;
 }
 

@@ -80,6 +80,7 @@ estimateNormals(const CloudView& cloud,
 {
   const StepTimer timer(report, "normals");
   Report estimation;
+  estimation.progress = report.progress;
   const auto estimated =
       detail::estimateSurfaceNormals(cloud, use, {}, nullptr, threads, estimation);
   if (const std::uint64_t strays = estimation.getCount("strays"); strays > 0)

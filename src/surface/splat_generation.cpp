@@ -165,6 +165,9 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
         }
         grown[places[i]] = grower.grow(candidates[places[i]]);
       }
+      // Samples that are passed over count with those that are not.
+      const std::size_t samples = next - first, all = candidates.size();
+      step.advance(samples * end / all - samples * begin / all);
     });
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       if (passed_over[candidates[i]])
@@ -174,7 +177,6 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
       for (const std::uint32_t sample : grown[i].passed_over)
         passed_over[sample] = 1;
     }
-    step.advance(next - first);
   }
   report.count("splats", accepted.size());
   report.count("widened", widened);

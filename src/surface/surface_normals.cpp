@@ -239,7 +239,7 @@ estimateSurfaceNormals(const CloudView& input,
                                         report);
   const NeighborGraph graph =
       findNeighbors(*samples, parameters.k, search, threads, report);
-  const StepTimer timer(report, "normals");
+  StepTimer step(report, "normals", samples->size() + indices.size());
   const Orientation orientation(
       cloud, rows * parameters.view_point.matrix(), samples->getUnit().factor);
   const std::vector<Eigen::Vector3f> sides =
@@ -252,6 +252,7 @@ estimateSurfaceNormals(const CloudView& input,
       findOwnSheet(sides, sample, graph[i], own_sheet);
       fits[i] = fitPlane(samples->getPositions(), sample, own_sheet);
     }
+    step.advance(end - begin);
   });
   const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -271,6 +272,7 @@ estimateSurfaceNormals(const CloudView& input,
       if (fits[sample].degenerate)
         ++degenerate;
     }
+    step.advance(end - begin);
   });
   report.count("degenerate_normals", degenerate);
   return normals;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the Python module costs: importing it, a call beside the steps of the library, and how soon Ctrl-C ends a step.
+"""What the Python module costs: importing it, and a call beside the steps of the library. How soon Ctrl-C ends the
+functions is told by python_interrupts.py.
 
 usage: PYTHONPATH=build/release/python python3 tests/benchmarks/python_calls.py
 """
@@ -14,8 +15,6 @@ import pcl_uvol as uvol  # noqa: E402
 print(f"import beyond numpy: {1e3 * (time.perf_counter() - start):.0f} ms, "
       f"{1e3 * (time.process_time() - processor):.0f} ms of the processor")
 
-import signal  # noqa: E402
-import threading  # noqa: E402
 import warnings  # noqa: E402
 
 warnings.simplefilter("ignore")
@@ -51,20 +50,3 @@ samples = uvol.Samples(singles, {"r": noisy})
 extractor = uvol.Extractor(samples)
 extractor.extract(iso=0.3)
 print("an isosurface of a million samples:", spent(lambda: extractor.extract(iso=0.3)))
-
-for name, options, delay in (("tree", {}, 0.3), ("isopoints", {}, 2.0), ("level set", {"smooth": True}, 4.0),
-                             ("mesh", {"mesh": True}, 4.0)):
-    pressed = []
-
-    def press():
-        pressed.append(time.perf_counter())
-        signal.raise_signal(signal.SIGINT)
-
-    timer = threading.Timer(delay, press)
-    timer.start()
-    try:
-        uvol.isosurface(samples, iso=0.3, **options)
-        print(f"Ctrl-C, {name}: was done before")
-    except KeyboardInterrupt:
-        print(f"Ctrl-C, {name}: after {time.perf_counter() - pressed[0]:.2f} s")
-    timer.cancel()

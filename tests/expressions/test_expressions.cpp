@@ -259,7 +259,8 @@ kept(const std::string& where)
 {
   Dataset dataset = load(
       "x,y,z,n,T\n5000000.125,0,0,1,4.1\n5000001.125,0,3,2,\n5000002.125,4,3,2,5\n");
-  const std::size_t removed = selectRows(dataset, where);
+  Report report;
+  const std::size_t removed = selectRows(dataset, where, {}, report);
   EXPECT_EQ(dataset.cloud.width + removed, 3u);
   EXPECT_EQ(dataset.cloud.data.size(),
             std::size_t(dataset.cloud.width) * dataset.cloud.point_step);

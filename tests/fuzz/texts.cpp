@@ -66,7 +66,8 @@ readExpression(const std::uint8_t* bytes, std::size_t size)
   });
   refusalOf<pcl_uvol::InvalidArgument>([&] {
     pcl_uvol::Dataset dataset = samples;
-    pcl_uvol::selectRows(dataset, text, {1, ""});
+    pcl_uvol::Report report;
+    pcl_uvol::selectRows(dataset, text, {1, ""}, report);
   });
 }
 

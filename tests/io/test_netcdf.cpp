@@ -189,7 +189,8 @@ TEST_P(Netcdf, ReadsProfiles)
   EXPECT_NE(std::string::npos, dataset.notes[0].find("180 "));
   EXPECT_NE(std::string::npos, dataset.notes[0].find("41 N: x and y are kilometres"));
   EXPECT_NE(std::string::npos, dataset.notes[0].find("z is minus PRES in decibar"));
-  EXPECT_EQ(3u, selectRows(dataset, "TEMP_QC=1"));
+  pcl_uvol::Report report;
+  EXPECT_EQ(3u, selectRows(dataset, "TEMP_QC=1", {}, report));
   expectNear({20.0, 19.0, 16.0}, valuesOf(dataset, "TEMP"));
 }
 

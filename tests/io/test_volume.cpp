@@ -173,7 +173,7 @@ TEST(DatasetInfo, ValuesAndPositions)
   pcl_uvol::Dataset dataset;
   pcl_uvol::setCoordinates(dataset,
                            {0, 0, 0, 1, 0, 0, 3, 0, 0, 3, 0, 0, nan_value, 0, 0});
-  const auto positions = pcl_uvol::describePositions(dataset, {}, 0);
+  const auto positions = pcl_uvol::describePositions(dataset, {}, 0, nullptr);
   EXPECT_EQ(1u, positions.non_finite);
   EXPECT_EQ(1u, positions.duplicates);
   EXPECT_EQ(3.0, positions.upper[0]);

@@ -163,16 +163,21 @@ TEST(SelfIntersections, AgreeWithPlacesOnBothSides)
 
 TEST(SelfIntersections, AreFoundInMeshes)
 {
+  pcl_uvol::Report report;
   const MeasuredShape good = makeTorus(3.0, 1.0, 40, 16);
-  EXPECT_TRUE(findSelfIntersections(good.places, good.triangles, {}, 3).empty());
-  EXPECT_TRUE(findSelfIntersections(
-                  makeBox({1, 1, 1}).places, makeBox({1, 1, 1}).triangles, {}, 1)
-                  .empty());
+  EXPECT_TRUE(
+      findSelfIntersections(good.places, good.triangles, {}, 3, report).empty());
+  EXPECT_TRUE(
+      findSelfIntersections(
+          makeBox({1, 1, 1}).places, makeBox({1, 1, 1}).triangles, {}, 1, report)
+          .empty());
   const MeasuredShape spindle = makeTorus(1.0, 2.0, 40, 16); // overlaps in the middle
-  const auto pairs = findSelfIntersections(spindle.places, spindle.triangles, {}, 3);
+  const auto pairs =
+      findSelfIntersections(spindle.places, spindle.triangles, {}, 3, report);
   EXPECT_GT(pairs.size(), 40u);
   EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
-  EXPECT_EQ(pairs, findSelfIntersections(spindle.places, spindle.triangles, {}, 1));
+  EXPECT_EQ(pairs,
+            findSelfIntersections(spindle.places, spindle.triangles, {}, 1, report));
   std::size_t all = 0;
   for (std::size_t i = 0; i < spindle.triangles.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
@@ -183,10 +188,11 @@ TEST(SelfIntersections, AreFoundInMeshes)
   boxes.append(boxes);
   std::vector<double> isovalues(16, 1.0);
   EXPECT_FALSE(
-      findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1).empty());
+      findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1, report)
+          .empty());
   std::fill(isovalues.begin() + 8, isovalues.end(), 2.0);
-  EXPECT_TRUE(
-      findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1).empty());
+  EXPECT_TRUE(findSelfIntersections(boxes.places, boxes.triangles, isovalues, 1, report)
+                  .empty());
 }
 
 } // namespace

@@ -3,14 +3,14 @@
 // the next one; many runs take no more memory than a few.
 #include "support/clouds.h"
 #include "support/environment.h"
+#include "support/interruption.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 
 #include <malloc.h>
-#include <set>
-#include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -30,38 +30,20 @@ struct Samples {
   }
 };
 
-class Interrupted : public std::runtime_error {
-public:
-  using std::runtime_error::runtime_error;
-};
-
-/** Interrupts a run at every step that it tells, at the step's first and last call. */
 void
-interruptEveryStep(const IsosurfacePipelineParameters& parameters,
-                   const Samples& samples)
+interruptPipeline(const IsosurfacePipelineParameters& parameters,
+                  const Samples& samples)
 {
   IsosurfacePipeline pipeline;
-  pipeline.setInput(samples.dataset);
   pipeline.setParameters(parameters);
-  std::set<std::string> steps;
-  pipeline.setProgressCallback(
-      [&steps](const std::string& step, double) { steps.insert(step); });
-  const auto whole = pipeline.run();
-  EXPECT_LE(2u, steps.size());
-  for (const std::string& step : steps)
-    for (const double least : {0.0, 1.0}) {
-      SCOPED_TRACE(step);
-      pipeline.setInput(samples.dataset); // nothing is kept from the run before
-      pipeline.setProgressCallback([&](const std::string& told, double done) {
-        if (told == step && done >= least)
-          throw Interrupted(step);
-      });
-      EXPECT_THROW(pipeline.run(), Interrupted);
-      pipeline.setProgressCallback(nullptr);
-      const auto again = pipeline.run();
-      EXPECT_EQ(whole.surface.cloud.data, again.surface.cloud.data);
-      EXPECT_EQ(whole.triangles.size(), again.triangles.size());
-    }
+  uvol_test::interruptEveryStep(
+      [&](const pcl_uvol::ProgressCallback& progress) {
+        pipeline.setInput(samples.dataset); // nothing is kept from the run before
+        pipeline.setProgressCallback(progress);
+        const auto result = pipeline.run();
+        return std::pair(result.surface.cloud.data, result.triangles.size());
+      },
+      2);
 }
 
 TEST(InterruptedStages, EveryStepOfAnExtraction)
@@ -69,7 +51,7 @@ TEST(InterruptedStages, EveryStepOfAnExtraction)
   const Samples samples(3000);
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.isovalues = {samples.isovalue};
-  interruptEveryStep(parameters, samples);
+  interruptPipeline(parameters, samples);
 }
 
 TEST(InterruptedStages, EveryStepOfALevelSet)
@@ -80,7 +62,7 @@ TEST(InterruptedStages, EveryStepOfALevelSet)
   parameters.smooth = true;
   parameters.level_set.mu = 0.5;
   parameters.level_set.max_steps = 10;
-  interruptEveryStep(parameters, samples);
+  interruptPipeline(parameters, samples);
 }
 
 TEST(InterruptedStages, EveryStepOfAMesh)
@@ -89,7 +71,34 @@ TEST(InterruptedStages, EveryStepOfAMesh)
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.isovalues = {samples.isovalue};
   parameters.mesh.emplace();
-  interruptEveryStep(parameters, samples);
+  interruptPipeline(parameters, samples);
+}
+
+TEST(InterruptedStages, EveryStepOfAValidation)
+{
+  const Samples samples(2000);
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {samples.isovalue};
+  parameters.validation.folds = 2;
+  interruptPipeline(parameters, samples);
+}
+
+TEST(InterruptedStages, EveryStepOfFilledGaps)
+{
+  const Samples samples(2000);
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {samples.isovalue};
+  parameters.fill_gaps = true;
+  interruptPipeline(parameters, samples);
+}
+
+TEST(InterruptedStages, EveryStepInABoxThatRepeats)
+{
+  const Samples samples(2000);
+  IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {samples.isovalue};
+  parameters.periodic.setConstant(20.0);
+  interruptPipeline(parameters, samples);
 }
 
 TEST(ManyExtractions, LeaveMemoryWhereItWas)

@@ -281,7 +281,7 @@ TEST(PeriodicBox, ImagesHoldAllNeighbors)
   Report report;
   for (const Place& sides : {Place{{side, side, side}}, Place{{side, 0.0, side}}}) {
     const PeriodicBox box = findPeriodicBox(*samples, sides, report);
-    const PeriodicSamples images = addPeriodicImages(*samples, use, box, {}, 2);
+    const PeriodicSamples images = addPeriodicImages(*samples, use, box, {}, 2, report);
     ASSERT_EQ(300u, images.countOwn());
     for (std::size_t i = 0; i < images.samples.cloud.width; ++i)
       EXPECT_EQ(placeOf(*samples, images.sourceOf(static_cast<std::uint32_t>(i)))[1],

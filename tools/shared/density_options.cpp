@@ -71,6 +71,7 @@ DensityOptions::addField(pcl_uvol::Dataset& dataset,
   const pcl_uvol::StepTimer timer(report, "density");
   const auto fields = pcl_uvol::findSphFields(dataset.cloud.fields);
   pcl_uvol::Report own; // the samples are counted by whoever uses them
+  own.progress = report.progress;
   const auto densities = pcl_uvol::computeSphDensity(
       pcl_uvol::viewOf(dataset.cloud),
       fields,

@@ -73,7 +73,8 @@ addFieldsInBox(pcl_uvol::Dataset& samples,
       pcl_uvol::cutAtWidestGap(
           samples, pcl_uvol::findPeriodicBox(samples, sides, own), threads),
       reach,
-      threads);
+      threads,
+      own);
   add(images.samples);
   samples = pcl_uvol::dropPeriodicImages(std::move(images), samples);
 }
@@ -98,14 +99,13 @@ BoxedSamples::BoxedSamples(pcl_uvol::Dataset& samples,
 {
   if (!pcl_uvol::isPeriodic(sides))
     return;
-  const pcl_uvol::StepTimer timer(report, "images");
   std::vector<std::uint32_t> all(samples.cloud.width);
   std::iota(all.begin(), all.end(), 0u);
   pcl_uvol::PeriodicReach reach;
   reach.scale = pcl_uvol::toPosition(scale);
   reach.spacings = 8.0; // a level set knows less of the field where it ends
-  images_ = pcl_uvol::addPeriodicImages(
-      samples, all, pcl_uvol::findPeriodicBox(samples, sides, report), reach, threads);
+  const auto box = pcl_uvol::findPeriodicBox(samples, sides, report);
+  images_ = pcl_uvol::addPeriodicImages(samples, all, box, reach, threads, report);
   before_ = std::move(samples);
   samples = std::move(images_.samples);
   report.count("images", images_.image_of.size());

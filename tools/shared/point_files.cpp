@@ -72,7 +72,7 @@ loadPoints(const std::string& path,
       report.warnings.end(), dataset.notes.begin(), dataset.notes.end());
   if (!where.empty())
     report.count("removed_by_where",
-                 pcl_uvol::selectRows(dataset, where, {threads, ""}));
+                 pcl_uvol::selectRows(dataset, where, {threads, ""}, report));
   if (dataset.cloud.width == 0)
     throw pcl_uvol::InvalidArgument(
         path + " has no points" + (where.empty() ? "." : " for which " + where + "."));

@@ -15,7 +15,6 @@
 namespace uvol_tools {
 
 using pcl_uvol::Report;
-using pcl_uvol::StepTimer;
 
 namespace {
 
@@ -25,7 +24,6 @@ addOuterLayer(const Options& options,
               pcl_uvol::Dataset& samples,
               Report& report)
 {
-  const StepTimer timer(report, "outer layer");
   if (arguments.parameters.isosurface.interpolation != pcl_uvol::Interpolation::Linear)
     report.warnings.push_back(
         "Fits swing where the field steps to the value outside: pieces beside the "

@@ -89,11 +89,13 @@ addDerivedField(Dataset& dataset,
  * \param dataset loses the other points
  * \param where the expression
  * \param options as of addDerivedField()
+ * \param report tells the progress of derivatives
  * \return the number of points removed
  * \throws as addDerivedField, and for an expression without a comparison */
 PCL_UVOL_EXPORTS std::size_t
 selectRows(Dataset& dataset,
            const std::string& where,
-           const DerivedFieldOptions& options = {});
+           const DerivedFieldOptions& options,
+           Report& report);
 
 } // namespace pcl_uvol

@@ -4,6 +4,7 @@
 
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
 
 #include <array>
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace pcl_uvol {
 
-/** \brief How a text file is read. */
+/** \brief How a file is read. */
 struct PCL_UVOL_EXPORTS LoadOptions {
   /** Columns that hold the coordinates of a text file, by their names or their numbers
    * from 0; empty: they are found by usual names, as x, y, z, or x_km, y_km, z_km, or
@@ -25,6 +26,8 @@ struct PCL_UVOL_EXPORTS LoadOptions {
    * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
    * first kind there is. */
   std::string particles;
+  /** Told of "read", but not by what VTK reads. Default: nobody is. */
+  ProgressCallback progress = {};
 };
 
 /** \brief How a file is written. */
@@ -33,6 +36,8 @@ struct PCL_UVOL_EXPORTS SaveOptions {
   bool ascii = false;
   /** Comment lines for formats that have them (PCD, PLY, CSV has none). */
   std::vector<std::string> comments;
+  /** Told of "write", where points are written as text. Default: nobody is. */
+  ProgressCallback progress = {};
 };
 
 /** \brief Read points from .pcd, .ply, .csv, .txt, .xyz, .dat, .tsv, .vtk, .vtp, .vtu,

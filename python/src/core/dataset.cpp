@@ -192,15 +192,19 @@ withOuterLayer(const DatasetPtr& dataset,
 }
 
 py::tuple
-selectPoints(const Dataset& dataset, const std::string& where, unsigned threads)
+selectPoints(const Dataset& dataset,
+             const std::string& where,
+             unsigned threads,
+             const py::object& progress)
 {
   DatasetPtr result;
   std::size_t removed = 0;
-  {
-    const py::gil_scoped_release unlocked;
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
     result = std::make_shared<Dataset>(dataset);
-    removed = selectRows(*result, where, {threads, ""});
-  }
+    removed = selectRows(*result, where, {threads, ""}, report);
+  });
   return py::make_tuple(result, removed);
 }
 

@@ -71,24 +71,30 @@ describe(const ValueStatistics& statistics)
 py::dict
 describeField(const Dataset& dataset, const std::string& field)
 {
-  return describe(describeValues(
-      readFieldValues(dataset, ScalarField(dataset.cloud.fields, field))));
+  ValueStatistics statistics;
+  {
+    const py::gil_scoped_release unlocked;
+    statistics = describeValues(
+        readFieldValues(dataset, ScalarField(dataset.cloud.fields, field)));
+  }
+  return describe(statistics);
 }
 
 py::dict
 describePlaces(const Dataset& dataset,
                const std::array<float, 3>& scale,
                const std::array<double, 3>& rotation,
-               unsigned threads)
+               unsigned threads,
+               const py::object& progress)
 {
   PositionStatistics statistics;
-  {
-    const py::gil_scoped_release unlocked;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
     statistics = describePositions(
         dataset,
         {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
-        threads);
-  }
+        threads,
+        callback);
+  });
   py::dict dict;
   dict["non_finite"] = statistics.non_finite;
   dict["duplicates"] = statistics.duplicates;

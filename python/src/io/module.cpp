@@ -30,13 +30,18 @@ using DenseArray = py::array_t<T, py::array::c_style | py::array::forcecast>;
 DatasetPtr
 readPoints(const std::string& path,
            const std::array<std::string, 3>& xyz_columns,
-           const std::string& particles)
+           const std::string& particles,
+           const py::object& progress)
 {
-  const py::gil_scoped_release unlocked;
   LoadOptions options;
   options.xyz_columns = xyz_columns;
   options.particles = particles;
-  return share(loadDataset(path, options));
+  DatasetPtr points;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    options.progress = callback;
+    points = share(loadDataset(path, options));
+  });
+  return points;
 }
 
 py::tuple
@@ -57,20 +62,20 @@ writePoints(const std::string& path,
             const Dataset& points,
             const DenseArray<std::uint32_t>& triangles,
             bool ascii,
-            const std::vector<std::string>& comments)
+            const std::vector<std::string>& comments,
+            const py::object& progress)
 {
   const std::vector<Triangle> mesh = toTriangles(triangles);
-  const py::gil_scoped_release unlocked;
   SaveOptions options;
   options.ascii = ascii;
   options.comments = comments;
-  if (mesh.empty() && !isMeshOnly(path)) {
-    checkSavePath(path, points.cloud.fields);
-    saveDataset(path, points, options);
-    return;
-  }
-  checkMeshPath(path);
-  saveMesh(path, points, mesh, options);
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    options.progress = callback;
+    if (mesh.empty() && !isMeshOnly(path))
+      saveDataset(path, points, options);
+    else
+      saveMesh(path, points, mesh, options);
+  });
 }
 
 /** An array of a lattice as its file holds it. */

@@ -38,16 +38,16 @@ public:
   }
 
   /** Fill until nothing changes, at most so often; returns the iterations that filled
-   * something. */
+   * something. \param step of the iterations */
   std::uint64_t
-  run(int most)
+  run(int most, StepTimer& step)
   {
     if (rows_ <= 0 || columns_ <= 0)
       return 0;
     changed_.assign(index(rows_, cells_) + 1, 1);
     int iterations = 0;
-    while (iterations < most && iterate())
-      ++iterations;
+    for (; iterations < most && iterate(); ++iterations)
+      step.advance(1);
     return static_cast<std::uint64_t>(iterations);
   }
 
@@ -159,21 +159,25 @@ fill(const Frame& frame, PixelBuffer& pixels, Report& report)
   const ImageSpaceSettings& settings = frame.settings;
   const FillKernels& kernels = *fill_table.get();
   {
-    const StepTimer timer(report, "fill_background");
+    StepTimer step(report,
+                   "fill_background",
+                   static_cast<std::uint64_t>(settings.background_fill));
     const FindFills find = [&](auto row, auto first, auto last, auto fills) {
       return kernels.findBackground(row, pixels.stride, first, last, fills);
     };
     report.count(
         "background_iterations",
-        PixelFiller(pixels, frame.threads, find).run(settings.background_fill));
+        PixelFiller(pixels, frame.threads, find).run(settings.background_fill, step));
   }
-  const StepTimer timer(report, "fill_occluded");
+  StepTimer step(
+      report, "fill_occluded", static_cast<std::uint64_t>(settings.occluded_fill));
   const float layer_distance = frame.layerDistance();
   const FindFills find = [&](auto row, auto first, auto last, auto fills) {
     return kernels.findOccluded(row, pixels.stride, first, last, layer_distance, fills);
   };
-  report.count("occluded_iterations",
-               PixelFiller(pixels, frame.threads, find).run(settings.occluded_fill));
+  report.count(
+      "occluded_iterations",
+      PixelFiller(pixels, frame.threads, find).run(settings.occluded_fill, step));
 }
 
 } // namespace
@@ -205,17 +209,18 @@ CpuBackend::render(const Frame& frame, Image& image, Report& report)
   pixels.resize(frame.view);
   resizePlanes(frame, image);
   Projector projector(frame, pixels);
+  const auto rows = static_cast<std::uint64_t>(pixels.height);
   {
-    const StepTimer timer(report, "project");
-    projector.project();
+    StepTimer step(report, "project", rows);
+    projector.project(step);
   }
   fill(frame, pixels, report);
   {
-    const StepTimer timer(report, "blend");
-    projector.blend();
+    StepTimer step(report, "blend", rows);
+    projector.blend(step);
   }
   PassClock clock;
-  finishTiles(frame, pixels, buffers_->scratch, image, clock);
+  finishTiles(frame, pixels, buffers_->scratch, image, clock, report);
   // What the threads spent, shared out: they work side by side.
   constexpr const char* names[PassClock::Passes] = {
       "shade", "smooth", "lines", "anti_alias", "output"};

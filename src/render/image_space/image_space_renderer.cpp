@@ -147,9 +147,13 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
     return *surface_;
   detail::checkIndices(*indices, cloud.count, "ImageSpaceRenderer");
   const std::vector<std::uint32_t> use(indices->begin(), indices->end());
+  startReport();
+  {
+    const StepTimer timer(report_, "prepare");
+    surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, report_);
+  }
   surface_report_ = Report();
-  const StepTimer timer(surface_report_, "prepare");
-  surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, surface_report_);
+  surface_report_.merge(report_);
   layers_.clear();
   drawn_ = indices;
   colored_ = false;
@@ -195,9 +199,12 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
                             std::to_string(opacity) + ".");
   if (layers_.empty()) {
     Report counted_before; // with the whole surface
+    counted_before.progress = report_.progress;
+    std::vector<std::shared_ptr<SurfaceCloud>> layers;
     for (const auto& [value, points] : partByIsovalue(cloud, indices))
-      layers_.push_back(
+      layers.push_back(
           std::make_shared<SurfaceCloud>(cloud, points, threads_, counted_before));
+    layers_ = std::move(layers);
     colored_ = false;
   }
   if (opacities_.size() != 1 && opacities_.size() != layers_.size())
@@ -220,10 +227,10 @@ ImageSpaceRendererBase::renderLayers(const CloudView& cloud,
                                      Image& image)
 {
   const Camera camera = cameraFor(surface_->getBounds());
-  prepareLayers(cloud, indices);
-  updateColors(cloud);
   startReport();
   report_.merge(surface_report_);
+  prepareLayers(cloud, indices);
+  updateColors(cloud);
   ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
   settings.background.kind = Background::Kind::Transparent;
   ImagePlanes planes;

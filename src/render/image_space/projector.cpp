@@ -112,7 +112,7 @@ Projector::bandOf(std::size_t begin, std::size_t end) const
 }
 
 void
-Projector::project()
+Projector::project(StepTimer& step)
 {
   const std::vector<SurfaceBlock>& blocks = frame_.cloud.getBlocks();
   std::vector<BlockPlan> plans(blocks.size());
@@ -160,11 +160,12 @@ Projector::project()
                          band);
       discs.resize(is_blended ? known + added : known);
     }
+    step.advance(end - begin);
   });
 }
 
 void
-Projector::blend()
+Projector::blend(StepTimer& step)
 {
   const bool has_discs = std::any_of(
       discs_.begin(), discs_.end(), [](const auto& discs) { return !discs.empty(); });
@@ -193,6 +194,7 @@ Projector::blend()
                         discs.size(),
                         band,
                         buffer_.blendSums());
+    step.advance(end - begin);
   });
 }
 

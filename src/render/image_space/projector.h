@@ -16,13 +16,14 @@ public:
 
   /** \brief Clear the buffer and project all points into it, as pixels and as discs;
    * blocks of points that the image does not show are left out. Sets the buffer's
-   * bounds. */
+   * bounds. \param step of the rows of the buffer */
   void
-  project();
+  project(StepTimer& step);
 
-  /** \brief Blend the discs that project() found, where they are seen or nearly so. */
+  /** \brief Blend the discs that project() found, where they are seen or nearly so.
+   * \param step of the rows of the buffer */
   void
-  blend();
+  blend(StepTimer& step);
 
 private:
   PixelBand

@@ -367,11 +367,13 @@ finishTiles(const Frame& frame,
             PixelBuffer& buffer,
             TileScratchPool& pool,
             Image& image,
-            PassClock& clock)
+            PassClock& clock,
+            Report& report)
 {
   const ShadingSetup setup(frame);
   const int columns = (frame.view.width + tile_columns - 1) / tile_columns;
   const int rows = (frame.view.height + tile_rows - 1) / tile_rows;
+  StepTimer step(report, "finish", static_cast<std::uint64_t>(rows));
   parallelBlocks(
       static_cast<std::size_t>(rows), 1, frame.threads, [&](auto begin, auto) {
         const auto scratch = pool.take();
@@ -379,6 +381,7 @@ finishTiles(const Frame& frame,
         for (int column = 0; column < columns; ++column)
           finisher.finish(static_cast<int>(begin) * tile_rows, column * tile_columns);
         pool.giveBack(scratch);
+        step.advance(1);
       });
 }
 

@@ -188,8 +188,9 @@ RayTracer::build()
   if (!scene_ && !world_)
     throw InvalidArgument("RayTracer has no scene: call setScene.");
   if (!world_) {
-    const StepTimer timer(build_report_, "build");
-    world_ = std::make_unique<World>(std::move(*scene_), threads_);
+    startReport();
+    world_ = std::make_unique<World>(std::move(*scene_), threads_, report_);
+    build_report_.merge(report_);
     scene_.reset();
   }
   return *world_;
@@ -206,8 +207,8 @@ RayTracer::render(Image& image)
 {
   checkParameters(settings_);
   checkPictureSize(largest_size);
-  startReport();
   const World& world = build();
+  startReport();
   report_.merge(build_report_);
   const Camera camera = cameraFor(world.bounds());
   const Raster raster(camera, width_, height_, supersampling_);

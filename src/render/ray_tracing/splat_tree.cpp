@@ -103,7 +103,8 @@ fieldAt(const SplatRecord& splat, const Eigen::Vector3f& place)
 SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
                      const std::vector<Rgba>& colors,
                      Rgba color,
-                     unsigned threads)
+                     unsigned threads,
+                     StepTimer& step)
     : kernels_(kernel_table.get())
 {
   Eigen::Array3f low = splats.front().getArray3fMap(), high = low;
@@ -117,7 +118,7 @@ SplatTree::SplatTree(const pcl::PointCloud<PointSplat>& splats,
                        (splat.getVector3fMap().cast<double>() - center_).norm() +
                            splat.radius);
   radius_ *= 1.0 + box_room;
-  WideTree tree = buildWideTree(computeBoxes(splats, center_, threads), threads);
+  WideTree tree = buildWideTree(computeBoxes(splats, center_, threads), threads, step);
   nodes_ = std::move(tree.nodes);
   const std::size_t leaves = tree.leaf_begin.size() - 1;
   leaves_.resize(leaves);

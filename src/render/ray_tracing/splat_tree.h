@@ -50,11 +50,13 @@ struct SplatSurfaceHit {
 /** \brief Built once. Memory: about 200 bytes per splat. */
 class SplatTree {
 public:
-  /** \param colors by splat; empty: all have this one color */
+  /** \param colors by splat; empty: all have this one color \param step of the splats
+   */
   SplatTree(const pcl::PointCloud<PointSplat>& splats,
             const std::vector<Rgba>& colors,
             Rgba color,
-            unsigned threads);
+            unsigned threads,
+            StepTimer& step);
 
   /** \brief The first hit of a ray.
    * \param hits work space, which grows to what rays need

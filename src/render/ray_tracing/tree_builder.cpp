@@ -82,9 +82,12 @@ struct Binning {
 
 class Builder {
 public:
-  Builder(const std::vector<ItemBox>& boxes, std::vector<std::uint32_t>& items)
+  Builder(const std::vector<ItemBox>& boxes,
+          std::vector<std::uint32_t>& items,
+          StepTimer& step)
       : boxes_(boxes)
       , items_(items)
+      , step_(step)
   {
   }
 
@@ -130,13 +133,16 @@ public:
   {
     const auto number = static_cast<std::uint32_t>(tree.nodes.size());
     tree.nodes.push_back(emptyNode());
+    std::uint64_t in_leaves = 0;
     const std::vector<Range> parts = divide(range, depth);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const std::uint32_t child = parts[i].count() > tree_width
-                                      ? build(parts[i], depth + 1, tree)
-                                      : addLeaf(parts[i], tree);
+      const bool is_leaf = parts[i].count() <= tree_width;
+      const std::uint32_t child =
+          is_leaf ? addLeaf(parts[i], tree) : build(parts[i], depth + 1, tree);
       setChild(tree.nodes[number], i, parts[i], child);
+      in_leaves += is_leaf ? parts[i].count() : 0;
     }
+    step_.advance(in_leaves);
     return number;
   }
 
@@ -253,6 +259,7 @@ private:
 
   const std::vector<ItemBox>& boxes_;
   std::vector<std::uint32_t>& items_;
+  StepTimer& step_;
 };
 
 /** Append the nodes and leaves of a subtree.
@@ -275,12 +282,12 @@ append(const WideTree& subtree, WideTree& tree)
 } // namespace
 
 WideTree
-buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads)
+buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads, StepTimer& step)
 {
   WideTree tree;
   tree.items.resize(boxes.size());
   std::iota(tree.items.begin(), tree.items.end(), 0u);
-  Builder builder(boxes, tree.items);
+  Builder builder(boxes, tree.items, step);
   const std::vector<Range> parts =
       builder.divide(builder.findRange(0, static_cast<std::uint32_t>(boxes.size())), 0);
   std::vector<WideTree> subtrees(parts.size());

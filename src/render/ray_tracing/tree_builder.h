@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/ray_tracing/splat_tree_kernel.h"
+#include <pcl_uvol/common/report.h>
 
 #include <cstdint>
 #include <vector>
@@ -24,8 +25,8 @@ struct WideTree {
 };
 
 /** \brief The tree does not depend on the number of threads. Its depth is at most 32.
- * \param boxes at least one */
+ * \param boxes at least one \param step of the items */
 WideTree
-buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads);
+buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads, StepTimer& step);
 
 } // namespace pcl_uvol

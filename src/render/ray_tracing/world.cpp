@@ -92,12 +92,16 @@ findBounds(const Scene& scene, const std::vector<SplatTree>& trees)
 
 } // namespace
 
-World::World(Scene scene, unsigned threads)
-    : scene_(std::move(scene))
+World::World(Scene&& scene, unsigned threads, Report& report)
 {
-  for (const SplatObject& object : scene_.splats)
+  std::uint64_t splats = 0;
+  for (const SplatObject& object : scene.splats)
+    splats += object.splats->size();
+  StepTimer step(report, "build", splats);
+  for (const SplatObject& object : scene.splats)
     trees_.emplace_back(
-        *object.splats, object.colors, toRgba(object.material.color), threads);
+        *object.splats, object.colors, toRgba(object.material.color), threads, step);
+  scene_ = std::move(scene);
   for (PlaneObject& plane : scene_.planes)
     plane.normal.normalize();
   bounds_ = findBounds(scene_, trees_);

@@ -40,7 +40,9 @@ struct RayStart {
 /** \brief The objects of a scene. */
 class World {
 public:
-  World(Scene scene, unsigned threads);
+  /** \param scene is taken over, but not by a construction that throws
+   * \param report gets the time and progress of "build" */
+  World(Scene&& scene, unsigned threads, Report& report);
 
   const Scene&
   scene() const

@@ -244,7 +244,8 @@ TEST(TileFinisher, TilesAreTheWholeImage)
     image.height = height;
     image.color.resize(4 * image.pixels());
     PassClock clock;
-    finishTiles(frame, buffer, pool, image, clock);
+    Report report;
+    finishTiles(frame, buffer, pool, image, clock, report);
     const auto expected = WholeImage(frame, buffer).finish({2.0f, 12.0f});
     std::size_t different = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {

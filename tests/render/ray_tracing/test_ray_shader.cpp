@@ -52,7 +52,8 @@ addBall(Scene& scene, const Vector3d& center, double radius)
 double
 brightness(const Scene& scene, const RayTracingSettings& settings)
 {
-  const World world(scene, 1);
+  Report report;
+  const World world(Scene(scene), 1, report);
   RayShader shader(world, settings, Camera());
   const Vector3d eye(6.0, 0.0, 0.5);
   double sum = 0.0;
@@ -134,7 +135,8 @@ TEST(RayShader, GlassMirrorsByFresnelsEquations)
       ground.material = makeMaterial(0.0, 0.0); // takes what goes through
       scene.planes.push_back(ground);
       scene.background.color = {1.0f, 1.0f, 1.0f};
-      const World world(scene, 1);
+      Report report;
+      const World world(Scene(scene), 1, report);
       RayTracingSettings settings;
       settings.depth = 1;
       RayShader shader(world, settings, Camera());

@@ -49,7 +49,9 @@ struct Discs {
       }
       boxes.push_back(box);
     }
-    tree = buildWideTree(boxes, 1);
+    Report report;
+    StepTimer step(report, "build");
+    tree = buildWideTree(boxes, 1, step);
     leaves.resize(tree.leaf_begin.size() - 1);
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
       for (std::uint32_t i = 0; i < tree_width; ++i) {
