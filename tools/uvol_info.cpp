@@ -257,6 +257,7 @@ addPositions(const std::string& path,
 /** Write the points with what the sampling is like around each. */
 void
 saveSampling(const Arguments& arguments,
+             const pcl_uvol::detail::Stretch& stretch,
              unsigned threads,
              pcl_uvol::Dataset& dataset,
              Report& report)
@@ -267,10 +268,7 @@ saveSampling(const Arguments& arguments,
                                     "-xyz chooses them.");
   {
     const pcl_uvol::StepTimer timer(report, "sampling");
-    pcl_uvol::addSamplingFields(dataset,
-                                uvol_tools::ScaleOption(arguments.scale)
-                                    .resolveScale(pcl_uvol::viewOf(dataset.cloud)),
-                                threads);
+    pcl_uvol::addSamplingFields(dataset, stretch, threads);
   }
   uvol_tools::savePoints(arguments.output, dataset, {}, report);
 }
@@ -296,16 +294,13 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     report.warnings.push_back(arguments.input + " has no points.");
     return facts;
   }
-  Facts facts_of_scale;
-  if (dataset.has_coordinates)
-    addPositions(
-        arguments.input,
-        dataset,
-        arguments.scale.resolve(
-            pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale),
-        threads,
-        facts,
-        report);
+  pcl_uvol::detail::Stretch stretch;
+  if (dataset.has_coordinates) {
+    Facts facts_of_scale;
+    stretch = arguments.scale.resolve(
+        pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale);
+    addPositions(arguments.input, dataset, stretch, threads, facts, report);
+  }
   else
     report.warnings.push_back(arguments.input +
                               " names no columns of coordinates: -xyz chooses them.");
@@ -320,7 +315,7 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     addHistogram(statistics, facts);
   }
   if (!arguments.output.empty())
-    saveSampling(arguments, threads, dataset, report);
+    saveSampling(arguments, stretch, threads, dataset, report);
   return facts;
 }
 

@@ -155,7 +155,7 @@ describePositions(const Dataset& dataset,
 }
 
 void
-addSamplingFields(Dataset& dataset, const Eigen::Array3f& scale, unsigned threads)
+addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned threads)
 {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::size_t count = dataset.cloud.width;
@@ -164,8 +164,13 @@ addSamplingFields(Dataset& dataset, const Eigen::Array3f& scale, unsigned thread
   const CloudView cloud = viewOf(dataset.cloud);
   if (const auto finite = listFinite(cloud); !finite.empty()) {
     Report report;
-    const auto samples = SampleSet::build(
-        cloud.xyz(0), cloud.stride(), finite, toPosition(scale), threads, report);
+    const CloudView turned = detail::StretchAxes(stretch.rotation).turn(cloud);
+    const auto samples = SampleSet::build(turned.xyz(0),
+                                          turned.stride(),
+                                          finite,
+                                          toPosition(stretch.scale),
+                                          threads,
+                                          report);
     const std::vector<LocalSampling> found = diagnoseSampling(*samples, threads);
     const auto assign = [&](std::uint32_t point, const LocalSampling& sampling) {
       dimension[point] = static_cast<std::int32_t>(sampling.dimension);

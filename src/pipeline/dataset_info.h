@@ -63,9 +63,10 @@ describePositions(const Dataset& dataset,
 /** \brief Add what the sampling is like around each point, see LocalSampling, to a
  * dataset with coordinates: the labels `local_dimension` (isolated, line, sheet,
  * volume) and the lengths `spacing_along` and `spacing_across`, NaN where nothing lies
- * beside, and without finite coordinates. \param scale factors per axis; lengths are
- * those of the stretched space */
+ * beside, and without finite coordinates.
+ *
+ * \param stretch of the space that lengths are measured in */
 PCL_UVOL_EXPORTS void
-addSamplingFields(Dataset& dataset, const Eigen::Array3f& scale, unsigned threads);
+addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned threads);
 
 } // namespace pcl_uvol

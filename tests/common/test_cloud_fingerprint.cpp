@@ -13,7 +13,7 @@
 namespace {
 
 using pcl_uvol::CloudFingerprint;
-using pcl_uvol::fingerprintOf;
+using pcl_uvol::computeFingerprint;
 
 CloudFingerprint
 of(const pcl::PCLPointCloud2& cloud, const std::string& field, unsigned threads = 1)

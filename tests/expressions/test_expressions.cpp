@@ -313,7 +313,8 @@ TEST(Selection, ComparesNames)
                             "3,0,0,4,\"say \"\"a\"\" && b\"\n4,0,0,5,A-1\n";
   const auto left = [&](const std::string& where) {
     Dataset dataset = load(table);
-    selectRows(dataset, where);
+    Report report;
+    selectRows(dataset, where, {}, report);
     return valuesOf(dataset, "x");
   };
   using Places = std::vector<double>;

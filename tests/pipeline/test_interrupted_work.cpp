@@ -261,9 +261,7 @@ TEST(InterruptedWork, Statistics)
   const Ball ball;
   interruptEveryStep(
       [&](const ProgressCallback& progress) {
-        return describePositions(
-                   *ball.samples, Eigen::Array3f::Ones(), threads, progress)
-            .spacing_median;
+        return describePositions(*ball.samples, {}, threads, progress).spacing_median;
       },
       2);
 }
