@@ -5,11 +5,14 @@
 #include "pipeline/run_pipeline.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/levelset/level_set_evolution.h>
+#include <pcl_uvol/surface/surface_normals.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -111,6 +114,73 @@ TEST(TurnedPipeline, NormalsStandOnTheLayer)
       EXPECT_LT(steep, points.size() / 20);
     }
   }
+}
+
+TEST(TurnedStages, LevelSetsAreThoseOfSamplesThatAreTurned)
+{
+  const auto samples = makeLayers();
+  LevelSetEvolution<pcl::PCLPointCloud2> evolution;
+  LevelSetParameters parameters;
+  parameters.isovalue = 0.5;
+  parameters.scale = {1.0f, 1.0f, 20.0f};
+  parameters.max_steps = 5;
+  const auto evolve = [&](const Dataset& dataset) {
+    evolution.setInputCloud(
+        pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
+    evolution.setParameters(parameters);
+    std::vector<float> phi;
+    evolution.evolve(phi);
+    return phi;
+  };
+  const auto seen = turned(*samples);
+  const Eigen::Matrix3d rows = StretchAxes(angles).getRows();
+  const Eigen::Vector3d middle(10.0, 10.0, 0.5), up(0.0, 0.0, 1.0);
+  const std::pair<InitialFunction, InitialFunction> starts[] = {
+      {{}, {}},
+      {InitialFunction::sphere(middle, 0.4),
+       InitialFunction::sphere(rows.transpose() * middle, 0.4)},
+      {InitialFunction::plane(middle, up),
+       InitialFunction::plane(rows.transpose() * middle, rows.transpose() * up)}};
+  for (const auto& [along_axes, in_space] : starts) {
+    parameters.rotation.setZero();
+    parameters.initial = along_axes;
+    const auto expected = evolve(*seen);
+    parameters.rotation = angles;
+    parameters.initial = in_space;
+    const auto phi = evolve(*samples);
+    ASSERT_EQ(expected.size(), phi.size());
+    for (std::size_t i = 0; i < phi.size(); ++i)
+      ASSERT_NEAR(expected[i], phi[i], 1e-4f * (1.0f + std::abs(expected[i])));
+  }
+  parameters.initial = InitialFunction::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  EXPECT_THROW(evolve(*samples), InvalidArgument);
+}
+
+TEST(TurnedStages, NormalsAreThoseOfPointsThatAreTurned)
+{
+  // A tilted plane of points, wide and thin noise across: far from where they are seen.
+  uvol_test::Random random(8);
+  pcl::PointCloud<pcl::PointXYZ> points;
+  const Eigen::Matrix3d back = StretchAxes(angles).getRows().transpose();
+  for (int i = 0; i < 500; ++i)
+    points.emplace_back();
+  for (auto& point : points)
+    point.getVector3fMap() =
+        (back *
+         Eigen::Vector3d(random.uniform(), random.uniform(), 0.02 * random.uniform()))
+            .cast<float>();
+  SurfaceNormalEstimation<pcl::PointXYZ, pcl::PointNormal> estimation;
+  SurfaceNormalParameters parameters;
+  parameters.scale = {1.0f, 3.0f, 2.0f};
+  parameters.rotation = angles;
+  const Eigen::Vector3d seen_from = back * Eigen::Vector3d(0.5, 0.5, 9.0);
+  parameters.view_point = seen_from.array().cast<float>();
+  estimation.setInputCloud(pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(points));
+  estimation.setParameters(parameters);
+  pcl::PointCloud<pcl::PointNormal> normals;
+  estimation.compute(normals);
+  for (const auto& normal : normals)
+    EXPECT_GT(normal.getNormalVector3fMap().cast<double>().dot(back.col(2)), 0.99);
 }
 
 TEST(TurnedPipeline, FindsTheScaleAlongTheAxes)
