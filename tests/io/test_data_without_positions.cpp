@@ -62,12 +62,13 @@ TEST(DataWithoutPositions, FilesWithoutRowsKeepTheirFields)
   EXPECT_FALSE(dataset.has_coordinates);
 }
 
-TEST(DataWithoutPositions, NamesOfRowsAreLeftOut)
+TEST(DataWithoutPositions, NamesOfRowsAreLabels)
 {
   const Dataset dataset = load("name,a,b\nfirst,1,2\nsecond,3,4\n", false);
-  expectNoPositions(dataset, ", a (int32), b (int32)");
+  expectNoPositions(dataset, ", name (int32), a (int32), b (int32)");
   EXPECT_EQ(2u, dataset.cloud.width);
   EXPECT_EQ(4.0, valueOf(dataset, "b", 1));
+  EXPECT_EQ((LabelNames{{"name", {"first", "second"}}}), dataset.labels);
 }
 
 TEST(DataWithoutPositions, WordsThatStartAsAxesAreAttributes)

@@ -2,7 +2,7 @@
 #include "shared/ray_options.h"
 
 #include "render/point_colors.h"
-#include "surface/oriented_points.h"
+#include "render/ray_tracing/gap_dots.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 
@@ -74,46 +74,6 @@ RayOptions::apply(const Options& options, pcl_uvol::RayTracingSettings& settings
     settings.occlusion_distance = settings_.occlusion_distance;
 }
 
-namespace {
-
-/** Take the dots of isopoints in gaps of the sampling, see findBridged(), out of an
- * object: they have no side that light could fall on, and get their colour, paler, as
- * it is. The sources are the points that splats stand for. */
-pcl_uvol::SplatObject
-takeDots(const std::vector<std::uint8_t>& bridged,
-         const std::vector<std::uint32_t>& sources,
-         const ViewOptions& view,
-         pcl_uvol::SplatObject& object)
-{
-  constexpr float usual_side = 1000.0f; // of the picture that the dots are made for
-  const auto side = static_cast<float>(std::min(view.getWidth(), view.getHeight()));
-  using Cloud = pcl::PointCloud<pcl_uvol::PointSplat>;
-  const auto all = object.splats;
-  const auto colors = std::move(object.colors);
-  pcl_uvol::SplatObject dots;
-  const Cloud::Ptr covering(new Cloud), small(new Cloud);
-  object.colors.clear();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const pcl_uvol::Rgba color =
-        colors.empty() ? pcl_uvol::toRgba(view.getMaterial().color) : colors[i];
-    if (!bridged[sources[i]]) {
-      covering->push_back((*all)[i]);
-      object.colors.push_back(color);
-      continue;
-    }
-    small->push_back((*all)[i]);
-    small->back().radius *= usual_side / side;
-    dots.colors.push_back(pcl_uvol::makePaler(color, view.getBackground().color));
-  }
-  object.splats = covering;
-  dots.splats = small;
-  dots.material.ambient = 1.0;
-  dots.material.diffuse = dots.material.specular = 0.0;
-  return dots;
-}
-
-} // namespace
-
 pcl_uvol::Scene
 RayOptions::makeScene(const Options& options,
                       const ViewOptions& view,
@@ -145,13 +105,13 @@ RayOptions::makeScene(const Options& options,
   object.material.transparency = transparency_;
   object.material.refractive_index = refractive_index_;
   pcl_uvol::Scene scene;
-  const auto bridged = pcl_uvol::findBridged(cloud);
-  if (!bridged.empty())
-    scene.splats.push_back(takeDots(bridged, splats.sources, view, object));
-  if (!object.splats->empty())
-    scene.splats.push_back(std::move(object));
   scene.lights = view.getLights();
   scene.background = view.getBackgroundOfViews();
+  addWithDots(std::move(object),
+              cloud,
+              splats.sources,
+              std::min(view.getWidth(), view.getHeight()),
+              scene);
   return scene;
 }
 

@@ -3,6 +3,7 @@
 #include "common/parameter_json.h"
 #include "core/bindings.h"
 #include "render/image_space/frame.h"
+#include "render/ray_tracing/gap_dots.h"
 #include "render/stretch_surface.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
@@ -122,8 +123,9 @@ draw(Drawing& drawing, unsigned threads)
   drawing.report.merge(renderer.getReport());
 }
 
-SplatObject
-coverPoints(const RayParameters& rays, unsigned threads, Drawing& drawing)
+/** Add the points to a scene, which has its background. */
+void
+coverPoints(const RayParameters& rays, unsigned threads, Drawing& drawing, Scene& scene)
 {
   const Splats splats = findSplats(drawing.cloud,
                                    rays.splats.value_or(SplatParameters()),
@@ -144,7 +146,11 @@ coverPoints(const RayParameters& rays, unsigned threads, Drawing& drawing)
   object.material.reflectivity = rays.reflect;
   object.material.transparency = rays.transparent;
   object.material.refractive_index = rays.index;
-  return object;
+  addWithDots(std::move(object),
+              drawing.cloud,
+              splats.sources,
+              std::min(drawing.width(), drawing.parameters.height),
+              scene);
 }
 
 void
@@ -152,9 +158,9 @@ trace(const RayParameters& rays, Drawing& drawing, unsigned threads)
 {
   const PictureParameters& parameters = drawing.parameters;
   Scene scene;
-  scene.splats.push_back(coverPoints(rays, threads, drawing));
   scene.lights = makeLights(parameters);
   scene.background = makeBackground(parameters);
+  coverPoints(rays, threads, drawing, scene);
   RayTracer tracer;
   tracer.setScene(scene);
   RayTracingSettings& settings = tracer.settings();
