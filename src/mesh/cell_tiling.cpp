@@ -97,7 +97,7 @@ CellTiling::longestSideAround(std::uint32_t sample) const
   constexpr std::uint32_t group = 8;
   // Of the group's longest side between planes: the tree leaves no side of a cell
   // longer, but where the samples end.
-  constexpr float longest_side = 2.0f;
+  constexpr float longest_side = 3.0f;
   TileCell cell = unboundedCell();
   KdNode node = tree_.getRoot();
   while (node.count >= 2 * group)

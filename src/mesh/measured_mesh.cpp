@@ -89,15 +89,18 @@ public:
   }
 
   /** For each edge, by the corner opposite of it, of the cap that meets the surface
-   * there. */
+   * there, or the side of a box that it ends at. */
   EdgePlanes
   findPlanes(std::size_t triangle) const
   {
     EdgePlanes planes = freeEdges();
     for (std::size_t i = 0; i < 3; ++i) {
       const HalfEdge twin = twinOf(triangle, i);
-      if (twin == HalfEdges::none ||
-          isOnCap(cornersOf(triangle)) == isOnCap(cornersOf(twin / 3)))
+      if (twin == HalfEdges::none) {
+        planes[i] = planeOfRim(triangle, i);
+        continue;
+      }
+      if (isOnCap(cornersOf(triangle)) == isOnCap(cornersOf(twin / 3)))
         continue;
       const auto [a, b, c] =
           cornersOf(isOnCap(cornersOf(triangle)) ? triangle : twin / 3);
@@ -113,6 +116,19 @@ public:
   }
 
 private:
+  /** A surface that is cut along a side of a box has one coordinate there. */
+  Eigen::Vector3d
+  planeOfRim(std::size_t triangle, std::size_t corner) const
+  {
+    const auto corners = cornersOf(triangle);
+    const Eigen::Vector3d &a = corners[(corner + 1) % 3].place,
+                          &b = corners[(corner + 2) % 3].place;
+    for (int axis = 0; axis < 3; ++axis)
+      if (a[axis] == b[axis])
+        return Eigen::Vector3d::Unit(axis);
+    return Eigen::Vector3d::Zero();
+  }
+
   /** Of the edge opposite of a corner. */
   HalfEdge
   twinOf(std::size_t triangle, std::size_t corner) const

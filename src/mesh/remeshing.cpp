@@ -285,10 +285,12 @@ private:
         return false;
     const Foot kept_foot = kept.foot, gone_foot = gone.foot;
     kept.foot = gone.foot = foot;
-    const bool agrees = agreesAround(a, edge) && agreesAround(b, edge);
+    const std::size_t bad = countBadAround(edge);
     kept.foot = kept_foot;
     gone.foot = gone_foot;
-    if (!agrees)
+    // Beside a crease triangles may be folded, of which fewer are left.
+    if (bad > 0 && (freedomOf(a) == 2 || bad >= countBadAround(edge) + isBad(edge) +
+                                                    isBad(edges_.twinOf(edge))))
       return false;
     is_gone_[edge / 3] = is_gone_[edges_.twinOf(edge) / 3] = true;
     edges_.collapse(edge);
@@ -316,18 +318,24 @@ private:
     return true;
   }
 
-  /** Whether the triangles around a vertex, but the two at an edge, agree with their
-   * normals. */
-  bool
-  agreesAround(std::uint32_t vertex, HalfEdge edge) const
+  /** How many triangles at the ends of an edge, but the two beside it, disagree with
+   * their normals. */
+  std::size_t
+  countBadAround(HalfEdge edge) const
   {
-    bool agrees = true;
-    edges_.forEachAround(vertex, [&](HalfEdge out) {
-      if (out / 3 != edge / 3 && out / 3 != edges_.twinOf(edge) / 3)
-        agrees =
-            agrees && agreementOf(mesh_.triangles[out / 3], out) >= least_agreement;
-    });
-    return agrees;
+    std::size_t bad = 0;
+    for (const std::uint32_t end : {edges_.originOf(edge), edges_.targetOf(edge)})
+      edges_.forEachAround(end, [&](HalfEdge out) {
+        if (out / 3 != edge / 3 && out / 3 != edges_.twinOf(edge) / 3)
+          bad += agreementOf(mesh_.triangles[out / 3], out) < least_agreement;
+      });
+    return bad;
+  }
+
+  bool
+  isBad(HalfEdge edge) const
+  {
+    return agreementOf(mesh_.triangles[edge / 3], edge) < least_agreement;
   }
 
   /** Of a triangle in the region of an edge. */

@@ -89,7 +89,8 @@ TEST(KernelSums, AreSumsOverAllParticles)
     parameters.kernel = word.value;
     for (const bool normalized : {true, false}) {
       parameters.normalized = normalized;
-      const KernelSums sums(at.sampled, parameters, at.particles, 1);
+      Report report;
+      const KernelSums sums(at.sampled, parameters, at.particles, 1, report);
       for (std::uint64_t i = 0; i < 20; ++i) {
         const double unit = static_cast<double>(at.sampled.samples->getUnit().factor);
         const Query query{{unit * uniformAt(3, i, 0),
@@ -130,7 +131,8 @@ TEST(KernelSums, CompletesWhatParticlesLack)
   std::fill(at.sampled.values.begin(), at.sampled.values.end(), 1.0);
   SphParameters parameters;
   parameters.normalized = false;
-  const KernelSums sums(at.sampled, parameters, {}, 2);
+  Report report;
+  const KernelSums sums(at.sampled, parameters, {}, 2, report);
   const double unit = static_cast<double>(at.sampled.samples->getUnit().factor);
   double mean = 0.0;
   constexpr std::uint64_t count = 200;

@@ -203,6 +203,23 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
             measures.getReport().warnings[0].find("% of the area has vertices"));
 }
 
+TEST(SurfaceMeasures, WhatRimsAreOffByIsAnErrorOfTheArea)
+{
+  MeasuredShape square;
+  square.places = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+  square.normals.assign(4, Eigen::Vector3d::UnitZ());
+  square.triangles = {{0, 1, 2}, {0, 2, 3}};
+  auto vertices = std::make_shared<Dataset>(square.toDataset());
+  setField(*vertices, "error", std::vector<float>{0.01f, 0.01f, 0.01f, 0.02f});
+  setField(*vertices, "mean_curvature", std::vector<float>(4, 0.0f));
+  SurfaceMeasures measures;
+  measures.setInputSurface(vertices, square.triangles);
+  const Measure area = measures.compute().isovalues[0].area;
+  EXPECT_DOUBLE_EQ(1.0, area.value);
+  // Along its four sides, and of ripples of the vertices.
+  EXPECT_NEAR(3.0 * 0.01 + 0.02 + 3.0 * 1e-4 + 4e-4, area.error, 1e-6);
+}
+
 TEST(SurfaceMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
 {
   MeasuredShape open = makeEllipsoid({2.0, 2.0, 2.0}, 4);

@@ -54,13 +54,14 @@ TEST(SurfaceMesh, HasTheShapeOfTheField)
 
 TEST(SurfaceMesh, HasTheShapeOfAGyroidThatCapsClose)
 {
-  for (unsigned seed = 1; seed < 4; ++seed)
+  // The cells of seed 71 have a crumb beside a cap.
+  for (const unsigned seed : {1u, 2u, 71u})
     expectShape(gyroidField(), seed);
 }
 
 TEST(SurfaceMesh, HasTheShapeOfAGyroidThatCapsCloseForManySeeds_long)
 {
-  for (unsigned seed = 4; seed < 101; ++seed)
+  for (unsigned seed = 3; seed < 101; ++seed)
     expectShape(gyroidField(), seed);
 }
 

@@ -119,6 +119,37 @@ TEST_F(MeshTool, OpenMeshesEndAtTheBorder)
   EXPECT_EQ(0, closed["counts"]["rim_edges"].get<int>());
   EXPECT_EQ(0, open["counts"]["cap_vertices"].get<int>());
   EXPECT_GT(open["counts"]["rim_edges"].get<int>(), 10);
+  // What caps add is told apart: area and the volume that they close.
+  const Json measured = run_at("-measure"), without = run_at("-open -measure");
+  EXPECT_NEAR(measured["surfaces"]["area"].get<double>() -
+                  measured["surfaces"]["cap_area"].get<double>(),
+              without["surfaces"]["area"].get<double>(),
+              without["surfaces"]["area_error"].get<double>());
+  EXPECT_GT(measured["surfaces"]["cap_area"].get<double>(), 0.1);
+  EXPECT_EQ(measured["surfaces"]["volume"], measured["surfaces"]["capped_volume"]);
+  EXPECT_NE(std::string::npos,
+            run("-field f -iso -0.15 -mesh -measure").out.find("(caps "));
+}
+
+TEST_F(MeshTool, SaysWhereTrianglesAreBad)
+{
+  // Lines along z, a fiftieth as far apart along them as from one another.
+  uvol_test::Random random(4);
+  std::ostringstream csv;
+  csv << "x,y,z,f\n";
+  for (int line = 0; line < 40; ++line) {
+    const double x = 20.0 * random.uniform(), y = 20.0 * random.uniform();
+    for (int i = 0; i < 200; ++i)
+      csv << x << ',' << y << ',' << 0.1 * i << ','
+          << std::sin(0.3 * x) + std::cos(0.4 * y) + 0.1 * i - 10.0 << '\n';
+  }
+  uvol_test::writeFile(in_, csv.str());
+  const CommandResult result = run("-field f -iso 0 -mesh");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("have an angle below 5 degrees"))
+      << result.err;
+  EXPECT_EQ(std::string::npos,
+            run("-field f -iso 0 -mesh -remesh none").err.find("5 degrees"));
 }
 
 TEST_F(MeshTool, StlTellsWhatItCannotHold)
@@ -138,6 +169,9 @@ TEST_F(MeshTool, SmoothFieldsHaveMeshesToo)
 {
   const Json report = reportOf("-mesh -smooth -measure");
   EXPECT_EQ(2u, report["pieces"]["genus"].size());
+  EXPECT_EQ(2u, report["pieces"]["area"].size());
+  const std::string text = run("-field f -iso 0.1 -mesh -measure -json").out;
+  EXPECT_EQ(text.find("\"pieces\": {"), text.rfind("\"pieces\": {"));
   const double volume = report["surfaces"]["volume"];
   EXPECT_NEAR(2.0 * 4.0 / 3.0 * M_PI * 0.064, volume, 0.01 * volume);
 }

@@ -44,7 +44,7 @@ struct PCL_UVOL_EXPORTS MeshingParameters {
    * samples is not known better. */
   double edge_length = 0.0;
   /** Leave the surface open where it reaches the border of the samples' box, instead of
-   * closing it by caps. */
+   * closing it by caps along the sides of the box. */
   bool open = false;
   /** Leave out connected pieces of fewer triangles. */
   std::size_t drop_pieces = 0;
@@ -102,18 +102,21 @@ struct SurfacePiece {
 
 /** \brief A triangle mesh of one or several isosurfaces, one after another. */
 struct PCL_UVOL_EXPORTS SurfaceTriangles {
-  /** As isopoints; on a cap the normal is that of the box, and support is Rim. */
+  /** As isopoints; on a cap the normal is that of the box, and support is Rim. Where
+   * the surface meets a cap, vertices lie on both, and are isopoints. */
   pcl::PointCloud<PointIso> vertices;
   IsoEdges edges; ///< between points of the input, one per vertex
   /** Counter-clockwise as seen from outside. */
   std::vector<Triangle> triangles;
-  std::vector<std::int32_t> piece_of;  ///< by vertex, among pieces
-  std::vector<std::uint8_t> is_on_cap; ///< by vertex, 1 where it closes the box
+  std::vector<std::int32_t> piece_of; ///< by vertex, among pieces
+  /** By vertex, 1 where it closes the box and is not on the surface: triangles with
+   * such a vertex are the caps. */
+  std::vector<std::uint8_t> is_on_cap;
   /** They are sorted by isovalue in their order, then by falling number of triangles.
    */
   std::vector<SurfacePiece> pieces;
   double smallest_angle = 180.0; ///< of all triangles, in degrees
-  double cap_part = 0.0;         ///< of the area, in triangles with a vertex on a cap
+  double cap_part = 0.0;         ///< of the area, in caps
 
   /** \brief Add another mesh behind this one.
    * \param other whose indices and pieces are shifted behind those here */
