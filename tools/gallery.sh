@@ -33,3 +33,9 @@ run uvol_isosurface "$data/cfd/disk_out_ref.vtu" reactor.ply -field Temp -iso 40
   -png "$pictures/reactor.png" -size 480x400 -ticks
 run uvol_render "$data/scans/dragon_res3.ply" "$pictures/dragon.png" -up 0,1,0 -view front -size 480x360 \
   -scale-bar -unit m -triad
+
+# Slices of the field between samples.
+run uvol_probe "$data/particles/starsmasher_giant.csv" star.vti -field "log10(rho)" -plane z=0 -box -4,-4,-4,4,4,4 \
+  -size 400 -contours -3,-2,-1 -unit Rsun -label "log density" -png "$pictures/star_slice.png"
+run uvol_probe "$data/sensors/babbitt_drillholes.csv" drill_holes.vti -field cu_pct -plane z=1000 -model kriging -octants \
+  -size 400 -range 0,1 -contours 0.3,0.6 -unit ft -label "copper in %" -png "$pictures/drill_holes_slice.png"
