@@ -3,7 +3,6 @@
 
 #include "generation/analytic_fields.h"
 #include "support/environment.h"
-#include <pcl_uvol/common/records.h>
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
