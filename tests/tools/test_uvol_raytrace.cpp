@@ -44,13 +44,15 @@ protected:
 
   /** A torus as isopoints. */
   std::string
-  surface() const
+  surface(const std::string& options = "") const
   {
     const std::string samples = folder_ / "samples.pcd", path = folder_ / "torus.ply";
     EXPECT_EQ(
         0, runCommand("uvol_generate " + samples + " -field torus -n 20000").exit_code);
     EXPECT_EQ(
-        0, runCommand("uvol_isosurface " + samples + " " + path + " -iso 0").exit_code);
+        0,
+        runCommand("uvol_isosurface " + samples + " " + path + " -iso 0" + options)
+            .exit_code);
     return path;
   }
 
@@ -102,7 +104,8 @@ TEST_F(RaytraceTool, TheCommandLineComesBeforeTheScene)
 
 TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
 {
-  const std::string torus = surface(), splats = folder_ / "splats.ply",
+  // Points in gaps are drawn as dots, which splats know nothing of.
+  const std::string torus = surface(" -drop-bridged"), splats = folder_ / "splats.ply",
                     other = folder_ / "other.png";
   const std::string look = " -size 64 -reflect 0.2 -depth 2 -color mean_curvature";
   ASSERT_EQ(0, run(torus + " " + picture_ + look).exit_code);
