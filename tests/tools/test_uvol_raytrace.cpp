@@ -112,7 +112,8 @@ TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
   ASSERT_EQ(0, runCommand("uvol_splats " + torus + " " + splats).exit_code);
   const CommandResult result = run(splats + " " + other + look);
   ASSERT_EQ(0, result.exit_code) << result.err;
-  // Ranges of colours are those of all points or of all splats.
+  // Ranges of colours are those of all points or of all splats: a highlight may be
+  // white in one of the pictures only.
   const auto a = read(picture_), b = read(other);
   int different = 0, drawn = 0;
   for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) {
@@ -122,7 +123,7 @@ TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)
     different += is_drawn != is_other ? 1 : 0;
   }
   EXPECT_GT(drawn, 500);
-  EXPECT_EQ(0, different);
+  EXPECT_LE(different, 1);
 }
 
 TEST_F(RaytraceTool, OrbitsAndReportsInJson)
