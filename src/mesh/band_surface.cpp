@@ -60,6 +60,7 @@ public:
       values_.turn(wrong, report_);
       mesh = join();
     }
+    const StepTimer step(report_, "creases");
     splitCreases(mesh);
     smoothSizes(mesh);
     return mesh;

@@ -11,6 +11,10 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+/** Cells that are kept: with their bounds they stay within a core's own memory. A power
+ * of two, since cells are kept by the last bits of their numbers. */
+constexpr std::uint32_t kept_cells = 1u << 10;
+
 CellBound
 outerBound(bool is_high)
 {
@@ -39,6 +43,24 @@ unboundedCell()
 }
 
 } // namespace
+
+CellCache::CellCache(const CellTiling& tiling)
+    : tiling_(tiling)
+    , numbers_(kept_cells, std::numeric_limits<std::uint32_t>::max())
+    , cells_(kept_cells)
+{
+}
+
+TileCell
+CellCache::find(std::uint32_t cell)
+{
+  const std::size_t place = cell % kept_cells;
+  if (numbers_[place] != cell) {
+    cells_[place] = tiling_.cellOf(cell);
+    numbers_[place] = cell;
+  }
+  return cells_[place];
+}
 
 CellTiling::CellTiling(const KdTree& tree, const std::vector<Position>& positions)
     : tree_(tree)
@@ -147,9 +169,10 @@ CellTiling::locate(int axis,
 void
 CellTiling::findRing(std::uint32_t a,
                      std::uint32_t b,
+                     CellCache& cache,
                      std::vector<std::uint32_t>& ring) const
 {
-  TileCell lower = cellOf(a), upper = cellOf(b);
+  TileCell lower = cache.find(a), upper = cache.find(b);
   std::size_t x = 0;
   while (!areSame(lower.high[x], upper.low[x]) && !areSame(upper.high[x], lower.low[x]))
     ++x;
@@ -180,7 +203,7 @@ CellTiling::findRing(std::uint32_t a,
     const int axis = static_cast<int>(m);
     const CellBound end = is_up ? least(m) : greatest(m);
     for (bool is_inside = true; is_inside;) {
-      const TileCell last = cellOf(ring.back());
+      const TileCell last = cache.find(ring.back());
       const CellBound& bound = is_up ? last.high[m] : last.low[m];
       is_inside = is_up ? isBelow(axis, bound, end) : isBelow(axis, end, bound);
       ring.push_back(locate(axis, is_inside ? bound : end, is_up, corner));

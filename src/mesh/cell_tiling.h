@@ -23,6 +23,24 @@ struct TileCell {
   std::array<CellBound, 3> low, high;
 };
 
+class CellTiling;
+
+/** \brief The cells that were asked for lately: rings around pairs that follow one
+ * another share most of theirs, and a cell takes a way through the whole tree. */
+class PCL_UVOL_EXPORTS CellCache {
+public:
+  /** \param tiling must outlive the cache */
+  explicit CellCache(const CellTiling& tiling);
+
+  TileCell
+  find(std::uint32_t cell);
+
+private:
+  const CellTiling& tiling_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<TileCell> cells_;
+};
+
 /** \brief The cells of samples that tile space, with six more cells outside of the
  * samples' box, "ghosts", one beyond each of its sides.
  *
@@ -76,9 +94,13 @@ public:
    * which they are met: two that follow one another form a tetrahedron with the pair,
    * of which (a, b, second, first) are positively oriented.
    * \param a, b cells that touch, at most one of them a ghost
+   * \param cache of this tiling, not shared between threads
    * \param ring cleared first; the first cell is not repeated at the end */
   void
-  findRing(std::uint32_t a, std::uint32_t b, std::vector<std::uint32_t>& ring) const;
+  findRing(std::uint32_t a,
+           std::uint32_t b,
+           CellCache& cache,
+           std::vector<std::uint32_t>& ring) const;
 
 private:
   /** The planes that a corner lies on, all but the one across which a cell is looked

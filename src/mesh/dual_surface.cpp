@@ -11,7 +11,8 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-constexpr std::size_t block_pairs = 256;
+/** Enough for the cells of one pair to serve the next ones. */
+constexpr std::size_t block_pairs = 1u << 11;
 
 /** Four cells that meet in a corner, positively oriented. */
 using Corner = std::array<std::uint32_t, 4>;
@@ -130,10 +131,11 @@ marchTetrahedra(const CellTiling& tiling,
       threads,
       [&](std::size_t begin, std::size_t end, std::vector<Triangle>& triangles) {
         Marcher marcher(pairs, is_above, distance, triangles);
+        CellCache cache(tiling);
         std::vector<std::uint32_t> ring;
         for (std::size_t i = begin; i < end; ++i) {
           const auto [a, b] = pairs[i];
-          tiling.findRing(a, b, ring);
+          tiling.findRing(a, b, cache, ring);
           for (std::size_t k = 0; k < ring.size(); ++k)
             marcher.march(i, {a, b, ring[(k + 1) % ring.size()], ring[k]});
         }

@@ -17,16 +17,20 @@ HalfEdges::HalfEdges(std::vector<Triangle>& triangles, std::size_t vertices)
       ++begin[vertex + 1];
   for (std::size_t i = 0; i < vertices; ++i)
     begin[i + 1] += begin[i];
-  std::vector<HalfEdge> from(twins_.size());
+  struct Outgoing {
+    std::uint32_t target;
+    HalfEdge edge;
+  };
+  std::vector<Outgoing> from(twins_.size());
   std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
   for (HalfEdge edge = 0; edge < twins_.size(); ++edge)
-    from[end[originOf(edge)]++] = edge;
+    from[end[originOf(edge)]++] = {targetOf(edge), edge};
 
   const auto countOf = [&](std::uint32_t origin, std::uint32_t target) {
     std::pair<std::size_t, HalfEdge> found(0, none);
     for (std::uint32_t i = begin[origin]; i < begin[origin + 1]; ++i)
-      if (targetOf(from[i]) == target)
-        found = {found.first + 1, from[i]};
+      if (from[i].target == target)
+        found = {found.first + 1, from[i].edge};
     return found;
   };
   for (HalfEdge edge = 0; edge < twins_.size(); ++edge) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/mesh_vertices.h"
 
+#include "common/parallel.h"
 #include "isosurface/smooth_roots.h"
-#include "mesh/half_edges.h"
 #include "mesh/surface_pieces.h"
 
 #include <Eigen/Geometry>
@@ -13,6 +13,8 @@
 namespace pcl_uvol::detail {
 
 namespace {
+
+constexpr std::size_t block_triangles = 1u << 12;
 
 /** Share of the local length: a fit that moves a vertex farther tells of another sheet.
  */
@@ -141,9 +143,12 @@ private:
     std::vector<Foot> before;
     for (const WorkingVertex& vertex : mesh_.vertices)
       before.push_back(vertex.foot);
-    std::vector<bool> agreed;
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      agreed.push_back(agrees(i));
+    std::vector<std::uint8_t> agreed(mesh_.triangles.size());
+    parallelBlocks(
+        agreed.size(), block_triangles, input_.threads, [&](auto begin, auto end) {
+          for (std::size_t i = begin; i < end; ++i)
+            agreed[i] = agrees(i);
+        });
     for (const std::uint32_t i : vertices) {
       WorkingVertex& vertex = mesh_.vertices[i];
       vertex.foot.normal = side * points[i].getNormalVector3fMap().cast<double>();
@@ -177,20 +182,36 @@ smallestAngleOf(const WorkingMesh& mesh, const Triangle& triangle)
                          mesh.vertices[triangle[2]].foot.place}});
 }
 
+/** What is told of a triangle. */
+struct TriangleShape {
+  double area, angle;
+  bool is_folded;
+};
+
 void
-measure(const WorkingMesh& mesh, SurfaceTriangles& surface, Report& report)
+measure(const WorkingMesh& mesh,
+        unsigned threads,
+        SurfaceTriangles& surface,
+        Report& report)
 {
+  std::vector<TriangleShape> shapes(mesh.triangles.size());
+  parallelBlocks(shapes.size(), block_triangles, threads, [&](auto begin, auto end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& triangle = mesh.triangles[i];
+      shapes[i] = {mesh.normalOf(triangle).norm(),
+                   smallestAngleOf(mesh, triangle),
+                   mesh.agreementOf(triangle, mesh.regions[i]) <= 0.0};
+    }
+  });
   double area = 0.0, on_caps = 0.0;
   std::uint64_t folds = 0, slivers = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle& triangle = mesh.triangles[i];
-    const double own = mesh.normalOf(triangle).norm();
-    area += own;
-    on_caps += mesh.regions[i] == surface_region ? 0.0 : own;
-    folds += mesh.agreementOf(triangle, mesh.regions[i]) <= 0.0;
-    const double angle = smallestAngleOf(mesh, triangle);
-    slivers += angle < sliver_angle;
-    surface.smallest_angle = std::min(surface.smallest_angle, angle);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const TriangleShape& shape = shapes[i];
+    area += shape.area;
+    on_caps += mesh.regions[i] == surface_region ? 0.0 : shape.area;
+    folds += shape.is_folded;
+    slivers += shape.angle < sliver_angle;
+    surface.smallest_angle = std::min(surface.smallest_angle, shape.angle);
   }
   surface.cap_part = area > 0.0 ? on_caps / area : 0.0;
   report.count("folds", folds);
@@ -217,15 +238,15 @@ finishMesh(const IsopointInput& input,
     surface.edges.push_back({sources[edge.first], sources[edge.second], edge.t});
   for (const WorkingVertex& vertex : mesh.vertices)
     surface.is_on_cap.push_back(!vertex.is_on_surface);
+  const StepTimer step(report, "checks");
   PieceList list = findPieces(mesh.triangles, mesh.vertices.size());
-  measure(mesh, surface, report);
+  measure(mesh, input.threads, surface, report);
   std::uint64_t handles = 0;
   for (const SurfacePiece& piece : list.pieces)
     handles += piece.genus;
   report.count("pieces", list.pieces.size());
   report.count("handles", handles);
-  report.count("rim_edges",
-               HalfEdges(mesh.triangles, mesh.vertices.size()).countRimEdges());
+  report.count("rim_edges", list.rim_edges);
   surface.piece_of = std::move(list.of_vertex);
   surface.pieces = std::move(list.pieces);
   surface.triangles = std::move(mesh.triangles);

@@ -71,6 +71,7 @@ findPieces(std::vector<Triangle>& triangles, std::size_t vertices)
     list.pieces[piece].vertices += list.of_vertex[vertex] < 0;
     list.of_vertex[vertex] = number[root];
   }
+  list.rim_edges = edges.countRimEdges();
   countRims(edges, 3 * triangles.size(), list);
   for (std::size_t i = 0; i < list.pieces.size(); ++i) {
     SurfacePiece& piece = list.pieces[i];

@@ -14,6 +14,7 @@ namespace pcl_uvol::detail {
 struct PieceList {
   std::vector<std::int32_t> of_vertex; ///< among pieces; -1 without a triangle
   std::vector<SurfacePiece> pieces;    ///< in the order of sortPieces(); isovalue 0
+  std::size_t rim_edges = 0;           ///< of all pieces
 };
 
 /** \brief Put pieces in the order of falling numbers of triangles, or where there are

@@ -4,11 +4,14 @@
 #include "generation/analytic_fields.h"
 #include "support/environment.h"
 #include <pcl_uvol/expressions/derived_fields.h>
+#include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/volume.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>
+
+#include <numeric>
 
 namespace uvol_benchmark {
 
@@ -129,6 +132,19 @@ load(const DataCase& data)
   if (!data.where.empty())
     pcl_uvol::selectRows(*samples, data.where, {}, report);
   return samples;
+}
+
+Eigen::Array3f
+findScale(const DataCase& data, const pcl_uvol::CloudView& cloud)
+{
+  if ((data.scale > 0.0f).all())
+    return data.scale;
+  pcl::Indices all(cloud.count);
+  std::iota(all.begin(), all.end(), 0);
+  pcl_uvol::Report report;
+  return pcl_uvol::chooseScale(
+             cloud, all, data.field, Eigen::Array3d::Zero(), 0, report)
+      .scale;
 }
 
 } // namespace uvol_benchmark

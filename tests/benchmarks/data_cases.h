@@ -3,6 +3,7 @@
 // real samples.
 #pragma once
 
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 
 #include <Eigen/Core>
@@ -30,5 +31,9 @@ listCases();
 /** Its samples; those on generated lines have the field "line". */
 std::shared_ptr<pcl_uvol::Dataset>
 load(const DataCase& data);
+
+/** What coordinates are multiplied by, found from the field where it is not given. */
+Eigen::Array3f
+findScale(const DataCase& data, const pcl_uvol::CloudView& cloud);
 
 } // namespace uvol_benchmark

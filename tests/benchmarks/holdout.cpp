@@ -132,20 +132,13 @@ printCase(const DataCase& data, std::size_t folds_at_most)
   IsosurfacePipelineParameters parameters;
   parameters.isosurface.field = data.field.empty() ? "intensity" : data.field;
   parameters.isosurface.isovalues = {data.isovalue};
-  parameters.isosurface.scale = data.scale;
-  pcl::Indices all(cloud.count);
-  std::iota(all.begin(), all.end(), 0);
-  if ((data.scale == 0.0f).all()) {
-    pcl_uvol::Report report;
-    parameters.isosurface.scale =
-        pcl_uvol::chooseScale(
-            cloud, all, parameters.isosurface.field, Eigen::Array3d::Zero(), 0, report)
-            .scale;
-  }
+  parameters.isosurface.scale = uvol_benchmark::findScale(data, cloud);
   parameters.validation.folds = folds_at_most;
   parameters.validation.by =
       data.by == "random" ? ValidateBy::Random : ValidateBy::Field;
   parameters.validation.field = data.by;
+  pcl::Indices all(cloud.count);
+  std::iota(all.begin(), all.end(), 0);
   const auto folds = pcl_uvol::makeFolds(cloud, parameters.validation, 0);
   DelaunayClass delaunay(*samples, parameters, folds);
   std::vector<bool> by_delaunay;

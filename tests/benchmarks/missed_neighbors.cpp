@@ -101,13 +101,26 @@ printSurface(const DataCase& data,
 }
 
 void
-printCase(const DataCase& data, std::size_t folds)
+printCase(DataCase data, std::size_t folds)
 {
   const auto samples = uvol_benchmark::load(data);
   const CloudView cloud = viewOf(samples->cloud);
+  data.scale = uvol_benchmark::findScale(data, cloud);
   const auto exact = findPairs(data, cloud, ways[0]);
   for (const Way& way : ways) {
-    const auto pairs = findPairs(data, cloud, way);
+    std::vector<std::pair<int, int>> pairs;
+    try {
+      pairs = findPairs(data, cloud, way);
+    }
+    catch (const InvalidArgument& refusal) {
+      // Samples that crowd in few cells of a grid are refused by the Voronoi diagram.
+      std::printf("| %s, %s %g | %s | refused | | | | | |\n",
+                  data.file.c_str(),
+                  data.field.c_str(),
+                  data.isovalue,
+                  way.name);
+      continue;
+    }
     std::vector<std::pair<int, int>> common;
     std::set_intersection(pairs.begin(),
                           pairs.end(),

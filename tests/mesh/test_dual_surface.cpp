@@ -20,6 +20,7 @@
 namespace {
 
 using namespace pcl_uvol;
+using detail::CellCache;
 using detail::CellPair;
 using detail::CellTiling;
 
@@ -197,9 +198,10 @@ TEST(CellTiling, RingsAreThoseOfTheNerve)
           const std::vector<RankBox> boxes = rankBoxes(*samples);
           const Nerve nerve = findNerve(boxes);
           std::set<Cells> met;
+          CellCache cache(tiling);
           Cells ring;
           for (const auto& [a, b] : nerve.pairs) {
-            tiling.findRing(a, b, ring);
+            tiling.findRing(a, b, cache, ring);
             ASSERT_GE(ring.size(), 3u);
             for (std::size_t k = 0; k < ring.size(); ++k) {
               Cells corner{a, b, ring[(k + 1) % ring.size()], ring[k]};
