@@ -14,6 +14,7 @@
 #include "uvol_probe/probe_picture.h"
 #include "uvol_probe/probe_run.h"
 #include "uvol_probe/query_options.h"
+#include "uvol_probe/variogram_output.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/io/dataset.h>
@@ -48,6 +49,7 @@ struct Arguments {
   uvol_tools::QueryOptions queries;
   uvol_tools::InterpolationOptions model;
   uvol_tools::ProbePicture picture;
+  uvol_tools::VariogramOutput variogram;
   bool ascii = false;
 };
 
@@ -69,6 +71,7 @@ declare(Options& options, Arguments& arguments)
   arguments.periodic.declare(options);
   options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
+  arguments.variogram.declare(options);
   arguments.picture.declare(options);
 }
 
@@ -81,8 +84,11 @@ check(const Options& options, Arguments& arguments)
   arguments.reading.makeLoadOptions(); // what is wrong is told before files are read
   const Kind kind = arguments.queries.getKind();
   arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line);
+  arguments.variogram.finish(options, arguments.model.getParameters().model);
   if (kind == Kind::None) {
-    if (!arguments.model.hasValidation() || !arguments.output.empty())
+    const bool has_work =
+        arguments.model.hasValidation() || arguments.variogram.isAskedFor();
+    if (!has_work || !arguments.output.empty())
       throw UsageError("Say where the field is asked for: -points, -line, -plane or "
                        "-grid.");
     return;
@@ -270,27 +276,31 @@ run(int argc, char** argv)
     for (const Fact& fact :
          arguments.model.validate(samples, own, parameters, options.threads(), report))
       facts.push_back(fact);
-  if (kind != Kind::None) {
+  if (kind != Kind::None || arguments.variogram.isAskedFor()) {
     const FieldInterpolator interpolator(
         view, indices, parameters, options.threads(), report);
-    AnswerSummary summary(view, own, interpolator.getNames());
-    const Facts found = uvol_tools::runProbe({options,
-                                              arguments.queries,
-                                              lattice,
-                                              arguments.picture,
-                                              arguments.input,
-                                              arguments.output,
-                                              load,
-                                              arguments.ascii,
-                                              samples,
-                                              boxed.getSides(),
-                                              parameters,
-                                              interpolator},
-                                             summary,
-                                             report);
-    facts.insert(facts.end(), found.begin(), found.end());
-    addRanges(summary, facts);
-    summary.warn(report);
+    const bool is_stretched = (parameters.scale != 1.0f).any();
+    for (const Fact& fact : arguments.variogram.write(interpolator, is_stretched))
+      facts.push_back(fact);
+    if (kind != Kind::None) {
+      AnswerSummary summary(view, own, interpolator.getNames());
+      const uvol_tools::Probe probe{options,
+                                    arguments.queries,
+                                    lattice,
+                                    arguments.picture,
+                                    arguments.input,
+                                    arguments.output,
+                                    load,
+                                    arguments.ascii,
+                                    samples,
+                                    boxed.getSides(),
+                                    parameters,
+                                    interpolator};
+      const Facts found = uvol_tools::runProbe(probe, summary, report);
+      facts.insert(facts.end(), found.begin(), found.end());
+      addRanges(summary, facts);
+      summary.warn(report);
+    }
   }
   boxed.tell(facts);
   total.reset();

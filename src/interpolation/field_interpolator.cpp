@@ -379,20 +379,31 @@ FieldInterpolator::interpolate(const QueryLattice& lattice,
     group.model->tell(report);
 }
 
-std::optional<Variogram>
+std::optional<FittedVariogram>
 FieldInterpolator::findVariogram(std::size_t field) const
 {
   for (const Group& group : groups_)
     for (std::size_t f = 0; f < group.fields.size(); ++f)
       if (group.fields[f] == field) {
-        const Variogram* const found = group.model->findVariogram(f);
+        const FittedVariogram* const found = group.model->findVariogram(f);
         if (!found)
           break;
         const double factor = group.frames[f].factor * group.frames[f].factor;
-        return Variogram{found->kind,
-                         found->nugget / factor,
-                         found->sill / factor,
-                         group.sampled.samples->getUnit().toInput(found->range)};
+        const LengthUnit& unit = group.sampled.samples->getUnit();
+        FittedVariogram told = *found;
+        told.model.nugget /= factor;
+        told.model.sill /= factor;
+        told.model.range = unit.toInput(told.model.range);
+        const auto toInput = [&](EmpiricalVariogram& empirical) {
+          for (double& distance : empirical.distance)
+            distance = unit.toInput(distance);
+          for (double& value : empirical.value)
+            value /= factor;
+        };
+        toInput(told.empirical.all);
+        for (EmpiricalVariogram& empirical : told.empirical.along)
+          toInput(empirical);
+        return told;
       }
   return std::nullopt;
 }

@@ -13,7 +13,7 @@
 
 namespace pcl_uvol::detail {
 
-struct Variogram;
+struct FittedVariogram;
 
 /** \brief Samples and the fields there. */
 struct SampledFields {
@@ -56,7 +56,7 @@ public:
 
   /** \brief The variogram of a field, in the space of the samples and in the field's
    * frame; null where the model has none. */
-  virtual const Variogram*
+  virtual const FittedVariogram*
   findVariogram(std::size_t) const
   {
     return nullptr;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -139,9 +140,11 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
                           parameters.nugget * factor,
                           parameters.sill * factor,
                           parameters.range * sampled.samples->getUnit().factor};
-    variograms_.push_back(
-        fitVariogram(empiricalVariogram(sampled, f, metric_, parameters.trend), given));
-    if (!(variograms_.back().sill + variograms_.back().nugget > 0.0))
+    EmpiricalVariograms empirical =
+        computeEmpiricalVariograms(sampled, f, metric_, parameters.trend);
+    const Variogram fitted = fitVariogram(empirical.all, given);
+    variograms_.push_back({fitted, std::move(empirical)});
+    if (!(fitted.sill + fitted.nugget > 0.0))
       constant_.push_back(names[f]);
   }
 }
@@ -169,7 +172,7 @@ KrigingModel::evaluate(const Query* queries,
     for (std::size_t f = 0; f < sampled_.fields; ++f) {
       for (Eigen::Index j = 0; j < size; ++j)
         values[j] = sampled_.valuesOf(near[static_cast<std::size_t>(j)].first)[f];
-      const Variogram& variogram = variograms_[f];
+      const Variogram& variogram = variograms_[f].model;
       KrigingEstimate estimate{values[0], 0.0, Vector3d::Zero()};
       if (variogram.sill + variogram.nugget > 0.0)
         estimate =

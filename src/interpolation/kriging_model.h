@@ -34,7 +34,7 @@ public:
   tell(Report& report) const override;
 
   /** \brief After the metric. */
-  const Variogram*
+  const FittedVariogram*
   findVariogram(std::size_t field) const override
   {
     return &variograms_[field];
@@ -44,7 +44,7 @@ private:
   const SampledFields& sampled_;
   KrigingParameters parameters_;
   Eigen::Matrix3d metric_;
-  std::vector<Variogram> variograms_;
+  std::vector<FittedVariogram> variograms_;
   std::vector<std::string> constant_; ///< names of fields that are
   std::vector<Position> sparse_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/variogram.h"
 
+#include "interpolation/field_model.h"
 #include "neighbors/nearest_finder.h"
 
 #include <Eigen/QR>
@@ -121,6 +122,50 @@ private:
   Eigen::VectorXd coefficients_;
 };
 
+/** Cosine of 30 degrees: pairs that are counted along an axis differ from it by less.
+ */
+constexpr double along_axis = 0.8660254037844386;
+
+/** Two samples. */
+struct Pair {
+  double distance, half_square;
+  int axis; ///< along which they lie; -1: none
+};
+
+int
+findAxis(const Vector3d& offset, double distance)
+{
+  Eigen::Index axis = 0;
+  const double longest = offset.cwiseAbs().maxCoeff(&axis);
+  return longest > along_axis * distance ? static_cast<int>(axis) : -1;
+}
+
+/** The pairs along an axis, or all for -1, by their distance. */
+EmpiricalVariogram
+classify(const std::vector<Pair>& pairs, double nearest, double farthest, int axis)
+{
+  std::array<double, classes> distance{}, value{}, count{};
+  for (const Pair& pair : pairs) {
+    if (pair.distance > farthest || (axis >= 0 && pair.axis != axis))
+      continue;
+    const double part = std::log(pair.distance / nearest) /
+                        std::max(std::log(farthest / nearest), 1e-9);
+    const auto index = static_cast<std::size_t>(
+        std::clamp(part * classes, 0.0, static_cast<double>(classes - 1)));
+    distance[index] += pair.distance;
+    value[index] += pair.half_square;
+    count[index] += 1.0;
+  }
+  EmpiricalVariogram empirical;
+  for (std::size_t i = 0; i < classes; ++i)
+    if (count[i] > 0.0) {
+      empirical.distance.push_back(distance[i] / count[i]);
+      empirical.value.push_back(value[i] / count[i]);
+      empirical.pairs.push_back(count[i]);
+    }
+  return empirical;
+}
+
 /** Nugget and sill that fit best for a range, and how well. */
 struct LinearFit {
   double nugget, sill, misfit;
@@ -208,11 +253,11 @@ trendAt(const Vector3d& x, int degree)
   return terms;
 }
 
-EmpiricalVariogram
-empiricalVariogram(const SampledFields& sampled,
-                   std::size_t field,
-                   const Eigen::Matrix3d& metric,
-                   int trend)
+EmpiricalVariograms
+computeEmpiricalVariograms(const SampledFields& sampled,
+                           std::size_t field,
+                           const Eigen::Matrix3d& metric,
+                           int trend)
 {
   const SampleSet& samples = *sampled.samples;
   const std::size_t step = (samples.size() + most_centers - 1) / most_centers;
@@ -221,15 +266,12 @@ empiricalVariogram(const SampledFields& sampled,
     centers.push_back(i);
   const Residuals residuals(sampled, field, centers, trend);
 
-  struct Pair {
-    double distance, half_square;
-  };
   std::vector<Pair> pairs;
   const auto add = [&](std::size_t a, std::size_t b) {
-    const double distance =
-        (metric * (positionOf(sampled, a) - positionOf(sampled, b))).norm();
-    const double difference = residuals[a] - residuals[b];
-    pairs.push_back({distance, 0.5 * difference * difference});
+    const Vector3d offset = metric * (positionOf(sampled, a) - positionOf(sampled, b));
+    const double distance = offset.norm(), difference = residuals[a] - residuals[b];
+    pairs.push_back(
+        {distance, 0.5 * difference * difference, findAxis(offset, distance)});
   };
   NearestFinder finder(samples, near_samples + 1);
   for (std::size_t i = 0; i < centers.size(); ++i) {
@@ -240,9 +282,8 @@ empiricalVariogram(const SampledFields& sampled,
     for (std::size_t j = 0; j < i; ++j)
       add(centers[i], centers[j]);
   }
-  EmpiricalVariogram empirical;
   if (pairs.empty())
-    return empirical;
+    return {};
   double farthest = 0.0, nearest = std::numeric_limits<double>::infinity();
   for (const Pair& pair : pairs) {
     farthest = std::max(farthest, farthest_part * pair.distance);
@@ -250,24 +291,10 @@ empiricalVariogram(const SampledFields& sampled,
   }
   // A few very close pairs should not stretch the classes.
   nearest = std::max(nearest, least_spread * farthest);
-  std::array<double, classes> distance{}, value{}, count{};
-  for (const Pair& pair : pairs) {
-    if (pair.distance > farthest)
-      continue;
-    const double part = std::log(pair.distance / nearest) /
-                        std::max(std::log(farthest / nearest), 1e-9);
-    const auto index = static_cast<std::size_t>(
-        std::clamp(part * classes, 0.0, static_cast<double>(classes - 1)));
-    distance[index] += pair.distance;
-    value[index] += pair.half_square;
-    count[index] += 1.0;
-  }
-  for (std::size_t i = 0; i < classes; ++i)
-    if (count[i] > 0.0) {
-      empirical.distance.push_back(distance[i] / count[i]);
-      empirical.value.push_back(value[i] / count[i]);
-      empirical.pairs.push_back(count[i]);
-    }
+  EmpiricalVariograms empirical{classify(pairs, nearest, farthest, -1), {}};
+  for (int axis = 0; axis < 3; ++axis)
+    empirical.along[static_cast<std::size_t>(axis)] =
+        classify(pairs, nearest, farthest, axis);
   return empirical;
 }
 

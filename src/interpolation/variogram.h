@@ -3,20 +3,23 @@
 // Delfiner, Geostatistics, chapter 2): models, and models fitted to samples.
 #pragma once
 
-#include "interpolation/field_model.h"
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace pcl_uvol::detail {
 
+struct SampledFields;
+
 /** \brief Half the mean squared difference of two values: nugget + sill * (1 -
  * correlation(h / range)). */
-struct Variogram {
+struct PCL_UVOL_EXPORTS Variogram {
   VariogramKind kind = VariogramKind::Spherical;
   double nugget = 0.0; ///< of values that differ however close their samples are
   double sill = 0.0;   ///< without the nugget
@@ -44,21 +47,34 @@ struct EmpiricalVariogram {
   std::vector<double> pairs;    ///< number
 };
 
+/** \brief What pairs of samples have in all directions, and along single axes. */
+struct EmpiricalVariograms {
+  EmpiricalVariogram all;
+  /** Of pairs within 30 degrees of an axis; without classes where there are none. */
+  std::array<EmpiricalVariogram, 3> along;
+};
+
 /** \brief Half squared differences of pairs of near samples, and of samples out of all
  * parts of the cloud, up to a third of its size.
- * \param metric from offsets of samples to those whose length counts
+ * \param metric from offsets of samples to those whose length and direction count
  * \param trend degree of a polynomial through all samples that is subtracted first: 0,
  * 1 or 2 */
-EmpiricalVariogram
-empiricalVariogram(const SampledFields& sampled,
-                   std::size_t field,
-                   const Eigen::Matrix3d& metric,
-                   int trend);
+EmpiricalVariograms
+computeEmpiricalVariograms(const SampledFields& sampled,
+                           std::size_t field,
+                           const Eigen::Matrix3d& metric,
+                           int trend);
 
 /** \brief Fit what a variogram lacks, its NaNs, by least squares weighted with the
  * number of pairs over the squared model (Cressie 1985). */
 Variogram
 fitVariogram(const EmpiricalVariogram& empirical, const Variogram& given);
+
+/** \brief A variogram, and what it was fitted to. */
+struct FittedVariogram {
+  Variogram model;
+  EmpiricalVariograms empirical;
+};
 
 /** \brief Terms of a polynomial of degree 0, 1 or 2. */
 Eigen::Index

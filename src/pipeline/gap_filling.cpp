@@ -172,7 +172,7 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   own.progress = report.progress;
   field_ = std::make_unique<FieldInterpolator>(
       viewOf(samples->cloud), use, kriging, threads, own);
-  const Variogram variogram = *field_->findVariogram(0);
+  const Variogram variogram = field_->findVariogram(0)->model;
   summary_.range = variogram.range;
   summary_.nugget = variogram.nugget;
   summary_.sill = variogram.sill;

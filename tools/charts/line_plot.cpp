@@ -21,6 +21,16 @@ constexpr double line_width = 2.0;
 constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
 constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
 
+/** Of kinds of dots: the first one is black. */
+constexpr Ink dot_inks[] = {black, {255, 127, 14}, {44, 160, 44}, {214, 39, 40}};
+
+void
+drawDot(Image& image, double column, double row, const Ink& ink)
+{
+  constexpr double diameter = 7.0;
+  drawLine(image, column, row, column, row, diameter, ink);
+}
+
 Image
 makePaper()
 {
@@ -64,15 +74,21 @@ namespace {
 
 /** What the values range over, and some more. */
 AxisScale
-ordinateOf(const std::vector<double>& values)
+findOrdinate(const Profile& profile)
 {
   constexpr double room = 0.05;
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const double value : values)
+  const auto include = [&](double value) {
     if (std::isfinite(value)) {
       low = std::min(low, value);
       high = std::max(high, value);
     }
+  };
+  for (const double value : profile.values)
+    include(value);
+  for (const PlotDots& dots : profile.dots)
+    for (const auto& place : dots.places)
+      include(place[1]);
   if (!(low <= high))
     return {0.0, 1.0};
   const double more = high > low ? room * (high - low) : std::abs(low) + 1.0;
@@ -89,7 +105,7 @@ drawProfile(const Profile& profile)
   Image image = makePaper();
   const PlotArea area{wide_left, right, top, bottom - font};
   const AxisScale x{profile.abscissas.front(), profile.abscissas.back()},
-      y = ordinateOf(profile.values);
+      y = findOrdinate(profile);
   const auto column = [&](std::size_t i) {
     return area.left + x.placeOf(profile.abscissas[i]) * (area.right - area.left);
   };
@@ -102,7 +118,7 @@ drawProfile(const Profile& profile)
   };
   // A column of the band after the other, between the points left and right of it.
   std::size_t i = 1;
-  for (int at = area.left; at <= area.right; ++at) {
+  for (int at = area.left; !profile.errors.empty() && at <= area.right; ++at) {
     while (i + 1 < profile.values.size() && column(i) < at)
       ++i;
     if (!has_line(i) || !(profile.errors[i - 1] >= 0.0) || !(profile.errors[i] >= 0.0))
@@ -125,6 +141,28 @@ drawProfile(const Profile& profile)
                row(profile.values[k]),
                line_width,
                inks[0]);
+  // In the lower right corner, from below, which curves that rise leave free.
+  int legend = area.bottom - font;
+  for (std::size_t k = profile.dots.size(); k-- > 0;) {
+    const PlotDots& dots = profile.dots[k];
+    const Ink& ink = dot_inks[k % std::size(dot_inks)];
+    if (dots.places.empty())
+      continue;
+    for (const auto& [abscissa, value] : dots.places)
+      drawDot(image,
+              area.left + x.placeOf(abscissa) * (area.right - area.left),
+              row(value),
+              ink);
+    drawDot(image, area.right - font, legend, ink);
+    writeText(image,
+              dots.name,
+              font,
+              area.right - 2 * font,
+              legend,
+              TextAnchor::Right,
+              black);
+    legend -= font * 3 / 2;
+  }
   drawAxisBelow(image, area, margin, x, profile.abscissa, font);
   drawAxisLeft(image, area, margin, y, profile.ordinate, font);
   return image;

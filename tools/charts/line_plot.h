@@ -4,6 +4,7 @@
 
 #include <pcl_uvol/render/image.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,21 @@ struct PlotLine {
 pcl_uvol::Image
 drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa);
 
+/** \brief Single values in a plot. */
+struct PlotDots {
+  std::string name;
+  std::vector<std::array<double, 2>> places; ///< abscissa and value
+};
+
 /** \brief A quantity along a way. */
 struct Profile {
   std::vector<double> abscissas;  ///< ascending
   std::vector<double> values;     ///< one per abscissa; NaN leaves a gap
-  std::vector<double> errors;     ///< of the values; NaN or 0: none
+  std::vector<double> errors;     ///< of the values; NaN, 0 or empty: none
   std::string abscissa, ordinate; ///< labels
+  /** Up to four kinds of dots over the line, with a legend; those without a place are
+   * left out. */
+  std::vector<PlotDots> dots{};
 };
 
 /** \brief Draw a line on linear axes, 720 x 440 pixels, in a band of the errors above

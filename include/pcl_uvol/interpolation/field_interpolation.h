@@ -22,7 +22,7 @@ namespace pcl_uvol {
 namespace detail {
 
 struct QueryLattice;
-struct Variogram;
+struct FittedVariogram;
 
 /** \brief Queries of a lattice that are answered at a time. */
 constexpr std::size_t lattice_block = std::size_t{1} << 18;
@@ -66,9 +66,9 @@ public:
               Report& report,
               const TakeAnswers& take) const;
 
-  /** \brief The variogram of a field, in its units and those of the stretched space;
-   * none where the model has none. */
-  std::optional<Variogram>
+  /** \brief The variogram of a field and what it was fitted to, in its units and those
+   * of the stretched space; none where the model has none. */
+  std::optional<FittedVariogram>
   findVariogram(std::size_t field) const;
 
   /** \brief The fields, in the order of the answers. */

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "uvol_probe/variogram_output.h"
+
+#include "charts/line_plot.h"
+#include "io/table_file.h"
+#include <pcl_uvol/io/image_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+namespace uvol_tools {
+
+using pcl_uvol::detail::EmpiricalVariogram;
+using pcl_uvol::detail::FittedVariogram;
+using pcl_uvol::detail::Variogram;
+
+namespace {
+
+const char* const axis_names[] = {"x", "y", "z"};
+
+std::string
+writeTable(const FittedVariogram& variogram)
+{
+  std::ostringstream table;
+  table.precision(9);
+  table << "direction,distance,half_mean_square,pairs,model\n";
+  const auto addRows = [&](const char* direction, const EmpiricalVariogram& empirical) {
+    for (std::size_t i = 0; i < empirical.distance.size(); ++i)
+      table << direction << ',' << empirical.distance[i] << ',' << empirical.value[i]
+            << ',' << empirical.pairs[i] << ','
+            << variogram.model.value(empirical.distance[i]) << '\n';
+  };
+  addRows("all", variogram.empirical.all);
+  for (std::size_t axis = 0; axis < std::size(axis_names); ++axis)
+    addRows(axis_names[axis], variogram.empirical.along[axis]);
+  return table.str();
+}
+
+PlotDots
+listDots(const std::string& name, const EmpiricalVariogram& empirical)
+{
+  // Means of fewer are too rough to be looked at (Journel and Huijbregts 1978, III.42).
+  constexpr double fewest_pairs = 30.0;
+  PlotDots dots;
+  dots.name = name;
+  for (std::size_t i = 0; i < empirical.distance.size(); ++i)
+    if (empirical.pairs[i] >= fewest_pairs)
+      dots.places.push_back({empirical.distance[i], empirical.value[i]});
+  return dots;
+}
+
+pcl_uvol::Image
+draw(const FittedVariogram& variogram, const std::string& field, bool is_stretched)
+{
+  constexpr int steps = 400;
+  const EmpiricalVariogram& all = variogram.empirical.all;
+  const double farthest =
+      all.distance.empty() ? variogram.model.range : all.distance.back();
+  Profile profile;
+  profile.abscissa =
+      is_stretched ? "distance of two samples, stretched" : "distance of two samples";
+  profile.ordinate = "half mean square of differences: " + field;
+  for (int i = 0; i <= steps; ++i) {
+    // Just beyond 0 the model is the nugget already.
+    const double h = farthest * std::max(i, 1) / steps;
+    profile.abscissas.push_back(farthest * i / steps);
+    profile.values.push_back(variogram.model.value(i == 0 ? 1e-9 * h : h));
+  }
+  profile.dots.push_back(listDots("all directions", all));
+  for (std::size_t axis = 0; axis < std::size(axis_names); ++axis)
+    profile.dots.push_back(listDots(std::string("along ") + axis_names[axis],
+                                    variogram.empirical.along[axis]));
+  return drawProfile(profile);
+}
+
+std::string
+describe(const Variogram& model)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << toWord(model.kind) << ", nugget " << model.nugget << ", sill " << model.sill
+       << ", range " << model.range;
+  return text.str();
+}
+
+} // namespace
+
+void
+VariogramOutput::declare(Options& options)
+{
+  options.output(
+      "variogram-csv",
+      "out.csv",
+      table_,
+      "with kriging: write the variogram of the first field, of all pairs of "
+      "samples and of those along an axis, and its model");
+  options.output(
+      "variogram-png", "out.png", picture_, "with kriging: draw that variogram");
+}
+
+void
+VariogramOutput::finish(const Options& options,
+                        pcl_uvol::InterpolationModel model) const
+{
+  for (const char* const option : {"variogram-csv", "variogram-png"})
+    if (options.given(option) && model != pcl_uvol::InterpolationModel::Kriging)
+      throw UsageError(std::string("-") + option + " needs -model kriging.");
+  if (!table_.empty())
+    pcl_uvol::checkTablePath(table_);
+  if (!picture_.empty())
+    pcl_uvol::checkPngPath(picture_);
+}
+
+Facts
+VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
+                       bool is_stretched) const
+{
+  Facts facts, of_fields;
+  const auto& names = interpolator.getNames();
+  for (std::size_t field = 0; field < names.size(); ++field) {
+    const auto variogram = interpolator.findVariogram(field);
+    if (!variogram)
+      continue;
+    const Variogram& model = variogram->model;
+    facts.push_back(
+        Fact("variogram of " + names[field], describe(model)).withoutJson());
+    of_fields.emplace_back(names[field],
+                           Facts{{"kind", toWord(model.kind)},
+                                 {"nugget", model.nugget},
+                                 {"sill", model.sill},
+                                 {"range", model.range}});
+    if (field > 0)
+      continue;
+    if (!table_.empty())
+      pcl_uvol::saveTable(table_, writeTable(*variogram));
+    if (!picture_.empty())
+      pcl_uvol::savePng(picture_, draw(*variogram, names[field], is_stretched));
+  }
+  if (!of_fields.empty())
+    facts.emplace_back("variograms", of_fields);
+  return facts;
+}
+
+} // namespace uvol_tools
