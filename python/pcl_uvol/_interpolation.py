@@ -127,6 +127,22 @@ class Interpolator:
         """dict: the library's parameters, with the model that was chosen."""
         return _parameters.from_json(self._core.parameters)
 
+    @property
+    def variograms(self):
+        """dict: of kriging, by field: kind, nugget, sill and range, and what they were
+        fitted to: half the mean squares of differences (values) of so many pairs of
+        samples, by distance. Empty with other models.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> model = uvol.Interpolator(points, {"rho": np.sin(3 * points[:, 0])}, model="kriging")
+        >>> found = model.variograms["rho"]
+        >>> found["kind"], len(found["distances"]) == len(found["pairs"]), found["range"] > 0.3
+        ('spherical', True, True)
+        """
+        return self._core.variograms
+
     def evaluate(self, queries, threads=None, progress=None):
         """Answer queries.
 
@@ -278,7 +294,16 @@ class Interpolator:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
         short = [name for name in self.fields if self._core.is_short(name)]
-        return Lattice(places, counts, steps, columns, found["report"], short)
+        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges())
+
+    def _find_ranges(self):
+        """The lowest and the highest finite value of every field."""
+        ranges = {}
+        for name in self.fields:
+            values = self.samples[name]
+            values = values[np.isfinite(values)]
+            ranges[name] = (float(values.min()), float(values.max())) if len(values) else (-np.inf, np.inf)
+        return ranges
 
     def _threads_of(self, threads):
         return self._threads if threads is None else _parameters.count(threads, "threads")

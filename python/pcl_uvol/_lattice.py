@@ -5,7 +5,9 @@ import os
 
 import numpy as np
 
+from . import _parameters
 from ._errors import FieldError
+from ._pictures import Picture
 from ._points import describe_missing
 
 
@@ -22,10 +24,11 @@ class Lattice:
         Counts, milliseconds and warnings.
     """
 
-    def __init__(self, places, counts, steps, columns, report, short):
+    def __init__(self, places, counts, steps, columns, report, short, ranges):
         self.shape = tuple(count for count in reversed(counts) if count > 1) or (1,)
         self._file_form = (places[0].tolist(), steps, counts)
         self._short = short  # fields that are float32 in files
+        self._ranges = ranges  # of the samples' values, by field
         self.points = places.reshape(*self.shape, 3)
         self.report = report
         self._steps = [step for step, count in zip(steps, counts) if count > 1][::-1]
@@ -88,6 +91,65 @@ class Lattice:
             arrays.append((name, values.reshape(self._count(), -1)))
         _io.write_lattice(path, *self._file_form, arrays)
 
+    def render(self, field="", *, contours=(), colormap="viridis", range=None, log=False, label="", unit=""):
+        """A picture of a slice, or of the values along a line with their errors, as
+        uvol_probe draws it.
+
+        Parameters
+        ----------
+        field : str
+            By default the first one.
+        contours : sequence of float
+            Values that lines are drawn of, in a slice.
+        colormap, range, log
+            As those of `Surface.render`, of a slice.
+        label, unit : str
+            What the values are called, by default the field, and the unit of coordinates.
+
+        Returns
+        -------
+        Picture
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> interpolator = uvol.Interpolator(points, {"rho": points[:, 0] ** 2})
+        >>> picture = interpolator.slice("z=0.5", 64).render(contours=[0.2, 0.4], unit="m")
+        >>> picture.pixels.shape[2], picture.field
+        (4, 'rho')
+        """
+        from . import _charts
+        field = field or next(iter(self._columns))
+        values = self[field]
+        if len(self.shape) > 2 or values.ndim > len(self.shape):
+            raise ValueError("A picture shows one number per place, along a line or in a slice.")
+        title = label or field
+        if len(self.shape) == 1:
+            errors = self._columns.get(field + "_error", np.empty(0))
+            distances = np.arange(self.shape[0]) * np.linalg.norm(self._steps[0] if self._steps else 0.0)
+            pixels = _charts.draw_line(distances, values, errors, _with_unit("distance", unit), title)
+            limits = (float(np.nanmin(values)), float(np.nanmax(values))) if np.isfinite(values).any() else (0.0, 0.0)
+        else:
+            ends = None if range is None else _parameters.numbers(range, "range")
+            bounds = self._ranges.get(field, (-np.inf, np.inf))
+            lines = [float(value) for value in contours]
+            pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
+                                                 colormap, ends, bounds, bool(log), lines)
+        return Picture(pixels, field, limits, self.report)
+
+    def _repr_png_(self):
+        return self.render()._repr_png_() if len(self.shape) < 3 else None
+
+    def _picture_axis(self, number, unit):
+        """Coordinates at the ends of an axis of a slice, and its name."""
+        step = np.asarray(self._steps[number])
+        length = np.linalg.norm(step)
+        direction = step / length
+        low = float(direction @ self.points.reshape(-1, 3)[0])
+        axis = self._axis_of(step)
+        name = "xyz"[axis] if axis is not None else "along ({:.3g}, {:.3g}, {:.3g})".format(*direction)
+        return low, low + length * (self.shape[number] - 1), _with_unit(name, unit)
+
     def _count(self):
         return int(np.prod(self.shape))
 
@@ -98,3 +160,7 @@ class Lattice:
 
     def __repr__(self):
         return f"Lattice of {' x '.join(map(str, self.shape))} places: {', '.join(self.keys())}"
+
+
+def _with_unit(name, unit):
+    return f"{name} ({unit})" if unit else name

@@ -2,7 +2,9 @@
 // The equations of kriging against the textbook's bordered matrix in long double, and
 // variograms against what they were made from.
 #include "common/random.h"
+#include "src/interpolation/field_model.h"
 #include "src/interpolation/kriging_system.h"
+#include "src/interpolation/variogram.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -154,6 +156,52 @@ TEST(Variogram, FitsFindWhatIsThere)
     EXPECT_EQ(given.nugget, 0.3);
     EXPECT_DOUBLE_EQ(given.range, 0.4);
     EXPECT_NEAR(given.sill, truth.sill, 1e-9);
+  }
+}
+
+TEST(Variogram, PairsAlongAnAxisDifferFromItByThirtyDegreesAtMost)
+{
+  // Of a field that grows along one axis half the squared difference of a pair is half
+  // its squared distance times the squared cosine of the angle to this axis.
+  std::vector<float> xyz;
+  std::vector<std::uint32_t> use;
+  for (std::uint32_t i = 0; i < 500; ++i) {
+    use.push_back(i);
+    for (int axis = 0; axis < 3; ++axis)
+      xyz.push_back(
+          static_cast<float>(uniformAt(3, i, static_cast<std::uint64_t>(axis))));
+  }
+  Report report;
+  for (std::size_t grows = 0; grows < 3; ++grows) {
+    SampledFields sampled;
+    sampled.samples =
+        SampleSet::build(xyz.data(), 3, use, {{1.0f, 1.0f, 1.0f}}, 1, report);
+    sampled.fields = 1;
+    for (const Position& position : sampled.samples->getPositions())
+      sampled.values.push_back(position[grows]);
+    const EmpiricalVariograms found =
+        computeEmpiricalVariograms(sampled, 0, Eigen::Matrix3d::Identity(), 0);
+    double pairs = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const EmpiricalVariogram& along = found.along[axis];
+      ASSERT_GE(along.distance.size(), 10u);
+      for (std::size_t i = 0; i < along.distance.size(); ++i) {
+        const double part = along.value[i] / (along.distance[i] * along.distance[i]);
+        // Means of squares exceed squares of means a little, within a class.
+        if (axis == grows) {
+          EXPECT_GT(part, 0.375);
+          EXPECT_LT(part, 0.52);
+        }
+        else
+          EXPECT_LT(part, 0.13);
+        pairs += along.pairs[i];
+      }
+    }
+    double all = 0.0;
+    for (const double count : found.all.pairs)
+      all += count;
+    // Six caps of 30 degrees are 0.402 of a sphere; of a cube the nearer pairs count.
+    EXPECT_NEAR(pairs / all, 6.0 * (1.0 - std::sqrt(0.75)) / 2.0, 0.03);
   }
 }
 

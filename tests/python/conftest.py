@@ -38,14 +38,14 @@ def sphere(ball):
 
 @pytest.fixture
 def run_tool(tmp_path):
-    """Calls run_tool("uvol_isosurface", argument, ...), in a folder of the test's own."""
+    """Calls run_tool("uvol_isosurface", argument, ...), in a folder of the test's own: what the tool prints."""
     folder = os.environ.get("PCL_UVOL_TOOL_DIR")
     if not folder:
         pytest.skip("PCL_UVOL_TOOL_DIR does not say where the tools are")
 
     def run(tool, *arguments):
         command = [os.path.join(folder, tool), *map(str, arguments)]
-        subprocess.run(command, check=True, cwd=tmp_path, capture_output=True)
+        return subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True).stdout
 
     return run
 

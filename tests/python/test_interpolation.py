@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields between the samples: the tool's own answers, arrays of the right shapes."""
 
+import json
 import pickle
 import threading
 
@@ -58,6 +59,68 @@ def test_the_tool_has_the_same_slices(tmp_path, run_tool, linear):
     assert np.array_equal(lattice["f"].ravel(), tool["f"], equal_nan=True)
     assert np.array_equal(lattice["support"].ravel(), tool["support"])
     assert np.allclose(lattice.points.reshape(-1, 3), tool.points, atol=1e-3)
+
+
+def read_pixels(path):
+    import matplotlib.image
+    return np.round(matplotlib.image.imread(path) * 255).astype(np.uint8)
+
+
+@pytest.mark.parametrize("plane, options, asked", [
+    ("z=0.5", [], {}),
+    ("500000.5,4000000.5,0.5,1,2,3", ["-contours", "0.5,1", "-unit", "km", "-colormap", "cividis", "-range", "0,2", "-label", "height"],
+     {"contours": [0.5, 1], "unit": "km", "colormap": "cividis", "range": (0, 2), "label": "height"}),
+])
+def test_the_tool_draws_the_same_slices(tmp_path, run_tool, linear, plane, options, asked):
+    pytest.importorskip("matplotlib")
+    linear.save(tmp_path / "samples.ply")
+    run_tool("uvol_probe", "samples.ply", "tool.vti", "-plane", plane, "-size", "60", "-field", "f", "-png", "tool.png", *options)
+    numbers = [float(number) for number in plane.split(",")] if "," in plane else []
+    place = (numbers[:3], numbers[3:]) if numbers else plane
+    lattice = uvol.Interpolator(linear, field="f").slice(place, 60)
+    tool = read_pixels(tmp_path / "tool.png")
+    pixels = lattice.render("f", **asked).pixels
+    assert np.array_equal(pixels[..., :tool.shape[2]], tool)
+    assert lattice._repr_png_().startswith(b"\x89PNG")
+
+
+def test_the_tool_draws_the_same_lines(tmp_path, run_tool, linear):
+    pytest.importorskip("matplotlib")
+    linear.save(tmp_path / "samples.ply")
+    run_tool("uvol_probe", "samples.ply", "tool.csv", "-line", "500000.1,4000000.1,0.1,500000.8,4000000.9,0.7", "-n", "40", "-field", "f", "-model", "nearest",
+             "-png", "tool.png")
+    line = uvol.Interpolator(linear, field="f", model="nearest").line([500000.1, 4000000.1, 0.1], [500000.8, 4000000.9, 0.7], 40)
+    tool = read_pixels(tmp_path / "tool.png")
+    assert np.array_equal(line.render().pixels[..., :tool.shape[2]], tool)
+
+
+def test_grids_and_gradients_are_not_drawn(linear):
+    interpolator = uvol.Interpolator(linear, field="f")
+    with pytest.raises(ValueError, match="along a line or in a slice"):
+        interpolator.grid(4).render()
+    with pytest.raises(ValueError, match="one number per place"):
+        interpolator.slice("z=0.5", 4).render("f_gradient")
+    with pytest.raises(KeyError, match="g"):
+        interpolator.slice("z=0.5", 4).render("g")
+    assert interpolator.grid(4)._repr_png_() is None
+
+
+def test_variograms_are_those_of_the_tool(tmp_path, run_tool, linear):
+    linear.save(tmp_path / "samples.ply")
+    told = json.loads(run_tool("uvol_probe", "samples.ply", "-model", "kriging", "-field", "f,g", "-variogram-csv", "v.csv", "-json"))
+    with pytest.warns(UserWarning, match="no variogram"):
+        interpolator = uvol.Interpolator(linear, field=["f", "g"], model="kriging")
+        interpolator([5e5 + 0.5, 4e6 + 0.5, 0.5])
+    assert list(interpolator.variograms) == list(told["variograms"]) == ["f"]
+    found, by_tool = interpolator.variograms["f"], told["variograms"]["f"]
+    assert found["kind"] == by_tool["kind"]
+    assert [found[key] for key in ("nugget", "sill", "range")] == pytest.approx([by_tool[key] for key in ("nugget", "sill", "range")])
+    table = np.genfromtxt(tmp_path / "v.csv", delimiter=",", names=True, dtype=None, encoding=None)
+    rows = table[table["direction"] == "all"]
+    assert np.allclose(rows["distance"], interpolator.variograms["f"]["distances"])
+    assert np.allclose(rows["half_mean_square"], interpolator.variograms["f"]["values"])
+    assert np.array_equal(rows["pairs"], interpolator.variograms["f"]["pairs"])
+    assert uvol.Interpolator(linear, field="f").variograms == {}
 
 
 @pytest.mark.parametrize("ending", ["vti", "vts", "nrrd", "mha"])

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -247,6 +248,54 @@ TEST_F(ProbeTool, ConstantsHaveNoVariogram)
   EXPECT_EQ(fieldOf(points, "same_error"), Values(5, 0.0));
 }
 
+TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
+{
+  const std::string outputs = " -variogram-csv " + (folder_ / "v.csv") +
+                              " -variogram-png " + (folder_ / "v.png");
+  const std::string kriging = " -field wave,cubic -model kriging";
+  const auto tell = [&](const std::string& options) {
+    const auto result = runCommand(tool_ + " " + in_ + kriging + options + " -json");
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    return Json::parse(result.out)["variograms"];
+  };
+  const Json given = tell(outputs + " -variogram exponential,0.5,2,0.25");
+  EXPECT_EQ(given["wave"],
+            (Json{{"kind", "exponential"},
+                  {"nugget", 0.5},
+                  {"sill", 2.0},
+                  {"range", given["wave"]["range"]}}));
+  EXPECT_NEAR(given["wave"]["range"], 0.25, 1e-12);
+  EXPECT_EQ(given.size(), 2u);
+  std::istringstream table(readFile(folder_ / "v.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_EQ(line, "direction,distance,half_mean_square,pairs,model");
+  std::map<std::string, int> rows;
+  for (std::string cell; std::getline(table, line);) {
+    std::istringstream cells(line);
+    std::getline(cells, cell, ',');
+    ++rows[cell];
+    std::vector<double> numbers;
+    while (std::getline(cells, cell, ','))
+      numbers.push_back(std::stod(cell));
+    ASSERT_EQ(4u, numbers.size());
+    EXPECT_NEAR(numbers[3], 2.5 - 2.0 * std::exp(-numbers[0] / 0.25), 1e-7);
+  }
+  EXPECT_EQ(24, rows["all"]);
+  EXPECT_EQ(4u, rows.size());
+  EXPECT_TRUE(rows.count("x") == 1 && rows.count("y") == 1 && rows.count("z") == 1);
+  int channels = 0;
+  EXPECT_EQ(720u, readPng(folder_ / "v.png", channels).width);
+  // In another unit of length the range is that in this unit.
+  const std::string any = " -variogram-csv " + (folder_ / "v.csv");
+  const Json fitted = tell(any)["wave"];
+  writeSamples(in_, 3000, 1024.0, 0.0);
+  const Json larger = tell(any)["wave"];
+  const double range = fitted["range"], sill = fitted["sill"];
+  EXPECT_NEAR(larger["range"], 1024.0 * range, 1.024 * range);
+  EXPECT_NEAR(larger["sill"], sill, 1e-3 * sill);
+}
+
 TEST_F(ProbeTool, FewSamplesGetASimplerModel)
 {
   writeFile(in_, "x,y,z,v\n0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n");
@@ -304,6 +353,11 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure(line + "-model kriging -variogram cubic", 2, "-variogram starts with");
   expectFailure(line + "-model kriging -variogram gaussian,1,2", 2, "takes 3 numbers");
   expectFailure(line + "-model kriging -variogram gaussian,1,2,-3", 1, "range");
+  const std::string variogram = " -variogram-csv " + (folder_ / "v.csv");
+  expectFailure(line + variogram, 2, "-variogram-csv needs -model kriging");
+  expectFailure("-field same -line 0,0,0,1,1,1 -model kriging" + variogram,
+                1,
+                "The field same is the same at all samples: there is no variogram.");
   expectFailure(line + "-contours 1", 2, "-contours needs -png");
   expectFailure(line + "-png " + (folder_ / "a.png") + " -log", 2, "-log needs -plane");
   expectFailure("-field wave -grid 8 -png " + (folder_ / "a.png"), 2, "-png needs");

@@ -3,6 +3,7 @@
 
 #include "charts/line_plot.h"
 #include "io/table_file.h"
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 
 #include <algorithm>
@@ -124,6 +125,13 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
     if (!variogram)
       continue;
     const Variogram& model = variogram->model;
+    if (!(model.nugget + model.sill > 0.0)) {
+      if (field == 0 && isAskedFor())
+        throw pcl_uvol::InvalidArgument("The field " + names[field] +
+                                        " is the same at all samples: there is no "
+                                        "variogram.");
+      continue;
+    }
     facts.push_back(
         Fact("variogram of " + names[field], describe(model)).withoutJson());
     of_fields.emplace_back(names[field],

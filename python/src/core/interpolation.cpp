@@ -4,6 +4,7 @@
 #include "core/bindings.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/query_lattice.h"
+#include "interpolation/variogram.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -137,6 +138,32 @@ public:
     return names;
   }
 
+  /** The variograms of kriging, by field, and what they were fitted to. */
+  py::dict
+  getVariograms() const
+  {
+    const auto toColumn = [](const std::vector<double>& numbers) {
+      return toArray(std::vector<double>(numbers),
+                     {static_cast<py::ssize_t>(numbers.size())});
+    };
+    py::dict variograms;
+    const std::vector<std::string>& names = interpolator_->getNames();
+    for (std::size_t field = 0; field < names.size(); ++field)
+      if (const auto found = interpolator_->findVariogram(field);
+          found && found->model.nugget + found->model.sill > 0.0) {
+        py::dict dict;
+        dict["kind"] = toWord(found->model.kind);
+        dict["nugget"] = found->model.nugget;
+        dict["sill"] = found->model.sill;
+        dict["range"] = found->model.range;
+        dict["distances"] = toColumn(found->empirical.all.distance);
+        dict["values"] = toColumn(found->empirical.all.value);
+        dict["pairs"] = toColumn(found->empirical.all.pairs);
+        variograms[toText(names[field])] = dict;
+      }
+    return variograms;
+  }
+
   /** Whether values of a field are float32 in files, see fileTypeOf(). */
   bool
   isShort(const std::string& name) const
@@ -248,6 +275,7 @@ bindInterpolation(py::module_& module)
       .def("is_short", &Interpolator::isShort)
       .def_property_readonly("names", &Interpolator::getNames)
       .def_property_readonly("parameters", &Interpolator::getParameters)
+      .def_property_readonly("variograms", &Interpolator::getVariograms)
       .def_property_readonly("report", &Interpolator::getReport);
   module.def("bounds", &findBounds);
   module.def("line", [](const Place& from, const Place& to, std::size_t count) {
