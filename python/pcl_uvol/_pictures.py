@@ -200,13 +200,49 @@ class Drawable:
         return dict(color=color or "none", colormap=colormap, range=range, log=bool(log), exaggerate=_place(exaggerate),
                     surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
+    def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,
+                  at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
+                  lights=None, material=None, threads=0, progress=None):
+        """Write the points as a web page: one file that turns in any browser, with no
+        server and no network, as uvol_render writes it.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            Ends in .html.
+        color, colormap, range, log, bar, view, eye, at, up, fov, zoom, background, surface_color, exaggerate, lights, material
+            As those of `render`.
+
+        Returns
+        -------
+        dict
+            The report.
+        """
+        from . import _charts
+        path = os.fspath(path)
+        if not path.endswith(".html"):
+            raise ValueError(f"{path!r} is no web page: its name must end in .html.")
+        look = look_of(1024, view, eye, at, up, fov, zoom, background, 0)
+        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material))
+        count = _parameters.count(threads, "threads")
+        dataset, has_bar = self._find_colors(look, bar, count)
+        with listening(progress) as listener:
+            report = _charts.write_page(path, dataset, _parameters.to_json(look), has_bar, count, listener)
+        _report.tell(report["warnings"])
+        return report
+
+    def _find_colors(self, look, bar, threads):
+        """The points, with the field that colours them if it is an expression, and
+        whether something is to be said of the colours."""
+        dataset = self._dataset
+        if look["color"] not in ("auto", "none", *_OWN_COLORS):
+            dataset = dataset.with_field(look["color"], threads, None)[0]
+        return dataset, bool(bar) and _core.color_field(dataset, look["color"]) not in ("", *_OWN_COLORS)
+
     def _draw(self, function, look, bar, threads, progress, *more):
         """A picture of these points, with what its colours stand for beside it."""
         count = _parameters.count(threads, "threads")
-        dataset = self._dataset
-        if look["color"] not in ("auto", "none", *_OWN_COLORS):
-            dataset = dataset.with_field(look["color"], count, None)[0]
-        has_bar = bar and _core.color_field(dataset, look["color"]) not in ("", *_OWN_COLORS)
+        dataset, has_bar = self._find_colors(look, bar, count)
         if has_bar:
             from . import _charts
             look["margin"] = _charts.bar_width(look["width"], look["height"])

@@ -47,6 +47,23 @@ def test_uvol_render_draws_the_same(tmp_path, run_tool, sphere, options, argumen
     assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
 
 
+@pytest.mark.parametrize("options, arguments", [
+    ({}, []),
+    (dict(color="r*2", colormap="magma", range=(0.2, 0.9), view="top", background="black", exaggerate=[1, 1, 2]),
+     ["-color", "r*2", "-colormap", "magma", "-range", "0.2,0.9", "-view", "top", "-background", "black", "-exaggerate", "1,1,2"]),
+    (dict(color="r", bar=False), ["-color", "r", "-no-bar"]),
+])
+def test_uvol_render_writes_the_same_page(tmp_path, run_tool, sphere, options, arguments):
+    sphere.save(tmp_path / "in.ply")
+    (tmp_path / "module").mkdir()
+    run_tool("uvol_render", "in.ply", "page.html", *arguments)
+    report = uvol.read(tmp_path / "in.ply").save_page(tmp_path / "module" / "page.html", **options)
+    assert (tmp_path / "module" / "page.html").read_bytes() == (tmp_path / "page.html").read_bytes()
+    assert "milliseconds" in report
+    with pytest.raises(ValueError, match=".html"):
+        sphere.save_page(tmp_path / "page.png")
+
+
 def test_uvol_raytrace_draws_the_same(tmp_path, run_tool, sphere):
     sphere.save(tmp_path / "in.ply")
     run_tool("uvol_raytrace", "in.ply", "tool.png", "-size", "160x128", "-color", "r", "-reflect", "0.3",

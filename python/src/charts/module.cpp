@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The extension _charts: legends beside pictures, and plots of slices and lines,
-// written by VTK's letters.
+// The extension _charts: legends beside pictures, plots of slices and lines, written by
+// VTK's letters, and web pages.
 #include "charts/color_bar.h"
 #include "charts/line_plot.h"
 #include "charts/slice_plot.h"
+#include "render/stretch_surface.h"
+#include "render/surface_cloud.h"
 #include "shared/convert.h"
+#include "shared/interruptible.h"
 #include "shared/look.h"
+#include "web/surface_page.h"
 #include <pcl_uvol/common/cloud_view.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <numeric>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -49,6 +55,59 @@ drawLegend(py::array_t<std::uint8_t, py::array::c_style>& pixels,
   else
     uvol_tools::drawCategories(image, categories, field);
   std::copy(image.color.begin(), image.color.end(), pixels.mutable_data());
+}
+
+/** Write a surface as a web page, as uvol_render does.
+ * \param json parameters of pictures
+ * \param has_bar whether the page says what its colours stand for
+ * \return the report */
+py::dict
+writePage(const std::string& path,
+          const Dataset& surface,
+          const std::string& json,
+          bool has_bar,
+          unsigned threads,
+          const py::object& progress)
+{
+  const PictureParameters parameters = readPictureParameters(json);
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    Dataset points = surface;
+    if (parameters.exaggerate)
+      stretchSurface(points, parameters.exaggerate->matrix());
+    const CloudView cloud = viewOf(points.cloud);
+    std::vector<std::uint32_t> all(cloud.count);
+    std::iota(all.begin(), all.end(), 0u);
+    SurfaceCloud discs(cloud, all, threads, report);
+    if (parameters.footprints)
+      discs.computeFootprints(threads, report);
+    uvol_tools::SurfacePage page;
+    page.title = std::filesystem::path(path).stem().string();
+    page.camera = makeCamera(parameters, discs.getBounds(), points.origin, &cloud);
+    page.material = makeMaterial(parameters);
+    page.lights = makeLights(parameters);
+    page.background = makeBackground(parameters).color;
+    const std::string field = findColorField(parameters, cloud);
+    if (field.empty())
+      discs.setColor(toRgba(page.material.color));
+    else {
+      const ColorMapping mapping = makeColorMapping(parameters, cloud, field);
+      const PointColors colors = colorPoints(cloud, field, mapping);
+      discs.setColors(colors.colors);
+      if (has_bar) {
+        page.field = field;
+        page.map = mapping.map;
+        page.scale = colors.scale;
+        page.categories =
+            uvol_tools::listNamedCategories(cloud, points.labels, field, mapping.map);
+      }
+    }
+    discs.fadeBridged(page.background);
+    writeSurfacePage(path, discs, page);
+    report.progress = nullptr;
+  });
+  return toDict(report);
 }
 
 py::array_t<std::uint8_t>
@@ -114,6 +173,7 @@ PYBIND11_MODULE(_charts, module)
   py::module_::import("pcl_uvol._core"); // the dataset's class
   module.def("bar_width", &uvol_tools::colorBarWidth);
   module.def("draw_legend", &drawLegend);
+  module.def("write_page", &writePage);
   module.def("draw_slice", &drawSlice);
   module.def("draw_line", &drawLine);
 }
