@@ -8,7 +8,7 @@ from ._progress import listening
 from ._samples import Samples
 
 
-def read(path, xyz=("", "", ""), particles="", progress=None):
+def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     """Read samples from a file, as the tools do.
 
     Parameters
@@ -23,6 +23,9 @@ def read(path, xyz=("", "", ""), particles="", progress=None):
     particles : str
         Of a snapshot: gas, dm, disk, bulge, stars, bh, or a number; by default gas, else
         the first kind there is.
+    cells : bool
+        Of files of VTK, Exodus, EnSight and OpenFOAM: take the centres of cells with
+        their data instead of points.
     progress : bool or callable, optional
         See `isosurface`; files of VTK tell none.
 
@@ -40,7 +43,7 @@ def read(path, xyz=("", "", ""), particles="", progress=None):
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
     with listening(progress) as listener:
-        dataset = _io.read(os.fspath(path), columns, str(particles), listener)
+        dataset = _io.read(os.fspath(path), columns, str(particles), bool(cells), listener)
     _report.tell(dataset.notes)
     return Samples._of(dataset)
 

@@ -84,8 +84,16 @@ componentOf(const pcl::PCLPointField& field, std::size_t index)
 [[noreturn]] void
 throwUnknown(const Fields& fields, const std::string& name)
 {
-  throw InvalidArgument("There is no field " + quoteText(name) + "; the fields are " +
-                        describeFields(fields) + ".");
+  const bool has_coordinates_only =
+      std::all_of(fields.begin(), fields.end(), [](const pcl::PCLPointField& field) {
+        return field.name == "x" || field.name == "y" || field.name == "z";
+      });
+  throw InvalidArgument(
+      "There is no field " + quoteText(name) + "; the fields are " +
+      describeFields(fields) +
+      (has_coordinates_only
+           ? ". Data of cells, in files of VTK, are read by the option cells."
+           : "."));
 }
 
 /** The components of fields called name and one of the endings, as far as there are any

@@ -180,7 +180,9 @@ PointCollector::addPointData()
   }
   if (point_data.GetNumberOfArrays() == 0 &&
       data_.GetCellData()->GetNumberOfArrays() > 0)
-    info_.notes.emplace_back("There are data of cells only, which are left out.");
+    info_.notes.emplace_back("There are data of cells only, which are left out: the "
+                             "option cells, or the filter "
+                             "vtkCellCenters, makes samples of them.");
 }
 
 PointArrays

@@ -68,7 +68,7 @@ loadDataset(const std::string& path, const LoadOptions& options)
     case io::FileFormat::Text:
       return io::readText(path, options);
     case io::FileFormat::Vtk:
-      return io::readVtk(path);
+      return io::readVtk(path, options);
     default:
       return io::readWhole(io::openRecords(path, format, options), options.progress);
     }

@@ -33,7 +33,11 @@ constexpr struct {
                      {".foam", FileFormat::Vtk},    {".pvd", FileFormat::Vtk},
                      {".vtm", FileFormat::Vtk},     {".pvtu", FileFormat::Vtk},
                      {".pvtp", FileFormat::Vtk},    {".pvts", FileFormat::Vtk},
+                     {".vthb", FileFormat::Vtk},    {".htg", FileFormat::Vtk},
                      {".p3d", FileFormat::Plot3d}};
+
+/** Grids, whose points are no samples but lattices, and whose cells may be. */
+constexpr const char* grid_endings[] = {".vti", ".vtr", ".pvti", ".pvtr"};
 
 /** What usually makes a file that is read of one that is not. */
 constexpr struct {
@@ -46,7 +50,8 @@ constexpr struct {
     {".cgns", "meshio convert in.cgns out.vtu converts it, and so does ParaView"},
     {".msh", "meshio convert in.msh out.vtu converts it"},
     {".xdmf", "meshio convert in.xdmf out.vtu converts it"},
-    {".vtr", "ParaView saves its data as .vts"},
+    {".vtr",
+     "-cells reads data of its cells, and ParaView saves those of its points as .vts"},
     {".vti", "uvol_generate in.vti out.pcd makes points of a volume"},
     {".nrrd", "uvol_generate in.nrrd out.pcd makes points of a volume"},
     {".nhdr", "uvol_generate in.nhdr out.pcd makes points of a volume"},
@@ -129,7 +134,11 @@ listLoadedEndings()
 FileFormat
 findFormat(const std::string& path, const LoadOptions& options)
 {
-  const FileFormat format = formatOf(path);
+  const std::string ending = getEnding(path);
+  const bool is_grid = options.cells && std::find(std::begin(grid_endings),
+                                                  std::end(grid_endings),
+                                                  ending) != std::end(grid_endings);
+  const FileFormat format = is_grid ? FileFormat::Vtk : formatOf(path);
   if (options.xyz_columns != LoadOptions().xyz_columns && format != FileFormat::Text)
     throw InvalidArgument(
         "Columns of coordinates can be chosen in text files only, and '" + path +
@@ -138,6 +147,10 @@ findFormat(const std::string& path, const LoadOptions& options)
       format != FileFormat::Hdf5)
     throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
                           "' is none.");
+  if (options.cells && format != FileFormat::Vtk)
+    throw InvalidArgument("Cells can be chosen in files of VTK, Exodus, EnSight and "
+                          "OpenFOAM only, and '" +
+                          path + "' is none.");
   return format;
 }
 

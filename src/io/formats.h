@@ -85,7 +85,7 @@ readVtpTriangles(const std::string& path);
 
 /** \brief .vtk, .vtp, .vtu or .vts, lists of such files, and what VTK itself reads. */
 Dataset
-readVtk(const std::string& path);
+readVtk(const std::string& path, const LoadOptions& options);
 /** @} */
 
 /** \brief A PCD whose points are compressed, as its header tells. */

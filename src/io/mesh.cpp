@@ -29,7 +29,7 @@ readMesh(const std::string& path)
   if (ending == ".stl")
     return readStl(path);
   if (ending == ".vtp")
-    return {readVtk(path), readVtpTriangles(path)};
+    return {readVtk(path, {}), readVtpTriangles(path)};
   if (InputFile(path).head(3) != "ply")
     throwUnreadable(path,
                     "meshes are read from .ply, .vtp, .obj, .off and .stl, and this is "

@@ -2,24 +2,32 @@
 #include "io/vtk_data_reader.h"
 
 #include "common/printable.h"
+#include "io/cell_centers.h"
 #include "io/files.h"
 #include "io/vtk_messages.h"
 #include "io/xml_scanner.h"
 
+#include <vtkAMRUtilities.h>
 #include <vtkAppendFilter.h>
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataSet.h>
 #include <vtkExodusIIReader.h>
+#include <vtkGenericDataObjectReader.h>
 #include <vtkGenericEnSightReader.h>
+#include <vtkHyperTreeGrid.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkOpenFOAMReader.h>
+#include <vtkOverlappingAMR.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLGenericDataObjectReader.h>
+#include <vtkXMLHyperTreeGridReader.h>
+#include <vtkXMLUniformGridAMRReader.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -32,6 +40,8 @@ namespace io {
 namespace {
 
 constexpr const char* exodus_endings[] = {".ex2", ".exo", ".e", ".exii"};
+/** Adaptive meshes and octrees, whose data are those of cells. */
+constexpr const char* cell_endings[] = {".vthb", ".htg"};
 constexpr const char* list_endings[] = {".pvd", ".vtm", ".pvtu", ".pvtp", ".pvts"};
 /** Lists may name lists, but not without end. */
 constexpr std::size_t most_lists = 8;
@@ -55,9 +65,34 @@ checkBeginning(const std::string& path)
 }
 
 vtkSmartPointer<vtkAlgorithm>
-makeReader(const std::string& path)
+makeReader(const std::string& path, DataPlace place)
 {
   const std::string ending = getEnding(path);
+  if (ending == ".vthb") {
+    auto reader = vtkSmartPointer<vtkXMLUniformGridAMRReader>::New();
+    reader->SetFileName(path.c_str());
+    reader->SetMaximumLevelsToReadByDefault(0); // all
+    return reader;
+  }
+  if (ending == ".htg") {
+    auto reader = vtkSmartPointer<vtkXMLHyperTreeGridReader>::New();
+    reader->SetFileName(path.c_str());
+    return reader;
+  }
+  if (ending == ".vtk") {
+    auto reader = vtkSmartPointer<vtkGenericDataObjectReader>::New();
+    reader->SetFileName(path.c_str());
+    reader->ReadAllScalarsOn();
+    reader->ReadAllVectorsOn();
+    reader->ReadAllTensorsOn();
+    reader->ReadAllFieldsOn();
+    return reader;
+  }
+  if (ending.rfind(".vt", 0) == 0) {
+    auto reader = vtkSmartPointer<vtkXMLGenericDataObjectReader>::New();
+    reader->SetFileName(path.c_str());
+    return reader;
+  }
   if (ending == ".case") {
     auto reader = vtkSmartPointer<vtkGenericEnSightReader>::New();
     reader->SetCaseFileName(path.c_str());
@@ -67,7 +102,7 @@ makeReader(const std::string& path)
   if (ending == ".foam") {
     auto reader = vtkSmartPointer<vtkOpenFOAMReader>::New();
     reader->SetFileName(path.c_str());
-    reader->CreateCellToPointOn();
+    reader->SetCreateCellToPoint(place == DataPlace::Points);
     reader->UpdateInformation();
     reader->EnableAllCellArrays();
     reader->EnableAllPointArrays();
@@ -77,7 +112,9 @@ makeReader(const std::string& path)
   reader->SetFileName(path.c_str());
   reader->SetApplyDisplacements(0); // coordinates stay those of the file
   reader->UpdateInformation();
-  reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
+  reader->SetAllArrayStatus(place == DataPlace::Points ? vtkExodusIIReader::NODAL
+                                                       : vtkExodusIIReader::ELEM_BLOCK,
+                            1);
   return reader;
 }
 
@@ -99,18 +136,38 @@ takePoints(vtkDataSet& data)
   return result;
 }
 
-/** All points behind one another. */
+/** All points, or centres of cells, behind one another. */
 class PointJoiner {
 public:
-  void
-  add(vtkDataSet& data)
+  explicit PointJoiner(DataPlace place)
+      : place_(place)
   {
-    if (data.GetNumberOfPoints() == 0)
+  }
+
+  /** Add data, or all blocks of them. */
+  void
+  add(vtkDataObject& object)
+  {
+    if (auto* const data = vtkDataSet::SafeDownCast(&object)) {
+      // Centres are asked of data, not of points that are left.
+      addBlock(place_ == DataPlace::Points ? takePoints(*data)
+                                           : takeCellCenters(*data));
       return;
-    for (int i = 0; i < data.GetPointData()->GetNumberOfArrays(); ++i)
-      if (const char* const name = data.GetPointData()->GetArrayName(i))
-        names_.insert(name);
-    blocks_.push_back(takePoints(data));
+    }
+    if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(&object)) {
+      addBlock(takeCellCenters(*trees));
+      return;
+    }
+    if (auto* const levels = vtkOverlappingAMR::SafeDownCast(&object))
+      vtkAMRUtilities::BlankCells(levels);
+    if (auto* const blocks = vtkCompositeDataSet::SafeDownCast(&object)) {
+      const auto iterator =
+          vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+      for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal();
+           iterator->GoToNextItem())
+        if (vtkDataObject* const block = iterator->GetCurrentDataObject())
+          add(*block);
+    }
   }
 
   /** \throws IOError without a point */
@@ -118,7 +175,8 @@ public:
   join(const std::string& path) const
   {
     if (blocks_.empty())
-      throwUnreadable(path, "it has no points");
+      throwUnreadable(
+          path, place_ == DataPlace::Points ? "it has no points" : "it has no cells");
     vtkNew<vtkAppendFilter> append;
     append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
     for (const auto& block : blocks_)
@@ -133,6 +191,19 @@ public:
   }
 
 private:
+  void
+  addBlock(const vtkSmartPointer<vtkPolyData>& points)
+  {
+    if (points->GetNumberOfPoints() == 0)
+      return;
+    vtkPointData& data = *points->GetPointData();
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i)
+      if (const char* const name = data.GetArrayName(i))
+        names_.insert(name);
+    blocks_.push_back(points);
+  }
+
+  DataPlace place_;
   std::vector<vtkSmartPointer<vtkPolyData>> blocks_;
   std::set<std::string> names_;
 };
@@ -183,9 +254,24 @@ listFiles(const std::string& path)
   return files;
 }
 
+/** Read a file by VTK's own reader. \return what to say of it */
+std::string
+addByVtk(const std::string& path, DataPlace place, PointJoiner& points)
+{
+  const VtkMessages messages;
+  const auto reader = makeReader(path, place);
+  const std::string note = updateAtLastTime(*reader);
+  if (vtkDataObject* const output = reader->GetOutputDataObject(0))
+    points.add(*output);
+  if (!messages.getError().empty())
+    throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
+  return note;
+}
+
 /** \param lists that are open, to notice one that names itself */
 void
 addFiles(const std::string& path,
+         DataPlace place,
          std::vector<std::string>& lists,
          PointJoiner& points,
          std::vector<std::string>& notes)
@@ -205,7 +291,11 @@ addFiles(const std::string& path,
                     printable(first) + ", is read.");
   for (const ListedFile& file : files) {
     if (isFileList(file.path)) {
-      addFiles(file.path, lists, points, notes);
+      addFiles(file.path, place, lists, points, notes);
+      continue;
+    }
+    if (place == DataPlace::Cells) {
+      addByVtk(file.path, place, points);
       continue;
     }
     const VtkContent content = getEnding(file.path) == ".vtk" ? readVtkLegacy(file.path)
@@ -221,31 +311,18 @@ bool
 isReadByVtk(const std::string& path)
 {
   const std::string ending = getEnding(path);
-  return ending == ".case" || ending == ".foam" || isAmong(exodus_endings, ending);
+  return ending == ".case" || ending == ".foam" || isAmong(exodus_endings, ending) ||
+         isAmong(cell_endings, ending);
 }
 
 VtkContent
-readByVtk(const std::string& path)
+readByVtk(const std::string& path, DataPlace place)
 {
   checkBeginning(path);
-  const VtkMessages messages;
-  const auto reader = makeReader(path);
-  const std::string note = updateAtLastTime(*reader);
-  PointJoiner points;
-  auto* const output = reader->GetOutputDataObject(0);
-  if (auto* const data = vtkDataSet::SafeDownCast(output))
-    points.add(*data);
-  else if (auto* const blocks = vtkCompositeDataSet::SafeDownCast(output)) {
-    const auto iterator =
-        vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal();
-         iterator->GoToNextItem())
-      if (auto* const block =
-              vtkDataSet::SafeDownCast(iterator->GetCurrentDataObject()))
-        points.add(*block);
-  }
-  if (!messages.getError().empty())
-    throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
+  if (isAmong(cell_endings, getEnding(path)))
+    place = DataPlace::Cells;
+  PointJoiner points(place);
+  const std::string note = addByVtk(path, place, points);
   VtkContent content = points.join(path);
   if (!note.empty())
     content.notes.push_back(note);
@@ -259,11 +336,11 @@ isFileList(const std::string& path)
 }
 
 VtkContent
-readFileList(const std::string& path)
+readFileList(const std::string& path, DataPlace place)
 {
-  PointJoiner points;
+  PointJoiner points(place);
   std::vector<std::string> lists, notes;
-  addFiles(path, lists, points, notes);
+  addFiles(path, place, lists, points, notes);
   VtkContent content = points.join(path);
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
   return content;

@@ -9,18 +9,23 @@
 namespace pcl_uvol {
 namespace io {
 
-/** \brief True for the endings of Exodus, EnSight and OpenFOAM. */
+/** \brief What becomes samples: points, or the centres of cells. */
+enum class DataPlace { Points, Cells };
+
+/** \brief True for the endings of Exodus, EnSight, OpenFOAM, and of adaptive meshes and
+ * octrees. */
 bool
 isReadByVtk(const std::string& path);
 
 /** \brief The points of all blocks at the last time, with the fields that all blocks
- * have.
+ * have; of adaptive meshes and octrees the centres of cells. Centres of cells are read
+ * of VTK's XML and legacy files as well.
  *
  * VTK believes what the file says: not for files of strangers.
  *
  * \throws IOError */
 VtkContent
-readByVtk(const std::string& path);
+readByVtk(const std::string& path, DataPlace place);
 
 /** \brief True for the endings of files that list others: .pvd, .vtm, .pvtu, .pvtp and
  * .pvts. */
@@ -33,7 +38,7 @@ isFileList(const std::string& path);
  * \throws IOError for a list that names itself, and for one of its files that cannot be
  * read */
 VtkContent
-readFileList(const std::string& path);
+readFileList(const std::string& path, DataPlace place);
 
 } // namespace io
 } // namespace pcl_uvol

@@ -134,12 +134,13 @@ writePieceList(const std::string& file,
 }
 
 Dataset
-readVtk(const std::string& path)
+readVtk(const std::string& path, const LoadOptions& options)
 {
-  const auto content = isReadByVtk(path)           ? readByVtk(path)
-                       : isFileList(path)          ? readFileList(path)
-                       : getEnding(path) == ".vtk" ? readVtkLegacy(path)
-                                                   : readVtkXml(path);
+  const DataPlace place = options.cells ? DataPlace::Cells : DataPlace::Points;
+  const auto content = isFileList(path)                     ? readFileList(path, place)
+                       : isReadByVtk(path) || options.cells ? readByVtk(path, place)
+                       : getEnding(path) == ".vtk"          ? readVtkLegacy(path)
+                                                            : readVtkXml(path);
   Dataset dataset = toPointCloud(content.data);
   dataset.notes.insert(dataset.notes.end(), content.notes.begin(), content.notes.end());
   return dataset;

@@ -48,6 +48,11 @@ InputOptions::declare(Options& options)
                particles_,
                "of a snapshot: gas, dm, disk, bulge, stars, bh, or a number (default: "
                "gas, else the first kind there is)");
+  options.flag(
+      "cells",
+      cells_,
+      "of a file of VTK, Exodus, EnSight or OpenFOAM: take the centres of cells "
+      "with their data instead of points");
 }
 
 pcl_uvol::LoadOptions
@@ -56,6 +61,7 @@ InputOptions::makeLoadOptions() const
   pcl_uvol::LoadOptions options;
   options.xyz_columns = parseColumns(xyz_);
   options.particles = particles_;
+  options.cells = cells_;
   return options;
 }
 

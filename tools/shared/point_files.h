@@ -24,6 +24,7 @@ public:
 
 private:
   std::string xyz_, particles_;
+  bool cells_ = false;
 };
 
 /** \brief Read a file, as a step of the report; its notes become warnings.

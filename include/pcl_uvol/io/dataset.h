@@ -26,6 +26,9 @@ struct PCL_UVOL_EXPORTS LoadOptions {
    * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
    * first kind there is. */
   std::string particles;
+  /** Of VTK's files: the centres of cells with the data of cells are read instead of
+   * points. VTK's own readers do it, which believe what a file says. */
+  bool cells = false;
   /** Told of "read", but not by what VTK reads. Default: nobody is. */
   ProgressCallback progress = {};
 };

@@ -31,11 +31,13 @@ DatasetPtr
 readPoints(const std::string& path,
            const std::array<std::string, 3>& xyz_columns,
            const std::string& particles,
+           bool cells,
            const py::object& progress)
 {
   LoadOptions options;
   options.xyz_columns = xyz_columns;
   options.particles = particles;
+  options.cells = cells;
   DatasetPtr points;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     options.progress = callback;
