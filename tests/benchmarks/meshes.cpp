@@ -9,6 +9,7 @@
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -76,6 +77,27 @@ makeMesh(const Solid& solid, const Cloud::Ptr& samples, pcl_uvol::Remeshing reme
   pcl_uvol::SurfaceTriangles surface;
   mesher.extract(surface);
   return {std::move(surface.vertices), std::move(surface.triangles)};
+}
+
+/** Of a level set on the samples. */
+PlainMesh
+makeSmoothMesh(const Solid& solid, const Cloud::Ptr& samples)
+{
+  auto dataset = std::make_shared<pcl_uvol::Dataset>();
+  pcl::toPCLPointCloud2(*samples, dataset->cloud);
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.isosurface.isovalues = {solid.field.isovalue};
+  parameters.isosurface.outside = solid.outside;
+  parameters.smooth = true;
+  parameters.mesh.emplace();
+  pcl_uvol::IsosurfacePipeline pipeline;
+  pipeline.setInput(dataset);
+  pipeline.setParameters(parameters);
+  pcl_uvol::IsosurfaceResult result = pipeline.run();
+  PlainMesh mesh;
+  pcl::fromPCLPointCloud2(result.surface.cloud, mesh.vertices);
+  mesh.triangles = std::move(result.triangles);
+  return mesh;
 }
 
 PlainMesh
@@ -335,19 +357,25 @@ listSolids(std::size_t n)
 
 } // namespace
 
+/** meshes [SAMPLES [SEED [NOISE]]], of the sphere alone with noise, whose standard
+ * deviation is that part of the radius */
 int
 main(int argc, char** argv)
 {
   const std::size_t n = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  const double noise = argc > 3 ? std::strtod(argv[3], nullptr) : 0.0;
   std::printf(
       "| field | mesh | ms | vertices | triangles | 99.9 %% within | Hausdorff "
       "distance | smallest angle | pieces | handles | area, flat | volume, flat | "
       "area, bent | "
       "volume, bent |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const Solid& solid : listSolids(n)) {
+  std::vector<Solid> solids = listSolids(n);
+  if (noise > 0.0)
+    solids.resize(1);
+  for (const Solid& solid : solids) {
     const Cloud::Ptr samples =
-        uvol_test::sampleSmoothField(solid.field, n, seed, false);
+        uvol_test::sampleSmoothField(solid.field, n, seed, false, noise);
     printRow("isopoints", solid, [&] { return findIsopoints(solid, samples); });
     printRow("even", solid, [&] {
       return makeMesh(solid, samples, pcl_uvol::Remeshing::Even);
@@ -355,6 +383,8 @@ main(int argc, char** argv)
     printRow("as the cells make it", solid, [&] {
       return makeMesh(solid, samples, pcl_uvol::Remeshing::None);
     });
+    if (noise > 0.0)
+      printRow("even, smoothed", solid, [&] { return makeSmoothMesh(solid, samples); });
     printRow("Delaunay", solid, [&] { return marchDelaunay(solid, samples); });
     printRow("grid, exact values", solid, [&] { return marchCubes(solid); });
   }
