@@ -200,7 +200,8 @@ TEST(PolynomialKernel, SaysWhereSamplesTellNothing)
   const auto value = [](std::size_t, double x, double y, double) { return x + y; };
   const Samples s = randomSamples(1, value, true); // on a plane
   uvol_test::forLevels(kernels, [&](PolynomialKernel kernel) {
-    for (const int degree : fit(kernel, s, 1)[0].degree)
+    const auto fits = fit(kernel, s, 1);
+    for (const int degree : fits[0].degree)
       EXPECT_EQ(degree, 0);
   });
 }
