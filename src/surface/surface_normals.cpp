@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parallel.h"
-#include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "neighbors/nearest_neighbors.h"
@@ -322,17 +321,5 @@ replaceMissingNormals(pcl::PointCloud<PointIso>& isopoints,
 }
 
 } // namespace detail
-
-std::string
-SurfaceNormalParameters::toJson() const
-{
-  return writeJson(*this);
-}
-
-SurfaceNormalParameters
-SurfaceNormalParameters::fromJson(const std::string& text)
-{
-  return readJson<SurfaceNormalParameters>(text);
-}
 
 } // namespace pcl_uvol

@@ -10,7 +10,6 @@
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
-#include <pcl/search/kdtree.h>
 
 #include <cmath>
 #include <cstring>
@@ -299,25 +298,6 @@ TEST(GradientEstimation, PointsWithoutAValueGetNone)
   EXPECT_EQ(1u, estimation.getReport().getCount("non_finite"));
   EXPECT_EQ(1u, estimation.getReport().getCount("no_value"));
   EXPECT_EQ(1u, estimation.getReport().getCount("duplicates"));
-}
-
-TEST(GradientEstimation, AsPclWouldDoIt)
-{
-  const auto cloud = sample([](const Vector& x) { return x.squaredNorm(); }, 3000);
-  pcl_uvol::GradientEstimation<pcl::PointXYZI, pcl::IntensityGradient> estimation;
-  estimation.setInputCloud(cloud);
-  const auto indices = pcl::make_shared<pcl::Indices>(pcl::Indices{5, 1, 2000});
-  pcl::PointCloud<pcl::IntensityGradient> all, some;
-  estimation.compute(all);
-  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
-  pcl::PointCloud<pcl::IntensityGradient> searched;
-  estimation.compute(searched);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    EXPECT_NEAR(all[i].gradient_x, searched[i].gradient_x, 1e-5);
-  estimation.setIndices(indices);
-  estimation.setKSearch(9);
-  estimation.compute(some);
-  EXPECT_EQ(3u, some.size());
 }
 
 TEST(GradientEstimation, RejectsBadInput)
