@@ -17,6 +17,10 @@ constexpr double least_slope = 0.01;
 /** Share of the length between feet: nearer ones weigh no more. */
 constexpr double least_distance = 0.1;
 
+/** In lengths: a step beyond it tells of curvatures that belong to no surface, and the
+ * next one would be longer still, up to infinity. */
+constexpr double longest_step = 1e3;
+
 struct Blend {
   double height = 0.0, mean_curvature = 0.0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -25,11 +29,13 @@ struct Blend {
 Blend
 blend(const std::vector<Foot>& feet, const Eigen::Vector3d& place, double length)
 {
+  const double sq_length = length * length;
   Blend sum;
   double weights = 0.0;
   for (const Foot& foot : feet) {
-    const double square = (place - foot.place).squaredNorm() / (length * length) +
-                          least_distance * least_distance;
+    const double distance =
+        sq_length > 0.0 ? (place - foot.place).squaredNorm() / sq_length : 0.0;
+    const double square = distance + least_distance * least_distance;
     const double weight = 1.0 / (square * square);
     weights += weight;
     sum.height += weight * foot.heightOf(place);
@@ -76,7 +82,10 @@ blendFeet(const std::vector<Foot>& feet,
   const int steps = sides == 0 ? free_steps : bound_steps;
   for (int step = 0; step < steps; ++step) {
     const Blend found = blend(feet, foot.place, length);
-    foot.place += wayDown(found.height, found.normal, sides);
+    const Eigen::Vector3d way = wayDown(found.height, found.normal, sides);
+    if (!(way.norm() <= longest_step * length))
+      break;
+    foot.place += way;
   }
   const Blend found = blend(feet, foot.place, length);
   foot.normal = found.normal;

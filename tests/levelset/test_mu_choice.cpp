@@ -30,7 +30,7 @@ makeTerm(double noise)
   DataTerm term;
   term.target =
       band().byPlace([&](const Vector3d& x) { return x[2] + size * normal(engine); });
-  term.trust.assign(band().band.centers.size(), 1.0f);
+  term.trust.assign(band().band.centerPlaces(), 1.0f);
   term.noise = noise * band().spacing;
   return term;
 }

@@ -45,6 +45,25 @@ TEST(Foot, KnowsASphereToSecondOrder)
   }
 }
 
+TEST(Foot, IsFiniteWhereCurvaturesBelongToNoSurface)
+{
+  for (const double curvature : {1e3, -1e3, 1e30, -1e30, 1e150}) {
+    const std::vector<Foot> feet = {
+        {{0.0, 0.0, 0.0}, Vector3d::UnitZ(), curvature},
+        {{1.0, 0.0, 0.0}, Vector3d(0.6, 0.0, 0.8), -0.5 * curvature}};
+    for (const BoxSides sides : {0, 1, 5})
+      for (const double length : {1.0, 1e-3, 0.0}) {
+        Foot foot = feet[0];
+        foot.place = {0.4, 0.7, 0.3};
+        // As where the box sends places back again and again.
+        for (int round = 0; round < 5; ++round)
+          foot = blendFeet(feet, foot.place, length, sides);
+        EXPECT_TRUE(foot.place.allFinite()) << curvature << " " << length;
+        EXPECT_TRUE(foot.normal.allFinite()) << curvature << " " << length;
+      }
+  }
+}
+
 TEST(Foot, BlendsToTheSurfaceThatAllAreOf)
 {
   std::vector<Foot> feet;

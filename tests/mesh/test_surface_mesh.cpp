@@ -286,8 +286,10 @@ TEST(SurfaceMesh, AnyInputGivesAManifold)
     const std::size_t rim =
         expectManifold(run.mesh.triangles, run.mesh.vertices.size());
     EXPECT_TRUE(meshing.open || rim == 0) << seed;
-    for (const PointIso& vertex : run.mesh.vertices)
+    for (const PointIso& vertex : run.mesh.vertices) {
       ASSERT_TRUE(vertex.getVector3fMap().allFinite()) << seed;
+      ASSERT_TRUE(vertex.getNormalVector3fMap().allFinite()) << seed;
+    }
     ASSERT_FALSE(::testing::Test::HasFailure()) << seed;
     triangles += run.mesh.triangles.size();
   }
