@@ -88,6 +88,7 @@ struct PCL_UVOL_EXPORTS RecordInfo {
   bool has_coordinates = true;
   std::optional<std::array<double, 3>> origin; ///< unset: the coordinates tell
   std::array<double, 3> box{{0.0, 0.0, 0.0}};  ///< as Dataset::box
+  std::optional<double> time;                  ///< of a snapshot, in the file's unit
   LabelNames labels;                           ///< as Dataset::labels
 };
 

@@ -77,7 +77,7 @@ findLayout(const InputFile& file)
 struct Header {
   std::array<std::uint64_t, kinds> here{}, total{};
   std::array<double, kinds> masses{};
-  double redshift = 0.0, box = 0.0, omega = 0.0, hubble = 1.0;
+  double time = 0.0, redshift = 0.0, box = 0.0, omega = 0.0, hubble = 1.0;
   std::uint32_t files = 1;
 };
 
@@ -99,6 +99,7 @@ readHeader(const InputFile& file, const Layout& layout)
     header.total[kind] = count(96 + 4 * kind) | std::uint64_t(count(168 + 4 * kind))
                                                     << 32;
   }
+  header.time = real(72);
   header.redshift = real(80);
   header.files = std::max(count(124), 1u);
   header.box = real(128);
@@ -362,6 +363,7 @@ openGadget(const std::string& path, const LoadOptions& options)
         },
         [&](std::size_t i) { return parts[i]; });
   source->setBox(toBox({header.box}));
+  source->setTime(header.time);
   return source;
 }
 

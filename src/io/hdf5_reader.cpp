@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 namespace pcl_uvol {
@@ -104,6 +105,7 @@ openGadgetFamily(const Hdf5File& file, const LoadOptions& options)
         [parts, kind, notes](std::size_t i) { return openKind(parts[i], kind, notes); },
         [&](std::size_t i) { return parts[i]; });
   source->setBox(toBox(file.readAttribute("/Header", "BoxSize")));
+  source->setTime(number("Time", std::numeric_limits<double>::quiet_NaN()));
   return source;
 }
 

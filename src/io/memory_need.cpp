@@ -20,6 +20,7 @@ peekRecords(const RecordInfo& info, std::uint64_t packed_bytes)
   const RecordLayout layout(info, recordBytes(info.fields));
   CloudHeader cloud;
   cloud.points = info.count;
+  cloud.time = info.time;
   cloud.point_step = layout.getHeader().cloud.point_step;
   checkSize(cloud.points, cloud.point_step);
   const auto points = static_cast<double>(cloud.points);

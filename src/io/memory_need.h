@@ -18,6 +18,7 @@ struct PCL_UVOL_EXPORTS CloudHeader {
   std::uint64_t points = 0;
   std::size_t point_step = 0; ///< bytes of a point of Dataset::cloud
   MemoryNeed reading;         ///< of loadDataset; the cloud is kept
+  std::optional<double> time; ///< of a snapshot, in the unit of the file
 };
 
 /** \brief What the header of a .pcd or .ply file or a snapshot promises. Nothing for

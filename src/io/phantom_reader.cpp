@@ -230,7 +230,11 @@ openPhantom(const Hdf5File& file, const std::string& particles)
 {
   if (!PhantomReader::isPhantom(file))
     return nullptr;
-  return PhantomReader(file, particles).open();
+  auto source = PhantomReader(file, particles).open();
+  const auto time = file.readNumbers("/header/time");
+  if (!time.empty())
+    source->setTime(time[0]);
+  return source;
 }
 
 } // namespace io

@@ -6,6 +6,7 @@
 #include "io/file_cursor.h"
 #include <pcl_uvol/common/report.h>
 
+#include <cmath>
 #include <memory>
 
 namespace pcl_uvol {
@@ -31,6 +32,14 @@ public:
   setBox(const std::array<double, 3>& box)
   {
     info_.box = box;
+  }
+
+  /** \brief Tell the time that the file names. \param time no finite number: none */
+  void
+  setTime(double time)
+  {
+    if (std::isfinite(time))
+      info_.time = time;
   }
 
   /** \brief The number of the record that read() begins with. */

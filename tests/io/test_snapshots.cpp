@@ -171,6 +171,7 @@ TEST_F(Gadget, ComovingUnitsAndBoxesAreTold)
   EXPECT_FALSE(hasNote(loadDataset(save("a", layout)), "redshift"));
   EXPECT_EQ((std::array<double, 3>{{100.0, 100.0, 100.0}}),
             loadDataset(save("a", layout)).box);
+  EXPECT_EQ(0.25, peekHeader(save("a", layout))->time);
   layout.omega = 0.3;
   EXPECT_TRUE(hasNote(loadDataset(save("b", layout)),
                       "redshift 2 and of the Hubble parameter 0.7"));
@@ -344,6 +345,7 @@ protected:
     file.attribute("/Header", "NumFilesPerSnapshot", {double(files)});
     file.attribute("/Header", "MassTable", {0, 0, 0, 0, 2.5, 0});
     file.attribute("/Header", "Redshift", {0.5});
+    file.attribute("/Header", "Time", {1.5});
     file.group("/PartType0");
     file.table("/PartType0/Coordinates", H5T_IEEE_F64LE, 3, numbersOf(24, first), 3);
     file.table("/PartType0/Density", H5T_IEEE_F32BE, 1, numbersOf(8, 100 + first));
@@ -378,6 +380,7 @@ TEST_F(Hdf5, SnapshotsGiveTheirNumbers)
   }
   EXPECT_TRUE(hasNote(gas, "8 of gas (0), 4 of stars (4)"));
   EXPECT_TRUE(hasNote(gas, "redshift 0.5"));
+  EXPECT_EQ(1.5, peekHeader(folder_ / "a.hdf5")->time);
   expectStreams(folder_ / "a.hdf5");
   LoadOptions options;
   options.particles = "stars";
@@ -475,6 +478,7 @@ TEST_F(Hdf5, PhantomHasItsDensity)
   }
   EXPECT_NEAR(0.125, least, 1e-4);
   EXPECT_NEAR(1.0, most, 1e-3);
+  EXPECT_EQ(0.0, peekHeader(path)->time);
   expectStreams(path);
   expectStreams(path, options);
 }

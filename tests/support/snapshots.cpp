@@ -83,7 +83,7 @@ makeGadget(const GadgetLayout& layout)
     writer.add(header, count);
   for (const double mass : layout.masses)
     writer.add(header, mass);
-  writer.add(header, 0.25); // time
+  writer.add(header, layout.time);
   writer.add(header, layout.redshift);
   writer.add(header, std::int32_t(0));
   writer.add(header, std::int32_t(0));

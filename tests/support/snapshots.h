@@ -18,7 +18,7 @@ struct GadgetLayout {
   std::array<double, 6> masses{};
   std::uint32_t files = 1;
   std::uint32_t first = 0; ///< number of the first particle
-  double redshift = 0.0, omega = 0.0, hubble = 1.0, box = 0.0;
+  double time = 0.25, redshift = 0.0, omega = 0.0, hubble = 1.0, box = 0.0;
 };
 
 /** \brief The number that the generator gives to a component of a particle. */
