@@ -10,7 +10,7 @@
 namespace {
 
 int
-run(int argc, char** argv)
+run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
 {
   std::string input, output, where;
   bool ascii = false;

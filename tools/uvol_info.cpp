@@ -320,7 +320,7 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
 }
 
 int
-run(int argc, char** argv)
+run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
 {
   Arguments arguments;
   Options options("uvol_info",

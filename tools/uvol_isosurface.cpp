@@ -15,6 +15,8 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace {
 
@@ -64,11 +66,10 @@ saveMesh(const std::string& path,
   uvol_tools::warnOfLabels(path, result.surface, report);
 }
 
-int
-run(int argc, char** argv)
-{
+/** A run on its way to its report. */
+struct Job {
   Arguments arguments;
-  Options options(
+  Options options{
       "uvol_isosurface",
       "in.pcd out.ply -iso v[,v...] [options]",
       "Extracts the isosurface of a scalar field given at scattered points, as "
@@ -76,51 +77,94 @@ run(int argc, char** argv)
       "ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others (uvol "
       "--list-formats), writes pcd ply vtp csv, "
       "meshes as ply vtp obj off "
-      "stl.");
-  arguments.declare(options);
-  uvol_tools::declareSeries(options);
-  if (!options.parse(argc, argv))
-    return 0;
-  arguments.finish(options);
-  const bool is_bounded = options.given("max-memory");
-  uvol_tools::MemoryGuard memory(arguments.needsAllSamples()
-                                     ? "An isosurface"
-                                     : "Without -max-memory an isosurface");
-  Report report;
+      "stl."};
   uvol_tools::ProgressBar bar;
-  report.progress = std::ref(bar);
-  auto total = std::make_unique<StepTimer>(report, "total");
-  uvol_tools::Facts figures;
-  IsosurfaceResult result =
-      is_bounded ? runFromDisk(options, arguments, report)
-                 : runInMemory(options, arguments, memory, report, figures);
-  report.merge(result.report);
-  arguments.picture.addColor(options, result.surface, report);
+  Report report;
+  Facts facts;
+  std::optional<uvol_tools::MemoryGuard> memory; ///< none within a bound
 
-  const auto& isovalues = arguments.parameters.isosurface.isovalues;
-  pcl_uvol::SaveOptions save;
-  save.ascii = arguments.ascii;
-  save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
-  if (arguments.parameters.mesh)
-    saveMesh(arguments.output, result, save, report);
-  else
-    uvol_tools::savePoints(arguments.output, result.surface, save, report);
-  Facts facts = {{"input", arguments.input}, {"output", arguments.output}};
-  const auto append = [&](const Facts& more) {
+  void
+  append(const Facts& more)
+  {
     facts.insert(facts.end(), more.begin(), more.end());
-  };
-  append(uvol_tools::describeSurface(result,
-                                     arguments.parameters,
-                                     arguments.getMesh().isMeasured() &&
-                                         !result.triangles.empty()));
-  append(figures);
-  append(uvol_tools::describeModels(result, arguments.parameters));
-  if (arguments.picture.isAskedFor())
-    facts.emplace_back("backend",
-                       arguments.picture.draw(options, result.surface, report));
-  total.reset();
-  facts.push_back(is_bounded ? describeBound(options, arguments) : memory.describe());
-  uvol_tools::printReport(options, report, facts);
+  }
+
+  /** Extract, and write everything but the picture. */
+  pcl_uvol::Dataset
+  extract()
+  {
+    const StepTimer total(report, "total");
+    Facts figures;
+    IsosurfaceResult result =
+        memory ? runInMemory(options, arguments, *memory, report, figures)
+               : runFromDisk(options, arguments, report);
+    report.merge(result.report);
+    arguments.picture.addColor(options, result.surface, report);
+
+    const auto& isovalues = arguments.parameters.isosurface.isovalues;
+    pcl_uvol::SaveOptions save;
+    save.ascii = arguments.ascii;
+    save.comments = {"isosurface of " + result.field + " at " + joined(isovalues)};
+    if (arguments.parameters.mesh)
+      saveMesh(arguments.output, result, save, report);
+    else
+      uvol_tools::savePoints(arguments.output, result.surface, save, report);
+    facts = {{"input", arguments.input}, {"output", arguments.output}};
+    append(uvol_tools::describeSurface(result,
+                                       arguments.parameters,
+                                       arguments.getMesh().isMeasured() &&
+                                           !result.triangles.empty()));
+    append(figures);
+    append(uvol_tools::describeModels(result, arguments.parameters));
+    arguments.picture.getLook().exaggerate(result.surface);
+    return std::move(result.surface);
+  }
+
+  void
+  draw(const pcl_uvol::Dataset& surface)
+  {
+    const StepTimer total(report, "total");
+    facts.emplace_back("backend", arguments.picture.draw(options, surface, report));
+  }
+
+  void
+  tell()
+  {
+    facts.push_back(memory ? memory->describe() : describeBound(options, arguments));
+    uvol_tools::printReport(options, report, facts);
+  }
+};
+
+int
+run(int argc, char** argv, uvol_tools::SeriesStep* step)
+{
+  const auto job = std::make_shared<Job>();
+  Arguments& arguments = job->arguments;
+  arguments.declare(job->options);
+  uvol_tools::declareSeries(job->options);
+  if (!job->options.parse(argc, argv))
+    return 0;
+  arguments.finish(job->options);
+  if (!job->options.given("max-memory"))
+    job->memory.emplace(arguments.needsAllSamples()
+                            ? "An isosurface"
+                            : "Without -max-memory an isosurface");
+  job->report.progress = std::ref(job->bar);
+  pcl_uvol::Dataset surface = job->extract();
+  const bool is_drawn = arguments.picture.isAskedFor();
+  if (is_drawn && step && surface.cloud.width > 0) {
+    step->pictures.add(job->options,
+                       arguments.picture.getLook(),
+                       std::move(surface),
+                       [job](const auto& waiting) {
+                         job->draw(waiting);
+                         job->tell();
+                       });
+    return 0;
+  }
+  if (is_drawn)
+    job->draw(surface);
+  job->tell();
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/mesh.h>
@@ -20,6 +21,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace {
 
@@ -64,14 +67,17 @@ declare(Options& options, Arguments& arguments)
                arguments.is_checked,
                "look for triangles that go through one another as well");
   options.group("Picture");
-  options.output("png",
-                 "out.png",
-                 arguments.picture,
-                 "of samples: draw a curve over the isovalues");
+  options.output(
+      "png",
+      "out.png",
+      arguments.picture,
+      "of samples: draw a curve over the isovalues, of a series one over time");
   options.text("plot",
                "column",
                arguments.plot,
                "with -png: the column of the table that is drawn (default volume)");
+  options.shareOutputs();
+  uvol_tools::declareSeries(options);
 }
 
 void
@@ -101,9 +107,12 @@ check(const Options& options, Arguments& arguments)
     throw UsageError("-plot needs -png.");
   if (options.given("pieces") && arguments.output.empty())
     throw UsageError("-pieces needs a file for the table.");
-  if (!arguments.picture.empty() &&
-      arguments.parameters.isosurface.isovalues.size() < 2)
+  const bool is_over_time = uvol_tools::isOfAll(arguments.picture);
+  const std::size_t isovalues = arguments.parameters.isosurface.isovalues.size();
+  if (!arguments.picture.empty() && !is_over_time && isovalues < 2)
     throw UsageError("-png draws a curve over isovalues: give -iso two or more.");
+  if (is_over_time && isovalues != 1)
+    throw UsageError("-png of a series draws a curve over time: give -iso one value.");
   if (!arguments.output.empty())
     pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.picture.empty())
@@ -190,10 +199,12 @@ areLogarithmic(const std::vector<double>& isovalues)
              std::abs(middle - 0.5 * (low + high));
 }
 
-void
-drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
+/** The column of -plot over another one, without the rows of pieces. */
+uvol_tools::Profile
+makeProfile(const Arguments& arguments,
+            const uvol_tools::MeasureTable& table,
+            const std::string& abscissa)
 {
-  const uvol_tools::MeasureTable table(figures.isovalues);
   const std::vector<double>* const values = table.find(arguments.plot);
   if (values == nullptr) {
     std::string names;
@@ -203,31 +214,96 @@ drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
                      names + ".");
   }
   const std::vector<double>* const errors = table.find(arguments.plot + "_error");
-  std::vector<std::size_t> order(values->size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = i;
-  const std::vector<double>& isovalues = *table.find("isovalue");
+  const std::vector<double>& pieces = *table.find("piece");
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i] < 0.0) // all of an isovalue
+      order.push_back(i);
+  const std::vector<double>& abscissas = *table.find(abscissa);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return isovalues[a] < isovalues[b];
+    return abscissas[a] < abscissas[b];
   });
   uvol_tools::Profile profile;
   for (const std::size_t i : order) {
-    profile.abscissas.push_back(isovalues[i]);
+    profile.abscissas.push_back(abscissas[i]);
     profile.values.push_back((*values)[i]);
     profile.errors.push_back(errors == nullptr ? 0.0 : (*errors)[i]);
   }
-  profile.abscissa = "isovalue";
+  profile.abscissa = abscissa;
+  profile.ordinate = arguments.plot;
+  return profile;
+}
+
+void
+drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
+{
+  uvol_tools::Profile profile =
+      makeProfile(arguments, uvol_tools::MeasureTable(figures.isovalues), "isovalue");
   if (areLogarithmic(profile.abscissas)) {
     for (double& isovalue : profile.abscissas)
       isovalue = std::log10(isovalue);
     profile.abscissa = "log10 of the isovalue";
   }
-  profile.ordinate = arguments.plot;
   pcl_uvol::savePng(arguments.picture, uvol_tools::drawProfile(profile));
 }
 
+/** The rows of the table. */
+uvol_tools::MeasureTable
+makeTable(const Arguments& arguments, const SurfaceFigures& figures)
+{
+  uvol_tools::MeasureTable table(figures.isovalues);
+  if (arguments.with_pieces)
+    table.append(figures.pieces);
+  return table;
+}
+
+/** What the files of a series have in common: a table over time, and its picture. */
+class MeasureSeries {
+public:
+  /** Add the rows of a file. */
+  void
+  add(const Arguments& arguments,
+      const uvol_tools::SeriesStep& step,
+      const SurfaceFigures& figures)
+  {
+    arguments_ = arguments;
+    have_times_ = have_times_ && step.time;
+    uvol_tools::MeasureTable rows = makeTable(arguments, figures);
+    rows.prepend("time", step.time.value_or(std::numeric_limits<double>::quiet_NaN()));
+    rows.prepend("number", static_cast<double>(step.number));
+    table_.append(rows);
+    ++files_;
+  }
+
+  /** Write what is the same file for all of them. */
+  void
+  write() const
+  {
+    if (uvol_tools::isOfAll(arguments_.output)) {
+      Report report;
+      uvol_tools::savePoints(arguments_.output, table_.toDataset(), {}, report);
+    }
+    if (uvol_tools::isOfAll(arguments_.picture))
+      pcl_uvol::savePng(arguments_.picture,
+                        uvol_tools::drawProfile(makeProfile(
+                            arguments_, table_, have_times_ ? "time" : "number")));
+  }
+
+  bool
+  isEmpty() const
+  {
+    return files_ == 0;
+  }
+
+private:
+  Arguments arguments_;
+  uvol_tools::MeasureTable table_{{}};
+  bool have_times_ = true;
+  std::size_t files_ = 0;
+};
+
 int
-run(int argc, char** argv)
+run(int argc, char** argv, const uvol_tools::SeriesStep* step, MeasureSeries& series)
 {
   Arguments arguments;
   Options options(
@@ -261,14 +337,13 @@ run(int argc, char** argv)
                                  options.threads(),
                                  report);
 
-  if (!arguments.picture.empty())
+  if (step)
+    series.add(arguments, *step, figures);
+  if (!arguments.picture.empty() && !uvol_tools::isOfAll(arguments.picture))
     drawCurve(arguments, figures);
-  if (!arguments.output.empty()) {
-    uvol_tools::MeasureTable table(figures.isovalues);
-    if (arguments.with_pieces)
-      table.append(figures.pieces);
-    uvol_tools::savePoints(arguments.output, table.toDataset(), {}, report);
-  }
+  if (!arguments.output.empty() && !uvol_tools::isOfAll(arguments.output))
+    uvol_tools::savePoints(
+        arguments.output, makeTable(arguments, figures).toDataset(), {}, report);
   uvol_tools::Facts facts = {{"input", arguments.input}};
   for (const uvol_tools::Fact& fact : uvol_tools::describeMeasures(figures))
     facts.push_back(fact);
@@ -281,5 +356,20 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_measure", [&] { return run(argc, argv); });
+  constexpr const char* tool = "uvol_measure";
+  MeasureSeries series;
+  const int outcome = uvol_tools::runSeries(
+      tool,
+      argc,
+      argv,
+      [&](int count, char** words, const uvol_tools::SeriesStep* step) {
+        return run(count, words, step, series);
+      });
+  if (series.isEmpty())
+    return outcome;
+  const int written = uvol_tools::runTool(tool, [&] {
+    series.write();
+    return 0;
+  });
+  return outcome == 0 ? written : outcome;
 }

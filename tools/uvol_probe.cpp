@@ -200,7 +200,7 @@ findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 }
 
 int
-run(int argc, char** argv)
+run(int argc, char** argv, uvol_tools::SeriesStep* step)
 {
   Arguments arguments;
   Options options(
@@ -288,6 +288,7 @@ run(int argc, char** argv)
                                     arguments.queries,
                                     lattice,
                                     arguments.picture,
+                                    step ? &step->pictures : nullptr,
                                     arguments.input,
                                     arguments.output,
                                     load,

@@ -7,6 +7,9 @@
 #include <pcl_uvol/io/image_file.h>
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
 
 namespace {
 
@@ -30,17 +33,37 @@ checkPage(const uvol_tools::Options& options)
       throw uvol_tools::UsageError("-" + name + " is for pictures, not for web pages.");
 }
 
-int
-run(int argc, char** argv)
-{
+/** A picture or page on its way. */
+struct Job {
   std::string input, output;
   uvol_tools::RenderOptions look;
-  uvol_tools::Options options(
+  uvol_tools::Options options{
       "uvol_render",
       "in.ply out.png|out.html [options]",
       "Draws a surface given as points with normals: lit, smooth and without holes; as "
       "a\n"
-      "picture, or as a web page in one file that turns in any browser.");
+      "picture, or as a web page in one file that turns in any browser."};
+  bool is_page = false;
+  Report report;
+
+  void
+  draw(const pcl_uvol::Dataset& surface)
+  {
+    std::string backend = "web page";
+    if (is_page)
+      look.writePage(options, surface, output, report);
+    else
+      backend = look.drawCloud(options, surface, output, report);
+    uvol_tools::printReport(
+        options, report, {{"input", input}, {"output", output}, {"backend", backend}});
+  }
+};
+
+int
+run(int argc, char** argv, uvol_tools::SeriesStep* step)
+{
+  const auto job = std::make_shared<Job>();
+  auto& [input, output, look, options, is_page, report] = *job;
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
@@ -53,23 +76,21 @@ run(int argc, char** argv)
   if (!options.parse(argc, argv))
     return 0;
   look.check(options);
-  const bool is_page = std::filesystem::path(output).extension() == ".html";
+  is_page = std::filesystem::path(output).extension() == ".html";
   if (is_page)
     checkPage(options);
   else
     pcl_uvol::checkPngPath(output);
 
-  Report report;
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);
   look.exaggerate(dataset);
-  std::string backend = "web page";
-  if (is_page)
-    look.writePage(options, dataset, output, report);
+  if (step)
+    step->pictures.add(options, look, std::move(dataset), [job](const auto& surface) {
+      job->draw(surface);
+    });
   else
-    backend = look.drawCloud(options, dataset, output, report);
-  uvol_tools::printReport(
-      options, report, {{"input", input}, {"output", output}, {"backend", backend}});
+    job->draw(dataset);
   return 0;
 }
 

@@ -2,6 +2,8 @@
 // A file without a name: it is gone with the process, however that ends.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,7 +11,7 @@
 namespace pcl_uvol {
 
 /** \brief Bytes on disk for the time of a run. */
-class ScratchFile {
+class PCL_UVOL_EXPORTS ScratchFile {
 public:
   /** \throws IOError if the folder takes no files */
   explicit ScratchFile(const std::string& folder);

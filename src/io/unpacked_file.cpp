@@ -195,11 +195,17 @@ withoutPacking(const std::string& path)
                         : path;
 }
 
+std::string
+temporaryFolder()
+{
+  const char* const named = std::getenv("TMPDIR");
+  return named && *named ? named : "/tmp";
+}
+
 int
 openTemporary(const std::string& path)
 {
-  const char* const named = std::getenv("TMPDIR");
-  const std::string folder = named && *named ? named : "/tmp";
+  const std::string folder = temporaryFolder();
   int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (descriptor < 0) {
     std::string name = folder + "/pcl_uvol_XXXXXX";

@@ -2,6 +2,8 @@
 // Packed files and standard input as files that can be read at any place.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <cstdint>
 #include <string>
 #include <unistd.h>
@@ -59,7 +61,11 @@ isPacked(const std::string& path);
 std::string
 withoutPacking(const std::string& path);
 
-/** \brief A file without a name in the folder of temporary files (TMPDIR, else /tmp),
+/** \brief The folder of temporary files: TMPDIR, else /tmp. */
+PCL_UVOL_EXPORTS std::string
+temporaryFolder();
+
+/** \brief A file without a name in the folder of temporary files,
  * open for reading and writing; to be closed by the caller.
  * \throws IOError about path */
 int

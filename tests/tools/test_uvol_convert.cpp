@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conversion, pipes, and command lines for many files.
+// Conversion and pipes.
 #include "tool_test.h"
 
 #include <filesystem>
@@ -69,81 +69,6 @@ TEST_F(Convert, OtherEndingsNameAWay)
   EXPECT_NE(std::string::npos, run("a.laz b.ply").err.find("laszip"));
   EXPECT_NE(std::string::npos, run("a.pld b.ply").err.find("but .pcd is"));
   EXPECT_NE(std::string::npos, run("c.laz b.ply").err.find("no such file"));
-}
-
-class Series : public Convert {
-protected:
-  Series()
-  {
-    for (const char* const number : {"0002", "0010", "0006"})
-      write(std::string("in_") + number + ".csv", table);
-  }
-};
-
-TEST_F(Series, EveryFileIsConvertedInOrder)
-{
-  write("in_0006x.csv", table);
-  write("in_6.csv", table); // another width
-  const auto result = run("'in_{:04d}.csv' 'out {:02d}.vtp'");
-  EXPECT_EQ(0, result.exit_code) << result.err;
-  EXPECT_NE(std::string::npos, result.err.find("3 of 3 files are done"));
-  const std::string list = readFile(folder_ / "out.pvd");
-  const std::size_t first = list.find("timestep=\"2\" file=\"out 02.vtp\""),
-                    second = list.find("timestep=\"6\" file=\"out 06.vtp\""),
-                    third = list.find("timestep=\"10\" file=\"out 10.vtp\"");
-  EXPECT_LT(first, second);
-  EXPECT_LT(second, third);
-  EXPECT_NE(std::string::npos, third);
-}
-
-TEST_F(Series, SnapshotsAreChosen)
-{
-  EXPECT_EQ(0, run("'in_{:04d}.csv' 'out_{}.ply' -snapshots 2:10:4").exit_code);
-  EXPECT_TRUE(exists("out_2.ply") && exists("out_6.ply") && exists("out_10.ply"));
-  EXPECT_FALSE(exists("out.pvd"));
-  EXPECT_EQ(0, run("'in_{:04d}.csv' 'o_{}.ply' -snapshots 6:9:4").exit_code);
-  EXPECT_TRUE(exists("o_6.ply"));
-  EXPECT_FALSE(exists("o_10.ply"));
-  for (const char* const wrong :
-       {"1", "5:1", "1:2:0", "1:2:3:4", "a:b", "1:", "0:99999999"}) {
-    const auto result =
-        run(std::string("'in_{:04d}.csv' 'w_{}.ply' -snapshots ") + wrong);
-    EXPECT_EQ(2, result.exit_code) << wrong;
-    EXPECT_NE(std::string::npos, result.err.find("first:last")) << wrong;
-  }
-}
-
-TEST_F(Series, FailuresEndItUnlessTheyArePassedOver)
-{
-  write("in_0004.csv", "nothing\n");
-  const auto ended = run("'in_{:04d}.csv' 'a_{}.ply'");
-  EXPECT_EQ(1, ended.exit_code);
-  EXPECT_NE(std::string::npos, ended.err.find("in_0004.csv"));
-  EXPECT_TRUE(exists("a_2.ply"));
-  EXPECT_FALSE(exists("a_6.ply"));
-  const auto passed = run("'in_{:04d}.csv' 'b_{}.ply' -keep-going");
-  EXPECT_EQ(1, passed.exit_code);
-  EXPECT_TRUE(exists("b_6.ply") && exists("b_10.ply"));
-  EXPECT_NE(std::string::npos, passed.err.find("3 of 4 files are done"));
-}
-
-TEST_F(Series, OptionsNeedASeries)
-{
-  for (const char* const options : {"-keep-going", "-snapshots 1:2"}) {
-    const auto result = run(std::string("in_0002.csv b.ply ") + options);
-    EXPECT_EQ(2, result.exit_code);
-    EXPECT_NE(std::string::npos, result.err.find("snap_{:04d}.h5"));
-  }
-  EXPECT_EQ(2, run("'none_{}.csv' 'b_{}.ply'").exit_code);
-}
-
-/** The same name for every output would leave the last one only. */
-TEST_F(Series, OutputsHaveDifferentNames)
-{
-  const auto result = run("'in_{:04d}.csv' b.ply");
-  EXPECT_EQ(2, result.exit_code);
-  EXPECT_NE(std::string::npos, result.err.find("place for a number")) << result.err;
-  EXPECT_FALSE(exists("b.ply"));
 }
 
 } // namespace

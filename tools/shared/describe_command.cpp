@@ -54,7 +54,7 @@ Options::describeCommand() const
           return word == "-" + known.name;
         });
     if (option == options_.end()) {
-      text += ' ' + quoted(word == namedOutput() ? resultOf(word) : fileOf(word));
+      text += ' ' + quoted(word == output_ ? resultOf(word) : fileOf(word));
       continue;
     }
     const bool has_value = option->flag == nullptr;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace uvol_tools {
@@ -15,6 +16,8 @@ using pcl_uvol::PieceMeasures;
 using pcl_uvol::SurfaceFieldMeasures;
 
 namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
@@ -142,17 +145,43 @@ MeasureTable::append(const std::vector<PieceMeasures>& pieces)
 }
 
 void
+MeasureTable::append(const MeasureTable& rows)
+{
+  const std::size_t before = countRows(), after = before + rows.countRows();
+  for (const auto& [name, numbers] : rows.columns_) {
+    Fact::Numbers& own = column(name);
+    own.resize(before, none);
+    own.insert(own.end(), numbers.begin(), numbers.end());
+  }
+  for (auto& [name, numbers] : columns_)
+    numbers.resize(after, none);
+}
+
+void
+MeasureTable::prepend(const std::string& name, double number)
+{
+  columns_.emplace(columns_.begin(), name, Fact::Numbers(countRows(), number));
+}
+
+Fact::Numbers&
+MeasureTable::column(const std::string& name)
+{
+  const auto at = std::find_if(columns_.begin(),
+                               columns_.end(),
+                               [&](const auto& known) { return known.first == name; });
+  if (at != columns_.end())
+    return at->second;
+  return columns_.emplace_back(name, Fact::Numbers(countRows(), none)).second;
+}
+
+void
 MeasureTable::addRow(const PieceMeasures& measures, double piece)
 {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::size_t rows = columns_.empty() ? 0 : columns_.front().second.size();
+  const std::size_t rows = countRows();
   const auto put = [&](const std::string& name, double number) {
-    auto at = std::find_if(columns_.begin(), columns_.end(), [&](const auto& column) {
-      return column.first == name;
-    });
-    if (at == columns_.end())
-      at = columns_.insert(at, {name, Fact::Numbers(rows, none)});
-    at->second.push_back(number);
+    Fact::Numbers& numbers = column(name);
+    numbers.resize(rows, none);
+    numbers.push_back(number);
   };
   const auto putMeasure = [&](const std::string& name, const Measure& measure) {
     put(name, measure.value);
@@ -194,9 +223,8 @@ MeasureTable::addRow(const PieceMeasures& measures, double piece)
     put(field.name + "_sample_sum", field.sum);
   }
   // What an open surface among closed ones has not.
-  ++rows;
-  for (auto& column : columns_)
-    column.second.resize(rows, none);
+  for (auto& [name, numbers] : columns_)
+    numbers.resize(rows + 1, none);
 }
 
 const Fact::Numbers*
@@ -214,7 +242,7 @@ MeasureTable::toDataset() const
   pcl_uvol::Dataset dataset;
   dataset.double_coordinates = true;
   dataset.cloud.height = 1;
-  const std::size_t rows = columns_.empty() ? 0 : columns_.front().second.size();
+  const std::size_t rows = countRows();
   dataset.cloud.width = static_cast<std::uint32_t>(rows);
   std::vector<double> xyz;
   for (std::size_t i = 0; i < rows; ++i)

@@ -40,6 +40,14 @@ public:
   void
   append(const std::vector<pcl_uvol::PieceMeasures>& pieces);
 
+  /** \brief Add the rows of another table; NaN where one has no such column. */
+  void
+  append(const MeasureTable& rows);
+
+  /** \brief Put a column before the others, of one number in all rows. */
+  void
+  prepend(const std::string& name, double number);
+
   const Fact::Members&
   getColumns() const
   {
@@ -55,6 +63,16 @@ public:
   toDataset() const;
 
 private:
+  std::size_t
+  countRows() const
+  {
+    return columns_.empty() ? 0 : columns_.front().second.size();
+  }
+
+  /** A column, which is made if there is none. */
+  Fact::Numbers&
+  column(const std::string& name);
+
   void
   addRow(const pcl_uvol::PieceMeasures& measures, double piece);
 

@@ -362,13 +362,21 @@ Options::parse(int argc, const char* const* argv)
       files.push_back(argument);
   }
   assignFiles(files);
-  named_file = files.empty() ? std::string() : files.front();
-  named_output.clear();
+  if (!files.empty())
+    first_file_ = files.front();
   if (!files.empty() && files.size() <= positionals_.size() &&
       positionals_[files.size() - 1].name == "out")
-    named_output = files.back();
+    output_ = files.back();
+  nameFiles();
   checkFiles(files);
   return true;
+}
+
+void
+Options::nameFiles() const
+{
+  named_file = first_file_;
+  named_output = output_;
 }
 
 void
@@ -387,11 +395,8 @@ Options::checkFiles(const std::vector<std::string>& files) const
     if (option.given && option.written)
       outputs.push_back(*option.written);
   checkDistinct(inputs, outputs);
-  if (!expected_outputs)
-    return;
   for (const std::string& output : outputs)
-    if (std::find(expected_outputs->begin(), expected_outputs->end(), output) ==
-        expected_outputs->end())
+    if (!shares_outputs_ && isOfAll(output))
       throw UsageError("'" + output +
                        "' would be written anew by every file of the series: its name "
                        "needs a place for a number, as in out_{:04d}.vtp.");
@@ -425,6 +430,14 @@ void
 expectOutputs(const std::vector<std::string>& names)
 {
   expected_outputs = names;
+}
+
+bool
+isOfAll(const std::string& output)
+{
+  return expected_outputs && !output.empty() &&
+         std::find(expected_outputs->begin(), expected_outputs->end(), output) ==
+             expected_outputs->end();
 }
 
 const std::string&

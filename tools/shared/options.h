@@ -68,6 +68,13 @@ public:
   series(const std::string& name,
          const std::string& placeholder,
          const std::string& help);
+  /** \brief A series of files may write outputs together: those whose names are the
+   * same for all of them, see isOfAll(). */
+  void
+  shareOutputs()
+  {
+    shares_outputs_ = true;
+  }
   /** \brief One of several words. */
   void
   choice(const std::string& name,
@@ -147,6 +154,11 @@ public:
   std::string
   describeCommand() const;
 
+  /** \brief From now on namedFile() and namedOutput() are those of this command line,
+   * as they are when it is parsed. */
+  void
+  nameFiles() const;
+
   bool
   json() const
   {
@@ -217,8 +229,9 @@ private:
   std::size_t current_group_ = 0;
   std::vector<Positional> positionals_;
   std::vector<std::string> command_; // the words of describeCommand()
+  std::string first_file_, output_;  // that they name; "" if there is none
   std::uint64_t threads_ = 0;
-  bool json_ = false, verbose_ = false;
+  bool json_ = false, verbose_ = false, shares_outputs_ = false;
 };
 
 /** \brief No file may be read and written, or written twice, by whatever names: links
@@ -261,6 +274,10 @@ namedFile();
  * whose names differ. */
 void
 expectOutputs(const std::vector<std::string>& names);
+
+/** \brief True for an output that all files of a series have in common. */
+bool
+isOfAll(const std::string& output);
 
 /** \brief The file that it says is written; "" if there is none. */
 const std::string&

@@ -196,10 +196,8 @@ RenderOptions::writePage(const Options& options,
     points.computeFootprints(options.threads(), report);
   SurfacePage page;
   page.title = std::filesystem::path(output).stem().string();
-  page.camera = makeCamera(points.getBounds(),
-                           surface.origin,
-                           wholePicture(getHeight(), getHeight()),
-                           &cloud);
+  page.camera = cameraOfCell({cloud, points.getBounds(), surface.origin},
+                             wholePicture(getHeight(), getHeight()));
   page.material = getMaterial();
   page.lights = getLights();
   page.background = getBackground().color;

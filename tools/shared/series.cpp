@@ -2,15 +2,21 @@
 #include "shared/series.h"
 
 #include "common/numbers.h"
+#include "io/memory_need.h"
 #include "io/xml_text.h"
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <limits>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <unistd.h>
 #include <utility>
 
@@ -52,6 +58,25 @@ findPlaceOfNumber(const std::string& text)
     return place;
   }
   return std::nullopt;
+}
+
+constexpr const char* time_place = "{t}";
+
+/** The time that the header of a snapshot names. */
+std::optional<double>
+findTime(const std::string& path)
+{
+  const auto header = pcl_uvol::peekHeader(path);
+  return header ? header->time : std::nullopt;
+}
+
+/** As many digits as single precision holds. */
+std::string
+printTime(double time)
+{
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<float>::digits10 + 1) << time;
+  return text.str();
 }
 
 /** The command line of a series. */
@@ -119,34 +144,46 @@ prefetch(const std::string& path)
   ::close(descriptor);
 }
 
+using RunFile = std::function<int(int, char**, SeriesStep*)>;
+
 int
-runOne(int (*run)(int, char**), const std::vector<std::string>& arguments)
+runOne(const RunFile& run, const std::vector<std::string>& arguments, SeriesStep& step)
 {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
   for (std::string& copy : copies)
     pointers.push_back(copy.data());
   pointers.push_back(nullptr);
-  return run(static_cast<int>(arguments.size()), pointers.data());
+  return run(static_cast<int>(arguments.size()), pointers.data(), &step);
 }
+
+/** A file of a list over time. */
+struct ListedFile {
+  std::size_t number;
+  std::optional<double> time;
+  std::string path;
+};
 
 /** A list of files over time, which ParaView opens as one. */
 void
-writeList(const std::vector<std::pair<std::size_t, std::string>>& written)
+writeList(const std::vector<ListedFile>& written)
 {
-  const fs::path first = written[0].second;
+  const fs::path first = written[0].path;
   std::string stem = first.stem().string();
   while (!stem.empty() && (std::isdigit(static_cast<unsigned char>(stem.back())) != 0 ||
                            std::string("_-. ").find(stem.back()) != std::string::npos))
     stem.pop_back();
   const fs::path list =
       first.parent_path() / ((stem.empty() ? "series" : stem) + ".pvd");
+  const bool have_times = std::all_of(
+      written.begin(), written.end(), [](const auto& file) { return file.time; });
   pcl_uvol::checkSavePath(first); // its folder is that of the list
   pcl_uvol::writeAtomically(list, [&](const std::string& file) {
     std::ofstream out(file);
     out << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-    for (const auto& [number, path] : written)
-      out << "<DataSet timestep=\"" << number << "\" file=\""
+    for (const auto& [number, time, path] : written)
+      out << "<DataSet timestep=\""
+          << (have_times ? printTime(*time) : std::to_string(number)) << "\" file=\""
           << pcl_uvol::io::escapeAttribute(fs::path(path).filename().string())
           << "\"/>\n";
     out << "</Collection>\n</VTKFile>\n";
@@ -156,8 +193,53 @@ writeList(const std::vector<std::pair<std::size_t, std::string>>& written)
   std::cerr << "ParaView opens all of them as " << list.string() << '\n';
 }
 
+/** The command lines of a series, one after the other. */
+class SeriesArguments {
+public:
+  explicit SeriesArguments(const Series& series)
+      : series_(series)
+  {
+  }
+
+  /** The command line for a file. It may write the names that no other one has.
+   * \throws IOError for {t} where the file names no time */
+  std::vector<std::string>
+  make(std::size_t number, std::optional<double> time)
+  {
+    std::vector<std::string> arguments = series_.arguments, own;
+    for (std::string& argument : arguments) {
+      const bool is_numbered = NumberedName::isOne(argument);
+      if (is_numbered)
+        argument = NumberedName(argument).insert(number);
+      const bool is_timed = argument.find(time_place) != std::string::npos;
+      if (is_timed && !time)
+        throw pcl_uvol::IOError("'" + series_.input->insert(number) +
+                                "' has no header that names its time, which {t} stands "
+                                "for.");
+      if (is_timed)
+        insertTime(printTime(*time), argument);
+      if (is_numbered || (is_timed && timed_.insert(argument).second))
+        own.push_back(argument);
+    }
+    expectOutputs(own);
+    return arguments;
+  }
+
+private:
+  static void
+  insertTime(const std::string& time, std::string& argument)
+  {
+    for (std::size_t at = argument.find(time_place); at != std::string::npos;
+         at = argument.find(time_place, at + time.size()))
+      argument.replace(at, std::string(time_place).size(), time);
+  }
+
+  const Series& series_;
+  std::set<std::string> timed_; ///< arguments with a time so far
+};
+
 int
-runAll(const char* tool, const Series& series, int (*run)(int, char**))
+runAll(const char* tool, const Series& series, const RunFile& run)
 {
   const std::vector<std::size_t> numbers = series.snapshots
                                                ? parseSnapshots(*series.snapshots)
@@ -167,22 +249,20 @@ runAll(const char* tool, const Series& series, int (*run)(int, char**))
                      ", nor one with another number.");
   int exit_code = 0;
   std::size_t failed = 0;
-  std::vector<std::pair<std::size_t, std::string>> written;
+  std::vector<ListedFile> written;
+  SeriesArguments arguments(series);
+  PictureSeries pictures;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    std::vector<std::string> arguments = series.arguments, numbered;
-    for (std::string& argument : arguments)
-      if (NumberedName::isOne(argument)) {
-        argument = NumberedName(argument).insert(numbers[i]);
-        numbered.push_back(argument);
-      }
-    expectOutputs(numbered);
+    SeriesStep step{numbers[i], findTime(series.input->insert(numbers[i])), pictures};
     if (i + 1 < numbers.size())
       prefetch(series.input->insert(numbers[i + 1]));
-    const int outcome = runTool(tool, [&] { return runOne(run, arguments); });
+    const int outcome = runTool(tool, [&] {
+      return runOne(run, arguments.make(step.number, step.time), step);
+    });
     if (outcome == 0) {
       const fs::path output = namedOutput();
       if (output.extension() == ".vtp")
-        written.emplace_back(numbers[i], output.string());
+        written.push_back({step.number, step.time, output.string()});
       continue;
     }
     ++failed;
@@ -192,6 +272,16 @@ runAll(const char* tool, const Series& series, int (*run)(int, char**))
                 << " files are done; -keep-going passes over failures.\n";
       break;
     }
+  }
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const int outcome = runTool(tool, [&] {
+      pictures.draw(i);
+      return 0;
+    });
+    failed += outcome == 0 ? 0 : 1;
+    exit_code = exit_code == 0 ? outcome : exit_code;
+    if (outcome != 0 && !series.keeps_going)
+      break;
   }
   if (written.size() > 1)
     writeList(written);
@@ -261,13 +351,13 @@ declareSeries(Options& options)
   options.series(
       "snapshots",
       "first:last:step",
-      "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp "
-      "(default: all files there are)");
+      "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp; "
+      "{t} is the time that a snapshot names (default: all files there are)");
   options.series("keep-going", "", "pass over files that fail");
 }
 
 int
-runSeries(const char* tool, int argc, char** argv, int (*run)(int argc, char** argv))
+runSeries(const char* tool, int argc, char** argv, const RunFile& run)
 {
   int exit_code = 0;
   const auto body = [&] {
@@ -277,7 +367,7 @@ runSeries(const char* tool, int argc, char** argv, int (*run)(int argc, char** a
           "-snapshots and -keep-going need names with a place for a number, "
           "as in snap_{:04d}.h5.");
     if (!series.input)
-      return run(argc, argv);
+      return run(argc, argv, nullptr);
     exit_code = runAll(tool, series, run);
     return exit_code;
   };

@@ -3,8 +3,11 @@
 #pragma once
 
 #include "shared/options.h"
+#include "shared/picture_series.h"
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +35,27 @@ private:
   char fill_ = ' ';
 };
 
+/** \brief A file of a series. */
+struct SeriesStep {
+  std::size_t number;         ///< in its name
+  std::optional<double> time; ///< that its header names
+  PictureSeries& pictures;    ///< that are drawn when all files have been read
+};
+
 /** \brief As runTool(), and once per number where names on the command line have a
- * place for one. -snapshots chooses the numbers, the files that are there by default;
- * -keep-going passes over failures. Points in .vtp are listed in a .pvd for ParaView.
+ * place for one; {t}, in any argument, is the time that the header of the input names.
+ * -snapshots chooses the numbers, the files that are there by default; -keep-going
+ * passes over failures. Points in .vtp are listed in a .pvd for ParaView, with the
+ * times if all inputs name one, else the numbers.
+ *
+ * \param run gets the file of the series; null without one
+ *
  * \return that of the first failure */
 int
-runSeries(const char* tool, int argc, char** argv, int (*run)(int argc, char** argv));
+runSeries(const char* tool,
+          int argc,
+          char** argv,
+          const std::function<int(int argc, char** argv, SeriesStep*)>& run);
 
 /** \brief The options of runSeries(), for -h. */
 void

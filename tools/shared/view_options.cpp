@@ -278,6 +278,19 @@ ViewOptions::colorField(const pcl_uvol::CloudView& cloud) const
 }
 
 pcl_uvol::ColorMapping
+ViewOptions::colorMapping(const pcl_uvol::CloudView& cloud) const
+{
+  pcl_uvol::ColorMapping mapping = mapColors(cloud, colorField(cloud));
+  if (!shared_)
+    return mapping;
+  if (colors_.isAutomatic() && !shared_->are_categories)
+    mapping.map = colors_.getMap();
+  if (!mapping.range)
+    mapping.range = shared_->range;
+  return mapping;
+}
+
+pcl_uvol::ColorMapping
 ViewOptions::mapColors(const pcl_uvol::CloudView& cloud, const std::string& field) const
 {
   pcl_uvol::ColorMapping mapping = colors_.mapFor(cloud, field);

@@ -31,6 +31,18 @@ struct Subject {
   std::array<double, 3> origin; ///< of its coordinates
 };
 
+/** \brief What several pictures have in common. */
+struct SharedView {
+  Eigen::AlignedBox3d box; ///< of all surfaces, with their origins added
+  /** Values at the ends of the colours; none: no surface has a field. */
+  std::optional<std::array<double, 2>> range;
+  bool are_categories = true; ///< the values of every surface
+
+  /** \brief Make the range hold that of a scale. */
+  void
+  extendRange(const pcl_uvol::ColorScale& scale);
+};
+
 /** \brief Options of a picture or window. */
 class ViewOptions {
 public:
@@ -85,6 +97,19 @@ public:
              const std::array<double, 3>& origin,
              const PictureCell& cell,
              const pcl_uvol::CloudView* cloud) const;
+
+  /** \brief Add a surface to what pictures have in common.
+   * \throws InvalidArgument as findColorScale */
+  void
+  addTo(SharedView& shared, const pcl_uvol::Dataset& surface) const;
+
+  /** \brief From now on the camera sees what pictures have in common, and the colours
+   * have one scale, where options do not say which. */
+  void
+  share(const SharedView& shared)
+  {
+    shared_ = shared;
+  }
 
   /** \brief A camera with what options say in the place of what it says. Not for -view
    * and -eye. */
@@ -165,10 +190,7 @@ public:
 
   /** \brief How the field of -color becomes colours. */
   pcl_uvol::ColorMapping
-  colorMapping(const pcl_uvol::CloudView& cloud) const
-  {
-    return mapColors(cloud, colorField(cloud));
-  }
+  colorMapping(const pcl_uvol::CloudView& cloud) const;
 
   /** \brief How a field becomes colours: unasked, labels of names as categories. */
   pcl_uvol::ColorMapping
@@ -258,6 +280,10 @@ protected:
   bool
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
+  /** \brief The camera of a view in its place in the picture. */
+  pcl_uvol::Camera
+  cameraOfCell(const Subject& surface, const PictureCell& cell) const;
+
 private:
   /** Columns that are left to the surface: its colour bar stands beside it. */
   int
@@ -269,8 +295,9 @@ private:
             const DrawView& draw,
             std::vector<pcl_uvol::ImageText>& texts) const;
 
-  pcl_uvol::Camera
-  cameraOfCell(const Subject& surface, const PictureCell& cell) const;
+  /** The box that figures show, and that is in the picture as a whole. */
+  Eigen::AlignedBox3d
+  findBox(const Subject& surface) const;
 
   /** Put the colour bar of a picture that is coloured by a scalar field beside it. */
   void
@@ -297,6 +324,7 @@ private:
   pcl_uvol::Background background_;
   pcl_uvol::Material material_;
   std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();
+  std::optional<SharedView> shared_;
 };
 
 /** \brief The options that give the same view again: -eye, -at, -up and -fov.

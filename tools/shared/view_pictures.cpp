@@ -193,12 +193,42 @@ ViewOptions::getBackgroundOfViews() const
   return background;
 }
 
+void
+SharedView::extendRange(const pcl_uvol::ColorScale& scale)
+{
+  if (!range)
+    range = {scale.low, scale.high};
+  range = {std::min((*range)[0], scale.low), std::max((*range)[1], scale.high)};
+}
+
+void
+ViewOptions::addTo(SharedView& shared, const pcl_uvol::Dataset& surface) const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
+  shared.box.extend(boxAround(cloud).translate(Eigen::Vector3d(surface.origin.data())));
+  const std::string field = colorField(cloud);
+  if (field.empty() || field == "rgb" || field == "rgba")
+    return;
+  const pcl_uvol::ColorMapping mapping = mapColors(cloud, field);
+  shared.extendRange(findColorScale(cloud, field, mapping));
+  shared.are_categories = shared.are_categories && mapping.map.isCategorical();
+}
+
+Eigen::AlignedBox3d
+ViewOptions::findBox(const Subject& surface) const
+{
+  if (!shared_)
+    return boxAround(surface.cloud);
+  Eigen::AlignedBox3d box = shared_->box;
+  return box.translate(-Eigen::Vector3d(surface.origin.data()));
+}
+
 pcl_uvol::Camera
 ViewOptions::cameraOfCell(const Subject& surface, const PictureCell& cell) const
 {
-  if (!figure_.hasBox())
+  if (!figure_.hasBox() && !shared_)
     return makeCamera(surface.bounds, surface.origin, cell, &surface.cloud);
-  const Eigen::AlignedBox3d box = boxAround(surface.cloud);
+  const Eigen::AlignedBox3d box = findBox(surface);
   const auto corners = cornersOf(box);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(corners);
   return makeCamera(
@@ -215,7 +245,7 @@ ViewOptions::drawFrame(const Subject& surface,
   const Eigen::Vector3d origin(surface.origin.data());
   DataBox box{{}, origin, Eigen::Vector3d::Ones(), figure_.getUnit()};
   if (figure_.drawsMarks())
-    box.box = boxAround(surface.cloud);
+    box.box = findBox(surface);
   if (isExaggerated())
     box.factors = Eigen::Vector3d(exaggeration_.data());
   for (const PictureCell& cell : figure_.layOut(viewsWidth(surface.cloud), height_)) {

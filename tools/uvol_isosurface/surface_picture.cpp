@@ -91,18 +91,16 @@ SurfacePicture::draw(const Options& options,
   const pcl_uvol::StepTimer timer(report, "picture");
   pcl_uvol::Report drawing;
   drawing.progress = report.progress;
-  pcl_uvol::Dataset stretched;
-  if (look_.isExaggerated()) {
-    stretched = surface;
-    look_.exaggerate(stretched);
-  }
-  const pcl_uvol::Dataset& drawn = look_.isExaggerated() ? stretched : surface;
   std::string backend = "ray tracing";
   if (is_ray_traced_)
-    rays_.traceCloud(
-        options, look_, pcl_uvol::viewOf(drawn.cloud), drawn.origin, path_, drawing);
+    rays_.traceCloud(options,
+                     look_,
+                     pcl_uvol::viewOf(surface.cloud),
+                     surface.origin,
+                     path_,
+                     drawing);
   else
-    backend = look_.drawCloud(options, drawn, path_, drawing);
+    backend = look_.drawCloud(options, surface, path_, drawing);
   for (const auto& [pass, milliseconds] : drawing.milliseconds)
     report.time("picture_" + pass, milliseconds);
   if (is_ray_traced_)

@@ -46,12 +46,19 @@ public:
   /** @} */
 
   /** \brief Draw it; a surface without points leaves no picture, with a warning.
+   * \param surface stretched already by the factors of getLook()
    * \param report gets the times, named picture_...
    * \return what it was drawn on; "" for none */
   std::string
   draw(const Options& options,
        const pcl_uvol::Dataset& surface,
        pcl_uvol::Report& report) const;
+
+  RenderOptions&
+  getLook()
+  {
+    return look_;
+  }
 
   /** \brief Add the memory of a picture of that many points to a forecast.
    * \param surfaces number of isovalues */

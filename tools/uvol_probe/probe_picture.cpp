@@ -13,6 +13,7 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace uvol_tools {
 
@@ -119,7 +120,8 @@ ProbePicture::drawSlice(const std::string& field,
                         const Slice& slice,
                         const std::vector<float>& values,
                         const AxisScale& of_samples,
-                        const pcl_uvol::Dataset& samples) const
+                        const pcl_uvol::Dataset& samples,
+                        PictureSeries* series) const
 {
   const PictureAxis across(slice.lattice, slice.horizontal),
       up(slice.lattice, slice.vertical);
@@ -153,7 +155,10 @@ ProbePicture::drawSlice(const std::string& field,
             {across.direction.dot(place), up.direction.dot(place), value});
     }
   }
-  savePng(path_, drawSlicePlot(plot));
+  if (series)
+    series->add(std::move(plot), range.has_value(), path_);
+  else
+    savePng(path_, drawSlicePlot(plot));
 }
 
 } // namespace uvol_tools

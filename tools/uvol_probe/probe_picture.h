@@ -6,6 +6,7 @@
 #include "interpolation/query_lattice.h"
 #include "shared/color_options.h"
 #include "shared/options.h"
+#include "shared/picture_series.h"
 #include <pcl_uvol/common/dataset.h>
 
 #include <string>
@@ -40,14 +41,19 @@ public:
            const std::vector<double>& errors) const;
 
   /** \brief Draw a field in a plane.
+   *
    * \param values in the order of the lattice
-   * \param of_samples range of the samples' values */
+   *
+   * \param of_samples range of the samples' values
+   *
+   * \param series that draws it with its other slices; null: it is drawn now */
   void
   drawSlice(const std::string& field,
             const pcl_uvol::detail::Slice& slice,
             const std::vector<float>& values,
             const AxisScale& of_samples,
-            const pcl_uvol::Dataset& samples) const;
+            const pcl_uvol::Dataset& samples,
+            PictureSeries* series) const;
 
 private:
   std::string path_, label_, unit_;

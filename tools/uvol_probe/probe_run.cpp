@@ -192,8 +192,12 @@ Runner::drawSlice(const Slice& slice, const std::vector<float>& values)
 {
   const StepTimer timer(report_, "picture");
   const AnswerSummary::Field& field = summary_.getFields().front();
-  probe_.picture.drawSlice(
-      field.name, slice, values, {field.sample_low, field.sample_high}, samples_);
+  probe_.picture.drawSlice(field.name,
+                           slice,
+                           values,
+                           {field.sample_low, field.sample_high},
+                           samples_,
+                           probe_.series);
 }
 
 std::vector<pcl_uvol::LatticeArray>

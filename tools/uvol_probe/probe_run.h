@@ -21,6 +21,7 @@ struct Probe {
   const QueryOptions& queries;
   const std::optional<pcl_uvol::detail::Slice>& lattice; ///< none for points
   const ProbePicture& picture;
+  PictureSeries* series; ///< that draws slices; null: there is none
   std::string input, output;
   pcl_uvol::LoadOptions load; ///< of the samples and of points like them
   bool ascii;
