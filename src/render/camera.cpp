@@ -129,6 +129,17 @@ Camera::viewNames()
 }
 
 Camera
+Camera::parallel() const
+{
+  checkFieldOfView(vertical_fov);
+  Camera far = *this;
+  far.vertical_fov = parallel_fov;
+  far.eye = at + (eye - at) * (std::tan(0.5 * radians(vertical_fov)) /
+                               std::tan(0.5 * radians(parallel_fov)));
+  return far;
+}
+
+Camera
 Camera::orbited(double angle) const
 {
   Camera turned = *this;

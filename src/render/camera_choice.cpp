@@ -44,12 +44,19 @@ chooseCamera(const CameraChoice& choice,
              const CloudView* cloud)
 {
   const Eigen::Vector3d shift(origin.data());
-  Camera camera = Camera::fit(bounds, choice.view, choice.fov, aspect, choice.fill);
+  const bool is_far = choice.is_parallel && !choice.eye;
+  Camera camera = Camera::fit(bounds,
+                              choice.view,
+                              is_far ? Camera::parallel_fov : choice.fov,
+                              aspect,
+                              choice.fill);
   if (choice.eye) {
     camera.eye = *choice.eye - shift;
     if (choice.at)
       camera.at = *choice.at - shift;
     camera.up = choice.up ? *choice.up : upwardsOf(camera);
+    if (choice.is_parallel)
+      camera = camera.parallel();
   }
   else {
     if (choice.up)

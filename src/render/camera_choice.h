@@ -23,6 +23,9 @@ struct CameraChoice {
   /** None: z, or y for a camera that looks along z. A view turns to it. */
   std::optional<Eigen::Vector3d> up;
   double fov = 30.0; ///< vertical, degrees
+  /** Parallel projection; with eye it shows what a field of view of fov would show
+   * around the point looked at. */
+  bool is_parallel = false;
   double zoom = 1.0; ///< of the middle of the picture
   double fill = 0.9; ///< part of the picture that a view fills
 };

@@ -46,13 +46,30 @@ uniformScale(const Eigen::Matrix3d& matrix)
   return scale;
 }
 
-void
-checkProjection(vtkRenderer& renderer, const Eigen::Matrix4d& projection)
+bool
+isParallel(const Eigen::Matrix4d& projection)
 {
-  if (renderer.GetActiveCamera()->GetParallelProjection() ||
-      projection.row(3) != Eigen::RowVector4d(0.0, 0.0, -1.0, 0.0))
-    throw InvalidArgument("Image-space rendering has no parallel projection: use a "
-                          "perspective one (ParallelProjectionOff).");
+  if (projection.row(3) == Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+    return true;
+  if (projection.row(3) != Eigen::RowVector4d(0.0, 0.0, -1.0, 0.0))
+    throw InvalidArgument("Image-space rendering takes perspective and parallel "
+                          "projections only.");
+  return false;
+}
+
+/** How far behind VTK's eye ours is, in the world's unit: for a parallel projection as
+ * far as Camera::parallel_fov asks for, from the middle of the cloud. */
+double
+findRetreat(const Eigen::Matrix4d& projection,
+            const Eigen::Matrix4d& cloud_to_eye,
+            const BoundingSphere& bounds)
+{
+  if (!isParallel(projection))
+    return 0.0;
+  const double middle =
+      cloud_to_eye.row(2).dot(bounds.center.homogeneous().transpose());
+  return middle +
+         1.0 / (projection(1, 1) * std::tan(0.5 * Camera::parallel_fov / degrees));
 }
 
 /** Our camera: x right, y down, z forward, in units of the cloud. */
@@ -81,9 +98,12 @@ makeWindowView(vtkRenderer& renderer, vtkMatrix4x4& model, const BoundingSphere&
   vtkMatrix3x3* normal_matrix;
   camera->GetKeyMatrices(
       &renderer, view_matrix, normal_matrix, projection_matrix, product);
-  const Eigen::Matrix4d projection = toEigen(*projection_matrix, true);
-  checkProjection(renderer, projection);
-  const Eigen::Matrix4d cloud_to_eye = toEigen(*view_matrix, true) * toEigen(model);
+  Eigen::Matrix4d projection = toEigen(*projection_matrix, true);
+  Eigen::Matrix4d cloud_to_eye = toEigen(*view_matrix, true) * toEigen(model);
+  const bool is_parallel = isParallel(projection);
+  const double retreat = findRetreat(projection, cloud_to_eye, bounds);
+  cloud_to_eye(2, 3) -= retreat;
+  projection.col(3) += retreat * projection.col(2);
   const double scale = uniformScale(cloud_to_eye.topLeftCorner<3, 3>());
 
   int width = 0, height = 0;
@@ -94,12 +114,16 @@ makeWindowView(vtkRenderer& renderer, vtkMatrix4x4& model, const BoundingSphere&
   if (std::abs(focal_x - focal_y) > matrix_tolerance * focal_y)
     throw InvalidArgument("Image-space rendering needs square pixels: remove the "
                           "renderer's pixel aspect.");
-  const double fov = 2.0 * degrees * std::atan(1.0 / projection(1, 1));
+  const double fov = is_parallel ? Camera::parallel_fov
+                                 : 2.0 * degrees * std::atan(1.0 / projection(1, 1));
   View view(makeCamera(cloud_to_eye, scale, fov), bounds, width, height);
-  view.center_x -= static_cast<float>(0.5 * width * projection(0, 2));
-  view.center_y += static_cast<float>(0.5 * height * projection(1, 2));
-  view.near = std::max(
-      view.near, static_cast<float>(view.unit * camera->GetClippingRange()[0] / scale));
+  Eigen::Vector2d shift = projection.block<2, 1>(0, 2);
+  if (is_parallel)
+    shift = -projection.topRightCorner<2, 1>();
+  view.center_x -= static_cast<float>(0.5 * width * shift.x());
+  view.center_y += static_cast<float>(0.5 * height * shift.y());
+  const double near = camera->GetClippingRange()[0] + retreat;
+  view.near = std::max(view.near, static_cast<float>(view.unit * near / scale));
 
   const double length = scale / view.unit;
   const Eigen::Vector4d axes(length, -length, -length, 1.0); // from our camera space

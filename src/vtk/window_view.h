@@ -20,8 +20,9 @@ struct WindowView {
  * lies in the world by a rotation, a translation and one scale.
  * \param model from the cloud's to the world's coordinates
  * \param bounds of the cloud
- * \throws InvalidArgument for a parallel projection, any other matrix, pixels that are
- * not square, a size of the window that cannot be drawn */
+ * \throws InvalidArgument for a projection that is neither perspective nor parallel,
+ * any other matrix, pixels that are not square, a size of the window that cannot be
+ * drawn */
 WindowView
 makeWindowView(vtkRenderer& renderer,
                vtkMatrix4x4& model,

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,31 @@ TEST(Camera, FittedSphereFillsItsPartOfTheImage)
     const double half = std::tan(20.0 * pi / 180.0) * std::min(1.0, aspect);
     EXPECT_NEAR(std::tan(std::asin(sine)) / half, 0.72, 1e-9);
   }
+}
+
+TEST(Camera, ParallelProjectionKeepsSizesAtAnyDistance)
+{
+  Camera camera;
+  camera.eye = {3.0, -4.0, 5.0};
+  camera.at = {1.0, 1.0, 0.5};
+  camera.up = {0.0, 0.3, 2.0};
+  const Camera far = camera.parallel();
+  const Eigen::Matrix3d rows = far.rotation();
+  EXPECT_TRUE(rows.isApprox(camera.rotation(), 1e-12));
+  // Half the height of a picture is 512 pixels, of which the ball around at fills them.
+  const double half = std::tan(0.5 * camera.vertical_fov * pi / 180.0) *
+                      (camera.eye - camera.at).norm();
+  const double focal = 512.0 / std::tan(0.5 * far.vertical_fov * pi / 180.0);
+  for (const double x : {-1.0, 0.0, 1.0})
+    for (const double y : {-1.0, 0.0, 1.0})
+      for (const double z : {-1.0, 0.0, 1.0}) {
+        Eigen::Vector3d place(x, y, z);
+        place *= half / std::max(place.norm(), 1.0);
+        const Eigen::Vector3d seen = rows * (camera.at + place - far.eye),
+                              offset = rows * place;
+        for (int axis = 0; axis < 2; ++axis)
+          EXPECT_NEAR(512.0 / half * offset[axis], focal * seen[axis] / seen.z(), 0.3);
+      }
 }
 
 TEST(Camera, NamedViewsLookFromTheirSides)

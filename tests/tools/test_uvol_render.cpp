@@ -98,6 +98,8 @@ TEST_F(RenderTool, EveryModeIsAPictureOfItsOwn)
                               "-view top",
                               "-eye 3,1,2",
                               "-fov 10",
+                              "-parallel",
+                              "-parallel -eye 3,1,2 -at 0.1,0,0",
                               "-background black",
                               "-background gradient",
                               "-background 0.1,0.5,0.2",
@@ -249,12 +251,12 @@ TEST_F(RenderTool, PointsWithoutNormalsAreDrawnWithAWarning)
 TEST_F(RenderTool, RefusesWrongCommandLines)
 {
   for (const char* options :
-       {"-size 0x10",    "-size 10x",   "-size 40000",      "-size 10x-3",
-        "-size ten",     "-view above", "-eye 1,2",         "-eye 1,2,3 -view top",
-        "-at 0,0,0",     "-fov 0",      "-background pink", "-background 1,2,3",
-        "-range 2,1",    "-orbit 0",    "-supersample 9",   "-thickness 8",
-        "-lights 0,0,0", "-lights 1,2", "-smoothing blur",  "-backend vulkan",
-        "-colormap jet", "-nonsense"}) {
+       {"-size 0x10",    "-size 10x",        "-size 40000",      "-size 10x-3",
+        "-size ten",     "-view above",      "-eye 1,2",         "-eye 1,2,3 -view top",
+        "-at 0,0,0",     "-fov 0",           "-background pink", "-background 1,2,3",
+        "-range 2,1",    "-orbit 0",         "-supersample 9",   "-thickness 8",
+        "-lights 0,0,0", "-lights 1,2",      "-smoothing blur",  "-backend vulkan",
+        "-colormap jet", "-parallel -fov 9", "-nonsense"}) {
     const auto result = run(options);
     EXPECT_EQ(2, result.exit_code) << options << ": " << result.err;
     EXPECT_EQ("", result.out) << options;

@@ -75,6 +75,8 @@ ViewOptions::declareScene(Options& options)
                   up_,
                   "direction that is upwards, to which -view turns (default 0,0,1)");
   options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees");
+  options.flag(
+      "parallel", is_parallel_, "no perspective: parallel lines stay parallel");
   options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture");
   options.text("size", "WxH", size_text_, "pixels of the picture (default 1024x1024)");
   options.text("background",
@@ -193,6 +195,8 @@ ViewOptions::check(const Options& options)
                        std::to_string(width_) + " x " + std::to_string(height_) + ".");
   if (options.given("view") && options.given("eye"))
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
+  if (is_parallel_ && options.given("fov"))
+    throw UsageError("-parallel has no field of view: -zoom enlarges the picture.");
   if (!options.given("eye") && options.given("at"))
     throw UsageError("-at needs -eye.");
   if (!up_.empty() && toVector(up_).isZero(0.0))
@@ -326,6 +330,7 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                                  place(at_),
                                  direction(up_),
                                  fov_,
+                                 is_parallel_,
                                  zoom_,
                                  figure_.getFill(cell)},
                                 bounds,
@@ -341,6 +346,8 @@ ViewOptions::adjusted(const Options& options, pcl_uvol::Camera camera) const
     camera.up = toVector(up_);
   if (options.given("fov"))
     camera.vertical_fov = fov_;
+  if (is_parallel_)
+    camera = camera.parallel();
   return pcl_uvol::zoomed(camera, zoom_);
 }
 

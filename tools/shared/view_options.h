@@ -320,7 +320,7 @@ private:
   double fov_ = 30.0, zoom_ = 1.0;
   int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;
-  bool has_bar_ = true;
+  bool has_bar_ = true, is_parallel_ = false;
   pcl_uvol::Background background_;
   pcl_uvol::Material material_;
   std::vector<pcl_uvol::Light> lights_ = pcl_uvol::defaultLights();

@@ -24,8 +24,15 @@ struct BoundingSphere {
 PCL_UVOL_EXPORTS double
 chooseLengthUnit(const BoundingSphere& bounds);
 
-/** \brief Perspective projection from a point, in the coordinates of the cloud. */
+/** \brief Perspective projection from a point, in the coordinates of the cloud.
+ *
+ * Parallel projection is that from far away: in a picture of 1024 pixels that an object
+ * fills with the field of view parallel_fov, none of its points is more than 0.3 pixels
+ * off. */
 struct PCL_UVOL_EXPORTS Camera {
+  /** A vertical field of view, in degrees, that shows no perspective. */
+  static constexpr double parallel_fov = 0.05;
+
   Eigen::Vector3d eye{0.0, 0.0, 1.0};
   Eigen::Vector3d at{0.0, 0.0, 0.0}; ///< looked at: the centre of the image
   Eigen::Vector3d up{0.0, 1.0, 0.0}; ///< upwards in the image, of any length
@@ -73,6 +80,11 @@ struct PCL_UVOL_EXPORTS Camera {
   /** \brief The names of the sides. */
   static const std::vector<std::string>&
   viewNames();
+
+  /** \brief The same view by parallel projection: what lies around the point looked at
+   * keeps its size. */
+  Camera
+  parallel() const;
 
   /** \brief Turned about the upward axis through the point looked at.
    * \param angle degrees, counter-clockwise as seen from above */

@@ -33,9 +33,8 @@ class GlContext;
  * orientation, origin and a scale that is the same along all axes are honoured. Shading
  * takes the lights of the settings, not those of VTK's renderer; anti-aliased borders
  * blend with what was drawn before. VTK's errors (vtkErrorMacro) tell, once each and
- * without a picture, of a bad cloud or bad settings, a parallel projection, another
- * scale, pixels that are not square, a failing OpenGL. Memory of the graphics card as
- * GlBackend. */
+ * without a picture, of a bad cloud or bad settings, another scale, pixels that are not
+ * square, a failing OpenGL. Memory of the graphics card as GlBackend. */
 class PCL_UVOL_EXPORTS ImageSpaceProp : public vtkProp3D {
 public:
   vtkTypeMacro(ImageSpaceProp, vtkProp3D);
