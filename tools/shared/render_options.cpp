@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/render_options.h"
 
+#include "charts/color_bar.h"
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
@@ -214,7 +215,7 @@ RenderOptions::writePage(const Options& options,
       page.field = field;
       page.map = mapping.map;
       page.scale = colors.scale;
-      page.categories = listCategories(cloud, field, mapping);
+      page.categories = listNamedCategories(cloud, getLabels(), field, mapping.map);
     }
   }
   points.fadeBridged(page.background);
