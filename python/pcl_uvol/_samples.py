@@ -193,7 +193,7 @@ class Samples(Drawable, Points):
             return self, ""
         if expression not in self._derived:
             with listening(progress) as listener:
-                dataset, name, report = self._dataset.with_field(expression, _parameters.count(threads, "threads"),
+                dataset, name, report = self._dataset.with_field(expression, "", _parameters.count(threads, "threads"),
                                                                  listener)
             samples = self if dataset is self._dataset else Samples._of(dataset)
             self._derived[expression] = (samples, name, report["warnings"])

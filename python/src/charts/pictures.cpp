@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of points with normals, on the CPU: no display, no OpenGL.
+#include "charts/bindings.h"
+#include "charts/color_bar.h"
+#include "charts/figure.h"
+#include "charts/look.h"
 #include "common/parameter_json.h"
-#include "core/bindings.h"
 #include "render/image_space/frame.h"
 #include "render/ray_tracing/gap_dots.h"
 #include "render/stretch_surface.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
-#include "shared/look.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
@@ -21,53 +23,6 @@ namespace pcl_uvol::python {
 namespace py = pybind11;
 
 namespace {
-
-/** A picture that is made, and what its colours stand for. */
-struct Drawing {
-  /** \param surface must outlive it, unless it is stretched */
-  Drawing(const DatasetPtr& surface, const PictureParameters& asked)
-      : parameters(asked)
-      , points(surface)
-  {
-    if (parameters.exaggerate) {
-      points = std::make_shared<Dataset>(*surface);
-      stretchSurface(*points, parameters.exaggerate->matrix());
-    }
-    cloud = viewOf(points->cloud);
-    field = findColorField(parameters, cloud);
-    if (!field.empty())
-      mapping = makeColorMapping(parameters, cloud, field);
-  }
-
-  /** Columns for the surface. */
-  int
-  width() const
-  {
-    return parameters.width - parameters.margin;
-  }
-
-  const PictureParameters& parameters;
-  DatasetPtr points;
-  CloudView cloud;
-  std::string field;
-  ColorMapping mapping;
-  Image image;
-  std::array<double, 2> range{{0.0, 1.0}};
-  Report report;
-};
-
-/** Pixels, field, values at the ends of the colours, and the report. */
-py::tuple
-toTuple(Drawing&& drawing)
-{
-  const py::dict report = toDict(drawing.report);
-  const auto height = static_cast<py::ssize_t>(drawing.image.height);
-  const auto width = static_cast<py::ssize_t>(drawing.image.width);
-  return py::make_tuple(toArray(std::move(drawing.image.color), {height, width, 4}),
-                        toText(drawing.field),
-                        drawing.range,
-                        report);
-}
 
 void
 applyPasses(const PictureParameters& parameters, ImageSpaceSettings& settings)
@@ -92,151 +47,213 @@ applyPasses(const PictureParameters& parameters, ImageSpaceSettings& settings)
   settings.anti_aliasing_threshold = passes.antialias_threshold;
 }
 
-void
-draw(Drawing& drawing, unsigned threads)
-{
-  const PictureParameters& parameters = drawing.parameters;
-  ImageSpaceRenderer<pcl::PCLPointCloud2> renderer;
-  renderer.setInputCloud(
-      pcl::PCLPointCloud2::ConstPtr(drawing.points, &drawing.points->cloud));
-  ImageSpaceSettings& settings = renderer.settings();
-  applyPasses(parameters, settings);
-  settings.background = makeBackground(parameters);
-  settings.material = makeMaterial(parameters);
-  settings.lights = makeLights(parameters);
-  renderer.setColorField(drawing.field);
-  renderer.setColorMap(drawing.mapping.map);
-  renderer.setLogarithmicColors(drawing.mapping.is_logarithmic);
-  if (const auto& range = drawing.mapping.range)
-    renderer.setColorRange((*range)[0], (*range)[1]);
-  renderer.setNumberOfThreads(threads);
-  renderer.setProgressCallback(drawing.report.progress);
-  renderer.setSize(drawing.width(), parameters.height);
-  const int largest = std::max(parameters.width, parameters.height);
-  const int usual = 2 * largest <= View::largest_size ? 2 : 1;
-  renderer.setSupersampling(parameters.supersample > 0 ? parameters.supersample
-                                                       : usual);
-  renderer.setCamera(makeCamera(
-      parameters, renderer.getBounds(), drawing.points->origin, &drawing.cloud));
-  renderer.render(drawing.image);
-  drawing.range = renderer.getColorRange();
-  drawing.report.merge(renderer.getReport());
-}
-
-/** Add the points to a scene, which has its background. */
-void
-coverPoints(const RayParameters& rays, unsigned threads, Drawing& drawing, Scene& scene)
-{
-  const Splats splats = findSplats(drawing.cloud,
-                                   rays.splats.value_or(SplatParameters()),
-                                   rays.splats.has_value(),
-                                   threads,
-                                   drawing.report);
-  if (splats.cloud.empty())
-    throw InvalidArgument("None of the splats is usable.");
-  SplatObject object;
-  if (!drawing.field.empty()) {
-    const auto colored = colorPoints(drawing.cloud, drawing.field, drawing.mapping);
-    drawing.range = {colored.scale.low, colored.scale.high};
-    for (const std::uint32_t source : splats.sources)
-      object.colors.push_back(colored.colors[source]);
+/** Points that are ready to be drawn from any side. */
+class Painter {
+public:
+  /** \param json parameters of pictures
+   * \param ray_json those of rays; none: the points are drawn in image space */
+  Painter(const DatasetPtr& surface,
+          const std::string& json,
+          const std::optional<std::string>& ray_json,
+          unsigned threads,
+          const py::object& progress)
+      : look_(readPictureParameters(json))
+      , points_(surface)
+      , threads_(threads)
+  {
+    if (ray_json)
+      rays_ = readJson<RayParameters>(*ray_json);
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      preparation_.progress = callback;
+      prepare();
+      preparation_.progress = nullptr;
+    });
   }
-  object.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(splats.cloud);
-  static_cast<Material&>(object.material) = makeMaterial(drawing.parameters);
-  object.material.reflectivity = rays.reflect;
-  object.material.transparency = rays.transparent;
-  object.material.refractive_index = rays.index;
-  addWithDots(std::move(object),
-              drawing.cloud,
-              splats.sources,
-              std::min(drawing.width(), drawing.parameters.height),
-              scene);
-}
 
-void
-trace(const RayParameters& rays, Drawing& drawing, unsigned threads)
-{
-  const PictureParameters& parameters = drawing.parameters;
-  Scene scene;
-  scene.lights = makeLights(parameters);
-  scene.background = makeBackground(parameters);
-  coverPoints(rays, threads, drawing, scene);
-  RayTracer tracer;
-  tracer.setScene(scene);
-  RayTracingSettings& settings = tracer.settings();
-  settings.depth = rays.depth;
-  settings.shadows = rays.shadows;
-  settings.light_samples = rays.light_samples;
-  settings.occlusion_samples = rays.occlusion;
-  settings.occlusion_distance = rays.occlusion_distance;
-  tracer.setNumberOfThreads(threads);
-  tracer.setProgressCallback(drawing.report.progress);
-  tracer.setSize(drawing.width(), parameters.height);
-  tracer.setSupersampling(std::max(parameters.supersample, 1));
-  tracer.setCamera(makeCamera(
-      parameters, tracer.getBounds(), drawing.points->origin, &drawing.cloud));
-  tracer.render(drawing.image);
-  drawing.report.merge(tracer.getReport());
-}
+  /** \param frame of a full turn
+   * \return pixels, field, values at the ends of the colours, and the report */
+  py::tuple
+  draw(int frame, const py::object& progress)
+  {
+    Image picture;
+    Report report = preparation_;
+    runInterruptibly(progress, [&](const ProgressCallback& callback) {
+      if (rays_)
+        picture = drawBy(tracer_, frame, callback, report);
+      else {
+        picture = drawBy(renderer_, frame, callback, report);
+        range_ = renderer_.getColorRange();
+      }
+      if (has_legend_)
+        uvol_tools::drawLegend(
+            picture, cloud_, points_->labels, field_, mapping_, range_);
+      makeFigure(look_).drawTitle(picture);
+    });
+    const auto height = static_cast<py::ssize_t>(picture.height);
+    const auto width = static_cast<py::ssize_t>(picture.width);
+    return py::make_tuple(toArray(std::move(picture.color), {height, width, 4}),
+                          toText(field_),
+                          range_,
+                          toDict(report));
+  }
 
-/** \param work draws, and tells the drawing's report */
-template <typename Work>
-py::tuple
-drawInterruptibly(const DatasetPtr& points,
-                  const std::string& json,
-                  const py::object& progress,
-                  const Work& work)
-{
-  const PictureParameters parameters = readPictureParameters(json);
-  std::optional<Drawing> drawing;
-  runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    drawing.emplace(points, parameters);
-    drawing->report.progress = callback;
-    work(*drawing);
-    addMargin(drawing->image, makeBackground(parameters), parameters.margin);
-  });
-  return toTuple(std::move(*drawing));
-}
+private:
+  void
+  prepare()
+  {
+    if (look_.exaggerate) {
+      points_ = std::make_shared<Dataset>(*points_);
+      stretchSurface(*points_, look_.exaggerate->matrix());
+    }
+    cloud_ = viewOf(points_->cloud);
+    field_ = findColorField(look_, cloud_);
+    if (!field_.empty())
+      mapping_ = makeColorMapping(look_, cloud_, points_->labels, field_);
+    has_legend_ = look_.bar && uvol_tools::hasLegend(cloud_, points_->labels, field_);
+    uvol_tools::warnOfNames(cloud_, points_->labels, field_, preparation_);
+    if (rays_)
+      prepareTracer();
+    else
+      prepareRenderer();
+  }
 
-py::tuple
-renderPoints(const DatasetPtr& points,
-             const std::string& json,
-             unsigned threads,
-             const py::object& progress)
-{
-  return drawInterruptibly(
-      points, json, progress, [&](Drawing& drawing) { draw(drawing, threads); });
-}
+  void
+  prepareRenderer()
+  {
+    renderer_.setInputCloud(pcl::PCLPointCloud2::ConstPtr(points_, &points_->cloud));
+    ImageSpaceSettings& settings = renderer_.settings();
+    applyPasses(look_, settings);
+    settings.background = getBackgroundOfViews();
+    settings.material = makeMaterial(look_);
+    settings.lights = makeLights(look_);
+    renderer_.setColorField(field_);
+    renderer_.setColorMap(mapping_.map);
+    renderer_.setLogarithmicColors(mapping_.is_logarithmic);
+    if (const auto& range = mapping_.range)
+      renderer_.setColorRange((*range)[0], (*range)[1]);
+    renderer_.setOpacities(look_.opacity);
+    renderer_.setNumberOfThreads(threads_);
+    const int largest = std::max(look_.width, look_.height);
+    const int usual = 2 * largest <= View::largest_size ? 2 : 1;
+    renderer_.setSupersampling(look_.supersample > 0 ? look_.supersample : usual);
+  }
 
-py::tuple
-tracePoints(const DatasetPtr& points,
-            const std::string& json,
-            const std::string& ray_json,
-            unsigned threads,
-            const py::object& progress)
-{
-  const auto rays = readJson<RayParameters>(ray_json);
-  return drawInterruptibly(
-      points, json, progress, [&](Drawing& drawing) { trace(rays, drawing, threads); });
-}
+  void
+  prepareTracer()
+  {
+    Scene scene;
+    scene.lights = makeLights(look_);
+    scene.background = getBackgroundOfViews();
+    coverPoints(scene);
+    tracer_.setScene(scene);
+    RayTracingSettings& settings = tracer_.settings();
+    settings.depth = rays_->depth;
+    settings.shadows = rays_->shadows;
+    settings.light_samples = rays_->light_samples;
+    settings.occlusion_samples = rays_->occlusion;
+    settings.occlusion_distance = rays_->occlusion_distance;
+    tracer_.setNumberOfThreads(threads_);
+    tracer_.setSupersampling(std::max(look_.supersample, 1));
+  }
 
-/** The field that a picture is coloured by; "" for the colour of the surface. */
-py::str
-nameColorField(const Dataset& points, const std::string& color)
-{
-  PictureParameters parameters;
-  parameters.color = color;
-  return toText(findColorField(parameters, viewOf(points.cloud)));
-}
+  /** Add the points to a scene, which has its background. */
+  void
+  coverPoints(Scene& scene)
+  {
+    const Splats splats = findSplats(cloud_,
+                                     rays_->splats.value_or(SplatParameters()),
+                                     rays_->splats.has_value(),
+                                     threads_,
+                                     preparation_);
+    if (splats.cloud.empty())
+      throw InvalidArgument("None of the splats is usable.");
+    SplatObject object;
+    if (!field_.empty()) {
+      const auto colored = colorPoints(cloud_, field_, mapping_);
+      range_ = {colored.scale.low, colored.scale.high};
+      for (const std::uint32_t source : splats.sources)
+        object.colors.push_back(colored.colors[source]);
+    }
+    object.splats = pcl::make_shared<pcl::PointCloud<PointSplat>>(splats.cloud);
+    static_cast<Material&>(object.material) = makeMaterial(look_);
+    object.material.reflectivity = rays_->reflect;
+    object.material.transparency = rays_->transparent;
+    object.material.refractive_index = rays_->index;
+    addWithDots(std::move(object),
+                cloud_,
+                splats.sources,
+                std::min(look_.width, look_.height),
+                scene);
+  }
+
+  /** All views of a frame.
+   * \param report gets that of the last one */
+  template <typename RendererT>
+  Image
+  drawBy(RendererT& renderer,
+         int frame,
+         const ProgressCallback& progress,
+         Report& report) const
+  {
+    renderer.setProgressCallback(progress);
+    uvol_tools::Ground ground{
+        makeBackground(look_), look_.width, look_.height, look_.width};
+    if (has_legend_)
+      ground.views_width -= uvol_tools::colorBarWidth(look_.width, look_.height);
+    if (look_.exaggerate)
+      ground.factors = look_.exaggerate->matrix();
+    Image picture = makeFigure(look_).drawViews(
+        {cloud_, renderer.getBounds(), points_->origin},
+        ground,
+        [&](const BoundingSphere& bounds, const auto& cell, const CloudView& cloud) {
+          return makeCamera(look_,
+                            bounds,
+                            points_->origin,
+                            cell,
+                            look_.frames == 1 ? &cloud : nullptr)
+              .orbited(360.0 * frame / look_.frames);
+        },
+        [&](const Camera& camera, const auto& cell, Image& image) {
+          renderer.setSize(cell.width, cell.height);
+          renderer.setCamera(camera);
+          renderer.render(image);
+        });
+    report.merge(renderer.getReport());
+    return picture;
+  }
+
+  Background
+  getBackgroundOfViews() const
+  {
+    return makeFigure(look_).getBackgroundOfViews(makeBackground(look_));
+  }
+
+  PictureParameters look_;
+  std::optional<RayParameters> rays_;
+  DatasetPtr points_;
+  CloudView cloud_;
+  std::string field_;
+  ColorMapping mapping_;
+  bool has_legend_ = false;
+  unsigned threads_;
+  std::array<double, 2> range_{{0.0, 1.0}};
+  Report preparation_;
+  ImageSpaceRenderer<pcl::PCLPointCloud2> renderer_;
+  RayTracer tracer_;
+};
 
 } // namespace
 
 void
 bindPictures(py::module_& module)
 {
-  module.def("render", &renderPoints);
-  module.def("raytrace", &tracePoints);
-  module.def("color_field", &nameColorField);
+  py::class_<Painter>(module, "Painter")
+      .def(py::init<const DatasetPtr&,
+                    const std::string&,
+                    const std::optional<std::string>&,
+                    unsigned,
+                    const py::object&>())
+      .def("draw", &Painter::draw);
 }
 
 } // namespace pcl_uvol::python

@@ -31,7 +31,4 @@ bindSamplingStages(pybind11::module_& module);
 void
 bindMeasures(pybind11::module_& module);
 
-void
-bindPictures(pybind11::module_& module);
-
 } // namespace pcl_uvol::python

@@ -117,10 +117,12 @@ listFields(const Dataset& dataset)
   return list;
 }
 
-/** The dataset itself where it has the field, else a copy with it. */
+/** The dataset itself where it has the field, else a copy with it.
+ * \param no_derivatives see DerivedFieldOptions */
 py::tuple
 withField(const DatasetPtr& dataset,
           const std::string& expression,
+          const std::string& no_derivatives,
           unsigned threads,
           const py::object& progress)
 {
@@ -134,7 +136,7 @@ withField(const DatasetPtr& dataset,
     }
     catch (const InvalidArgument&) {
       result = std::make_shared<Dataset>(*dataset);
-      name = addDerivedField(*result, expression, {threads, ""}, report);
+      name = addDerivedField(*result, expression, {threads, no_derivatives}, report);
     }
   });
   return py::make_tuple(result, toText(name), toDict(report));

@@ -14,5 +14,4 @@ PYBIND11_MODULE(_core, module)
   bindClusterStages(module);
   bindSamplingStages(module);
   bindMeasures(module);
-  bindPictures(module);
 }
