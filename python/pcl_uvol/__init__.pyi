@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 Fields = Mapping[str, npt.ArrayLike] | None
 PointsLike = npt.ArrayLike | Any
+SurfaceLike = PointsLike | tuple[PointsLike, npt.ArrayLike]
 Progress = bool | Callable[[str, float], object] | None
 
 class _Points:
@@ -50,6 +51,21 @@ class Clusters:
     def take(self, cluster: int) -> Samples: ...
     def surface(self, cluster: int, kind: str = ..., *, probability: str = ..., smoothing_length: str = ..., cells: int = ..., distance: float = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., threads: int = ..., progress: Progress = ...) -> Samples | tuple[Samples, np.ndarray]: ...
 
+class Comparison:
+    forth: Distances
+    back: Distances
+    largest: float
+    surface: Samples
+
+class Distances:
+    mean: float
+    root_mean_square: float
+    percentile_99_9: float
+    largest: float
+    farthest: np.ndarray
+    fields: dict[str, FieldDifference]
+    at_vertices: np.ndarray
+
 class DivergedError(ArithmeticError):
     ...
 
@@ -57,6 +73,10 @@ class Extractor:
     samples: Samples
     def __init__(self, points: PointsLike, fields: Fields = ...) -> None: ...
     def extract(self, *, iso: float | Sequence[float], field: str = ..., scale: npt.ArrayLike | str | None = ..., rotate: Sequence[float] | None = ..., outside: str = ..., interpolation: str = ..., neighbors: str = ..., voronoi_cells: int = ..., criterion: str = ..., smooth: bool = ..., mu: float | None = ..., level_set: dict[str, Any] | None = ..., normals: str = ..., normal_neighbors: int = ..., max_error: float | None = ..., drop_bridged: bool = ..., fill_gaps: bool = ..., validate: int = ..., validate_by: str = ..., mesh: bool | dict[str, Any] = ..., periodic: Sequence[float] | None = ..., threads: int = ..., progress: Progress = ...) -> Surface: ...
+
+class FieldDifference(NamedTuple):
+    mean: float
+    largest: float
 
 class FieldError(KeyError):
     ...
@@ -120,10 +140,12 @@ class PieceFigures:
     vertices: int
     triangles: int
     rims: int
-    genus: int
+    genus: int | None
     samples: int
     area: Figure
+    cap_area: float
     volume: Figure
+    capped_volume: float
     centroid: np.ndarray
     axes: np.ndarray
     half_axes: np.ndarray
@@ -172,6 +194,8 @@ class VoronoiGrid:
 
 def cluster(points: PointsLike, fields: Fields = ..., *, attributes: Sequence[str], standardized: bool = ..., k: int = ..., min_size: int = ..., cut: float = ..., single: bool = ..., threads: int = ..., progress: Progress = ...) -> Clusters: ...
 
+def compare(a: SurfaceLike, b: SurfaceLike, *, threads: int = ...) -> Comparison: ...
+
 def empty(count: int, fields: Mapping[str, npt.DTypeLike] | None = ...) -> np.ndarray: ...
 
 def from_vtk(dataset: Any) -> Samples: ...
@@ -181,6 +205,8 @@ def info(points: PointsLike, fields: Fields = ..., *, scale: npt.ArrayLike | str
 def isosurface(points: PointsLike, fields: Fields = ..., *, iso: float | Sequence[float], field: str = ..., scale: npt.ArrayLike | str | None = ..., rotate: Sequence[float] | None = ..., outside: str = ..., interpolation: str = ..., neighbors: str = ..., voronoi_cells: int = ..., criterion: str = ..., smooth: bool = ..., mu: float | None = ..., level_set: dict[str, Any] | None = ..., normals: str = ..., normal_neighbors: int = ..., max_error: float | None = ..., drop_bridged: bool = ..., fill_gaps: bool = ..., validate: int = ..., validate_by: str = ..., mesh: bool | dict[str, Any] = ..., periodic: Sequence[float] | None = ..., threads: int = ..., progress: Progress = ...) -> Surface: ...
 
 def level_set(points: PointsLike, fields: Fields = ..., *, iso: float, field: str = ..., mu: float | None = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., start: Any = ..., outside: str = ..., snapshots: int = ..., threads: int = ..., progress: Progress = ..., **parameters: Any) -> Samples: ...
+
+def measure(surface: SurfaceLike, *, samples: PointsLike | None = ..., curved: bool = ..., find_intersections: bool = ..., threads: int = ..., progress: Progress = ...) -> Measures: ...
 
 def normals(points: PointsLike, fields: Fields = ..., *, k: int = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., view_point: npt.ArrayLike = ..., threads: int = ..., progress: Progress = ...) -> Samples: ...
 
@@ -198,4 +224,4 @@ def splats(points: PointsLike, fields: Fields = ..., *, delta: float = ..., delt
 
 def voronoi(points: PointsLike, fields: Fields = ..., *, cells: int | Sequence[int] = ..., margin: int = ..., threads: int = ..., progress: Progress = ...) -> VoronoiGrid: ...
 
-def write(path: str | os.PathLike[str], points: PointsLike, fields: Fields = ..., ascii: bool = ..., progress: Progress = ...) -> None: ...
+def write(path: str | os.PathLike[str], points: PointsLike, fields: Fields = ..., triangles: npt.ArrayLike | None = ..., ascii: bool = ..., progress: Progress = ...) -> None: ...

@@ -64,7 +64,7 @@ class Surface(Drawable, Points):
 
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
         """Area, volume, axes, genus and integrals of fields, each with its error: those
-        of `mesh()` with its usual parameters.
+        of `mesh()` with its usual parameters. `pcl_uvol.measure` measures the points.
 
         Parameters
         ----------
@@ -141,7 +141,8 @@ class Mesh(Surface):
 
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
         """Figures of this mesh: see `Surface.measure`."""
-        return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
+        return _measures.measure(self, curved=curved, find_intersections=find_intersections, threads=threads,
+                                 progress=progress)
 
     def save(self, path, ascii=False, progress=None):
         """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""

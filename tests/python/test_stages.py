@@ -116,6 +116,8 @@ def test_surfaces_of_clusters(tmp_path, run_tool, groups, kind, options, argumen
     surface, triangles = found if kind != "membership" else (found, np.empty((0, 3)))
     points, tool_triangles = uvol.read_mesh(tmp_path / "tool.ply")
     assert np.array_equal(points.points, surface.points) and np.array_equal(tool_triangles, triangles)
+    uvol.write(tmp_path / "module.ply", surface, triangles=triangles if kind != "membership" else None)
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
     assert len(surface) > 10 and len(clusters.take(1)) == (clusters.labels == 1).sum()
     with pytest.raises(ValueError, match="cluster"):
         clusters.surface(7, kind)
