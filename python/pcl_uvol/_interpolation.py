@@ -216,7 +216,7 @@ class Interpolator:
         _report.tell(report["warnings"])
         return scores
 
-    def line(self, start, end, n=100, **options):
+    def line(self, start, end, n=500, **options):
         """The fields at `n` places from one point to another.
 
         Returns
@@ -294,7 +294,8 @@ class Interpolator:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
         short = [name for name in self.fields if self._core.is_short(name)]
-        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges())
+        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges(),
+                       self.samples)
 
     def _find_ranges(self):
         """The lowest and the highest finite value of every field."""

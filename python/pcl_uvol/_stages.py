@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import _core, _parameters, _report
+from . import _arrays, _core, _parameters, _report
 from ._progress import listening
 from ._samples import Samples, as_samples
 
@@ -148,16 +148,18 @@ class Clusters:
         How surely a sample belongs to its cluster.
     tree : dict of numpy.ndarray
         All clusters at all densities, a row each: parent, birth_density, death_density,
-        size, stability, label.
+        size, stability, label; empty where labels were given.
+    samples : Samples
+        With the fields `label` and `probability`; as they were where labels were given.
     report : dict
     """
 
-    def __init__(self, labels, probabilities, tree, report, samples):
+    def __init__(self, labels, probabilities, tree, samples, report):
         self.labels = labels
         self.probabilities = probabilities
         self.tree = tree
+        self.samples = samples
         self.report = report
-        self._samples = samples
 
     def take(self, cluster):
         """The samples of a cluster.
@@ -166,7 +168,7 @@ class Clusters:
         -------
         Samples
         """
-        return self._samples.take(self.labels == cluster)
+        return self.samples.take(self.labels == cluster)
 
     def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
                 scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
@@ -205,7 +207,7 @@ class Clusters:
         >>> bool(np.median(abs(border.points[:, 0] - 0.5)) < 0.1)
         True
         """
-        dataset = self._samples._dataset
+        dataset = self.samples._dataset
         stretch = _parameters.Stretch(scale, rotate)
         factors = stretch.resolve(dataset)
         count = _parameters.count(threads, "threads")
@@ -242,8 +244,8 @@ class Clusters:
         return f"Clusters: {len(self)} of {len(self.labels)} points, {int((self.labels < 0).sum())} of them noise"
 
 
-def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_size=0, cut=0.0, single=False, threads=0,
-            progress=None):
+def cluster(points, fields=None, *, attributes=(), labels=None, standardized=True, k=10, min_size=0, cut=0.0, single=False,
+            threads=0, progress=None):
     """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
 
     Parameters
@@ -252,6 +254,8 @@ def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_siz
         As those of `Samples`, or samples.
     attributes : sequence of str
         Fields or expressions that span the space; "x", "y" and "z" may be among them.
+    labels : array_like of int, shape (n,), optional
+        Clusters that are known, instead of attributes; negative for noise.
     standardized : bool
         Take attributes in standard deviations, not in their units.
     k : int
@@ -267,11 +271,38 @@ def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_siz
     Returns
     -------
     Clusters
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((200, 3))
+    >>> halves = uvol.cluster(points, labels=(points[:, 0] > 0.5).astype(int))
+    >>> vertices, triangles = halves.surface(1, "hull")
+    >>> bool(vertices.points[:, 0].min() > 0.5)
+    True
     """
-    samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
+    samples = as_samples(points, fields)
+    if labels is not None:
+        if len(attributes):
+            raise ValueError("Clusters are known by labels, or found by attributes: give one of them.")
+        known = _labels(labels, len(samples))
+        return Clusters(known, (known >= 0).astype(np.float32), {}, samples, {"warnings": []})
+    samples, names = _with_attributes(samples, attributes, threads, progress)
     parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
                   "cut_distance": cut, "allow_single_cluster": single}
-    return Clusters(*_run(_core.find_clusters, samples, parameters, threads, progress), samples)
+    found, probabilities, tree, labelled, report = _run(_core.find_clusters, samples, parameters, threads, progress)
+    return Clusters(found, probabilities, tree, Samples._of(labelled), report)
+
+
+def _labels(labels, count):
+    """Numbers of clusters, one for each point."""
+    array = _arrays.as_array(labels, "labels")
+    if array.ndim != 1 or array.dtype.kind not in "iu" and len(array):
+        raise ValueError("labels are whole numbers, one for each point.")
+    if len(array) != count:
+        raise ValueError(f"labels has {len(array)} numbers for {count} points.")
+    if len(array) and array.max() >= 2**31:
+        raise ValueError(f"labels has the number {array.max()}: it must be below 2^31.")
+    return np.maximum(array.astype(np.int64), -1).astype(np.int32)
 
 
 class Projection:
@@ -320,9 +351,7 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
     Projection
     """
     samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
-    given = [] if labels is None else np.asarray(labels)
-    if len(given) and (given.ndim != 1 or given.dtype.kind not in "iu"):
-        raise ValueError("labels are whole numbers, one for each point.")
+    given = [] if labels is None else _labels(labels, len(samples))
     parameters = {"attributes": names, "is_standardized": standardized, "method": method}
     return Projection(*_run(_core.project_points, samples, parameters, threads, progress, list(given)))
 

@@ -211,7 +211,7 @@ class Extractor:
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
             "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
-            "periodic": [0.0, 0.0, 0.0] if periodic is None else _parameters.numbers(periodic, "periodic"),
+            "periodic": self.samples._find_box(periodic),
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 
@@ -293,9 +293,10 @@ def isosurface(points, fields=None, **options):
         or the name of a field.
     mesh : bool or dict
         Make closed triangle meshes; parameters as those of `Surface.mesh`.
-    periodic : sequence of 3 floats, optional
-        Sides of the box that the samples repeat in, 0 along an axis for none: neighbours
-        are seen across its faces, where a mesh is cut.
+    periodic : sequence of 3 floats, or "header", optional
+        Sides of the box that the samples repeat in, 0 along an axis for none, or those
+        that the file names (`Samples.box`): neighbours are seen across its faces, where a
+        mesh is cut.
     threads : int
         0: all cores. The result does not depend on it.
     progress : bool or callable, optional

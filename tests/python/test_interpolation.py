@@ -68,6 +68,7 @@ def read_pixels(path):
 
 @pytest.mark.parametrize("plane, options, asked", [
     ("z=0.5", [], {}),
+    ("x=500000.5", ["-samples", "0.05"], {"samples": 0.05}),
     ("500000.5,4000000.5,0.5,1,2,3", ["-contours", "0.5,1", "-unit", "km", "-colormap", "cividis", "-range", "0,2", "-label", "height"],
      {"contours": [0.5, 1], "unit": "km", "colormap": "cividis", "range": (0, 2), "label": "height"}),
 ])

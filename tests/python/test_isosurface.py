@@ -312,6 +312,25 @@ def test_triangles_that_are_none_get_a_sentence(tmp_path, triangles, message):
     assert not (tmp_path / "a.ply").exists()
 
 
+def test_a_file_names_the_box_that_it_repeats_in(tmp_path, ball):
+    h5py = pytest.importorskip("h5py")
+    points, fields = ball
+    with h5py.File(tmp_path / "snap.hdf5", "w") as file:
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [len(points), 0, 0, 0, 0, 0]
+        file["Header"].attrs["BoxSize"] = 1.0
+        group = file.create_group("PartType0")
+        group["Coordinates"] = points
+        group["Density"] = np.sin(2 * np.pi * points).sum(axis=1)
+    samples = uvol.read(tmp_path / "snap.hdf5")
+    assert samples.box.tolist() == [1, 1, 1] and not uvol.Samples(*ball).box.any()
+    named = uvol.isosurface(samples, field="Density", iso=0, periodic="header")
+    given = uvol.isosurface(samples, field="Density", iso=0, periodic=(1, 1, 1))
+    assert named.records.tobytes() == given.records.tobytes()
+    for periodic, message in (("header", "names no box"), ("box", "or 'header'"), ((1, 1), "2 sides")):
+        with pytest.raises(ValueError, match=message):
+            uvol.isosurface(*ball, field="r", iso=0.3, periodic=periodic)
+
+
 def test_nothing_is_not_measured():
     for call in (lambda: uvol.measure(np.empty((0, 3))), lambda: uvol.compare(np.eye(3), np.empty((0, 3)))):
         with pytest.raises(ValueError, match="has no points"):

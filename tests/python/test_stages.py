@@ -96,6 +96,27 @@ def test_clusters(tmp_path, run_tool, groups):
     clusters = uvol.cluster(uvol.read(tmp_path / "in.csv"), attributes=["a", "b"])
     assert np.array_equal(tool["label"], clusters.labels)
     assert np.array_equal(tool["probability"].astype(np.float32), clusters.probabilities)
+    clusters.samples.save(tmp_path / "module.csv")
+    assert (tmp_path / "module.csv").read_bytes() == (tmp_path / "tool.csv").read_bytes()
+
+
+def test_clusters_that_are_known_have_surfaces(tmp_path, run_tool, groups):
+    halves = uvol.Samples(groups.points, {"a": groups["a"], "half": (groups.points[:, 0] > 0.5).astype(np.int32)})
+    halves.save(tmp_path / "in.ply")
+    for kind in ("membership", "hull"):
+        run_tool("uvol_cluster", "in.ply", "tool.ply", "-label", "half", "-cluster", "1", "-surface", kind)
+        found = uvol.cluster(uvol.read(tmp_path / "in.ply"), labels=halves["half"]).surface(1, kind)
+        surface, triangles = found if kind == "hull" else (found, None)
+        uvol.write(tmp_path / "module.ply", surface, triangles=triangles)
+        assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    assert len(uvol.cluster(halves, labels=halves["half"])) == 2
+
+
+def test_samples_tell_what_the_sampling_is_like(tmp_path, run_tool, ball):
+    uvol.Samples(*ball).save(tmp_path / "in.ply")
+    run_tool("uvol_info", "in.ply", "-out", "tool.ply", "-scale", "1,2,1")
+    uvol.read(tmp_path / "in.ply").sampling(scale=(1, 2, 1)).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
 
 
 @pytest.mark.parametrize("kind, options, arguments", [
@@ -171,6 +192,10 @@ def test_info(ball):
     (lambda b: uvol.cluster(*b, attributes="r"), TypeError, "sequence"),
     (lambda b: uvol.cluster(*b, attributes=["q"]), KeyError, "no field"),
     (lambda b: uvol.cluster(*b, attributes=[]), ValueError, "attribute"),
+    (lambda b: uvol.cluster(*b, attributes=["r"], labels=b[1]["id"]), ValueError, "give one of them"),
+    (lambda b: uvol.cluster(*b, labels=[1, 2]), ValueError, "2 numbers for 4000 points"),
+    (lambda b: uvol.cluster(*b, labels=b[1]["r"]), ValueError, "whole numbers"),
+    (lambda b: uvol.cluster(*b, labels=np.full(4000, 2**40)), ValueError, "below 2\\^31"),
     (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[0.5]), ValueError, "whole numbers"),
     (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[1, 2]), ValueError, "labels"),
     (lambda b: uvol.voronoi(*b, cells=0), ValueError, "cells"),

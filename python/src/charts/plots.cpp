@@ -33,7 +33,8 @@ using SliceAxis = std::tuple<double, double, std::string>;
 
 /** Draw a slice as uvol_probe does.
  * \param values the lowest row first, shape (height, width)
- * \param range of the colours; none: that of the values within bounds */
+ * \param range of the colours; none: that of the values within bounds
+ * \param samples across, up, and the value of each that is drawn as well */
 py::tuple
 drawSlice(const py::array_t<float, py::array::c_style | py::array::forcecast>& values,
           const SliceAxis& across,
@@ -43,7 +44,8 @@ drawSlice(const py::array_t<float, py::array::c_style | py::array::forcecast>& v
           const std::optional<std::array<double, 2>>& range,
           const std::array<double, 2>& bounds,
           bool is_logarithmic,
-          const std::vector<double>& contours)
+          const std::vector<double>& contours,
+          const std::vector<std::array<double, 3>>& samples)
 {
   uvol_tools::SlicePlot plot;
   plot.height = static_cast<std::size_t>(values.shape(0));
@@ -59,6 +61,8 @@ drawSlice(const py::array_t<float, py::array::c_style | py::array::forcecast>& v
                      : uvol_tools::findColorScale(
                            plot.values, {bounds[0], bounds[1]}, is_logarithmic);
   plot.contours = contours;
+  for (const auto& [place_across, place_up, value] : samples)
+    plot.samples.push_back({place_across, place_up, value});
   const ColorScale scale = plot.scale;
   return py::make_tuple(toPixels(drawSlicePlot(plot)), scale.low, scale.high);
 }

@@ -329,6 +329,7 @@ bindDataset(py::module_& module)
       .def_readonly("double_coordinates", &Dataset::double_coordinates)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
       .def_readonly("notes", &Dataset::notes)
+      .def_readonly("box", &Dataset::box)
       .def_property_readonly("labels",
                              [](const Dataset& dataset) {
                                return listLabels(dataset, [](const std::string& name) {
