@@ -39,6 +39,8 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
         With the file and, for text, the line.
     """
     from . import _io
+    if isinstance(xyz, str) or not hasattr(xyz, "__iter__"):
+        raise TypeError(f"xyz is {xyz!r}: it must be a sequence of three columns.")
     columns = [str(column) for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")

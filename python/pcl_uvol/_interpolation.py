@@ -216,16 +216,17 @@ class Interpolator:
         _report.tell(report["warnings"])
         return scores
 
-    def line(self, start, end, n=500, **options):
+    def line(self, start, end, n=500, threads=None, progress=None):
         """The fields at `n` places from one point to another.
 
         Returns
         -------
         Lattice
         """
-        return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")), **options)
+        return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")),
+                          threads, progress)
 
-    def slice(self, plane, size=512, box=None, **options):
+    def slice(self, plane, size=512, box=None, threads=None, progress=None):
         """The fields in a plane.
 
         Parameters
@@ -242,11 +243,14 @@ class Interpolator:
         Lattice
         """
         point, normal = _plane(plane)
-        counts = [_parameters.count(side, "size") for side in np.broadcast_to(size, 2).tolist()]
+        sides = [size, size] if np.ndim(size) == 0 else list(size)
+        if len(sides) != 2:
+            raise ValueError(f"size has {len(sides)} numbers: it must be one, or two.")
+        counts = [_parameters.count(side, "size") for side in sides]
         lattice, _, _ = _core.slice(point, normal, *self._box(box), counts)
-        return self._fill(*lattice, **options)
+        return self._fill(*lattice, threads, progress)
 
-    def grid(self, n=128, box=None, **options):
+    def grid(self, n=128, box=None, threads=None, progress=None):
         """The fields in a grid.
 
         Parameters
@@ -268,20 +272,20 @@ class Interpolator:
         (5, 4, 3)
         """
         if np.ndim(n) == 0:
-            return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), **options)
+            return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), threads, progress)
         counts = [_parameters.count(side, "n") for side in n]
         if len(counts) != 3:
             raise ValueError(f"n has {len(counts)} numbers: it must be one, or three.")
-        return self._fill(*_core.grid(*self._box(box), counts), **options)
+        return self._fill(*_core.grid(*self._box(box), counts), threads, progress)
 
     def _box(self, box):
         if box is None:
             return _core.bounds(self.samples._dataset)
-        if len(box) != 2:
+        if np.ndim(box) == 0 or len(box) != 2:
             raise ValueError("box is a pair: its low and its high corner.")
         return _place(box[0], "box"), _place(box[1], "box")
 
-    def _fill(self, places, counts, steps, threads=None, progress=None):
+    def _fill(self, places, counts, steps, threads, progress):
         with listening(progress) as listener:
             found = self._core.answer(places, self._threads_of(threads), listener)
         _report.tell(found["report"]["warnings"])

@@ -124,20 +124,21 @@ class Lattice:
         """
         from . import _charts
         field = field or next(iter(self._columns))
+        unit = _parameters.text(unit, "unit")
         values = self[field]
         if len(self.shape) > 2 or values.ndim > len(self.shape):
             raise ValueError("A picture shows one number per place, along a line or in a slice.")
-        title = label or field
+        title = _parameters.text(label, "label") or field
         if len(self.shape) == 1:
             errors = self._columns.get(field + "_error", np.empty(0))
             distances = np.arange(self.shape[0]) * np.linalg.norm(self._steps[0] if self._steps else 0.0)
             pixels = _charts.draw_line(distances, values, errors, _with_unit("distance", unit), title)
             limits = (float(np.nanmin(values)), float(np.nanmax(values))) if np.isfinite(values).any() else (0.0, 0.0)
         else:
-            ends = None if range is None else _parameters.numbers(range, "range")
+            ends = None if range is None else _ends(range, log)
             bounds = self._ranges.get(field, (-np.inf, np.inf))
             lines = _parameters.numbers(contours, "contours") if np.size(contours) else []
-            near = [] if samples is None else self._find_samples(field, _parameters.number(samples, "samples"))
+            near = [] if samples is None else self._find_samples(field, samples)
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
                                                  colormap, ends, bounds, bool(log), lines,
                                                  near)
@@ -145,6 +146,9 @@ class Lattice:
 
     def _find_samples(self, field, distance):
         """Places across and up, and values, of samples that are near to a slice."""
+        distance = _parameters.number(distance, "samples")
+        if distance < 0:
+            raise ValueError(f"samples is {distance:g}: it must be a distance from 0.")
         across, up = (np.asarray(self._steps[number]) / np.linalg.norm(self._steps[number]) for number in (1, 0))
         values = self._samples[field]
         offsets = (self._samples.points - self.points.reshape(-1, 3)[0]) @ np.cross(across, up)
@@ -175,6 +179,16 @@ class Lattice:
 
     def __repr__(self):
         return f"Lattice of {' x '.join(map(str, self.shape))} places: {', '.join(self.keys())}"
+
+
+def _ends(values, is_logarithmic):
+    """The values at the ends of colours."""
+    ends = _parameters.numbers(values, "range")
+    if len(ends) != 2 or not ends[0] < ends[1]:
+        raise ValueError("The range of colours is two numbers, the lower one first.")
+    if is_logarithmic and ends[0] <= 0:
+        raise ValueError("The range of logarithmic colours is two numbers above 0.")
+    return ends
 
 
 def _with_unit(name, unit):

@@ -70,8 +70,8 @@ def _place(value):
 
 def look_of(size, view, eye, at, up, fov, zoom, background, supersample):
     """What all pictures are asked for with, scenes as well."""
-    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom, supersample=supersample,
-                **_size(size))
+    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom,
+                supersample=_parameters.count(supersample, "supersample"), **_size(size))
     if isinstance(background, str):
         look["background"] = background
     else:
@@ -87,10 +87,9 @@ def _lights(directions):
 
 def _figure(ticks, box, triad, scale_bar, unit, title, views):
     """What explains a picture."""
-    if isinstance(views, str):
-        raise TypeError(f"views is {views!r}: it must be a sequence of sides.")
-    return dict(ticks=bool(ticks), box=bool(box), triad=bool(triad), scale_bar=bool(scale_bar), unit=str(unit),
-                title=str(title), views=[str(view) for view in views])
+    return dict(ticks=bool(ticks), box=bool(box), triad=bool(triad), scale_bar=bool(scale_bar),
+                unit=_parameters.text(unit, "unit"), title=_parameters.text(title, "title"),
+                views=_parameters.names(views, "views", "sides"))
 
 
 class Drawable:

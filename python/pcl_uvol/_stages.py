@@ -162,13 +162,13 @@ class Clusters:
         self.report = report
 
     def take(self, cluster):
-        """The samples of a cluster.
+        """The samples of a cluster; -1 of noise.
 
         Returns
         -------
         Samples
         """
-        return self.samples.take(self.labels == cluster)
+        return self.samples.take(self._find_members(cluster))
 
     def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
                 scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
@@ -226,16 +226,21 @@ class Clusters:
             raise ImportError("This build of pcl_uvol has no component VTK, which makes surfaces at distances and "
                               "hulls.") from error
         how = dict(kind=kind, cells=cells, distance=distance, scale=factors, rotation=stretch.rotation)
-        members = np.flatnonzero(self.labels == cluster)
-        if len(members) == 0:
-            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
-            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+        members = self._find_members(cluster)
         with listening(progress) as listener:
             vertices, triangles, used, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
                                                                      listener)
         report["distance"] = used
         _report.tell(report["warnings"])
         return _with_report(vertices, report), triangles
+
+    def _find_members(self, cluster):
+        """Indices of the samples of a cluster, of which there must be some."""
+        members = np.flatnonzero(self.labels == cluster) if isinstance(cluster, (int, np.integer)) else []
+        if len(members) == 0:
+            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
+            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+        return members
 
     def __len__(self):
         return int(self.labels.max(initial=-1)) + 1
@@ -357,10 +362,8 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
 
 
 def _with_attributes(samples, attributes, threads, progress):
-    if isinstance(attributes, str):
-        raise TypeError("attributes is a sequence of names, not one of them.")
     names = []
-    for attribute in attributes:
+    for attribute in _parameters.names(attributes, "attributes", "fields or expressions"):
         samples, name = samples._with_field(attribute, threads, progress)
         names.append(name)
     return samples, names

@@ -242,3 +242,19 @@ def test_mistakes_get_a_sentence(linear, options, message):
 def test_queries_that_are_none_get_a_sentence(linear, call, message):
     with pytest.raises(ValueError, match=message):
         call(uvol.Interpolator(linear, field="f"))
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda i: i.slice("z=0.5", (1, 2, 3)), "size has 3 numbers"),
+    (lambda i: i.slice("z=0.5", box=3), "box is a pair"),
+    (lambda i: i.slice("z=0.5", 8).render(range=3), "the lower one first"),
+    (lambda i: i.slice("z=0.5", 8).render(range=(2, 1)), "the lower one first"),
+    (lambda i: i.slice("z=0.5", 8).render(range=(0, 1), log=True), "above 0"),
+    (lambda i: i.slice("z=0.5", 8).render(samples=-1), "distance from 0"),
+    (lambda i: i.slice("z=0.5", 8).render(contours="a"), "contours is 'a'"),
+    (lambda i: i.slice("z=0.5", 8).render("g"), "no field 'g'"),
+    (lambda i: i.line([0, 0], [1, 1, 1]), "start has 2 numbers"),
+])
+def test_places_that_are_none_get_a_sentence(linear, call, message):
+    with pytest.raises((ValueError, KeyError), match=message):
+        call(uvol.Interpolator(linear, field="f"))

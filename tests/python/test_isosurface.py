@@ -146,7 +146,7 @@ def test_warnings_name_the_line_of_the_caller(ball):
     (dict(field="vel", iso=1), ValueError, "components"),
     (dict(field=5, iso=1), TypeError, "field is 5"),
     (dict(field="r"), TypeError, "iso"),
-    (dict(field="r", iso=[]), ValueError, "isovalue"),
+    (dict(field="r", iso=[]), ValueError, r"iso is \[\]: it must be"),
     (dict(field="r", iso=np.nan), ValueError, "iso is nan"),
     (dict(field="r", iso="0.3"), ValueError, "iso is '0.3'"),
     (dict(field="r", iso=1, izo=2), TypeError, "izo"),

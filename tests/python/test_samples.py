@@ -240,6 +240,12 @@ def test_a_missing_field_gets_a_proposal():
         samples.compute("log10(desnity)")
 
 
+def test_columns_that_are_none_get_a_sentence(tmp_path):
+    for xyz in ("abc", 3):
+        with pytest.raises(TypeError, match="sequence of three columns"):
+            uvol.read(tmp_path / "a.csv", xyz=xyz)
+
+
 def test_a_missing_file_is_an_oserror(tmp_path):
     with pytest.raises(OSError, match="missing.ply"):
         uvol.read(tmp_path / "missing.ply")
