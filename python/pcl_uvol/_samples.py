@@ -239,6 +239,13 @@ class Samples(Drawable, Points):
             raise ValueError(f"periodic has {len(sides)} sides: there must be three, 0 along an axis for none.")
         return sides
 
+    def _with_images(self, sides, scale, threads, progress):
+        """What these are in a box that repeats: samples with images beyond its faces."""
+        with listening(progress) as listener:
+            imaged = _core.ImagedSamples(self._dataset, sides, scale, _parameters.count(threads, "threads"), listener)
+        _report.tell(imaged.report["warnings"])
+        return imaged
+
     def __getstate__(self):
         state = super().__getstate__()
         state["_derived"] = {}

@@ -24,7 +24,7 @@ def _with_report(dataset, report):
 
 
 def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), rotate=None, start=None,
-              outside="lower", snapshots=0, threads=0, progress=None, **parameters):
+              outside="lower", snapshots=0, periodic=None, threads=0, progress=None, **parameters):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -47,6 +47,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         Of the shapes.
     snapshots : int
         Keep the surface every so many steps, as `snapshots` of the result; 0: never.
+    periodic : sequence of 3 floats, or "header", optional
+        As that of `isosurface`; without `rotate`.
     **parameters
         Further ones of the library: scheme, flow, bound, integration, reinitialization,
         k, max_steps, tolerance, band_width.
@@ -67,21 +69,34 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     >>> smooth = uvol.level_set(points, {"r": noisy}, iso=0.3, mu=0.5)
     >>> surface = uvol.isosurface(smooth, field="phi", iso=0.0)
     """
-    samples, name = as_samples(points, fields)._with_field(field, threads, progress)
+    isovalues = _parameters.numbers(iso, "iso")
+    if len(isovalues) != 1:
+        raise ValueError("A level set has one isovalue.")
+    samples = as_samples(points, fields)
+    stretch = _parameters.Stretch(scale, rotate)
+    sides = samples._find_box(periodic)
+    if any(sides) and any(stretch.rotation):
+        raise ValueError("periodic goes without rotate and a scale of nine numbers: the sides of the box lie along x, y "
+                         "and z.")
+    with_field, name = samples._with_field(field, threads, progress)
+    factors = stretch.resolve(with_field._dataset, name)
+    imaged = None
+    if any(sides):
+        imaged = samples._with_images(sides, factors, threads, progress)
+        samples = Samples._of(imaged.samples)
+    samples, name = samples._with_field(field, threads, progress)
     initial = {}
     if isinstance(start, str):
         samples, start_name = samples._with_field(start, threads, progress)
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
         initial = _parameters.mapping(start, "start")
-    isovalues = _parameters.numbers(iso, "iso")
-    if len(isovalues) != 1:
-        raise ValueError("A level set has one isovalue.")
-    stretch = _parameters.Stretch(scale, rotate)
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
-                      scale=stretch.resolve(samples._dataset, name), rotation=stretch.rotation)
+                      scale=factors, rotation=stretch.rotation)
     dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,
-                                  _parameters.count(snapshots, "snapshots"))
+                                  _parameters.count(snapshots, "snapshots"), sides)
+    if imaged is not None:
+        dataset = imaged.drop_images(dataset)
     result = _with_report(dataset, report)
     result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
     return result

@@ -30,6 +30,23 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
             lambda samples: uvol.level_set(samples, field="r", iso=0.3, **options))
 
 
+@pytest.mark.parametrize("arguments, options", [
+    (["-periodic", "1,1,1"], dict(periodic=(1, 1, 1))),
+    (["-periodic", "1,0,1", "-scale", "auto"], dict(periodic=(1, 0, 1), scale="auto")),
+])
+def test_level_sets_in_boxes_that_repeat(tmp_path, run_tool, arguments, options):
+    points = np.random.default_rng(3).random((4000, 3))
+    samples = uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)})
+    compare(tmp_path, run_tool, "uvol_levelset", samples,
+            ["-field", "f+0", "-iso", "0", "-mu", "0.5", "-steps", "10", "-snapshots", "5", *arguments],
+            lambda samples: uvol.level_set(samples, field="f+0", iso=0, mu=0.5, max_steps=10, snapshots=5, **options))
+    smooth = uvol.level_set(uvol.read(tmp_path / "in.ply"), field="f+0", iso=0, mu=0.5, max_steps=10, snapshots=5, **options)
+    smooth.snapshots[0][1].save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool_00005.ply").read_bytes()
+    with pytest.raises(ValueError, match="periodic goes without rotate"):
+        uvol.level_set(samples, field="f", iso=0, rotate=(1, 2, 3), **options)
+
+
 def test_a_level_set_tells_of_its_steps(ball):
     smooth = uvol.level_set(*ball, field="r", iso=0.3, mu=0.5)
     assert smooth.report["mu"] == 0.5 and len(smooth.report["steps"]) > 0

@@ -14,6 +14,9 @@ void
 bindDataset(pybind11::module_& module);
 
 void
+bindBoxes(pybind11::module_& module);
+
+void
 bindIsosurface(pybind11::module_& module);
 
 void

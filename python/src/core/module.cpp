@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, module)
   using namespace pcl_uvol::python;
   bindErrors(module);
   bindDataset(module);
+  bindBoxes(module);
   bindIsosurface(module);
   bindInterpolation(module);
   bindSurfaceStages(module);

@@ -10,7 +10,9 @@
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
+#include <array>
 #include <numeric>
+#include <pybind11/stl.h>
 #include <string>
 #include <vector>
 
@@ -45,10 +47,12 @@ struct Snapshot {
 };
 
 /** \param every steps between two snapshots; 0: there are none
+ * \param sides of the box that the samples repeat in, or 0
  * \return the samples with phi, steps and surface of each snapshot, and the report */
 py::tuple
 evolveLevelSet(const DatasetPtr& dataset,
                std::size_t every,
+               const std::array<double, 3>& sides,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
@@ -70,7 +74,7 @@ evolveLevelSet(const DatasetPtr& dataset,
           snapshots.push_back(
               {so_far.steps.size(),
                extractSnapshot(
-                   *dataset, shifted, Eigen::Array3d::Zero(), phi, threads)});
+                   *dataset, shifted, Eigen::Array3d(sides.data()), phi, threads)});
         });
     evolution.evolve(cloud);
   });
