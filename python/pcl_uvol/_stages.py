@@ -130,7 +130,8 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
     return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 
-def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, threads=0, progress=None):
+def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, gaussians=False, color="auto",
+           threads=0, progress=None):
     """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
 
     Parameters
@@ -142,14 +143,34 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
         box, or with `delta_is_length` a length.
     overlap : float
         The thesis's lambda: part of a splat's radius in which no other one starts.
+    gaussians : bool
+        Give what viewers of 3D Gaussian splats show, lit, once it is saved as ply.
+    color : str
+        Of these: a field, "rgb", "none", or "auto": rgb if there, else isovalue if there
+        are several.
 
     Returns
     -------
     Samples
         The splats, with a `report`.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> surface = uvol.isosurface(points, {"r": np.linalg.norm(points - 0.5, axis=1)}, iso=0.3)
+    >>> uvol.splats(surface, gaussians=True).keys()[:4]
+    ['nx', 'ny', 'nz', 'f_dc_0']
     """
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
-    return _with_report(*_run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress))
+    found, report = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
+    if gaussians:
+        if any(found.origin):
+            message = ("Gaussians have coordinates in float: they start at an origin, "
+                       f"{', '.join(f'{number:.12g}' for number in found.origin)}, which is not in the file.")
+            report["warnings"].append(message)
+            _report.tell([message])
+        found = _core.make_gaussians(found, _parameters.text(color, "color"))
+    return _with_report(found, report)
 
 
 class Clusters:

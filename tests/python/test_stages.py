@@ -92,6 +92,18 @@ def test_splats(tmp_path, run_tool, sphere):
     assert len(uvol.splats(sphere, delta=0.01, delta_is_length=True)) < len(sphere)
 
 
+@pytest.mark.parametrize("arguments, options", [([], {}), (["-color", "r"], dict(color="r"))])
+def test_splats_as_gaussians(tmp_path, run_tool, ball, arguments, options):
+    surface = uvol.isosurface(*ball, field="r", iso=[0.2, 0.3], outside="higher")
+    compare(tmp_path, run_tool, "uvol_splats", surface, ["-gaussians", *arguments],
+            lambda samples: uvol.splats(samples, gaussians=True, **options))
+    far = uvol.Samples(surface.points + [5e5, 0, 0], {name: surface[name] for name in surface.keys()})
+    with pytest.warns(uvol.ResultWarning, match="start at an origin, 5"):
+        uvol.splats(far, gaussians=True)
+    with pytest.raises(KeyError, match="no field 'q'"):
+        uvol.splats(surface, gaussians=True, color="q")
+
+
 @pytest.fixture
 def groups():
     """Two groups in three attributes."""

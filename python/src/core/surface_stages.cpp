@@ -5,6 +5,7 @@
 #include "core/bindings.h"
 #include "core/run_stage.h"
 #include "pipeline/zero_level.h"
+#include "render/gaussian_splats.h"
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/splat_generation.h>
@@ -138,6 +139,15 @@ generateSplats(const DatasetPtr& dataset,
   return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
 }
 
+/** Splats as viewers of 3D Gaussian splats read them, without an origin. */
+DatasetPtr
+describeGaussians(const Dataset& splats, const std::string& color)
+{
+  auto gaussians = std::make_shared<Dataset>();
+  gaussians->cloud = makeGaussians(viewOf(splats.cloud), color);
+  return gaussians;
+}
+
 } // namespace
 
 void
@@ -145,6 +155,7 @@ bindSurfaceStages(py::module_& module)
 {
   module.def("evolve_level_set", &evolveLevelSet);
   module.def("estimate_normals", &estimateNormals);
+  module.def("make_gaussians", &describeGaussians);
   module.def("generate_splats", &generateSplats);
 }
 
