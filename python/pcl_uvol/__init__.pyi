@@ -162,6 +162,7 @@ class Projection:
     labels: np.ndarray
     map: dict[str, Any]
     report: dict[str, Any]
+    def render(self, view: str = ..., size: int | tuple[int, int] = ...) -> Picture: ...
 
 class ResultWarning(UserWarning):
     ...

@@ -55,7 +55,7 @@ class Picture:
         return f"Picture of {width} x {height} pixels{by}"
 
 
-def _size(size):
+def pixel_sides(size):
     """Width and height."""
     sides = [size, size] if not isinstance(size, (tuple, list)) else list(size)
     if len(sides) != 2:
@@ -71,7 +71,7 @@ def _place(value):
 def look_of(size, view, eye, at, up, fov, zoom, background, supersample):
     """What all pictures are asked for with, scenes as well."""
     look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom,
-                supersample=_parameters.count(supersample, "supersample"), **_size(size))
+                supersample=_parameters.count(supersample, "supersample"), **pixel_sides(size))
     if isinstance(background, str):
         look["background"] = background
     else:

@@ -4,6 +4,7 @@
 import numpy as np
 
 from . import _arrays, _core, _parameters, _report
+from ._pictures import Picture, pixel_sides
 from ._progress import listening
 from ._samples import Samples, as_samples
 
@@ -369,6 +370,36 @@ class Projection:
         self.labels = labels
         self.map = projection
         self.report = report
+
+    def render(self, view="top", size=(640, 512)):
+        """A picture of the points, by cluster, and of the axes of the attributes, as
+        uvol_project draws it.
+
+        Parameters
+        ----------
+        view, size
+            As those of `Surface.render`.
+
+        Returns
+        -------
+        Picture
+
+        Examples
+        --------
+        >>> random = np.random.default_rng(1)
+        >>> samples = uvol.Samples(random.random((300, 3)), {name: random.random(300) for name in "abc"})
+        >>> uvol.project(samples, attributes=["a", "b", "c"], method="pca").render(size=200)
+        Picture of 200 x 200 pixels
+        """
+        from . import _charts
+        rows = np.array(self.map["rows"])
+        axes = [(name, rows[:, place].tolist()) for place, name in enumerate(self.map["names"])]
+        pixels = _charts.draw_scatter(self.places, self.labels, axes, _parameters.text(view, "view"),
+                                      *pixel_sides(size).values())
+        return Picture(pixels, "", (0.0, 1.0), self.report)
+
+    def _repr_png_(self):
+        return self.render()._repr_png_()
 
     def __repr__(self):
         return f"Projection of {len(self.places)} points by {', '.join(self.map['names'])}"

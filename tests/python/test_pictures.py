@@ -168,6 +168,21 @@ def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
         assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"turned_{frame}.png")
 
 
+@pytest.mark.parametrize("view", ["top", "iso"])
+def test_uvol_project_draws_the_same(tmp_path, run_tool, ball, view):
+    points, fields = ball
+    uvol.Samples(points, {**fields, "label": (points[:, 0] > 0.5).astype(np.int32)}).save(tmp_path / "in.ply")
+    run_tool("uvol_project", "in.ply", "out.ply", "-attributes", "r,vel[0],vel[1],|vel|", "-png", "tool.png", "-view", view)
+    samples = uvol.read(tmp_path / "in.ply")
+    found = uvol.project(samples, attributes=["r", "vel[0]", "vel[1]", "|vel|"], labels=samples["label"])
+    found.render(view).save(tmp_path / "module.png")
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+    assert found._repr_png_()[:4] == b"\x89PNG"
+    for options, message in ((dict(view="up"), "no view 'up'"), (dict(size=0), "size|16384"), (dict(view=3), "must be a text")):
+        with pytest.raises((ValueError, TypeError), match=message):
+            found.render(**options)
+
+
 def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
     assert np.array_equal(sphere.render(size=160, color="vel").pixels, sphere.render(size=160, color="|vel|").pixels)
     assert sphere.render(size=64, color="vel").field == "|vel|"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plots of slices and lines.
+// Plots of slices, lines and projections.
 #include "charts/bindings.h"
 #include "charts/line_plot.h"
+#include "charts/scatter_plot.h"
 #include "charts/slice_plot.h"
 #include "shared/convert.h"
 
@@ -78,6 +79,23 @@ drawLine(const std::vector<double>& distances,
       uvol_tools::drawProfile({distances, values, errors, abscissa, ordinate}));
 }
 
+/** Draw projected points as uvol_project does.
+ * \param axes names and directions of the attributes */
+py::array_t<std::uint8_t>
+drawScatter(const std::vector<std::array<float, 3>>& places,
+            const std::vector<std::int32_t>& labels,
+            const std::vector<std::pair<std::string, std::array<double, 3>>>& axes,
+            const std::string& view,
+            int width,
+            int height)
+{
+  std::vector<uvol_tools::ScatterAxis> named;
+  for (const auto& [name, direction] : axes)
+    named.push_back({name, direction});
+  return toPixels(
+      uvol_tools::drawScatterPlot(places, labels, named, view, width, height));
+}
+
 } // namespace
 
 void
@@ -85,6 +103,7 @@ bindPlots(py::module_& module)
 {
   module.def("draw_slice", &drawSlice);
   module.def("draw_line", &drawLine);
+  module.def("draw_scatter", &drawScatter);
 }
 
 } // namespace pcl_uvol::python
