@@ -106,6 +106,10 @@ def read_mesh(path):
 def read_volume(path):
     """Read a scalar volume: nrrd, nhdr, mha, mhd, vti, or structured points in vtk.
 
+    Parameters
+    ----------
+    path : str or os.PathLike
+
     Returns
     -------
     values : numpy.ndarray of float32, shape (nz, ny, nx)

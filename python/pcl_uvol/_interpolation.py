@@ -228,7 +228,13 @@ class Interpolator:
         return scores
 
     def line(self, start, end, n=500, threads=None, progress=None):
-        """The fields at `n` places from one point to another.
+        """The fields at places from one point to another.
+
+        Parameters
+        ----------
+        start, end : array_like, shape (3,)
+        n : int
+            Places, both ends among them.
 
         Returns
         -------

@@ -38,7 +38,7 @@ class Picture:
         return self.pixels if dtype is None else self.pixels.astype(dtype)
 
     def save(self, path):
-        """Write a PNG file, as the tools do."""
+        """Write a PNG file at a path, as the tools do."""
         from . import _io
         _io.write_png(os.fspath(path), self.pixels)
 

@@ -26,6 +26,13 @@ class Samples(Drawable, Points):
         values and pandas' missing ones are missing values. Columns of names, as texts or
         categories, are kept as labels.
 
+    Attributes
+    ----------
+    report : dict
+        Of the stage that made them, else empty.
+    snapshots : list of tuple
+        Of a level set that keeps some, else empty.
+
     Examples
     --------
     >>> import numpy as np, pcl_uvol as uvol
@@ -46,16 +53,20 @@ class Samples(Drawable, Points):
             dataset = _arrays.take_over(np.asarray(points))
             if dataset is None:
                 points, fields = _split(np.asarray(points), ("x", "y", "z"))
-        super().__init__(dataset or _arrays.make_dataset(points, fields))
-        self._derived = {}
+        self._begin(dataset or _arrays.make_dataset(points, fields))
         _report.tell(self._dataset.notes)
 
     @classmethod
     def _of(cls, dataset):
         samples = cls.__new__(cls)
-        Points.__init__(samples, dataset)
-        samples._derived = {}
+        samples._begin(dataset)
         return samples
+
+    def _begin(self, dataset):
+        Points.__init__(self, dataset)
+        self.report = {}
+        self.snapshots = []
+        self._derived = {}
 
     @classmethod
     def from_dataframe(cls, frame, points=("x", "y", "z"), fields=None):

@@ -488,6 +488,14 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
 def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
 
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    scale, rotate
+        As those of `isosurface`, of the space that spacings are measured in; "auto" is
+        "spacing".
+
     Returns
     -------
     dict

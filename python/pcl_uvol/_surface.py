@@ -140,12 +140,13 @@ class Mesh(Surface):
         return self.points
 
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
-        """Figures of this mesh: see `Surface.measure`."""
+        """Figures of this mesh, `curved` and `find_intersections` as in `Surface.measure`."""
         return _measures.measure(self, curved=curved, find_intersections=find_intersections, threads=threads,
                                  progress=progress)
 
     def save(self, path, ascii=False, progress=None):
-        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
+        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name: `path` and
+        `ascii` are as those of `Surface.save`."""
         self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
