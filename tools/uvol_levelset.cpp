@@ -303,7 +303,7 @@ run(int argc, char** argv)
       of_scale);
   parameters.scale = stretch.scale;
   parameters.rotation = stretch.rotation;
-  uvol_tools::BoxedSamples boxed(
+  pcl_uvol::SamplesInBox boxed(
       dataset, sides, parameters.scale, options.threads(), report);
   uvol_tools::addField(dataset, parameters.field, options, report);
   uvol_tools::addField(dataset, parameters.initial.field_name, options, report);
@@ -358,7 +358,7 @@ run(int argc, char** argv)
   uvol_tools::Facts facts = {{"input", arguments.input},
                              {"output", arguments.output},
                              {"field", parameters.field}};
-  boxed.tell(facts);
+  uvol_tools::tellBox(boxed, facts);
   facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);

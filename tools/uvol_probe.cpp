@@ -235,11 +235,11 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   Dataset samples =
       uvol_tools::loadPoints(arguments.input, report, load, arguments.where);
   report.count("points", samples.cloud.width + report.getCount("removed_by_where"));
-  const uvol_tools::BoxedSamples boxed(samples,
-                                       arguments.periodic.findSides(samples, report),
-                                       Eigen::Array3f::Ones(),
-                                       options.threads(),
-                                       report);
+  const pcl_uvol::SamplesInBox boxed(samples,
+                                     arguments.periodic.findSides(samples, report),
+                                     Eigen::Array3f::Ones(),
+                                     options.threads(),
+                                     report);
   Facts of_scale;
   InterpolationParameters parameters =
       arguments.model.resolve(options, samples, report, of_scale);
@@ -303,7 +303,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
       summary.warn(report);
     }
   }
-  boxed.tell(facts);
+  uvol_tools::tellBox(boxed, facts);
   total.reset();
   facts.push_back(memory.describe());
   uvol_tools::printReport(options, report, facts);

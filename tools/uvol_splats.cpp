@@ -2,8 +2,7 @@
 // Splats of a surface given as points (thesis 4.2.1).
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "shared/color_options.h"
-#include "shared/gaussian_splats.h"
+#include "render/gaussian_splats.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/point_files.h"
@@ -54,28 +53,6 @@ describePlace(const std::array<double, 3>& place)
   text.precision(12);
   text << place[0] << ", " << place[1] << ", " << place[2];
   return text.str();
-}
-
-/** The splats of a cloud as Gaussians in the colours of a field. */
-pcl::PCLPointCloud2
-makeGaussians(const pcl::PCLPointCloud2& cloud, std::string color)
-{
-  Report counted_before;
-  const pcl_uvol::CloudView view = pcl_uvol::viewOf(cloud);
-  const pcl_uvol::Splats splats = pcl_uvol::readSplats(view, counted_before);
-  if (color == "auto")
-    color = pcl_uvol::usualColorField(view);
-  if (color == "none")
-    color.clear();
-  std::vector<pcl_uvol::Rgba> colors(splats.cloud.size(),
-                                     pcl_uvol::toRgba(pcl_uvol::Material().color));
-  if (!color.empty()) {
-    const pcl_uvol::PointColors found = pcl_uvol::colorPoints(
-        view, color, uvol_tools::ColorOptions().mapFor(view, color));
-    for (std::size_t i = 0; i < colors.size(); ++i)
-      colors[i] = found.colors[splats.sources[i]];
-  }
-  return uvol_tools::toGaussians(splats.cloud, colors);
 }
 
 /** What the tool holds beside the points.
@@ -145,7 +122,7 @@ run(int argc, char** argv)
   pcl_uvol::Dataset result = pcl_uvol::withoutCloud(dataset);
   result.cloud = generateSplats(dataset.cloud, parameters, options.threads(), report);
   if (is_gaussian) {
-    result.cloud = makeGaussians(result.cloud, color);
+    result.cloud = pcl_uvol::makeGaussians(pcl_uvol::viewOf(result.cloud), color);
     if (result.origin != std::array<double, 3>{})
       report.warnings.push_back(
           "Gaussians have coordinates in float: they start at an origin, " +

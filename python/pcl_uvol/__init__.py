@@ -11,7 +11,8 @@ from ._errors import DivergedError, FieldError, ResultWarning
 from ._files import read, read_mesh, read_volume, write
 from ._interpolation import Answers, Interpolator
 from ._lattice import Lattice
-from ._measures import FieldFigures, Figure, Measures, PieceFigures
+from ._measures import (Comparison, Distances, FieldDifference, FieldFigures, Figure, Measures, PieceFigures, compare,
+                        measure)
 from ._pictures import Picture, raytrace
 from ._samples import Samples
 from ._stages import (Clusters, Projection, VoronoiGrid, cluster, info, level_set, normals, project,
@@ -21,8 +22,11 @@ from ._surface import Extractor, Mesh, Surface, isosurface
 __all__ = [
     "Answers",
     "Clusters",
+    "Comparison",
+    "Distances",
     "DivergedError",
     "Extractor",
+    "FieldDifference",
     "FieldError",
     "FieldFigures",
     "Figure",
@@ -38,11 +42,13 @@ __all__ = [
     "Surface",
     "VoronoiGrid",
     "cluster",
+    "compare",
     "empty",
     "from_vtk",
     "info",
     "isosurface",
     "level_set",
+    "measure",
     "normals",
     "project",
     "raytrace",

@@ -83,6 +83,18 @@ def coordinates(points, what="points"):
     return array
 
 
+def as_triangles(values, count):
+    """Rows of three indices of so many vertices."""
+    array = as_array(values, "triangles")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"triangles has the shape {array.shape}: it must be (m, 3), a row for each triangle.")
+    if array.dtype.kind not in "iu" and len(array):
+        raise ValueError(f"triangles has the type {array.dtype}: it must hold whole numbers, indices of vertices.")
+    if len(array) and not 0 <= array.min() <= array.max() < count:
+        raise ValueError(f"triangles has the indices {array.min()} to {array.max()}: there are {count} vertices.")
+    return np.ascontiguousarray(array, np.uint32)
+
+
 def empty(count, fields=None):
     """Records in the library's memory, to be filled in: `Samples` takes them without a
     copy.

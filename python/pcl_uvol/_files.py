@@ -3,9 +3,9 @@
 
 import os
 
-from . import _report
+from . import _arrays, _report
 from ._progress import listening
-from ._samples import Samples
+from ._samples import Samples, as_samples
 
 
 def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
@@ -39,6 +39,8 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
         With the file and, for text, the line.
     """
     from . import _io
+    if isinstance(xyz, str) or not hasattr(xyz, "__iter__"):
+        raise TypeError(f"xyz is {xyz!r}: it must be a sequence of three columns.")
     columns = [str(column) for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
@@ -48,7 +50,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     return Samples._of(dataset)
 
 
-def write(path, points, fields=None, ascii=False, progress=None):
+def write(path, points, fields=None, triangles=None, ascii=False, progress=None):
     """Write samples, a surface or a mesh to a file: their `save`.
 
     Parameters
@@ -56,28 +58,44 @@ def write(path, points, fields=None, ascii=False, progress=None):
     path : str or os.PathLike
     points, fields
         As those of `Samples`, or something that has `save`.
+    triangles : array_like of int, shape (m, 3), optional
+        Of these points: the file is that of a mesh, ply, vtp, obj, off or stl.
     ascii : bool
         PCD and PLY as text.
     progress : bool or callable, optional
         See `isosurface`; told where points are written as text.
     """
+    if triangles is not None:
+        vertices = as_samples(points, fields)
+        vertices._save(path, _arrays.as_triangles(triangles, len(vertices)), ascii, progress)
+        return
     if not hasattr(points, "save"):
         points = Samples(points, fields)
     points.save(path, ascii=ascii, progress=progress)
 
 
 def read_mesh(path):
-    """Read a mesh with all fields of its vertices from a ply file, as `save` writes it.
+    """Read a mesh with all fields of its vertices, as `save` writes it.
 
     Parameters
     ----------
     path : str or os.PathLike
+        ply, vtp, obj, off or stl, by the ending.
 
     Returns
     -------
     vertices : Samples
     triangles : numpy.ndarray of uint32, shape (m, 3)
         Empty for a file of points.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = tempfile.mkdtemp() + "/a.obj"
+    >>> uvol.write(path, np.eye(3), triangles=[[0, 1, 2]])
+    >>> vertices, triangles = uvol.read_mesh(path)
+    >>> triangles
+    array([[0, 1, 2]], dtype=uint32)
     """
     from . import _io
     dataset, triangles = _io.read_mesh(os.fspath(path))
@@ -87,6 +105,10 @@ def read_mesh(path):
 
 def read_volume(path):
     """Read a scalar volume: nrrd, nhdr, mha, mhd, vti, or structured points in vtk.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
 
     Returns
     -------

@@ -68,6 +68,8 @@ class Interpolator:
     kriging, sph, shepard : dict, optional
         Parameters of these models, by the library's names: `kriging={"variogram":
         "gaussian", "nugget": 0.1}`.
+    periodic : sequence of 3 floats, or "header", optional
+        As that of `isosurface`: places may lie in any of the boxes.
     threads : int
         0: all cores.
     progress : bool or callable, optional
@@ -91,11 +93,17 @@ class Interpolator:
     """
 
     def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
-                 scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, threads=0, progress=None):
+                 scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, periodic=None, threads=0,
+                 progress=None):
         samples = as_samples(points, fields)
         self._made_of = functools.partial(Interpolator, samples, field=field, model=model, extrapolate=extrapolate,
                                           gradients=gradients, errors=errors, scale=scale, rotate=rotate, kriging=kriging, sph=sph,
-                                          shepard=shepard, threads=threads)
+                                          shepard=shepard, periodic=periodic, threads=threads)
+        self.samples = samples
+        self._sides = samples._find_box(periodic)
+        own = len(samples)
+        if any(self._sides):
+            samples = Samples._of(samples._with_images(self._sides, (1.0, 1.0, 1.0), threads, progress).samples)
         self._is_single = isinstance(field, str)
         self._threads = _parameters.count(threads, "threads")
         wanted = [field] if self._is_single else _names(field)
@@ -103,7 +111,9 @@ class Interpolator:
         for name in wanted:
             samples, found = samples._with_field(name, threads, progress)
             names += [found] if found else []
-        self.samples = samples
+        self._placed = samples  # with expressions, and images
+        if not any(self._sides):
+            self.samples = samples
         stretch = _parameters.Stretch(scale, rotate)
         parameters = {
             "fields": names,
@@ -118,7 +128,8 @@ class Interpolator:
             "shepard": _parameters.mapping(shepard, "shepard"),
         }
         with listening(progress) as listener:
-            self._core = _core.Interpolator(samples._dataset, _parameters.to_json(parameters), self._threads, listener)
+            self._core = _core.Interpolator(samples._dataset, own, self._sides, _parameters.to_json(parameters),
+                                            self._threads, listener)
         self.fields = self._core.names
         _report.tell(self._core.report["warnings"])
 
@@ -216,16 +227,23 @@ class Interpolator:
         _report.tell(report["warnings"])
         return scores
 
-    def line(self, start, end, n=100, **options):
-        """The fields at `n` places from one point to another.
+    def line(self, start, end, n=500, threads=None, progress=None):
+        """The fields at places from one point to another.
+
+        Parameters
+        ----------
+        start, end : array_like, shape (3,)
+        n : int
+            Places, both ends among them.
 
         Returns
         -------
         Lattice
         """
-        return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")), **options)
+        return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")),
+                          threads, progress)
 
-    def slice(self, plane, size=512, box=None, **options):
+    def slice(self, plane, size=512, box=None, threads=None, progress=None):
         """The fields in a plane.
 
         Parameters
@@ -242,11 +260,14 @@ class Interpolator:
         Lattice
         """
         point, normal = _plane(plane)
-        counts = [_parameters.count(side, "size") for side in np.broadcast_to(size, 2).tolist()]
+        sides = [size, size] if np.ndim(size) == 0 else list(size)
+        if len(sides) != 2:
+            raise ValueError(f"size has {len(sides)} numbers: it must be one, or two.")
+        counts = [_parameters.count(side, "size") for side in sides]
         lattice, _, _ = _core.slice(point, normal, *self._box(box), counts)
-        return self._fill(*lattice, **options)
+        return self._fill(*lattice, threads, progress)
 
-    def grid(self, n=128, box=None, **options):
+    def grid(self, n=128, box=None, threads=None, progress=None):
         """The fields in a grid.
 
         Parameters
@@ -268,20 +289,20 @@ class Interpolator:
         (5, 4, 3)
         """
         if np.ndim(n) == 0:
-            return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), **options)
+            return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), threads, progress)
         counts = [_parameters.count(side, "n") for side in n]
         if len(counts) != 3:
             raise ValueError(f"n has {len(counts)} numbers: it must be one, or three.")
-        return self._fill(*_core.grid(*self._box(box), counts), **options)
+        return self._fill(*_core.grid(*self._box(box), counts), threads, progress)
 
     def _box(self, box):
         if box is None:
-            return _core.bounds(self.samples._dataset)
-        if len(box) != 2:
+            return _core.bounds(self._placed._dataset, self._sides)
+        if np.ndim(box) == 0 or len(box) != 2:
             raise ValueError("box is a pair: its low and its high corner.")
         return _place(box[0], "box"), _place(box[1], "box")
 
-    def _fill(self, places, counts, steps, threads=None, progress=None):
+    def _fill(self, places, counts, steps, threads, progress):
         with listening(progress) as listener:
             found = self._core.answer(places, self._threads_of(threads), listener)
         _report.tell(found["report"]["warnings"])
@@ -294,13 +315,14 @@ class Interpolator:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
         short = [name for name in self.fields if self._core.is_short(name)]
-        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges())
+        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges(),
+                       self._placed)
 
     def _find_ranges(self):
         """The lowest and the highest finite value of every field."""
         ranges = {}
         for name in self.fields:
-            values = self.samples[name]
+            values = self._placed[name]
             values = values[np.isfinite(values)]
             ranges[name] = (float(values.min()), float(values.max())) if len(values) else (-np.inf, np.inf)
         return ranges

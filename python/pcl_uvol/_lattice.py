@@ -24,11 +24,12 @@ class Lattice:
         Counts, milliseconds and warnings.
     """
 
-    def __init__(self, places, counts, steps, columns, report, short, ranges):
+    def __init__(self, places, counts, steps, columns, report, short, ranges, samples):
         self.shape = tuple(count for count in reversed(counts) if count > 1) or (1,)
         self._file_form = (places[0].tolist(), steps, counts)
         self._short = short  # fields that are float32 in files
         self._ranges = ranges  # of the samples' values, by field
+        self._samples = samples
         self.points = places.reshape(*self.shape, 3)
         self.report = report
         self._steps = [step for step, count in zip(steps, counts) if count > 1][::-1]
@@ -91,7 +92,8 @@ class Lattice:
             arrays.append((name, values.reshape(self._count(), -1)))
         _io.write_lattice(path, *self._file_form, arrays)
 
-    def render(self, field="", *, contours=(), colormap="viridis", range=None, log=False, label="", unit=""):
+    def render(self, field="", *, contours=(), colormap="viridis", range=None, log=False, samples=None, label="",
+               unit=""):
         """A picture of a slice, or of the values along a line with their errors, as
         uvol_probe draws it.
 
@@ -103,6 +105,8 @@ class Lattice:
             Values that lines are drawn of, in a slice.
         colormap, range, log
             As those of `Surface.render`, of a slice.
+        samples : float, optional
+            Draw the samples that are so near to a slice as well, in their colours.
         label, unit : str
             What the values are called, by default the field, and the unit of coordinates.
 
@@ -120,22 +124,37 @@ class Lattice:
         """
         from . import _charts
         field = field or next(iter(self._columns))
+        unit = _parameters.text(unit, "unit")
         values = self[field]
         if len(self.shape) > 2 or values.ndim > len(self.shape):
             raise ValueError("A picture shows one number per place, along a line or in a slice.")
-        title = label or field
+        title = _parameters.text(label, "label") or field
         if len(self.shape) == 1:
             errors = self._columns.get(field + "_error", np.empty(0))
             distances = np.arange(self.shape[0]) * np.linalg.norm(self._steps[0] if self._steps else 0.0)
             pixels = _charts.draw_line(distances, values, errors, _with_unit("distance", unit), title)
             limits = (float(np.nanmin(values)), float(np.nanmax(values))) if np.isfinite(values).any() else (0.0, 0.0)
         else:
-            ends = None if range is None else _parameters.numbers(range, "range")
+            ends = None if range is None else _ends(range, log)
             bounds = self._ranges.get(field, (-np.inf, np.inf))
-            lines = [float(value) for value in contours]
+            lines = _parameters.numbers(contours, "contours") if np.size(contours) else []
+            near = [] if samples is None else self._find_samples(field, samples)
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
-                                                 colormap, ends, bounds, bool(log), lines)
+                                                 colormap, ends, bounds, bool(log), lines,
+                                                 near)
         return Picture(pixels, field, limits, self.report)
+
+    def _find_samples(self, field, distance):
+        """Places across and up, and values, of samples that are near to a slice."""
+        distance = _parameters.number(distance, "samples")
+        if distance < 0:
+            raise ValueError(f"samples is {distance:g}: it must be a distance from 0.")
+        across, up = (np.asarray(self._steps[number]) / np.linalg.norm(self._steps[number]) for number in (1, 0))
+        values = self._samples[field]
+        offsets = (self._samples.points - self.points.reshape(-1, 3)[0]) @ np.cross(across, up)
+        near = (np.abs(offsets) <= distance) & np.isfinite(values)
+        places = self._samples.points[near]
+        return np.stack([places @ across, places @ up, values[near]], axis=1).tolist()
 
     def _repr_png_(self):
         return self.render()._repr_png_() if len(self.shape) < 3 else None
@@ -160,6 +179,16 @@ class Lattice:
 
     def __repr__(self):
         return f"Lattice of {' x '.join(map(str, self.shape))} places: {', '.join(self.keys())}"
+
+
+def _ends(values, is_logarithmic):
+    """The values at the ends of colours."""
+    ends = _parameters.numbers(values, "range")
+    if len(ends) != 2 or not ends[0] < ends[1]:
+        raise ValueError("The range of colours is two numbers, the lower one first.")
+    if is_logarithmic and ends[0] <= 0:
+        raise ValueError("The range of logarithmic colours is two numbers above 0.")
+    return ends
 
 
 def _with_unit(name, unit):

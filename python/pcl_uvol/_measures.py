@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of meshes: area, volume, axes, genus, integrals of fields."""
+"""Figures of surfaces: area, volume, axes, genus, integrals of fields, distances."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from . import _core, _parameters, _report
+from . import _arrays, _core, _parameters, _report
 from ._progress import listening
+from ._samples import Samples, as_samples
 
 
 class Figure(NamedTuple):
@@ -34,10 +35,14 @@ class PieceFigures:
     ----------
     isovalue : float
     vertices, triangles, rims, genus : int
-        Rims are the closed lines along which it is open; genus counts handles.
+        Rims are the closed lines along which it is open; genus counts handles, and is
+        None of points.
     area, volume : Figure
         The volume is that enclosed, negative for the wall of a cavity, NaN where the
         surface is open.
+    cap_area, capped_volume : float
+        Of these, of caps that close the surface at the border of the samples, and of
+        pieces that have caps.
     centroid : numpy.ndarray, shape (3,)
         Of the volume, or of the area where that is open.
     axes, half_axes : numpy.ndarray, shapes (3, 3) and (3,)
@@ -52,7 +57,8 @@ class PieceFigures:
     """
 
     def __init__(self, figures):
-        for name in ("isovalue", "vertices", "triangles", "rims", "genus", "samples"):
+        for name in ("isovalue", "vertices", "triangles", "rims", "genus", "samples", "cap_area",
+                     "capped_volume"):
             setattr(self, name, figures[name])
         for name in ("centroid", "axes", "half_axes", "low", "high"):
             setattr(self, name, np.asarray(figures[name]))
@@ -95,11 +101,142 @@ def _fields(figures):
             for name, field in figures.items()}
 
 
-def measure(mesh, samples, curved, find_intersections, threads, progress):
-    """Figures of a mesh, see Mesh.measure."""
+def _parts(surface, what):
+    """Vertices and triangles of a mesh, of a pair of these, or of points."""
+    if isinstance(surface, (tuple, list)) and len(surface) == 2 and np.ndim(surface[1]) == 2:
+        vertices = as_samples(surface[0], None)
+        return vertices, _arrays.as_triangles(surface[1], len(vertices))
+    vertices = as_samples(surface, None)
+    if len(vertices) == 0:
+        raise ValueError(f"{what} has no points.")
+    return vertices, getattr(surface, "triangles", np.empty((0, 3), np.uint32))
+
+
+def measure(surface, *, samples=None, curved=True, find_intersections=False, threads=0, progress=None):
+    """Area, volume, axes, genus and integrals of fields of a surface, each with its
+    error.
+
+    Parameters
+    ----------
+    surface : Mesh, points with normals, or a pair of vertices and triangles
+        Such as `read_mesh` gives. Of points genus and what is inside are not known.
+    samples : Samples, optional
+        To look for inside; those of a `Mesh` are known.
+    curved : bool
+        Bend triangles as the normals of their vertices tell.
+    find_intersections : bool
+        Look for triangles that go through one another.
+
+    Returns
+    -------
+    Measures
+        Those of the first isovalue, with all others in `isovalues`.
+
+    Examples
+    --------
+    >>> corners = uvol.Samples(np.vstack([np.zeros(3), np.eye(3)]))
+    >>> figures = uvol.measure((corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    >>> round(figures.volume.value, 6), figures.genus
+    (0.166667, 0)
+    """
+    vertices, triangles = _parts(surface, "surface")
+    if samples is None:
+        samples = getattr(surface, "_samples", None) if len(triangles) else None
+    else:
+        samples = as_samples(samples, None)
     parameters = {"curved": bool(curved), "find_intersections": bool(find_intersections)}
     with listening(progress) as listener:
-        figures = _core.measure(mesh._dataset, mesh.triangles, None if samples is None else samples._dataset,
+        figures = _core.measure(vertices._dataset, triangles, None if samples is None else samples._dataset,
                                 _parameters.to_json(parameters), _parameters.count(threads, "threads"), listener)
     _report.tell(figures[-1]["warnings"])
+    known = {np.float32(value): value for value in getattr(surface, "report", {}).get("isovalues", [])}
+    for figure in figures[0] + figures[1]:  # vertices have them in single precision
+        figure["isovalue"] = known.get(np.float32(figure["isovalue"]), figure["isovalue"])
     return Measures(*figures)
+
+
+class FieldDifference(NamedTuple):
+    """How much a field differs between two surfaces."""
+
+    mean: float  #: of the absolute difference, by area
+    largest: float
+
+
+class Distances:
+    """Distances of all points of a surface to another one, units of length.
+
+    Attributes
+    ----------
+    mean, root_mean_square : float
+        By area, or by points where there are no triangles.
+    percentile_99_9, largest : float
+        All but a thousandth of the surface lies no farther away; all of it.
+    farthest : numpy.ndarray, shape (3,)
+        The place that is so far away.
+    fields : dict of str to FieldDifference
+        Of fields that both have.
+    at_vertices : numpy.ndarray of float32, shape (n,)
+        Negative inside, where triangles tell.
+    """
+
+    def __init__(self, found):
+        for name in ("mean", "root_mean_square", "percentile_99_9", "largest", "farthest", "at_vertices"):
+            setattr(self, name, found[name])
+        self.fields = {name: FieldDifference(*figures) for name, figures in found["fields"].items()}
+
+    def __repr__(self):
+        return f"Distances: mean {self.mean:.3g}, largest {self.largest:.3g}"
+
+
+class Comparison:
+    """How far two surfaces are apart.
+
+    Attributes
+    ----------
+    forth, back : Distances
+        From the first surface to the second one, and back.
+    largest : float
+        Of both ways: the distance of Hausdorff.
+    surface : Samples
+        The vertices of the first surface with the field `distance` to the second one.
+    """
+
+    def __init__(self, forth, back, surface):
+        self.forth = forth
+        self.back = back
+        self.largest = max(forth.largest, back.largest)
+        self.surface = surface
+
+    def __repr__(self):
+        return f"Comparison: mean distances {self.forth.mean:.3g} and {self.back.mean:.3g}, largest {self.largest:.3g}"
+
+
+def compare(a, b, *, threads=0):
+    """Measure how far two surfaces are apart both ways, and how much the fields differ
+    that both have.
+
+    Parameters
+    ----------
+    a, b : Mesh, Surface, Samples, or a pair of vertices and triangles
+        Such as `read_mesh` gives. Distances to a surface without triangles are those to
+        its points, and no smaller than these lie apart.
+
+    Returns
+    -------
+    Comparison
+
+    Examples
+    --------
+    >>> triangles = [[0, 1, 2]]
+    >>> low, high = np.eye(3) * [1, 1, 0], np.eye(3) * [1, 1, 0] + [0, 0, 0.25]
+    >>> found = uvol.compare((low, triangles), (high, triangles))
+    >>> found.largest, found.surface["distance"].tolist()
+    (0.25, [-0.25, -0.25, -0.25])
+    """
+    (first, first_triangles), (second, second_triangles) = _parts(a, "a"), _parts(b, "b")
+    forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
+                                         _parameters.count(threads, "threads"))
+    _report.tell([f"{name} has no triangles: distances to it are those to its points, and no smaller than these lie "
+                  "apart." for name, triangles in (("a", first_triangles), ("b", second_triangles))
+                  if len(triangles) == 0])
+    return Comparison(Distances(forth), Distances(back), Samples._of(surface))

@@ -5,7 +5,7 @@ import json
 import math
 import operator
 import reprlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -36,7 +36,7 @@ def to_json(parameters):
 def numbers(values, what):
     """One number or several as a list of finite ones."""
     array = np.atleast_1d(np.asarray(values))
-    if array.dtype.kind not in "iufb" or array.ndim != 1 or not np.isfinite(array).all():
+    if array.dtype.kind not in "iufb" or array.ndim != 1 or array.size == 0 or not np.isfinite(array).all():
         raise ValueError(f"{what} is {values!r}: it must be a finite number, or several.")
     return [float(value) for value in array]
 
@@ -47,6 +47,20 @@ def number(value, what):
     if len(found) != 1:
         raise ValueError(f"{what} is {value!r}: it must be one number.")
     return found[0]
+
+
+def text(value, what):
+    """A text."""
+    if not isinstance(value, str):
+        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be a text.")
+    return value
+
+
+def names(values, what, of):
+    """Several texts."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{what} is {reprlib.repr(values)}: it must be a sequence of {of}.")
+    return [text(value, f"An item of {what}") for value in values]
 
 
 def mapping(value, what, of="parameters"):

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of surfaces, drawn without a display."""
 
+import copy
 import os
 import tempfile
 
 import numpy as np
 
-from . import _core, _parameters, _report
+from . import _parameters, _report
 from ._progress import listening
 
-
-_OWN_COLORS = ("rgb", "rgba")
+_OWN_COLORS = ("auto", "none", "rgb", "rgba")
 
 
 class Picture:
@@ -38,7 +38,7 @@ class Picture:
         return self.pixels if dtype is None else self.pixels.astype(dtype)
 
     def save(self, path):
-        """Write a PNG file, as the tools do."""
+        """Write a PNG file at a path, as the tools do."""
         from . import _io
         _io.write_png(os.fspath(path), self.pixels)
 
@@ -55,7 +55,7 @@ class Picture:
         return f"Picture of {width} x {height} pixels{by}"
 
 
-def _size(size):
+def pixel_sides(size):
     """Width and height."""
     sides = [size, size] if not isinstance(size, (tuple, list)) else list(size)
     if len(sides) != 2:
@@ -70,8 +70,8 @@ def _place(value):
 
 def look_of(size, view, eye, at, up, fov, zoom, background, supersample):
     """What all pictures are asked for with, scenes as well."""
-    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom, supersample=supersample,
-                **_size(size))
+    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom,
+                supersample=_parameters.count(supersample, "supersample"), **pixel_sides(size))
     if isinstance(background, str):
         look["background"] = background
     else:
@@ -85,13 +85,23 @@ def _lights(directions):
     return [_place(row) for row in np.atleast_2d(rows).tolist() if len(row)]
 
 
+def _figure(ticks, box, triad, scale_bar, unit, title, views):
+    """What explains a picture."""
+    return dict(ticks=bool(ticks), box=bool(box), triad=bool(triad), scale_bar=bool(scale_bar),
+                unit=_parameters.text(unit, "unit"), title=_parameters.text(title, "title"),
+                views=_parameters.names(views, "views", "sides"))
+
+
 class Drawable:
     """What can be drawn: points with normals."""
 
+    _frames = None  # of a full turn; None: one picture
+
     def render(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024), view="iso",
                eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
-               lights=None, material=None, supersample=0, culling=False, footprints=True, silhouettes=False,
-               features=False, thickness=2, line_color=None, passes=None, threads=0, progress=None):
+               opacity=None, lights=None, material=None, supersample=0, culling=False, footprints=True,
+               silhouettes=False, features=False, thickness=2, line_color=None, ticks=False, box=False, triad=False,
+               scale_bar=False, unit="", title="", views=(), passes=None, threads=0, progress=None):
         """Draw the points in image space (thesis 4.3).
 
         Parameters
@@ -125,6 +135,8 @@ class Drawable:
         exaggerate : array_like, optional
             Factors along x, y and z that stretch the picture; `eye` and `at` are places
             in the data.
+        opacity : float or sequence of float, optional
+            Of the isovalues, the lowest first, or one for all: 0 is clear, 1 is opaque.
         lights : array_like, shape (n, 3), optional
             Directions that light comes from: x right, y up, z to the viewer.
         material : dict, optional
@@ -138,6 +150,14 @@ class Drawable:
             Points become discs where they lie farther apart than pixels.
         silhouettes, features : bool
             Draw lines, of `line_color`; silhouettes of that thickness, 1 to 7.
+        ticks, box, triad, scale_bar : bool
+            Axes with values, and grid lines behind; the box around the surface; the
+            directions of x, y and z; a bar of a round length, as lengths in the middle of
+            the surface look.
+        unit, title : str
+            Of the coordinates, such as km, for the above; a line above the picture.
+        views : sequence of str
+            Several views in one picture, as ("iso", "top"), instead of `view`.
         passes : dict, optional
             What few change: fill, occluded, layers, shading, smoothing ("none", "box",
             "gaussian", "alleviated"), smoothings, silhouette_threshold,
@@ -146,18 +166,28 @@ class Drawable:
         Returns
         -------
         Picture
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> surface = uvol.isosurface(points, {"r": np.linalg.norm(points - 0.5, axis=1)}, iso=[0.2, 0.4])
+        >>> picture = surface.render(size=(320, 200), opacity=[1, 0.4], ticks=True, unit="m", views=("iso", "top"))
+        >>> picture.pixels.shape, picture.field
+        ((200, 320, 4), 'isovalue')
         """
         look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
-        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material),
+        look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
                     culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
-                    thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"))
-        return self._draw(_core.render, look, bar, threads, progress)
+                    thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"),
+                    opacity=[] if opacity is None else _parameters.numbers(opacity, "opacity"),
+                    **_figure(ticks, box, triad, scale_bar, unit, title, views))
+        return self._draw(look, None, threads, progress)
 
     def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
                  view="iso", eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None,
                  exaggerate=None, lights=None, material=None, supersample=0, depth=4, shadows=True, light_samples=16,
-                 occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, splats=None, threads=0,
-                 progress=None):
+                 occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, splats=None, ticks=False,
+                 box=False, triad=False, scale_bar=False, unit="", title="", views=(), threads=0, progress=None):
         """Draw the points by ray tracing of splats (thesis 4.2): shadows, mirrors, glass.
 
         Parameters
@@ -185,20 +215,49 @@ class Drawable:
         Picture
         """
         look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
-        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material))
+        look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
+                    **_figure(ticks, box, triad, scale_bar, unit, title, views))
         rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
                     occlusion_distance=occlusion_distance, reflect=reflect, transparent=transparent, index=index,
-                    splats=splats)
-        return self._draw(_core.raytrace, look, bar, threads, progress, _parameters.to_json(rays))
+                    splats=None if splats is None else _parameters.mapping(splats, "splats"))
+        return self._draw(look, _parameters.to_json(rays), threads, progress)
 
-    def _colors(self, color, colormap, range, log, surface_color, exaggerate, lights, material):
+    def orbit(self, frames, *, raytraced=False, **options):
+        """Draw the frames of a full turn about `up`, each when it is asked for.
+
+        Parameters
+        ----------
+        frames : int
+        raytraced : bool
+            By `raytrace`, else by `render`.
+        **options
+            Theirs.
+
+        Returns
+        -------
+        iterator of Picture
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> surface = uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5)
+        >>> frames = [picture.pixels for picture in surface.orbit(4, size=64, color="none")]
+        >>> len(frames), bool(np.array_equal(frames[0], frames[2]))
+        (4, False)
+        """
+        turning = copy.copy(self)
+        turning._frames = _parameters.count(frames, "frames")
+        return turning.raytrace(**options) if raytraced else turning.render(**options)
+
+    def _colors(self, color, colormap, range, log, bar, surface_color, exaggerate, lights, material):
         """What points with fields are asked for with."""
         if not isinstance(color, str):
             raise TypeError(f"color is {color!r}: it must be the name of a field, or an expression.")
         if color in self.keys() and self.records.dtype[color].shape:
             color = f"|{color}|"
-        return dict(color=color or "none", colormap=colormap, range=range, log=bool(log), exaggerate=_place(exaggerate),
-                    surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
+        return dict(color=color or "none", colormap=colormap, log=bool(log), bar=bool(bar),
+                    range=None if range is None else _parameters.numbers(range, "range"),
+                    exaggerate=_place(exaggerate), surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
     def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,
                   at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
@@ -223,35 +282,37 @@ class Drawable:
         if not path.endswith(".html"):
             raise ValueError(f"{path!r} is no web page: its name must end in .html.")
         look = look_of(1024, view, eye, at, up, fov, zoom, background, 0)
-        look.update(self._colors(color, colormap, range, log, surface_color, exaggerate, lights, material))
+        look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material))
         count = _parameters.count(threads, "threads")
-        dataset, has_bar = self._find_colors(look, bar, count)
+        dataset = self._find_colors(look["color"], count)
         with listening(progress) as listener:
-            report = _charts.write_page(path, dataset, _parameters.to_json(look), has_bar, count, listener)
+            report = _charts.write_page(path, dataset, _parameters.to_json(look), count, listener)
         _report.tell(report["warnings"])
         return report
 
-    def _find_colors(self, look, bar, threads):
-        """The points, with the field that colours them if it is an expression, and
-        whether something is to be said of the colours."""
-        dataset = self._dataset
-        if look["color"] not in ("auto", "none", *_OWN_COLORS):
-            dataset = dataset.with_field(look["color"], threads, None)[0]
-        return dataset, bool(bar) and _core.color_field(dataset, look["color"]) not in ("", *_OWN_COLORS)
+    def _find_colors(self, color, threads):
+        """The points, with the field that colours them if it is an expression."""
+        if color in _OWN_COLORS:
+            return self._dataset
+        because = "from points on a surface, but from samples: Samples.compute adds them there"
+        return self._dataset.with_field(color, because, threads, None)[0]
 
-    def _draw(self, function, look, bar, threads, progress, *more):
-        """A picture of these points, with what its colours stand for beside it."""
+    def _draw(self, look, rays, threads, progress):
+        """A picture of these points, or the frames of a turn."""
+        from . import _charts
         count = _parameters.count(threads, "threads")
-        dataset, has_bar = self._find_colors(look, bar, count)
-        if has_bar:
-            from . import _charts
-            look["margin"] = _charts.bar_width(look["width"], look["height"])
-        look = _parameters.to_json(look)
+        dataset = self._find_colors(look["color"], count)
+        look = _parameters.to_json(dict(look, frames=1 if self._frames is None else self._frames))
         with listening(progress) as listener:
-            pixels, field, limits, report = function(dataset, look, *more, count, listener)
-        if has_bar:
-            _charts.draw_legend(pixels, dataset, look, limits)
-        return finish(pixels, field, limits, report)
+            painter = _charts.Painter(dataset, look, rays, count, listener)
+        pictures = (_draw_frame(painter, frame, progress) for frame in range(self._frames or 1))
+        return next(pictures) if self._frames is None else pictures
+
+
+def _draw_frame(painter, frame, progress):
+    with listening(progress) as listener:
+        pixels, field, limits, report = painter.draw(frame, listener)
+    return finish(pixels, field, limits, report)
 
 
 def finish(pixels, field, limits, report):
@@ -261,8 +322,9 @@ def finish(pixels, field, limits, report):
     return picture
 
 
-def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=30.0, zoom=1.0, background=None,
-             supersample=None, threads=0, progress=None):
+def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, zoom=1.0, turn=0.0,
+             background=None, lights=None, supersample=None, depth=None, shadows=None, light_samples=None,
+             occlusion=None, occlusion_distance=None, threads=0, progress=None):
     """Draw a scene of uvol_raytrace: surfaces of several files with their materials,
     lights and a camera.
 
@@ -272,7 +334,10 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
         A text file that lists the items of the scene.
     folder : str or os.PathLike
         Where its clouds lie; "": beside it.
-    size, view, eye, at, up, fov, zoom, background, supersample
+    turn : float
+        Degrees that the camera goes around the place that it looks at, counter-clockwise
+        as seen from above: the frames of a full turn have those of `np.arange(0, 360, 10)`.
+    size, view, eye, at, up, fov, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
         As those of `Surface.raytrace`, instead of what the scene says; the camera is
         that of the scene unless `view` or `eye` is given.
 
@@ -280,12 +345,17 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     -------
     Picture
     """
-    from . import _io
-    asked = dict(size=size, view=view, eye=eye, background=background, supersample=supersample)
-    given = {name for name, value in asked.items() if value is not None}
-    look = look_of(size or (1024, 1024), view or "iso", eye, at, up, fov, zoom,
+    from . import _charts
+    asked = dict(size=size, view=view, eye=eye, fov=fov, background=background, lights=lights, supersample=supersample)
+    rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
+                occlusion_distance=occlusion_distance)
+    given = {name for name, value in {**asked, **rays}.items() if value is not None}
+    look = look_of(size or (1024, 1024), view or "iso", eye, at, up, 30.0 if fov is None else fov, zoom,
                    "white" if background is None else background, supersample or 0)
+    look["lights"] = _lights(lights)
     with listening(progress) as listener:
-        pixels, report = _io.trace_scene(os.fspath(scene), os.fspath(folder), _parameters.to_json(look), given,
-                                         _parameters.count(threads, "threads"), listener)
+        pixels, report = _charts.trace_scene(
+            os.fspath(scene), os.fspath(folder), _parameters.to_json(look),
+            _parameters.to_json({name: value for name, value in rays.items() if name in given}), given,
+            _parameters.number(turn, "turn"), _parameters.count(threads, "threads"), listener)
     return finish(pixels, "", (0.0, 1.0), report)

@@ -44,6 +44,12 @@ class Points(Bridges):
         return np.array(self._dataset.origin)
 
     @property
+    def box(self):
+        """numpy.ndarray, shape (3,): sides of the box that a file names, which samples
+        may repeat in (`periodic`); 0 for none."""
+        return np.array(self._dataset.box)
+
+    @property
     def points(self):
         """numpy.ndarray, shape (n, 3): the coordinates.
 

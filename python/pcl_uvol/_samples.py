@@ -5,7 +5,7 @@ import reprlib
 
 import numpy as np
 
-from . import _arrays, _parameters, _report
+from . import _arrays, _core, _parameters, _report
 from ._errors import FieldError
 from ._pictures import Drawable
 from ._points import Points, describe_missing
@@ -25,6 +25,13 @@ class Samples(Drawable, Points):
         Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
         values and pandas' missing ones are missing values. Columns of names, as texts or
         categories, are kept as labels.
+
+    Attributes
+    ----------
+    report : dict
+        Of the stage that made them, else empty.
+    snapshots : list of tuple
+        Of a level set that keeps some, else empty.
 
     Examples
     --------
@@ -46,16 +53,20 @@ class Samples(Drawable, Points):
             dataset = _arrays.take_over(np.asarray(points))
             if dataset is None:
                 points, fields = _split(np.asarray(points), ("x", "y", "z"))
-        super().__init__(dataset or _arrays.make_dataset(points, fields))
-        self._derived = {}
+        self._begin(dataset or _arrays.make_dataset(points, fields))
         _report.tell(self._dataset.notes)
 
     @classmethod
     def _of(cls, dataset):
         samples = cls.__new__(cls)
-        Points.__init__(samples, dataset)
-        samples._derived = {}
+        samples._begin(dataset)
         return samples
+
+    def _begin(self, dataset):
+        Points.__init__(self, dataset)
+        self.report = {}
+        self.snapshots = []
+        self._derived = {}
 
     @classmethod
     def from_dataframe(cls, frame, points=("x", "y", "z"), fields=None):
@@ -143,6 +154,31 @@ class Samples(Drawable, Points):
         _report.tell(report["warnings"])
         return Samples._of(dataset)
 
+    def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0):
+        """Samples with what the sampling is like around each, as `uvol_info -out` writes
+        them.
+
+        Parameters
+        ----------
+        scale, rotate
+            As those of `isosurface`; "auto" is "spacing".
+
+        Returns
+        -------
+        Samples
+            With the fields `local_dimension` (isolated, line, sheet, volume) and
+            `spacing_along` and `spacing_across`, lengths, NaN where nothing lies beside.
+
+        Examples
+        --------
+        >>> line = np.stack([np.arange(50.0), np.zeros(50), np.zeros(50)], axis=1)
+        >>> uvol.Samples(line).sampling()["local_dimension"][25]
+        'line'
+        """
+        stretch = _parameters.Stretch(scale, rotate)
+        return Samples._of(_core.with_sampling(self._dataset, stretch.resolve(self._dataset), stretch.rotation,
+                                               _parameters.count(threads, "threads")))
+
     def outer_layer(self, value, field="", threads=0, progress=None):
         """Samples with further ones around them, about a spacing outside, where a field
         is known to have a value: a surface is closed there.
@@ -193,13 +229,33 @@ class Samples(Drawable, Points):
             return self, ""
         if expression not in self._derived:
             with listening(progress) as listener:
-                dataset, name, report = self._dataset.with_field(expression, _parameters.count(threads, "threads"),
+                dataset, name, report = self._dataset.with_field(expression, "", _parameters.count(threads, "threads"),
                                                                  listener)
             samples = self if dataset is self._dataset else Samples._of(dataset)
             self._derived[expression] = (samples, name, report["warnings"])
         samples, name, messages = self._derived[expression]
         _report.tell(messages)
         return samples, name
+
+    def _find_box(self, periodic):
+        """The sides of the box that samples repeat in; 0 for none."""
+        if isinstance(periodic, str):
+            if periodic != "header":
+                raise ValueError(f"periodic is {periodic!r}: it must be three sides, or 'header'.")
+            if not self.box.any():
+                raise ValueError("The file names no box: give its sides, as in periodic=(100, 100, 100).")
+            return self.box.tolist()
+        sides = [0.0, 0.0, 0.0] if periodic is None else _parameters.numbers(periodic, "periodic")
+        if len(sides) != 3:
+            raise ValueError(f"periodic has {len(sides)} sides: there must be three, 0 along an axis for none.")
+        return sides
+
+    def _with_images(self, sides, scale, threads, progress):
+        """What these are in a box that repeats: samples with images beyond its faces."""
+        with listening(progress) as listener:
+            imaged = _core.ImagedSamples(self._dataset, sides, scale, _parameters.count(threads, "threads"), listener)
+        _report.tell(imaged.report["warnings"])
+        return imaged
 
     def __getstate__(self):
         state = super().__getstate__()

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from . import _core, _parameters, _report
+from . import _arrays, _core, _parameters, _report
+from ._pictures import Picture, pixel_sides
 from ._progress import listening
 from ._samples import Samples, as_samples
 
@@ -24,7 +25,7 @@ def _with_report(dataset, report):
 
 
 def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), rotate=None, start=None,
-              outside="lower", snapshots=0, threads=0, progress=None, **parameters):
+              outside="lower", snapshots=0, periodic=None, threads=0, progress=None, **parameters):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -47,6 +48,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         Of the shapes.
     snapshots : int
         Keep the surface every so many steps, as `snapshots` of the result; 0: never.
+    periodic : sequence of 3 floats, or "header", optional
+        As that of `isosurface`; without `rotate`.
     **parameters
         Further ones of the library: scheme, flow, bound, integration, reinitialization,
         k, max_steps, tolerance, band_width.
@@ -67,21 +70,34 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     >>> smooth = uvol.level_set(points, {"r": noisy}, iso=0.3, mu=0.5)
     >>> surface = uvol.isosurface(smooth, field="phi", iso=0.0)
     """
-    samples, name = as_samples(points, fields)._with_field(field, threads, progress)
+    isovalues = _parameters.numbers(iso, "iso")
+    if len(isovalues) != 1:
+        raise ValueError("A level set has one isovalue.")
+    samples = as_samples(points, fields)
+    stretch = _parameters.Stretch(scale, rotate)
+    sides = samples._find_box(periodic)
+    if any(sides) and any(stretch.rotation):
+        raise ValueError("periodic goes without rotate and a scale of nine numbers: the sides of the box lie along x, y "
+                         "and z.")
+    with_field, name = samples._with_field(field, threads, progress)
+    factors = stretch.resolve(with_field._dataset, name)
+    imaged = None
+    if any(sides):
+        imaged = samples._with_images(sides, factors, threads, progress)
+        samples = Samples._of(imaged.samples)
+    samples, name = samples._with_field(field, threads, progress)
     initial = {}
     if isinstance(start, str):
         samples, start_name = samples._with_field(start, threads, progress)
         initial = {"kind": "field", "field": start_name}
     elif start is not None:
         initial = _parameters.mapping(start, "start")
-    isovalues = _parameters.numbers(iso, "iso")
-    if len(isovalues) != 1:
-        raise ValueError("A level set has one isovalue.")
-    stretch = _parameters.Stretch(scale, rotate)
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
-                      scale=stretch.resolve(samples._dataset, name), rotation=stretch.rotation)
+                      scale=factors, rotation=stretch.rotation)
     dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,
-                                  _parameters.count(snapshots, "snapshots"))
+                                  _parameters.count(snapshots, "snapshots"), sides)
+    if imaged is not None:
+        dataset = imaged.drop_images(dataset)
     result = _with_report(dataset, report)
     result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
     return result
@@ -115,7 +131,8 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
     return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 
-def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, threads=0, progress=None):
+def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, gaussians=False, color="auto",
+           threads=0, progress=None):
     """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
 
     Parameters
@@ -127,14 +144,34 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
         box, or with `delta_is_length` a length.
     overlap : float
         The thesis's lambda: part of a splat's radius in which no other one starts.
+    gaussians : bool
+        Give what viewers of 3D Gaussian splats show, lit, once it is saved as ply.
+    color : str
+        Of these: a field, "rgb", "none", or "auto": rgb if there, else isovalue if there
+        are several.
 
     Returns
     -------
     Samples
         The splats, with a `report`.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> surface = uvol.isosurface(points, {"r": np.linalg.norm(points - 0.5, axis=1)}, iso=0.3)
+    >>> uvol.splats(surface, gaussians=True).keys()[:4]
+    ['nx', 'ny', 'nz', 'f_dc_0']
     """
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
-    return _with_report(*_run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress))
+    found, report = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
+    if gaussians:
+        if any(found.origin):
+            message = ("Gaussians have coordinates in float: they start at an origin, "
+                       f"{', '.join(f'{number:.12g}' for number in found.origin)}, which is not in the file.")
+            report["warnings"].append(message)
+            _report.tell([message])
+        found = _core.make_gaussians(found, _parameters.text(color, "color"))
+    return _with_report(found, report)
 
 
 class Clusters:
@@ -148,25 +185,27 @@ class Clusters:
         How surely a sample belongs to its cluster.
     tree : dict of numpy.ndarray
         All clusters at all densities, a row each: parent, birth_density, death_density,
-        size, stability, label.
+        size, stability, label; empty where labels were given.
+    samples : Samples
+        With the fields `label` and `probability`; as they were where labels were given.
     report : dict
     """
 
-    def __init__(self, labels, probabilities, tree, report, samples):
+    def __init__(self, labels, probabilities, tree, samples, report):
         self.labels = labels
         self.probabilities = probabilities
         self.tree = tree
+        self.samples = samples
         self.report = report
-        self._samples = samples
 
     def take(self, cluster):
-        """The samples of a cluster.
+        """The samples of a cluster; -1 of noise.
 
         Returns
         -------
         Samples
         """
-        return self._samples.take(self.labels == cluster)
+        return self.samples.take(self._find_members(cluster))
 
     def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
                 scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
@@ -205,7 +244,7 @@ class Clusters:
         >>> bool(np.median(abs(border.points[:, 0] - 0.5)) < 0.1)
         True
         """
-        dataset = self._samples._dataset
+        dataset = self.samples._dataset
         stretch = _parameters.Stretch(scale, rotate)
         factors = stretch.resolve(dataset)
         count = _parameters.count(threads, "threads")
@@ -224,16 +263,21 @@ class Clusters:
             raise ImportError("This build of pcl_uvol has no component VTK, which makes surfaces at distances and "
                               "hulls.") from error
         how = dict(kind=kind, cells=cells, distance=distance, scale=factors, rotation=stretch.rotation)
-        members = np.flatnonzero(self.labels == cluster)
-        if len(members) == 0:
-            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
-            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+        members = self._find_members(cluster)
         with listening(progress) as listener:
             vertices, triangles, used, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
                                                                      listener)
         report["distance"] = used
         _report.tell(report["warnings"])
         return _with_report(vertices, report), triangles
+
+    def _find_members(self, cluster):
+        """Indices of the samples of a cluster, of which there must be some."""
+        members = np.flatnonzero(self.labels == cluster) if isinstance(cluster, (int, np.integer)) else []
+        if len(members) == 0:
+            known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
+            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+        return members
 
     def __len__(self):
         return int(self.labels.max(initial=-1)) + 1
@@ -242,8 +286,8 @@ class Clusters:
         return f"Clusters: {len(self)} of {len(self.labels)} points, {int((self.labels < 0).sum())} of them noise"
 
 
-def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_size=0, cut=0.0, single=False, threads=0,
-            progress=None):
+def cluster(points, fields=None, *, attributes=(), labels=None, standardized=True, k=10, min_size=0, cut=0.0, single=False,
+            threads=0, progress=None):
     """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
 
     Parameters
@@ -252,6 +296,8 @@ def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_siz
         As those of `Samples`, or samples.
     attributes : sequence of str
         Fields or expressions that span the space; "x", "y" and "z" may be among them.
+    labels : array_like of int, shape (n,), optional
+        Clusters that are known, instead of attributes; negative for noise.
     standardized : bool
         Take attributes in standard deviations, not in their units.
     k : int
@@ -267,11 +313,38 @@ def cluster(points, fields=None, *, attributes, standardized=True, k=10, min_siz
     Returns
     -------
     Clusters
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((200, 3))
+    >>> halves = uvol.cluster(points, labels=(points[:, 0] > 0.5).astype(int))
+    >>> vertices, triangles = halves.surface(1, "hull")
+    >>> bool(vertices.points[:, 0].min() > 0.5)
+    True
     """
-    samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
+    samples = as_samples(points, fields)
+    if labels is not None:
+        if len(attributes):
+            raise ValueError("Clusters are known by labels, or found by attributes: give one of them.")
+        known = _labels(labels, len(samples))
+        return Clusters(known, (known >= 0).astype(np.float32), {}, samples, {"warnings": []})
+    samples, names = _with_attributes(samples, attributes, threads, progress)
     parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
                   "cut_distance": cut, "allow_single_cluster": single}
-    return Clusters(*_run(_core.find_clusters, samples, parameters, threads, progress), samples)
+    found, probabilities, tree, labelled, report = _run(_core.find_clusters, samples, parameters, threads, progress)
+    return Clusters(found, probabilities, tree, Samples._of(labelled), report)
+
+
+def _labels(labels, count):
+    """Numbers of clusters, one for each point."""
+    array = _arrays.as_array(labels, "labels")
+    if array.ndim != 1 or array.dtype.kind not in "iu" and len(array):
+        raise ValueError("labels are whole numbers, one for each point.")
+    if len(array) != count:
+        raise ValueError(f"labels has {len(array)} numbers for {count} points.")
+    if len(array) and array.max() >= 2**31:
+        raise ValueError(f"labels has the number {array.max()}: it must be below 2^31.")
+    return np.maximum(array.astype(np.int64), -1).astype(np.int32)
 
 
 class Projection:
@@ -298,6 +371,36 @@ class Projection:
         self.map = projection
         self.report = report
 
+    def render(self, view="top", size=(640, 512)):
+        """A picture of the points, by cluster, and of the axes of the attributes, as
+        uvol_project draws it.
+
+        Parameters
+        ----------
+        view, size
+            As those of `Surface.render`.
+
+        Returns
+        -------
+        Picture
+
+        Examples
+        --------
+        >>> random = np.random.default_rng(1)
+        >>> samples = uvol.Samples(random.random((300, 3)), {name: random.random(300) for name in "abc"})
+        >>> uvol.project(samples, attributes=["a", "b", "c"], method="pca").render(size=200)
+        Picture of 200 x 200 pixels
+        """
+        from . import _charts
+        rows = np.array(self.map["rows"])
+        axes = [(name, rows[:, place].tolist()) for place, name in enumerate(self.map["names"])]
+        pixels = _charts.draw_scatter(self.places, self.labels, axes, _parameters.text(view, "view"),
+                                      *pixel_sides(size).values())
+        return Picture(pixels, "", (0.0, 1.0), self.report)
+
+    def _repr_png_(self):
+        return self.render()._repr_png_()
+
     def __repr__(self):
         return f"Projection of {len(self.places)} points by {', '.join(self.map['names'])}"
 
@@ -320,18 +423,14 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
     Projection
     """
     samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
-    given = [] if labels is None else np.asarray(labels)
-    if len(given) and (given.ndim != 1 or given.dtype.kind not in "iu"):
-        raise ValueError("labels are whole numbers, one for each point.")
+    given = [] if labels is None else _labels(labels, len(samples))
     parameters = {"attributes": names, "is_standardized": standardized, "method": method}
     return Projection(*_run(_core.project_points, samples, parameters, threads, progress, list(given)))
 
 
 def _with_attributes(samples, attributes, threads, progress):
-    if isinstance(attributes, str):
-        raise TypeError("attributes is a sequence of names, not one of them.")
     names = []
-    for attribute in attributes:
+    for attribute in _parameters.names(attributes, "attributes", "fields or expressions"):
         samples, name = samples._with_field(attribute, threads, progress)
         names.append(name)
     return samples, names
@@ -388,6 +487,14 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
 
 def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
+
+    Parameters
+    ----------
+    points, fields
+        As those of `Samples`, or samples.
+    scale, rotate
+        As those of `isosurface`, of the space that spacings are measured in; "auto" is
+        "spacing".
 
     Returns
     -------

@@ -64,7 +64,7 @@ class Surface(Drawable, Points):
 
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
         """Area, volume, axes, genus and integrals of fields, each with its error: those
-        of `mesh()` with its usual parameters.
+        of `mesh()` with its usual parameters. `pcl_uvol.measure` measures the points.
 
         Parameters
         ----------
@@ -140,11 +140,13 @@ class Mesh(Surface):
         return self.points
 
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
-        """Figures of this mesh: see `Surface.measure`."""
-        return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
+        """Figures of this mesh, `curved` and `find_intersections` as in `Surface.measure`."""
+        return _measures.measure(self, curved=curved, find_intersections=find_intersections, threads=threads,
+                                 progress=progress)
 
     def save(self, path, ascii=False, progress=None):
-        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
+        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name: `path` and
+        `ascii` are as those of `Surface.save`."""
         self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
@@ -210,7 +212,7 @@ class Extractor:
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
             "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
-            "periodic": [0.0, 0.0, 0.0] if periodic is None else _parameters.numbers(periodic, "periodic"),
+            "periodic": self.samples._find_box(periodic),
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 
@@ -292,9 +294,10 @@ def isosurface(points, fields=None, **options):
         or the name of a field.
     mesh : bool or dict
         Make closed triangle meshes; parameters as those of `Surface.mesh`.
-    periodic : sequence of 3 floats, optional
-        Sides of the box that the samples repeat in, 0 along an axis for none: neighbours
-        are seen across its faces, where a mesh is cut.
+    periodic : sequence of 3 floats, or "header", optional
+        Sides of the box that the samples repeat in, 0 along an axis for none, or those
+        that the file names (`Samples.box`): neighbours are seen across its faces, where a
+        mesh is cut.
     threads : int
         0: all cores. The result does not depend on it.
     progress : bool or callable, optional

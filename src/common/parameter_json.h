@@ -4,6 +4,7 @@
 
 #include "common/json_value.h"
 #include "common/printable.h"
+#include "common/similar_words.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/parameters.h>
 
@@ -13,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -77,7 +79,22 @@ toJsonValue(const T& value)
 refuseJson(const std::string& name, const JsonValue& value, const char* expected)
 {
   throw InvalidArgument("The parameter " + name + " is " + shortenText(value.dump()) +
-                        " in JSON: it must be " + expected + ".");
+                        ": it must be " + expected + ".");
+}
+
+/** \throws InvalidArgument that lists the names that there are */
+[[noreturn]] inline void
+refuseName(const std::string& prefix,
+           const std::string& key,
+           const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  const std::string similar = findSimilar(names, key);
+  throw InvalidArgument("There is no parameter " + prefix + shortenText(key) +
+                        (similar.empty() ? "" : " (did you mean '" + similar + "'?)") +
+                        ": there are " + list + ".");
 }
 
 template <typename T>
@@ -93,17 +110,16 @@ readMembers(const std::string& path, const JsonValue& json, Parameters& paramete
   const std::string prefix = path.empty() ? "" : path + ".";
   json.forEach([&](const std::string& key, const JsonValue& value) {
     bool found = false;
-    std::string names;
+    std::vector<std::string> names;
     forEachMember<Parameters>([&](const char* name, auto pointer) {
-      names += (names.empty() ? "" : ", ") + std::string(name);
+      names.emplace_back(name);
       if (key != name)
         return;
       found = true;
       fromJsonValue(prefix + name, value, parameters.*pointer);
     });
     if (!found)
-      throw InvalidArgument("There is no parameter " + prefix + shortenText(key) +
-                            " in JSON: there are " + names + ".");
+      refuseName(prefix, key, names);
   });
 }
 

@@ -124,12 +124,12 @@ refusal(const std::string& text)
 
 TEST(Parameters, NameWhatIsWrongInJson)
 {
-  EXPECT_EQ("The parameter isosurface.outside is \"left\" in JSON: it must be one of "
+  EXPECT_EQ("The parameter isosurface.outside is \"left\": it must be one of "
             "lower, higher.",
             refusal(R"({"isosurface": {"outside": "left"}})"));
-  EXPECT_EQ("The parameter isosurface.scale is [1,2] in JSON: it must be a list of 3.",
+  EXPECT_EQ("The parameter isosurface.scale is [1,2]: it must be a list of 3.",
             refusal(R"({"isosurface": {"scale": [1, 2]}})"));
-  EXPECT_EQ("The parameter normal_neighbors is -3 in JSON: it must be a whole number "
+  EXPECT_EQ("The parameter normal_neighbors is -3: it must be a whole number "
             "from 0.",
             refusal(R"({"normal_neighbors": -3})"));
   try {
@@ -137,16 +137,15 @@ TEST(Parameters, NameWhatIsWrongInJson)
     ADD_FAILURE() << "no int";
   }
   catch (const InvalidArgument& error) {
-    EXPECT_EQ("The parameter cluster is 2147483648 in JSON: it must be a whole number.",
+    EXPECT_EQ("The parameter cluster is 2147483648: it must be a whole number.",
               error.message());
   }
   EXPECT_EQ(-1, pcl_uvol::MembershipParameters::fromJson(R"({"cluster": -1})").cluster);
-  EXPECT_EQ("The parameter smooth is 1 in JSON: it must be true or false.",
+  EXPECT_EQ("The parameter smooth is 1: it must be true or false.",
             refusal(R"({"smooth": 1})"));
-  EXPECT_EQ(
-      "The parameter isosurface.voronoi_cells is 4294967296 in JSON: it must be a "
-      "whole number from 0.",
-      refusal(R"({"isosurface": {"voronoi_cells": 4294967296}})"));
+  EXPECT_EQ("The parameter isosurface.voronoi_cells is 4294967296: it must be a "
+            "whole number from 0.",
+            refusal(R"({"isosurface": {"voronoi_cells": 4294967296}})"));
   EXPECT_NE(refusal(R"({"isosurfaces": {}})").find("there are isosurface, "),
             std::string::npos);
 }

@@ -61,6 +61,30 @@ def test_the_tool_has_the_same_slices(tmp_path, run_tool, linear):
     assert np.allclose(lattice.points.reshape(-1, 3), tool.points, atol=1e-3)
 
 
+@pytest.mark.parametrize("model", ["fit", "kriging", "auto"])
+def test_fields_in_boxes_that_repeat_are_those_of_the_tool(tmp_path, run_tool, model):
+    points = np.random.default_rng(3).random((3000, 3)) + [7, 0, 0]
+    uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)}).save(tmp_path / "in.ply")
+    queries = uvol.Samples(np.random.default_rng(4).uniform(5, 9, (40, 3)))
+    queries.save(tmp_path / "queries.ply")
+    options = ["-field", "f,|grad(f)|", "-model", model, "-periodic", "1,0,1"]
+    run_tool("uvol_probe", "in.ply", "tool.ply", "-points", "queries.ply", "-gradients", *options)
+    run_tool("uvol_probe", "in.ply", "grid.ply", "-grid", "5", *options)
+    told = json.loads(run_tool("uvol_probe", "in.ply", "-validate", "3", "-json", *options))["validation"]
+    interpolator = uvol.Interpolator(uvol.read(tmp_path / "in.ply"), field=["f", "|grad(f)|"], model=model,
+                                     periodic=(1, 0, 1))
+    interpolator.probe(uvol.read(tmp_path / "queries.ply")).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    grid, tool = interpolator.grid(5), uvol.read(tmp_path / "grid.ply")
+    assert np.allclose(grid.points.reshape(-1, 3), tool.points, atol=1e-6)
+    for name in ("f", "|grad(f)|"):
+        assert np.array_equal(grid[name].ravel().astype(tool[name].dtype), tool[name], equal_nan=True)
+    assert told["f"]["rms"] == interpolator.validate(3)["f"]["rms"]
+    assert len(interpolator.samples) == 3000 and "3000 points" in repr(interpolator)
+    again = pickle.loads(pickle.dumps(interpolator))
+    assert np.array_equal(again([[7.01, 0.5, 0.5], [8.01, 0.5, 0.5]])[0][:, 0], again([[9.01, 0.5, 0.5]] * 2)[0][:, 0])
+
+
 def read_pixels(path):
     import matplotlib.image
     return np.round(matplotlib.image.imread(path) * 255).astype(np.uint8)
@@ -68,6 +92,7 @@ def read_pixels(path):
 
 @pytest.mark.parametrize("plane, options, asked", [
     ("z=0.5", [], {}),
+    ("x=500000.5", ["-samples", "0.05"], {"samples": 0.05}),
     ("500000.5,4000000.5,0.5,1,2,3", ["-contours", "0.5,1", "-unit", "km", "-colormap", "cividis", "-range", "0,2", "-label", "height"],
      {"contours": [0.5, 1], "unit": "km", "colormap": "cividis", "range": (0, 2), "label": "height"}),
 ])
@@ -240,4 +265,20 @@ def test_mistakes_get_a_sentence(linear, options, message):
 ])
 def test_queries_that_are_none_get_a_sentence(linear, call, message):
     with pytest.raises(ValueError, match=message):
+        call(uvol.Interpolator(linear, field="f"))
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda i: i.slice("z=0.5", (1, 2, 3)), "size has 3 numbers"),
+    (lambda i: i.slice("z=0.5", box=3), "box is a pair"),
+    (lambda i: i.slice("z=0.5", 8).render(range=3), "the lower one first"),
+    (lambda i: i.slice("z=0.5", 8).render(range=(2, 1)), "the lower one first"),
+    (lambda i: i.slice("z=0.5", 8).render(range=(0, 1), log=True), "above 0"),
+    (lambda i: i.slice("z=0.5", 8).render(samples=-1), "distance from 0"),
+    (lambda i: i.slice("z=0.5", 8).render(contours="a"), "contours is 'a'"),
+    (lambda i: i.slice("z=0.5", 8).render("g"), "no field 'g'"),
+    (lambda i: i.line([0, 0], [1, 1, 1]), "start has 2 numbers"),
+])
+def test_places_that_are_none_get_a_sentence(linear, call, message):
+    with pytest.raises((ValueError, KeyError), match=message):
         call(uvol.Interpolator(linear, field="f"))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Isosurfaces from Python: the tool's own, byte for byte; errors, warnings, progress, threads."""
 
+import json
 import pickle
 import signal
 import threading
@@ -145,7 +146,7 @@ def test_warnings_name_the_line_of_the_caller(ball):
     (dict(field="vel", iso=1), ValueError, "components"),
     (dict(field=5, iso=1), TypeError, "field is 5"),
     (dict(field="r"), TypeError, "iso"),
-    (dict(field="r", iso=[]), ValueError, "isovalue"),
+    (dict(field="r", iso=[]), ValueError, r"iso is \[\]: it must be"),
     (dict(field="r", iso=np.nan), ValueError, "iso is nan"),
     (dict(field="r", iso="0.3"), ValueError, "iso is '0.3'"),
     (dict(field="r", iso=1, izo=2), TypeError, "izo"),
@@ -255,6 +256,85 @@ def test_flat_figures_are_those_of_the_triangles(sphere):
     corners = mesh.vertices[mesh.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert np.isclose(flat.area.value, np.linalg.norm(normals, axis=1).sum() / 2, rtol=1e-5)
+
+
+@pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
+def test_surfaces_of_files_are_measured_as_the_tool_does(tmp_path, run_tool, sphere, ending):
+    mesh = sphere.mesh()
+    mesh.save(tmp_path / f"mesh.{ending}")
+    sphere._samples.save(tmp_path / "samples.ply")
+    told = json.loads(run_tool("uvol_measure", f"mesh.{ending}", "-json", "-samples", "samples.ply"))["surfaces"]
+    samples = uvol.read(tmp_path / "samples.ply")
+    figures = uvol.measure(uvol.read_mesh(tmp_path / f"mesh.{ending}"), samples=samples)
+    assert figures.area.value == told["area"] and figures.volume.error == told["volume_error"]
+    assert figures.samples == told["samples"] and figures.samples > 100
+    assert mesh.measure().isovalue == 0.3
+
+
+def test_points_are_measured_as_the_tool_does(tmp_path, run_tool, sphere):
+    sphere.save(tmp_path / "points.ply")
+    told = json.loads(run_tool("uvol_measure", "points.ply", "-json"))["surfaces"]
+    figures = uvol.measure(uvol.read(tmp_path / "points.ply"))
+    assert figures.area.value == told["area"] and figures.genus is None
+    with pytest.raises(ValueError, match="normals"):
+        uvol.measure(uvol.Samples(sphere.points))
+
+
+def test_surfaces_are_compared_as_the_tool_does(tmp_path, run_tool, ball):
+    points, fields = ball
+    for name, iso in (("a", 0.3), ("b", 0.31)):
+        uvol.isosurface(points, fields, field="r", iso=iso, outside="higher", mesh=True).save(tmp_path / f"{name}.ply")
+    told = json.loads(run_tool("uvol_compare", "a.ply", "b.ply", "tool.ply", "-json"))
+    a, b = (uvol.read_mesh(tmp_path / f"{name}.ply") for name in "ab")
+    found = uvol.compare(a, b)
+    for way, distances in (("a_to_b", found.forth), ("b_to_a", found.back)):
+        assert told[way]["mean"] == distances.mean and told[way]["percentile_99_9"] == distances.percentile_99_9
+        assert told["fields_" + way]["r"] == {"mean": distances.fields["r"].mean, "largest": distances.fields["r"].largest}
+    assert told["largest_distance"] == found.largest and "largest 0.0" in repr(found)
+    uvol.write(tmp_path / "module.ply", found.surface, triangles=a[1])
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    with pytest.warns(uvol.ResultWarning, match="b has no triangles"):
+        assert np.isclose(uvol.compare(a, a[0]).back.largest, 0, atol=1e-6)
+
+
+@pytest.mark.parametrize("triangles, message", [
+    ([[0, 1]], r"shape \(1, 2\)"),
+    ([[0, 1, 3]], "indices 0 to 3: there are 3 vertices"),
+    ([[-1, 0, 1]], "indices -1 to 1"),
+    ([[0.0, 1.0, 2.0]], "whole numbers"),
+    ([["a", "b", "c"]], "must hold numbers"),
+])
+def test_triangles_that_are_none_get_a_sentence(tmp_path, triangles, message):
+    for call in (lambda: uvol.measure((np.eye(3), triangles)), lambda: uvol.compare((np.eye(3), triangles), np.eye(3)),
+                 lambda: uvol.write(tmp_path / "a.ply", np.eye(3), triangles=triangles)):
+        with pytest.raises(ValueError, match=message):
+            call()
+    assert not (tmp_path / "a.ply").exists()
+
+
+def test_a_file_names_the_box_that_it_repeats_in(tmp_path, ball):
+    h5py = pytest.importorskip("h5py")
+    points, fields = ball
+    with h5py.File(tmp_path / "snap.hdf5", "w") as file:
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [len(points), 0, 0, 0, 0, 0]
+        file["Header"].attrs["BoxSize"] = 1.0
+        group = file.create_group("PartType0")
+        group["Coordinates"] = points
+        group["Density"] = np.sin(2 * np.pi * points).sum(axis=1)
+    samples = uvol.read(tmp_path / "snap.hdf5")
+    assert samples.box.tolist() == [1, 1, 1] and not uvol.Samples(*ball).box.any()
+    named = uvol.isosurface(samples, field="Density", iso=0, periodic="header")
+    given = uvol.isosurface(samples, field="Density", iso=0, periodic=(1, 1, 1))
+    assert named.records.tobytes() == given.records.tobytes()
+    for periodic, message in (("header", "names no box"), ("box", "or 'header'"), ((1, 1), "2 sides")):
+        with pytest.raises(ValueError, match=message):
+            uvol.isosurface(*ball, field="r", iso=0.3, periodic=periodic)
+
+
+def test_nothing_is_not_measured():
+    for call in (lambda: uvol.measure(np.empty((0, 3))), lambda: uvol.compare(np.eye(3), np.empty((0, 3)))):
+        with pytest.raises(ValueError, match="has no points"):
+            call()
 
 
 def test_other_threads_run_meanwhile():

@@ -50,6 +50,26 @@ def test_everything_public_is_documented():
                 assert inspect.getdoc(value), f"{name}.{member}"
 
 
+def list_functions():
+    """Public functions and methods, with their names."""
+    for name in uvol.__all__:
+        thing = getattr(uvol, name)
+        if inspect.isfunction(thing):
+            yield name, thing
+        for member, value in inspect.getmembers(thing, inspect.isfunction) if inspect.isclass(thing) else []:
+            if not member.startswith("_"):
+                yield f"{name}.{member}", value
+
+
+def test_every_parameter_is_documented():
+    elsewhere = {"extract": uvol.isosurface, "raytrace": uvol.Surface.render}  # "see" and "the others are those of"
+    usual = {"self", "points", "fields", "threads", "progress"}
+    for name, function in list_functions():
+        text = inspect.getdoc(function) + (inspect.getdoc(elsewhere.get(function.__name__)) or "")
+        for parameter in set(inspect.signature(function).parameters) - usual:
+            assert re.search(rf"\b{parameter}\b", text), f"{name} says nothing of {parameter}"
+
+
 def test_types_of_the_stub_have_the_names_of_the_code():
     stub = ast.parse((FOLDER / "__init__.pyi").read_text())
     classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
@@ -140,6 +160,13 @@ def test_random_arrays_never_crash(tmp_path):
         lambda p, f: uvol.Samples(p, f).density(threads=1).outer_layer(0.0, "a", threads=1),
         lambda p, f: uvol.Samples(p, f).where("a > b").take([0]).save(tmp_path / "a.pcd"),
         lambda p, f: uvol.Samples(p, f).render(color="a", size=32, eye=random.choice(places, 3), at=array((3,)), threads=1),
+        lambda p, f: uvol.Samples(p, f).sampling(threads=1),
+        lambda p, f: uvol.measure(uvol.normals(p, f, k=3, threads=1), threads=1),
+        lambda p, f: uvol.compare(uvol.Samples(p, f), (array((3, 3)), random.integers(-1, 4, (2, 3))), threads=1),
+        lambda p, f: uvol.splats(p, f, gaussians=True, color="a", threads=1),
+        lambda p, f: uvol.Interpolator(p, f, field="a", periodic=array((3,)), threads=1)(array((5, 3))),
+        lambda p, f: uvol.cluster(p, f, labels=array((len(p),)), threads=1).surface(0, threads=1),
+        lambda p, f: list(uvol.Samples(p, f).orbit(2, size=24, ticks=True, box=True, triad=True, threads=1)),
         lambda p, f: uvol.Samples(p, f).raytrace(color="|b|", size=16, lights=array((2, 3)), threads=1),
     ]
     calls = 0

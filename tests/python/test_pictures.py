@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: those of the tools, pixel for pixel."""
 
+import concurrent.futures
 import struct
 
 import numpy as np
@@ -48,6 +49,73 @@ def test_uvol_render_draws_the_same(tmp_path, run_tool, sphere, options, argumen
 
 
 @pytest.mark.parametrize("options, arguments", [
+    (dict(ticks=True, unit="km", title="A sphere", triad=True), ["-ticks", "-unit", "km", "-title", "A sphere", "-triad"]),
+    (dict(box=True, scale_bar=True, views=["iso", "top", "left"], background="gradient", color="r"),
+     ["-box", "-scale-bar", "-views", "iso,top,left", "-background", "gradient", "-color", "r"]),
+    (dict(title="T", exaggerate=[1, 1, 3], ticks=True, background="transparent", bar=False, color="r"),
+     ["-title", "T", "-exaggerate", "1,1,3", "-ticks", "-background", "transparent", "-no-bar", "-color", "r"]),
+])
+@pytest.mark.parametrize("tool", ["uvol_render", "uvol_raytrace"])
+def test_figures_are_those_of_the_tools(tmp_path, run_tool, sphere, tool, options, arguments):
+    sphere.save(tmp_path / "in.ply")
+    run_tool(tool, "in.ply", "tool.png", "-size", "300x200", *arguments)
+    surface = uvol.read(tmp_path / "in.ply")
+    draw = surface.render if tool == "uvol_render" else surface.raytrace
+    draw(size=(300, 200), **options).save(tmp_path / "module.png")
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+
+
+def test_light_goes_through_isosurfaces(tmp_path, run_tool, ball):
+    uvol.isosurface(*ball, field="r", iso=[0.2, 0.3, 0.4], outside="higher").save(tmp_path / "in.ply")
+    run_tool("uvol_render", "in.ply", "tool.png", "-size", "200x150", "-backend", "cpu", "-opacity", "1,0.5,0.2")
+    surface = uvol.read(tmp_path / "in.ply")
+    surface.render(size=(200, 150), opacity=[1, 0.5, 0.2]).save(tmp_path / "module.png")
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+    with pytest.raises(ValueError, match="2 opacities"):
+        surface.render(size=100, opacity=[0.1, 0.2])
+
+
+@pytest.mark.parametrize("raytraced, options, arguments", [
+    (False, dict(color="r", zoom=1.2), ["-color", "r", "-zoom", "1.2"]),
+    (False, dict(eye=[3, 2, 1], up=[0, 1, 0], views=[]), ["-eye", "3,2,1", "-up", "0,1,0"]),
+    (True, dict(view="front", triad=True), ["-view", "front", "-triad"]),
+])
+def test_orbits_are_those_of_the_tools(tmp_path, run_tool, sphere, raytraced, options, arguments):
+    sphere.save(tmp_path / "in.ply")
+    run_tool("uvol_raytrace" if raytraced else "uvol_render", "in.ply", "tool.png", "-size", "120x90", "-orbit", "3",
+             *arguments)
+    frames = uvol.read(tmp_path / "in.ply").orbit(3, raytraced=raytraced, size=(120, 90), **options)
+    for number, picture in enumerate(frames):
+        picture.save(tmp_path / "module.png")
+        assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"tool_{number}.png")
+    assert number == 2
+
+
+def test_names_are_coloured_as_the_tools_do(tmp_path, run_tool, sphere):
+    for count in (12, 30):
+        names = [f"n{number % count}" for number in range(len(sphere))]
+        fields = {name: sphere[name] for name in ("normal_x", "normal_y", "normal_z")}
+        uvol.Samples(sphere.points, {**fields, "hole": names}).save(tmp_path / "in.ply")
+        run_tool("uvol_render", "in.ply", "tool.png", "-size", "300x200", "-color", "hole", "-backend", "cpu")
+        samples = uvol.read(tmp_path / "in.ply")
+        if count > 20:
+            with pytest.warns(uvol.ResultWarning, match="no legend"):
+                picture = samples.render(size=(300, 200), color="hole")
+        else:
+            picture = samples.render(size=(300, 200), color="hole")
+        picture.save(tmp_path / "module.png")
+        assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+
+
+def test_letters_are_drawn_on_many_threads(sphere):
+    options = dict(size=(300, 200), ticks=True, color="r", title="T", threads=1)
+    expected = sphere.render(**options).pixels
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        pictures = list(pool.map(lambda _: sphere.render(**options).pixels, range(12)))
+    assert all(np.array_equal(picture, expected) for picture in pictures)
+
+
+@pytest.mark.parametrize("options, arguments", [
     ({}, []),
     (dict(color="r*2", colormap="magma", range=(0.2, 0.9), view="top", background="black", exaggerate=[1, 1, 2]),
      ["-color", "r*2", "-colormap", "magma", "-range", "0.2,0.9", "-view", "top", "-background", "black", "-exaggerate", "1,1,2"]),
@@ -86,10 +154,33 @@ def test_uvol_raytrace_draws_the_same_scene(tmp_path, run_tool, sphere):
     for name, options, arguments in (
             ("file", {}, []),
             ("own", dict(size=(80, 60), view="top", background="white", supersample=2, zoom=1.5),
-             ["-size", "80x60", "-view", "top", "-background", "white", "-supersample", "2", "-zoom", "1.5"])):
+             ["-size", "80x60", "-view", "top", "-background", "white", "-supersample", "2", "-zoom", "1.5"]),
+            ("rays", dict(zoom=2, fov=40, up=[0, 1, 0], depth=0, shadows=False, occlusion=4, occlusion_distance=0.5,
+                          light_samples=2, lights=[[1, 0, 1]]),
+             ["-zoom", "2", "-fov", "40", "-up", "0,1,0", "-depth", "0", "-no-shadows", "-occlusion", "4",
+              "-occlusion-distance", "0.5", "-light-samples", "2", "-lights", "1,0,1"])):
         run_tool("uvol_raytrace", "test.scene", f"{name}.png", *arguments)
         uvol.raytrace(tmp_path / "test.scene", **options).save(tmp_path / "module.png")
         assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"{name}.png"), name
+    run_tool("uvol_raytrace", "test.scene", "turned.png", "-orbit", "3")
+    for frame in range(3):
+        uvol.raytrace(tmp_path / "test.scene", turn=120 * frame).save(tmp_path / "module.png")
+        assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / f"turned_{frame}.png")
+
+
+@pytest.mark.parametrize("view", ["top", "iso"])
+def test_uvol_project_draws_the_same(tmp_path, run_tool, ball, view):
+    points, fields = ball
+    uvol.Samples(points, {**fields, "label": (points[:, 0] > 0.5).astype(np.int32)}).save(tmp_path / "in.ply")
+    run_tool("uvol_project", "in.ply", "out.ply", "-attributes", "r,vel[0],vel[1],|vel|", "-png", "tool.png", "-view", view)
+    samples = uvol.read(tmp_path / "in.ply")
+    found = uvol.project(samples, attributes=["r", "vel[0]", "vel[1]", "|vel|"], labels=samples["label"])
+    found.render(view).save(tmp_path / "module.png")
+    assert pixels_of(tmp_path / "module.png") == pixels_of(tmp_path / "tool.png")
+    assert found._repr_png_()[:4] == b"\x89PNG"
+    for options, message in ((dict(view="up"), "no view 'up'"), (dict(size=0), "size|16384"), (dict(view=3), "must be a text")):
+        with pytest.raises((ValueError, TypeError), match=message):
+            found.render(**options)
 
 
 def test_a_field_of_vectors_is_coloured_by_their_lengths(sphere):
@@ -118,9 +209,9 @@ def test_a_picture_is_an_array(sphere):
     (dict(color="q"), "no field"),
     (dict(color=3), "color is 3"),
     (dict(colormap="jet"), "jet"),
-    (dict(size=0), "1 x 1"),
+    (dict(size=0), "from 1 x 1 .* not 0 x 0"),
     (dict(size=(1, 2, 3)), "size is"),
-    (dict(size=10**6), "width lies between"),
+    (dict(size=10**6), "pixels before averaging"),
     (dict(view="below"), "below"),
     (dict(up=[0, 0, 0]), "none"),
     (dict(range=(2, 1)), "lower one first"),
@@ -135,6 +226,21 @@ def test_a_picture_is_an_array(sphere):
     (dict(lights=[1, 2]), "list of 3"),
     (dict(material={"gloss": 1}), "gloss"),
     (dict(passes={"fills": 1}), "fills"),
+    (dict(color="|grad(r)|"), "Samples.compute adds them"),
+    (dict(at=[0, 0, 0]), "give eye"),
+    (dict(opacity=2), "Opacities are numbers from 0 to 1"),
+    (dict(opacity="half"), "opacity is 'half'"),
+    (dict(unit="km"), "ticks or of scale_bar"),
+    (dict(title=None), "title is None: it must be a text"),
+    (dict(views=3), "sequence of sides"),
+    (dict(opacity=[]), r"opacity is \[\]"),
+    (dict(supersample=-1), "supersample is -1"),
+    (dict(passes={"smothing": "box"}), "did you mean 'smoothing'"),
+    (dict(views="iso"), "sequence of sides"),
+    (dict(views=["iso", "below"]), "below"),
+    (dict(views=["iso", "top"], eye=[1, 2, 3]), "where the camera is"),
+    (dict(size=20, views=["iso", "top"]), "too small"),
+    (dict(scale_bar=True, exaggerate=[1, 1, 2]), "one scale"),
 ])
 def test_mistakes_get_a_sentence(sphere, options, message):
     with pytest.raises((ValueError, KeyError, TypeError), match=message):

@@ -231,6 +231,12 @@ def test_meshes_come_back_with_their_fields(tmp_path):
     assert uvol.read_mesh(tmp_path / "points.ply")[1].shape == (0, 3)
 
 
+def test_samples_that_no_stage_made_have_no_report():
+    samples = uvol.Samples(POINTS)
+    assert samples.report == {} and samples.snapshots == []
+    assert uvol.normals(np.random.default_rng(1).random((50, 3))).report["counts"]
+
+
 def test_a_missing_field_gets_a_proposal():
     samples = uvol.Samples(POINTS, {"density": [1, 2, 3]})
     with pytest.raises(KeyError) as caught:
@@ -238,6 +244,12 @@ def test_a_missing_field_gets_a_proposal():
     assert "did you mean 'density'" in str(caught.value)
     with pytest.raises(uvol.FieldError, match="did you mean 'density'"):
         samples.compute("log10(desnity)")
+
+
+def test_columns_that_are_none_get_a_sentence(tmp_path):
+    for xyz in ("abc", 3):
+        with pytest.raises(TypeError, match="sequence of three columns"):
+            uvol.read(tmp_path / "a.csv", xyz=xyz)
 
 
 def test_a_missing_file_is_an_oserror(tmp_path):

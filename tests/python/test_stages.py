@@ -30,6 +30,23 @@ def test_level_sets(tmp_path, run_tool, ball, arguments, options):
             lambda samples: uvol.level_set(samples, field="r", iso=0.3, **options))
 
 
+@pytest.mark.parametrize("arguments, options", [
+    (["-periodic", "1,1,1"], dict(periodic=(1, 1, 1))),
+    (["-periodic", "1,0,1", "-scale", "auto"], dict(periodic=(1, 0, 1), scale="auto")),
+])
+def test_level_sets_in_boxes_that_repeat(tmp_path, run_tool, arguments, options):
+    points = np.random.default_rng(3).random((4000, 3))
+    samples = uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)})
+    compare(tmp_path, run_tool, "uvol_levelset", samples,
+            ["-field", "f+0", "-iso", "0", "-mu", "0.5", "-steps", "10", "-snapshots", "5", *arguments],
+            lambda samples: uvol.level_set(samples, field="f+0", iso=0, mu=0.5, max_steps=10, snapshots=5, **options))
+    smooth = uvol.level_set(uvol.read(tmp_path / "in.ply"), field="f+0", iso=0, mu=0.5, max_steps=10, snapshots=5, **options)
+    smooth.snapshots[0][1].save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool_00005.ply").read_bytes()
+    with pytest.raises(ValueError, match="periodic goes without rotate"):
+        uvol.level_set(samples, field="f", iso=0, rotate=(1, 2, 3), **options)
+
+
 def test_a_level_set_tells_of_its_steps(ball):
     smooth = uvol.level_set(*ball, field="r", iso=0.3, mu=0.5)
     assert smooth.report["mu"] == 0.5 and len(smooth.report["steps"]) > 0
@@ -75,6 +92,18 @@ def test_splats(tmp_path, run_tool, sphere):
     assert len(uvol.splats(sphere, delta=0.01, delta_is_length=True)) < len(sphere)
 
 
+@pytest.mark.parametrize("arguments, options", [([], {}), (["-color", "r"], dict(color="r"))])
+def test_splats_as_gaussians(tmp_path, run_tool, ball, arguments, options):
+    surface = uvol.isosurface(*ball, field="r", iso=[0.2, 0.3], outside="higher")
+    compare(tmp_path, run_tool, "uvol_splats", surface, ["-gaussians", *arguments],
+            lambda samples: uvol.splats(samples, gaussians=True, **options))
+    far = uvol.Samples(surface.points + [5e5, 0, 0], {name: surface[name] for name in surface.keys()})
+    with pytest.warns(uvol.ResultWarning, match="start at an origin, 5"):
+        uvol.splats(far, gaussians=True)
+    with pytest.raises(KeyError, match="no field 'q'"):
+        uvol.splats(surface, gaussians=True, color="q")
+
+
 @pytest.fixture
 def groups():
     """Two groups in three attributes."""
@@ -96,6 +125,27 @@ def test_clusters(tmp_path, run_tool, groups):
     clusters = uvol.cluster(uvol.read(tmp_path / "in.csv"), attributes=["a", "b"])
     assert np.array_equal(tool["label"], clusters.labels)
     assert np.array_equal(tool["probability"].astype(np.float32), clusters.probabilities)
+    clusters.samples.save(tmp_path / "module.csv")
+    assert (tmp_path / "module.csv").read_bytes() == (tmp_path / "tool.csv").read_bytes()
+
+
+def test_clusters_that_are_known_have_surfaces(tmp_path, run_tool, groups):
+    halves = uvol.Samples(groups.points, {"a": groups["a"], "half": (groups.points[:, 0] > 0.5).astype(np.int32)})
+    halves.save(tmp_path / "in.ply")
+    for kind in ("membership", "hull"):
+        run_tool("uvol_cluster", "in.ply", "tool.ply", "-label", "half", "-cluster", "1", "-surface", kind)
+        found = uvol.cluster(uvol.read(tmp_path / "in.ply"), labels=halves["half"]).surface(1, kind)
+        surface, triangles = found if kind == "hull" else (found, None)
+        uvol.write(tmp_path / "module.ply", surface, triangles=triangles)
+        assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    assert len(uvol.cluster(halves, labels=halves["half"])) == 2
+
+
+def test_samples_tell_what_the_sampling_is_like(tmp_path, run_tool, ball):
+    uvol.Samples(*ball).save(tmp_path / "in.ply")
+    run_tool("uvol_info", "in.ply", "-out", "tool.ply", "-scale", "1,2,1")
+    uvol.read(tmp_path / "in.ply").sampling(scale=(1, 2, 1)).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
 
 
 @pytest.mark.parametrize("kind, options, arguments", [
@@ -116,6 +166,8 @@ def test_surfaces_of_clusters(tmp_path, run_tool, groups, kind, options, argumen
     surface, triangles = found if kind != "membership" else (found, np.empty((0, 3)))
     points, tool_triangles = uvol.read_mesh(tmp_path / "tool.ply")
     assert np.array_equal(points.points, surface.points) and np.array_equal(tool_triangles, triangles)
+    uvol.write(tmp_path / "module.ply", surface, triangles=triangles if kind != "membership" else None)
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
     assert len(surface) > 10 and len(clusters.take(1)) == (clusters.labels == 1).sum()
     with pytest.raises(ValueError, match="cluster"):
         clusters.surface(7, kind)
@@ -166,9 +218,18 @@ def test_info(ball):
     (lambda b: uvol.level_set(*b, field="r", iso=9.0), ValueError, ""),
     (lambda b: uvol.normals(*b, k=0), ValueError, "neighbours|2"),
     (lambda b: uvol.splats(*b, delta=-1), ValueError, "delta|greater|distance"),
+    (lambda b: uvol.level_set(*b, field="r", iso=0.3, max_step=2), ValueError, "did you mean 'max_steps'"),
     (lambda b: uvol.cluster(*b, attributes="r"), TypeError, "sequence"),
+    (lambda b: uvol.cluster(*b, attributes=3), TypeError, "sequence"),
+    (lambda b: uvol.cluster(*b, attributes=[3]), TypeError, "must be a text"),
+    (lambda b: uvol.cluster(*b, labels=b[1]["id"]).take(5000), ValueError, "numbered from 0 to 3999"),
+    (lambda b: uvol.cluster(*b, labels=b[1]["id"]).surface("a", "hull"), ValueError, "no cluster 'a'"),
     (lambda b: uvol.cluster(*b, attributes=["q"]), KeyError, "no field"),
     (lambda b: uvol.cluster(*b, attributes=[]), ValueError, "attribute"),
+    (lambda b: uvol.cluster(*b, attributes=["r"], labels=b[1]["id"]), ValueError, "give one of them"),
+    (lambda b: uvol.cluster(*b, labels=[1, 2]), ValueError, "2 numbers for 4000 points"),
+    (lambda b: uvol.cluster(*b, labels=b[1]["r"]), ValueError, "whole numbers"),
+    (lambda b: uvol.cluster(*b, labels=np.full(4000, 2**40)), ValueError, "below 2\\^31"),
     (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[0.5]), ValueError, "whole numbers"),
     (lambda b: uvol.project(*b, attributes=["r", "id"], labels=[1, 2]), ValueError, "labels"),
     (lambda b: uvol.voronoi(*b, cells=0), ValueError, "cells"),

@@ -188,6 +188,42 @@ listNamedCategories(const pcl_uvol::CloudView& cloud,
   return categories;
 }
 
+pcl_uvol::ColorMapping
+mapUsually(const pcl_uvol::CloudView& cloud,
+           const pcl_uvol::LabelNames& labels,
+           const std::string& field)
+{
+  pcl_uvol::ColorMapping mapping = pcl_uvol::usualColorMapping(cloud, field);
+  if (pcl_uvol::findLabels(cloud.fields, labels, field))
+    mapping.map = ColorMap("tab10");
+  return mapping;
+}
+
+bool
+hasLegend(const pcl_uvol::CloudView& cloud,
+          const pcl_uvol::LabelNames& labels,
+          const std::string& field)
+{
+  if (field.empty() || field == "rgb" || field == "rgba")
+    return false;
+  return !pcl_uvol::findLabels(cloud.fields, labels, field) ||
+         !pcl_uvol::listCategories(cloud, field, most_categories).empty();
+}
+
+void
+warnOfNames(const pcl_uvol::CloudView& cloud,
+            const pcl_uvol::LabelNames& labels,
+            const std::string& field,
+            pcl_uvol::Report& report)
+{
+  if (pcl_uvol::findLabels(cloud.fields, labels, field) &&
+      !hasLegend(cloud, labels, field))
+    report.warnings.push_back("The points have more than " +
+                              std::to_string(most_categories) + " names in " +
+                              pcl_uvol::quoteText(field) +
+                              ": their colours repeat, and the picture has no legend.");
+}
+
 std::string
 describeCategory(const pcl_uvol::CategoryColor& category)
 {
@@ -231,6 +267,22 @@ drawCategories(Image& image,
               legend.ink);
   }
   legend.write(image, title, top - legend.size * 3 / 2);
+}
+
+void
+drawLegend(Image& image,
+           const pcl_uvol::CloudView& cloud,
+           const pcl_uvol::LabelNames& labels,
+           const std::string& field,
+           const pcl_uvol::ColorMapping& mapping,
+           const std::array<double, 2>& range)
+{
+  const auto categories = listNamedCategories(cloud, labels, field, mapping.map);
+  if (categories.empty())
+    drawColorBar(
+        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
+  else
+    drawCategories(image, categories, field);
 }
 
 } // namespace uvol_tools

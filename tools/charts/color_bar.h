@@ -7,9 +7,11 @@
 #include "render/color_scale.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/report.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/image.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,27 @@ listNamedCategories(const pcl_uvol::CloudView& cloud,
                     const std::string& field,
                     const pcl_uvol::ColorMap& map);
 
+/** \brief How a field is coloured where nobody says: usualColorMapping(), but all
+ * labels of names as categories. */
+pcl_uvol::ColorMapping
+mapUsually(const pcl_uvol::CloudView& cloud,
+           const pcl_uvol::LabelNames& labels,
+           const std::string& field);
+
+/** \brief True if the colours of a picture need an explanation, and can have one: ""
+ * and colours of the points' own need none, and of too many names there is none. */
+bool
+hasLegend(const pcl_uvol::CloudView& cloud,
+          const pcl_uvol::LabelNames& labels,
+          const std::string& field);
+
+/** \brief Warn of a column of so many names that there is no legend. */
+void
+warnOfNames(const pcl_uvol::CloudView& cloud,
+            const pcl_uvol::LabelNames& labels,
+            const std::string& field,
+            pcl_uvol::Report& report);
+
 /** \brief What a legend calls a category: its name, cut where it is long, or its
  * number.
  */
@@ -53,6 +76,17 @@ void
 drawCategories(pcl_uvol::Image& image,
                const std::vector<pcl_uvol::CategoryColor>& categories,
                const std::string& title);
+
+/** \brief Draw what the colours of a picture stand for at its right border: categories,
+ * or a bar.
+ * \param range values at the ends of its colours */
+void
+drawLegend(pcl_uvol::Image& image,
+           const pcl_uvol::CloudView& cloud,
+           const pcl_uvol::LabelNames& labels,
+           const std::string& field,
+           const pcl_uvol::ColorMapping& mapping,
+           const std::array<double, 2>& range);
 
 /** \brief A value beside a bar. */
 struct BarLabel {

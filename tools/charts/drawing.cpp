@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 
 namespace uvol_tools {
 
@@ -73,6 +74,9 @@ struct Letters {
     font->SetColor(1.0, 1.0, 1.0);
     int extent[2];
     constexpr int dpi = 72;
+    // VTK's letters are those of one object, which serves one caller at a time.
+    static std::mutex only_one;
+    const std::lock_guard<std::mutex> lock(only_one);
     const pcl_uvol::io::VtkMessages messages;
     if (!vtkFreeTypeTools::GetInstance()->RenderString(
             font, vtkStdString(text), dpi, image, extent))

@@ -91,40 +91,11 @@ describeBox(const pcl_uvol::PeriodicBox& box, const std::array<double, 3>& origi
                         {"low", {low.begin(), low.end()}}}};
 }
 
-BoxedSamples::BoxedSamples(pcl_uvol::Dataset& samples,
-                           const std::array<double, 3>& sides,
-                           const Eigen::Array3f& scale,
-                           unsigned threads,
-                           pcl_uvol::Report& report)
-{
-  if (!pcl_uvol::isPeriodic(sides))
-    return;
-  std::vector<std::uint32_t> all(samples.cloud.width);
-  std::iota(all.begin(), all.end(), 0u);
-  pcl_uvol::PeriodicReach reach;
-  reach.scale = pcl_uvol::toPosition(scale);
-  reach.spacings = 8.0; // a level set knows less of the field where it ends
-  const auto box = pcl_uvol::findPeriodicBox(samples, sides, report);
-  images_ = pcl_uvol::addPeriodicImages(samples, all, box, reach, threads, report);
-  before_ = std::move(samples);
-  samples = std::move(images_.samples);
-  report.count("images", images_.image_of.size());
-}
-
 void
-BoxedSamples::dropImages(pcl_uvol::Dataset& points)
+tellBox(const pcl_uvol::SamplesInBox& samples, Facts& facts)
 {
-  if (!isPeriodic())
-    return;
-  images_.samples = std::move(points);
-  points = pcl_uvol::dropPeriodicImages(std::move(images_), before_);
-}
-
-void
-BoxedSamples::tell(Facts& facts) const
-{
-  if (isPeriodic())
-    facts.push_back(describeBox(images_.box, before_.origin));
+  if (samples.isPeriodic())
+    facts.push_back(describeBox(samples.getBox(), samples.getOrigin()));
 }
 
 } // namespace uvol_tools

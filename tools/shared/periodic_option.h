@@ -2,17 +2,13 @@
 // -periodic x,y,z|header: the box that samples repeat in.
 #pragma once
 
-#include "neighbors/periodic_box.h"
+#include "neighbors/samples_in_box.h"
 #include "shared/facts.h"
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
 
-#include <Eigen/Core>
-
 #include <array>
-#include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace uvol_tools {
@@ -64,54 +60,8 @@ addFieldsInBox(pcl_uvol::Dataset& samples,
 Fact
 describeBox(const pcl_uvol::PeriodicBox& box, const std::array<double, 3>& origin);
 
-/** \brief Samples that have images while a tool works on them. */
-class BoxedSamples {
-public:
-  /** \brief Give samples images; nothing without a box.
-   *
-   * \param sides all 0: there is no box
-   *
-   * \param scale of the space that distances are measured in
-   *
-   * \param report gets the count "images" and what findPeriodicBox() tells */
-  BoxedSamples(pcl_uvol::Dataset& samples,
-               const std::array<double, 3>& sides,
-               const Eigen::Array3f& scale,
-               unsigned threads,
-               pcl_uvol::Report& report);
-
-  /** \brief The samples that are no images come first. */
-  std::size_t
-  countOwn() const
-  {
-    return before_.cloud.width;
-  }
-
-  bool
-  isPeriodic() const
-  {
-    return pcl_uvol::isPeriodic(images_.box.sides);
-  }
-
-  /** \brief The box, whose low corner is where coordinates begin. */
-  const std::array<double, 3>&
-  getSides() const
-  {
-    return images_.box.sides;
-  }
-
-  /** \brief Leave of points, one for each sample and image, those of samples, at their
-   * own places. */
-  void
-  dropImages(pcl_uvol::Dataset& points);
-
-  /** \brief Add what there is to tell of the box. */
-  void
-  tell(Facts& facts) const;
-
-private:
-  pcl_uvol::Dataset before_;         ///< the samples as they came, where there is a box
-  pcl_uvol::PeriodicSamples images_; ///< without the samples, which are the caller's
-};
+/** \brief Add what there is to tell of the box of samples, if there is one. */
+void
+tellBox(const pcl_uvol::SamplesInBox& samples, Facts& facts);
 
 } // namespace uvol_tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/render_options.h"
 
+#include "charts/color_bar.h"
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
 #include "render/surface_cloud.h"
@@ -196,8 +197,13 @@ RenderOptions::writePage(const Options& options,
     points.computeFootprints(options.threads(), report);
   SurfacePage page;
   page.title = std::filesystem::path(output).stem().string();
-  page.camera = cameraOfCell({cloud, points.getBounds(), surface.origin},
-                             wholePicture(getHeight(), getHeight()));
+  page.camera = findCameraOf(withSharedBox({cloud, points.getBounds(), surface.origin}),
+                             wholePicture(getHeight(), getHeight()),
+                             [&](const pcl_uvol::BoundingSphere& bounds,
+                                 const PictureCell& cell,
+                                 const pcl_uvol::CloudView& seen) {
+                               return makeCamera(bounds, surface.origin, cell, &seen);
+                             });
   page.material = getMaterial();
   page.lights = getLights();
   page.background = getBackground().color;
@@ -212,7 +218,7 @@ RenderOptions::writePage(const Options& options,
       page.field = field;
       page.map = mapping.map;
       page.scale = colors.scale;
-      page.categories = listCategories(cloud, field, mapping);
+      page.categories = listNamedCategories(cloud, getLabels(), field, mapping.map);
     }
   }
   points.fadeBridged(page.background);

@@ -2,7 +2,6 @@
 #include "shared/view_options.h"
 
 #include "charts/color_bar.h"
-#include "common/printable.h"
 #include "common/records.h"
 #include "expressions/formula.h"
 #include "expressions/memory_need.h"
@@ -230,13 +229,7 @@ ViewOptions::addColor(const Options& options,
              "computes them there",
              options,
              report);
-  if (pcl_uvol::findLabels(points.cloud.fields, labels_, color_) &&
-      pcl_uvol::listCategories(pcl_uvol::viewOf(points.cloud), color_, most_categories)
-          .empty())
-    report.warnings.push_back("The points have more than " +
-                              std::to_string(most_categories) + " names in " +
-                              pcl_uvol::quoteText(color_) +
-                              ": their colours repeat, and the picture has no legend.");
+  warnOfNames(pcl_uvol::viewOf(points.cloud), labels_, color_, report);
 }
 
 void
@@ -297,10 +290,8 @@ ViewOptions::colorMapping(const pcl_uvol::CloudView& cloud) const
 pcl_uvol::ColorMapping
 ViewOptions::mapColors(const pcl_uvol::CloudView& cloud, const std::string& field) const
 {
-  pcl_uvol::ColorMapping mapping = colors_.mapFor(cloud, field);
-  if (colors_.isAutomatic() && pcl_uvol::findLabels(cloud.fields, labels_, field))
-    mapping.map = pcl_uvol::ColorMap("tab10");
-  return mapping;
+  return colors_.isAutomatic() ? mapUsually(cloud, labels_, field)
+                               : colors_.mapFor(cloud, field);
 }
 
 void
@@ -332,7 +323,7 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                                  fov_,
                                  is_parallel_,
                                  zoom_,
-                                 figure_.getFill(cell)},
+                                 figure_.get().getFill(cell)},
                                 bounds,
                                 origin,
                                 static_cast<double>(cell.width) / cell.height,

@@ -24,13 +24,6 @@
 
 namespace uvol_tools {
 
-/** \brief What a picture is drawn of. */
-struct Subject {
-  const pcl_uvol::CloudView& cloud;
-  pcl_uvol::BoundingSphere bounds;
-  std::array<double, 3> origin; ///< of its coordinates
-};
-
 /** \brief What several pictures have in common. */
 struct SharedView {
   Eigen::AlignedBox3d box; ///< of all surfaces, with their origins added
@@ -127,10 +120,6 @@ public:
   pcl_uvol::Camera
   turned(const pcl_uvol::Camera& camera, std::uint64_t frame) const;
 
-  /** \brief Draws a view of a size with a camera. */
-  using DrawView = std::function<void(
-      const pcl_uvol::Camera& camera, const PictureCell& cell, pcl_uvol::Image& image)>;
-
   /** \brief Gives the values at the ends of the colours, once a view is drawn. */
   using FindRange = std::function<std::array<double, 2>()>;
 
@@ -140,7 +129,7 @@ public:
   void
   drawFrames(const Options& options,
              const Subject& surface,
-             const DrawView& draw,
+             const Figure::DrawView& draw,
              const FindRange& range,
              const std::string& output,
              pcl_uvol::Report& report) const;
@@ -158,7 +147,10 @@ public:
 
   /** \brief What is behind a view: nothing if marks are drawn there afterwards. */
   pcl_uvol::Background
-  getBackgroundOfViews() const;
+  getBackgroundOfViews() const
+  {
+    return figure_.get().getBackgroundOfViews(background_);
+  }
 
   /** \brief Compute the field of -color at the points of a surface where it is an
    * expression, see addDerivedField; derivatives are refused. Legends name the labels
@@ -195,12 +187,6 @@ public:
   /** \brief How a field becomes colours: unasked, labels of names as categories. */
   pcl_uvol::ColorMapping
   mapColors(const pcl_uvol::CloudView& cloud, const std::string& field) const;
-
-  /** \brief The categories that a legend lists; none: it is a bar. */
-  std::vector<pcl_uvol::CategoryColor>
-  listCategories(const pcl_uvol::CloudView& cloud,
-                 const std::string& field,
-                 const pcl_uvol::ColorMapping& mapping) const;
 
   const ColorOptions&
   getColors() const
@@ -275,14 +261,20 @@ public:
   }
   /** @} */
 
+  const pcl_uvol::LabelNames&
+  getLabels() const
+  {
+    return labels_;
+  }
+
 protected:
   /** \brief True if the colours of a picture of this cloud need an explanation. */
   bool
   drawsBar(const pcl_uvol::CloudView& cloud) const;
 
-  /** \brief The camera of a view in its place in the picture. */
-  pcl_uvol::Camera
-  cameraOfCell(const Subject& surface, const PictureCell& cell) const;
+  /** \brief A surface with the box that pictures have in common, if they have one. */
+  Subject
+  withSharedBox(Subject surface) const;
 
 private:
   /** Columns that are left to the surface: its colour bar stands beside it. */
@@ -292,18 +284,8 @@ private:
   pcl_uvol::Image
   drawFrame(const Subject& surface,
             std::uint64_t frame,
-            const DrawView& draw,
+            const Figure::DrawView& draw,
             std::vector<pcl_uvol::ImageText>& texts) const;
-
-  /** The box that figures show, and that is in the picture as a whole. */
-  Eigen::AlignedBox3d
-  findBox(const Subject& surface) const;
-
-  /** Put the colour bar of a picture that is coloured by a scalar field beside it. */
-  void
-  drawLegend(const pcl_uvol::CloudView& cloud,
-             const std::array<double, 2>& range,
-             pcl_uvol::Image& image) const;
 
   void
   parseBackground();

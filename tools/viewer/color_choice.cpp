@@ -121,7 +121,8 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     renderer.setLogarithmicColors(mapping.is_logarithmic);
     renderer.setColorRange(scale.low, scale.high);
     legend_ = {mapping, scale, {}};
-    legend_.categories = look_.listCategories(view, field, mapping);
+    legend_.categories =
+        listNamedCategories(view, look_.getLabels(), field, mapping.map);
     vtkNew<vtkLookupTable> table;
     fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);

@@ -14,6 +14,9 @@ void
 bindDataset(pybind11::module_& module);
 
 void
+bindBoxes(pybind11::module_& module);
+
+void
 bindIsosurface(pybind11::module_& module);
 
 void
@@ -30,8 +33,5 @@ bindSamplingStages(pybind11::module_& module);
 
 void
 bindMeasures(pybind11::module_& module);
-
-void
-bindPictures(pybind11::module_& module);
 
 } // namespace pcl_uvol::python

@@ -44,6 +44,8 @@ describeTree(const std::vector<ClusterNode>& tree)
   return dict;
 }
 
+/** \return labels, probabilities, the tree, a copy of the points with the first two as
+ * fields, and the report */
 py::tuple
 findClusters(const DatasetPtr& dataset,
              const std::string& parameters,
@@ -52,15 +54,19 @@ findClusters(const DatasetPtr& dataset,
 {
   DensityClustering<Cloud> clustering;
   std::vector<int> labels;
+  auto labelled = std::make_shared<Dataset>(*dataset);
   const py::dict report =
       runStage(clustering, dataset, parameters, threads, progress, [&] {
         clustering.compute(labels);
+        setField(*labelled, "label", labels);
+        setField(*labelled, "probability", clustering.getProbabilities());
       });
   const auto count = static_cast<py::ssize_t>(labels.size());
   return py::make_tuple(
       toArray(std::move(labels), {count}),
       toArray(std::vector<float>(clustering.getProbabilities()), {count}),
       describeTree(clustering.getTree()),
+      labelled,
       report);
 }
 

@@ -117,10 +117,12 @@ listFields(const Dataset& dataset)
   return list;
 }
 
-/** The dataset itself where it has the field, else a copy with it. */
+/** The dataset itself where it has the field, else a copy with it.
+ * \param no_derivatives see DerivedFieldOptions */
 py::tuple
 withField(const DatasetPtr& dataset,
           const std::string& expression,
+          const std::string& no_derivatives,
           unsigned threads,
           const py::object& progress)
 {
@@ -134,7 +136,7 @@ withField(const DatasetPtr& dataset,
     }
     catch (const InvalidArgument&) {
       result = std::make_shared<Dataset>(*dataset);
-      name = addDerivedField(*result, expression, {threads, ""}, report);
+      name = addDerivedField(*result, expression, {threads, no_derivatives}, report);
     }
   });
   return py::make_tuple(result, toText(name), toDict(report));
@@ -327,6 +329,7 @@ bindDataset(py::module_& module)
       .def_readonly("double_coordinates", &Dataset::double_coordinates)
       .def_readonly("has_coordinates", &Dataset::has_coordinates)
       .def_readonly("notes", &Dataset::notes)
+      .def_readonly("box", &Dataset::box)
       .def_property_readonly("labels",
                              [](const Dataset& dataset) {
                                return listLabels(dataset, [](const std::string& name) {

@@ -5,6 +5,7 @@
 #include "interpolation/answer_summary.h"
 #include "interpolation/query_lattice.h"
 #include "interpolation/variogram.h"
+#include "neighbors/periodic_box.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -12,6 +13,7 @@
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <pybind11/stl.h>
@@ -34,8 +36,12 @@ using Queries = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /** A model of some fields, ready for queries. Any number of threads may ask at once. */
 class Interpolator {
 public:
-  /** \param parameters JSON of InterpolationParameters */
+  /** \param own samples, which images follow
+   * \param sides of the box that they repeat in, which begins where coordinates do
+   * \param parameters JSON of InterpolationParameters */
   Interpolator(const DatasetPtr& samples,
+               std::size_t own,
+               const std::array<double, 3>& sides,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
@@ -43,12 +49,15 @@ public:
       , parameters_(InterpolationParameters::fromJson(parameters))
       , view_(viewOf(samples->cloud))
       , indices_(view_.count)
+      , own_(own)
+      , box_{{}, sides}
   {
     std::iota(indices_.begin(), indices_.end(), 0);
+    std::iota(own_.begin(), own_.end(), 0);
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report_.progress = callback;
       if (parameters_.model == InterpolationModel::Auto)
-        parameters_.model = chooseModel(view_, indices_, parameters_, threads, report_)
+        parameters_.model = chooseModel(view_, own_, parameters_, threads, report_)
                                 .scores.front()
                                 .model;
       interpolator_ = std::make_unique<FieldInterpolator>(
@@ -65,14 +74,15 @@ public:
     std::vector<Place> places(static_cast<std::size_t>(queries.shape(0)));
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        places[i][axis] = queries.data()[3 * i + axis] - samples_->origin[axis];
+        places[i][axis] =
+            toBox(queries.data()[3 * i + axis] - samples_->origin[axis], axis);
     InterpolatedFields answers;
     Report report;
     report.counts = report_.counts;
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report.progress = callback;
       answers = interpolator_->interpolate(places, threads, report);
-      AnswerSummary summary(view_, indices_, interpolator_->getNames());
+      AnswerSummary summary(view_, own_, interpolator_->getNames());
       summary.add(answers);
       summary.warn(report);
     });
@@ -87,13 +97,14 @@ public:
     std::vector<Place> places = detail::placesOf(viewOf(points.cloud));
     for (Place& place : places)
       for (std::size_t axis = 0; axis < 3; ++axis)
-        place[axis] += points.origin[axis] - samples_->origin[axis];
+        place[axis] =
+            toBox(place[axis] + points.origin[axis] - samples_->origin[axis], axis);
     Report report;
     report.counts = report_.counts;
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report.progress = callback;
       const auto answers = interpolator_->interpolate(places, threads, report);
-      AnswerSummary summary(view_, indices_, interpolator_->getNames());
+      AnswerSummary summary(view_, own_, interpolator_->getNames());
       summary.add(answers);
       summary.warn(report);
       appendFields(answers, result->cloud);
@@ -114,7 +125,7 @@ public:
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report.progress = callback;
       scores = crossValidate(
-          view_, indices_, parameters_, split(folds, by, threads), 0, threads, report);
+          view_, own_, parameters_, split(folds, by, threads), 0, threads, report);
     });
     py::dict fields;
     for (const FieldScore& score : scores) {
@@ -184,6 +195,14 @@ public:
   }
 
 private:
+  double
+  toBox(double coordinate, std::size_t axis) const
+  {
+    return box_.sides[axis] > 0.0 && std::isfinite(coordinate)
+               ? box_.toBox(coordinate, axis)
+               : coordinate;
+  }
+
   Folds
   split(std::size_t folds, const std::string& by, unsigned threads) const
   {
@@ -217,17 +236,23 @@ private:
   DatasetPtr samples_;
   InterpolationParameters parameters_;
   CloudView view_;
-  pcl::Indices indices_;
+  pcl::Indices indices_, own_; ///< of all points, and of those that are no images
+  PeriodicBox box_;
   std::unique_ptr<const FieldInterpolator> interpolator_;
   Report report_; ///< of making the model
 };
 
-/** The box of samples, in coordinates with the origin added. */
+/** The box of samples, in coordinates with the origin added.
+ * \param sides of a box that repeats and begins where coordinates do, or 0 */
 py::tuple
-findBounds(const Dataset& samples)
+findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 {
   Bounds bounds = detail::boundsOf(viewOf(samples.cloud));
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (sides[axis] > 0.0) {
+      bounds.low[axis] = 0.0;
+      bounds.high[axis] = sides[axis];
+    }
     bounds.low[axis] += samples.origin[axis];
     bounds.high[axis] += samples.origin[axis];
   }
@@ -266,6 +291,8 @@ bindInterpolation(py::module_& module)
 {
   py::class_<Interpolator>(module, "Interpolator")
       .def(py::init<const DatasetPtr&,
+                    std::size_t,
+                    const std::array<double, 3>&,
                     const std::string&,
                     unsigned,
                     const py::object&>())

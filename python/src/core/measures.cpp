@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Figures of meshes.
 #include "core/bindings.h"
+#include "mesh/surface_distance.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -47,7 +48,9 @@ describe(const PieceMeasures& piece)
   dict["rims"] = piece.rims;
   dict["genus"] = piece.genus;
   dict["area"] = toPair(piece.area);
+  dict["cap_area"] = piece.cap_area;
   dict["volume"] = toPair(piece.volume);
+  dict["capped_volume"] = piece.capped_volume;
   dict["centroid"] = piece.centroid;
   dict["axes"] = Eigen::Matrix3d(piece.axes.transpose());
   dict["half_axes"] = piece.half_axes;
@@ -102,12 +105,53 @@ measure(const DatasetPtr& vertices,
                         report);
 }
 
+py::dict
+describe(detail::SurfaceDistances&& distances)
+{
+  py::dict fields;
+  for (const detail::FieldDifference& field : distances.fields)
+    fields[toText(field.name)] = py::make_tuple(field.mean, field.largest);
+  const auto count = static_cast<py::ssize_t>(distances.at_vertices.size());
+  py::dict dict;
+  dict["mean"] = distances.mean;
+  dict["root_mean_square"] = distances.root_mean_square;
+  dict["percentile_99_9"] = distances.permille;
+  dict["largest"] = distances.largest;
+  dict["farthest"] = distances.farthest;
+  dict["fields"] = fields;
+  dict["at_vertices"] = toArray(std::move(distances.at_vertices), {count});
+  return dict;
+}
+
+/** \return distances from the first surface to the second one, and back, and the first
+ * one with the field distance */
+py::tuple
+compare(const Dataset& first,
+        const TriangleArray& first_triangles,
+        const Dataset& second,
+        const TriangleArray& second_triangles,
+        unsigned threads)
+{
+  const std::vector<Triangle> here = toTriangles(first_triangles),
+                              there = toTriangles(second_triangles);
+  detail::SurfaceDistances forth, back;
+  auto surface = std::make_shared<Dataset>(first);
+  {
+    const py::gil_scoped_release unlocked;
+    forth = detail::measureDistances({first, here}, {second, there}, threads);
+    back = detail::measureDistances({second, there}, {first, here}, threads);
+    setField(*surface, "distance", forth.at_vertices);
+  }
+  return py::make_tuple(describe(std::move(forth)), describe(std::move(back)), surface);
+}
+
 } // namespace
 
 void
 bindMeasures(py::module_& module)
 {
   module.def("measure", &measure);
+  module.def("compare", &compare);
 }
 
 } // namespace pcl_uvol::python

@@ -8,11 +8,11 @@ PYBIND11_MODULE(_core, module)
   using namespace pcl_uvol::python;
   bindErrors(module);
   bindDataset(module);
+  bindBoxes(module);
   bindIsosurface(module);
   bindInterpolation(module);
   bindSurfaceStages(module);
   bindClusterStages(module);
   bindSamplingStages(module);
   bindMeasures(module);
-  bindPictures(module);
 }

@@ -110,6 +110,21 @@ describePlaces(const Dataset& dataset,
   return dict;
 }
 
+/** A copy with what the sampling is like around each point. */
+DatasetPtr
+withSampling(const Dataset& dataset,
+             const std::array<float, 3>& scale,
+             const std::array<double, 3>& rotation,
+             unsigned threads)
+{
+  const py::gil_scoped_release unlocked;
+  auto result = std::make_shared<Dataset>(dataset);
+  addSamplingFields(*result,
+                    {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
+                    threads);
+  return result;
+}
+
 std::array<float, 3>
 equalScale(const Dataset& dataset, const std::array<double, 3>& rotation)
 {
@@ -160,6 +175,7 @@ bindSamplingStages(py::module_& module)
   module.def("compute_voronoi", &computeVoronoi);
   module.def("describe_field", &describeField);
   module.def("describe_places", &describePlaces);
+  module.def("with_sampling", &withSampling);
   module.def("equalizing_scale", &equalScale);
   module.def("scale_of_field", &scaleOfField);
   module.def("split_map", &splitMap);

@@ -5,12 +5,15 @@
 #include "core/bindings.h"
 #include "core/run_stage.h"
 #include "pipeline/zero_level.h"
+#include "render/gaussian_splats.h"
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
+#include <array>
 #include <numeric>
+#include <pybind11/stl.h>
 #include <string>
 #include <vector>
 
@@ -45,10 +48,12 @@ struct Snapshot {
 };
 
 /** \param every steps between two snapshots; 0: there are none
+ * \param sides of the box that the samples repeat in, or 0
  * \return the samples with phi, steps and surface of each snapshot, and the report */
 py::tuple
 evolveLevelSet(const DatasetPtr& dataset,
                std::size_t every,
+               const std::array<double, 3>& sides,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
@@ -70,7 +75,7 @@ evolveLevelSet(const DatasetPtr& dataset,
           snapshots.push_back(
               {so_far.steps.size(),
                extractSnapshot(
-                   *dataset, shifted, Eigen::Array3d::Zero(), phi, threads)});
+                   *dataset, shifted, Eigen::Array3d(sides.data()), phi, threads)});
         });
     evolution.evolve(cloud);
   });
@@ -134,6 +139,15 @@ generateSplats(const DatasetPtr& dataset,
   return py::make_tuple(withCloud(*dataset, std::move(cloud)), report);
 }
 
+/** Splats as viewers of 3D Gaussian splats read them, without an origin. */
+DatasetPtr
+describeGaussians(const Dataset& splats, const std::string& color)
+{
+  auto gaussians = std::make_shared<Dataset>();
+  gaussians->cloud = makeGaussians(viewOf(splats.cloud), color);
+  return gaussians;
+}
+
 } // namespace
 
 void
@@ -141,6 +155,7 @@ bindSurfaceStages(py::module_& module)
 {
   module.def("evolve_level_set", &evolveLevelSet);
   module.def("estimate_normals", &estimateNormals);
+  module.def("make_gaussians", &describeGaussians);
   module.def("generate_splats", &generateSplats);
 }
 

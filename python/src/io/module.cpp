@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The extension _io: files, which take VTK's libraries with them.
 #include "io/lattice_file.h"
-#include "io/scene_file.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
-#include "shared/look.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/io/volume.h>
 
-#include <algorithm>
 #include <array>
 #include <pybind11/stl.h>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -132,51 +128,6 @@ writePng(const std::string& path, const DenseArray<std::uint8_t>& pixels)
   savePng(path, image);
 }
 
-/** A scene of a file, seen as the file says unless parameters say otherwise.
- * \param given names of the parameters that take the place of what the file says */
-py::tuple
-traceScene(const std::string& path,
-           const std::string& folder,
-           const std::string& json,
-           const std::set<std::string>& given,
-           unsigned threads,
-           const py::object& progress)
-{
-  const PictureParameters parameters = readPictureParameters(json);
-  Image image;
-  Report report;
-  runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    report.progress = callback;
-    SceneFile file = loadScene(path, folder, threads, report);
-    if (given.count("background") != 0)
-      file.scene.background = makeBackground(parameters);
-    RayTracer tracer;
-    tracer.setScene(file.scene);
-    tracer.settings() = file.settings;
-    tracer.setNumberOfThreads(threads);
-    tracer.setProgressCallback(callback);
-    tracer.setSupersampling(given.count("supersample") != 0
-                                ? std::max(parameters.supersample, 1)
-                                : file.supersampling);
-    PictureParameters look = parameters;
-    if (file.size && given.count("size") == 0) {
-      look.width = (*file.size)[0];
-      look.height = (*file.size)[1];
-    }
-    tracer.setSize(look.width, look.height);
-    const bool is_chosen = given.count("view") != 0 || given.count("eye") != 0;
-    tracer.setCamera(file.camera && !is_chosen
-                         ? *file.camera
-                         : makeCamera(look, tracer.getBounds(), file.origin, nullptr));
-    tracer.render(image);
-    report.merge(tracer.getReport());
-  });
-  const auto height = static_cast<py::ssize_t>(image.height);
-  const auto width = static_cast<py::ssize_t>(image.width);
-  return py::make_tuple(toArray(std::move(image.color), {height, width, 4}),
-                        toDict(report));
-}
-
 /** \return values with z slowest, origin, spacing and name */
 py::tuple
 readVolume(const std::string& path)
@@ -207,7 +158,6 @@ PYBIND11_MODULE(_io, module)
   module.def("write", &writePoints);
   module.def("write_lattice", &writeLattice);
   module.def("is_lattice_file", &pcl_uvol::isLatticeFile);
-  module.def("trace_scene", &traceScene);
   module.def("write_png", &writePng);
   module.def("is_volume", &pcl_uvol::isVolumeFile);
   module.def("read_volume", &readVolume);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/look.h"
+#include "charts/look.h"
 
+#include "charts/color_bar.h"
 #include "common/parameter_json.h"
 #include "render/camera_choice.h"
+#include "render/image_space/frame.h"
 #include "render/lighting.h"
 
 #include <algorithm>
@@ -20,23 +22,60 @@ toColor(const Eigen::Array3d& numbers)
           static_cast<float>(numbers[2])};
 }
 
-PictureParameters
-readPictureParameters(const std::string& json)
+namespace {
+
+void
+checkColors(const PictureParameters& parameters)
 {
-  const auto parameters = readJson<PictureParameters>(json);
-  if (parameters.width - parameters.margin < 1 || parameters.height < 1)
-    throw InvalidArgument("A picture is at least 1 x 1 pixels.");
   if (parameters.range && !((*parameters.range)[0] < (*parameters.range)[1]))
     throw InvalidArgument("The range of colours is two numbers, the lower one first.");
   if (parameters.range && parameters.log && !((*parameters.range)[0] > 0.0))
     throw InvalidArgument("The range of logarithmic colours is two numbers above 0.");
-  if (parameters.exaggerate && !(*parameters.exaggerate > 0.0).all())
-    throw InvalidArgument("exaggerate is three factors above 0.");
   const ColorMap map =
       parameters.colormap == "auto" ? ColorMap() : ColorMap(parameters.colormap);
   if (parameters.log && map.isCategorical())
     throw InvalidArgument("Logarithmic colours need a map of shades, and " +
                           parameters.colormap + " is one of categories.");
+}
+
+void
+checkFigure(const PictureParameters& parameters)
+{
+  if (!parameters.unit.empty() && !parameters.ticks && !parameters.scale_bar)
+    throw InvalidArgument("A unit is that of ticks or of scale_bar: ask for one.");
+  if (!parameters.views.empty() && parameters.eye)
+    throw InvalidArgument(
+        "views and eye both say where the camera is: give one of them.");
+  if (parameters.scale_bar && parameters.exaggerate &&
+      (*parameters.exaggerate != (*parameters.exaggerate)[0]).any())
+    throw InvalidArgument("scale_bar needs one scale for all directions, and "
+                          "exaggerate has several; ticks show them.");
+  if (!makeFigure(parameters).fits(parameters.width, parameters.height))
+    throw InvalidArgument(
+        "The picture is too small for views and title: a larger size helps.");
+}
+
+} // namespace
+
+PictureParameters
+readPictureParameters(const std::string& json)
+{
+  const auto parameters = readJson<PictureParameters>(json);
+  for (const int size : {parameters.width, parameters.height})
+    if (size < 1 || size > View::largest_size / std::max(parameters.supersample, 1))
+      throw InvalidArgument(
+          "A picture is from 1 x 1 to " + std::to_string(View::largest_size) + " x " +
+          std::to_string(View::largest_size) + " pixels before averaging, not " +
+          std::to_string(parameters.width) + " x " + std::to_string(parameters.height) +
+          ".");
+  if (parameters.at && !parameters.eye)
+    throw InvalidArgument("at is where a camera looks that has a place: give eye.");
+  if (parameters.frames < 1)
+    throw InvalidArgument("A full turn has at least one frame.");
+  if (parameters.exaggerate && !(*parameters.exaggerate > 0.0).all())
+    throw InvalidArgument("exaggerate is three factors above 0.");
+  checkColors(parameters);
+  checkFigure(parameters);
   return parameters;
 }
 
@@ -79,10 +118,25 @@ makeLights(const PictureParameters& parameters)
   return lights;
 }
 
+uvol_tools::Figure
+makeFigure(const PictureParameters& parameters)
+{
+  uvol_tools::Figure figure;
+  figure.has_ticks = parameters.ticks;
+  figure.has_box = parameters.box;
+  figure.has_triad = parameters.triad;
+  figure.has_scale_bar = parameters.scale_bar;
+  figure.unit = parameters.unit;
+  figure.title = parameters.title;
+  figure.views = parameters.views;
+  return figure;
+}
+
 Camera
 makeCamera(const PictureParameters& parameters,
            const BoundingSphere& bounds,
            const std::array<double, 3>& origin,
+           const uvol_tools::PictureCell& cell,
            const CloudView* cloud)
 {
   const auto direction = [](const std::optional<Eigen::Array3d>& numbers) {
@@ -94,15 +148,15 @@ makeCamera(const PictureParameters& parameters,
     return direction(numbers);
   };
   CameraChoice choice;
-  choice.view = parameters.view;
+  choice.view = cell.view.empty() ? parameters.view : cell.view;
   choice.eye = place(parameters.eye);
   choice.at = place(parameters.at);
   choice.up = direction(parameters.up);
   choice.fov = parameters.fov;
   choice.zoom = parameters.zoom;
-  const int width = parameters.width - parameters.margin;
+  choice.fill = makeFigure(parameters).getFill(cell);
   return chooseCamera(
-      choice, bounds, origin, static_cast<double>(width) / parameters.height, cloud);
+      choice, bounds, origin, static_cast<double>(cell.width) / cell.height, cloud);
 }
 
 std::string
@@ -116,10 +170,11 @@ findColorField(const PictureParameters& parameters, const CloudView& cloud)
 ColorMapping
 makeColorMapping(const PictureParameters& parameters,
                  const CloudView& cloud,
+                 const LabelNames& labels,
                  const std::string& field)
 {
   if (parameters.colormap == "auto" && !parameters.log && !parameters.range)
-    return usualColorMapping(cloud, field);
+    return uvol_tools::mapUsually(cloud, labels, field);
   ColorMapping mapping;
   if (parameters.colormap != "auto")
     mapping.map = ColorMap(parameters.colormap);
@@ -127,28 +182,6 @@ makeColorMapping(const PictureParameters& parameters,
     mapping.range = {(*parameters.range)[0], (*parameters.range)[1]};
   mapping.is_logarithmic = parameters.log;
   return mapping;
-}
-
-void
-addMargin(Image& image, const Background& background, int columns)
-{
-  const std::size_t row_bytes = 4 * std::size_t{image.width};
-  std::vector<std::uint8_t> wide;
-  wide.reserve((row_bytes + 4 * static_cast<std::size_t>(columns)) * image.height);
-  for (std::uint32_t row = 0; row < image.height; ++row) {
-    const auto begin =
-        image.color.begin() + static_cast<std::ptrdiff_t>(row * row_bytes);
-    wide.insert(wide.end(), begin, begin + static_cast<std::ptrdiff_t>(row_bytes));
-    const float below =
-        (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height);
-    const Rgba color = background.kind == Background::Kind::Transparent
-                           ? 0
-                           : toRgba(backgroundAt(background, below));
-    for (int k = 0; k < 4 * columns; ++k)
-      wide.push_back(static_cast<std::uint8_t>(color >> (8 * (k % 4))));
-  }
-  image.color = std::move(wide);
-  image.width += static_cast<std::uint32_t>(columns);
 }
 
 } // namespace pcl_uvol::python

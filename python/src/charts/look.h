@@ -2,8 +2,9 @@
 // From what users ask of a picture to cameras, colours and lights.
 #pragma once
 
+#include "charts/figure.h"
+#include "charts/picture_parameters.h"
 #include "render/point_colors.h"
-#include "shared/picture_parameters.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/image.h>
@@ -33,28 +34,30 @@ makeMaterial(const PictureParameters& parameters);
 std::vector<Light>
 makeLights(const PictureParameters& parameters);
 
-/** \brief The camera of what is left of the picture without its margin.
+/** \brief What explains a picture. */
+uvol_tools::Figure
+makeFigure(const PictureParameters& parameters);
+
+/** \brief The camera of a view.
  * \param origin what was subtracted from the coordinates
- * \param cloud that fills the picture where only a view is chosen; null: the bounds do
- */
+ * \param cloud that fills the view where only a side is chosen; null: the bounds do */
 Camera
 makeCamera(const PictureParameters& parameters,
            const BoundingSphere& bounds,
            const std::array<double, 3>& origin,
+           const uvol_tools::PictureCell& cell,
            const CloudView* cloud);
 
 /** \brief The field that colours a cloud; "" for the colour of the surface. */
 std::string
 findColorField(const PictureParameters& parameters, const CloudView& cloud);
 
-/** \brief How that field becomes colours. */
+/** \brief How that field becomes colours.
+ * \param labels names that its numbers stand for */
 ColorMapping
 makeColorMapping(const PictureParameters& parameters,
                  const CloudView& cloud,
+                 const LabelNames& labels,
                  const std::string& field);
-
-/** \brief Put columns of the background on the right of a picture. */
-void
-addMargin(Image& image, const Background& background, int columns);
 
 } // namespace pcl_uvol::python

@@ -2,15 +2,18 @@
 // Splats as other people's viewers read them.
 #pragma once
 
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/render/color_map.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/point_cloud.h>
 
+#include <string>
 #include <vector>
 
-namespace uvol_tools {
+namespace pcl_uvol {
 
 /** \brief Flat Gaussians in the places of splats, with the fields that viewers of 3D
  * Gaussian splats read (Kerbl et al. 2023, the layout of their point_cloud.ply):
@@ -20,8 +23,13 @@ namespace uvol_tools {
  * of it across. These viewers know no light: colours are lit here, from above and the
  * front left.
  * \param colors one per splat, before light falls on them */
-pcl::PCLPointCloud2
-toGaussians(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
-            const std::vector<pcl_uvol::Rgba>& colors);
+PCL_UVOL_EXPORTS pcl::PCLPointCloud2
+toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& colors);
 
-} // namespace uvol_tools
+/** \brief The splats of a cloud as Gaussians in the colours of a field.
+ * \param color a scalar field, "rgb", "none", or "auto" for usualColorField()
+ * \throws InvalidArgument for an unknown field */
+PCL_UVOL_EXPORTS pcl::PCLPointCloud2
+makeGaussians(const CloudView& splats, const std::string& color);
+
+} // namespace pcl_uvol

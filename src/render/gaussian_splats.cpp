@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shared/gaussian_splats.h"
+#include "render/gaussian_splats.h"
 
 #include "common/records.h"
+#include "render/point_colors.h"
+#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/surface/splat_generation.h>
 
 #include <Eigen/Geometry>
 
@@ -10,7 +13,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace uvol_tools {
+namespace pcl_uvol {
 
 namespace {
 
@@ -55,7 +58,7 @@ rotationOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& tangent)
 }
 
 Record
-gaussianOf(const pcl_uvol::PointSplat& splat, pcl_uvol::Rgba color)
+gaussianOf(const PointSplat& splat, Rgba color)
 {
   constexpr double part = 0.70710678118654752, thickness = 0.01, opacity = 0.99;
   constexpr double harmonic = 0.28209479177387814; // of degree 0
@@ -80,13 +83,12 @@ gaussianOf(const pcl_uvol::PointSplat& splat, pcl_uvol::Rgba color)
 } // namespace
 
 pcl::PCLPointCloud2
-toGaussians(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
-            const std::vector<pcl_uvol::Rgba>& colors)
+toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& colors)
 {
   std::vector<pcl::PCLPointField> fields;
   for (const char* const name : names)
-    pcl_uvol::appendField(fields, name, pcl::PCLPointField::FLOAT32);
-  pcl::PCLPointCloud2 cloud = pcl_uvol::makeRecords(fields, splats.size());
+    appendField(fields, name, pcl::PCLPointField::FLOAT32);
+  pcl::PCLPointCloud2 cloud = makeRecords(fields, splats.size());
   for (std::size_t i = 0; i < splats.size(); ++i) {
     const Record record = gaussianOf(splats[i], colors[i]);
     std::memcpy(&cloud.data[i * sizeof record], record.data(), sizeof record);
@@ -94,4 +96,22 @@ toGaussians(const pcl::PointCloud<pcl_uvol::PointSplat>& splats,
   return cloud;
 }
 
-} // namespace uvol_tools
+pcl::PCLPointCloud2
+makeGaussians(const CloudView& splats, const std::string& color)
+{
+  Report counted_before;
+  const Splats found = readSplats(splats, counted_before);
+  const std::string field = color == "auto"   ? usualColorField(splats)
+                            : color == "none" ? ""
+                                              : color;
+  std::vector<Rgba> colors(found.cloud.size(), toRgba(Material().color));
+  if (!field.empty()) {
+    const PointColors all =
+        colorPoints(splats, field, usualColorMapping(splats, field));
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      colors[i] = all.colors[found.sources[i]];
+  }
+  return toGaussians(found.cloud, colors);
+}
+
+} // namespace pcl_uvol

@@ -95,7 +95,6 @@ struct PictureParameters {
   std::optional<Eigen::Array3d> eye, at, up;
   double fov = 30.0, zoom = 1.0;
   int width = 1024, height = 1024;
-  int margin = 0; ///< columns of the width, on the right, that the surface leaves free
   int supersample = 0; ///< 0: 2, with rays 1
   BackgroundKind background = BackgroundKind::White;
   std::optional<Eigen::Array3d> background_color, surface_color;
@@ -106,6 +105,12 @@ struct PictureParameters {
   bool culling = false, footprints = true, silhouettes = false, features = false;
   int thickness = ImageSpaceSettings().silhouette_thickness;
   std::optional<Eigen::Array3d> line_color;
+  std::vector<double> opacity; ///< of the isovalues; none: they are opaque
+  bool bar = true;             ///< that explains the colours
+  bool ticks = false, box = false, triad = false, scale_bar = false;
+  std::string unit, title;
+  std::vector<std::string> views; ///< in one picture; none: view
+  int frames = 1;                 ///< of a full turn
 
   static auto
   listMembers()
@@ -123,7 +128,6 @@ struct PictureParameters {
                            Member{"zoom", &Own::zoom},
                            Member{"width", &Own::width},
                            Member{"height", &Own::height},
-                           Member{"margin", &Own::margin},
                            Member{"supersample", &Own::supersample},
                            Member{"background", &Own::background},
                            Member{"background_color", &Own::background_color},
@@ -137,7 +141,17 @@ struct PictureParameters {
                            Member{"silhouettes", &Own::silhouettes},
                            Member{"features", &Own::features},
                            Member{"thickness", &Own::thickness},
-                           Member{"line_color", &Own::line_color});
+                           Member{"line_color", &Own::line_color},
+                           Member{"opacity", &Own::opacity},
+                           Member{"bar", &Own::bar},
+                           Member{"ticks", &Own::ticks},
+                           Member{"box", &Own::box},
+                           Member{"triad", &Own::triad},
+                           Member{"scale_bar", &Own::scale_bar},
+                           Member{"unit", &Own::unit},
+                           Member{"title", &Own::title},
+                           Member{"views", &Own::views},
+                           Member{"frames", &Own::frames});
   }
 };
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes of uvol_raytrace.
+#include "charts/bindings.h"
+#include "charts/look.h"
+#include "common/parameter_json.h"
+#include "io/scene_file.h"
+#include "render/camera_choice.h"
+#include "shared/convert.h"
+#include "shared/interruptible.h"
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
+
+#include <algorithm>
+#include <pybind11/stl.h>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace pcl_uvol::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/** Names of the parameters that take the place of what a file says. */
+using Given = std::set<std::string>;
+
+bool
+has(const Given& given, const char* name)
+{
+  return given.count(name) != 0;
+}
+
+void
+applyRays(const RayParameters& rays, const Given& given, RayTracingSettings& settings)
+{
+  if (has(given, "depth"))
+    settings.depth = rays.depth;
+  if (has(given, "shadows"))
+    settings.shadows = rays.shadows;
+  if (has(given, "light_samples"))
+    settings.light_samples = rays.light_samples;
+  if (has(given, "occlusion"))
+    settings.occlusion_samples = rays.occlusion;
+  if (has(given, "occlusion_distance"))
+    settings.occlusion_distance = rays.occlusion_distance;
+}
+
+/** The camera of a file, unless another side or place is asked for. */
+Camera
+findCamera(const PictureParameters& look,
+           const Given& given,
+           const SceneFile& file,
+           RayTracer& tracer)
+{
+  if (!file.camera || has(given, "view") || has(given, "eye"))
+    return makeCamera(look,
+                      tracer.getBounds(),
+                      file.origin,
+                      {0, 0, look.width, look.height, ""},
+                      nullptr);
+  Camera camera = *file.camera;
+  if (look.up)
+    camera.up = look.up->matrix();
+  if (has(given, "fov"))
+    camera.vertical_fov = look.fov;
+  return zoomed(camera, look.zoom);
+}
+
+/** A scene of a file, seen as the file says unless parameters say otherwise.
+ * \param turn degrees that the camera goes around
+ * \return pixels and the report */
+py::tuple
+traceScene(const std::string& path,
+           const std::string& folder,
+           const std::string& json,
+           const std::string& ray_json,
+           const Given& given,
+           double turn,
+           unsigned threads,
+           const py::object& progress)
+{
+  PictureParameters look = readPictureParameters(json);
+  const auto rays = readJson<RayParameters>(ray_json);
+  Image image;
+  Report report;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    report.progress = callback;
+    SceneFile file = loadScene(path, folder, threads, report);
+    if (has(given, "background"))
+      file.scene.background = makeBackground(look);
+    if (has(given, "lights"))
+      file.scene.lights = makeLights(look);
+    RayTracer tracer;
+    tracer.setScene(file.scene);
+    tracer.settings() = file.settings;
+    applyRays(rays, given, tracer.settings());
+    tracer.setNumberOfThreads(threads);
+    tracer.setProgressCallback(callback);
+    tracer.setSupersampling(has(given, "supersample") ? std::max(look.supersample, 1)
+                                                      : file.supersampling);
+    if (file.size && !has(given, "size")) {
+      look.width = (*file.size)[0];
+      look.height = (*file.size)[1];
+    }
+    tracer.setSize(look.width, look.height);
+    tracer.setCamera(findCamera(look, given, file, tracer).orbited(turn));
+    tracer.render(image);
+    report.merge(tracer.getReport());
+  });
+  const auto height = static_cast<py::ssize_t>(image.height);
+  const auto width = static_cast<py::ssize_t>(image.width);
+  return py::make_tuple(toArray(std::move(image.color), {height, width, 4}),
+                        toDict(report));
+}
+
+} // namespace
+
+void
+bindScenes(py::module_& module)
+{
+  module.def("trace_scene", &traceScene);
+}
+
+} // namespace pcl_uvol::python

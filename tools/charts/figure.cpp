@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "charts/figure.h"
+
+#include "charts/view_marks.h"
+#include "render/lighting.h"
+#include <pcl_uvol/render/color_map.h>
+
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <algorithm>
+
+namespace uvol_tools {
+
+namespace {
+
+/** Titles have larger letters than values. */
+int
+titleSize(int height)
+{
+  return letterSize(height) * 4 / 3;
+}
+
+int
+titleRows(int height)
+{
+  return titleSize(height) * 5 / 2;
+}
+
+/** A picture of nothing. */
+pcl_uvol::Image
+makeGround(const pcl_uvol::Background& background, int width, int height)
+{
+  pcl_uvol::Image image;
+  image.width = static_cast<std::uint32_t>(width);
+  image.height = static_cast<std::uint32_t>(height);
+  image.color.resize(4 * image.pixels());
+  for (std::uint32_t row = 0; row < image.height; ++row) {
+    const float below =
+        (static_cast<float>(row) + 0.5f) / static_cast<float>(image.height);
+    const pcl_uvol::Rgba color =
+        background.kind == pcl_uvol::Background::Kind::Transparent
+            ? 0
+            : pcl_uvol::toRgba(pcl_uvol::backgroundAt(background, below));
+    for (std::uint32_t k = 0; k < 4 * image.width; ++k)
+      image.color[4 * std::size_t{image.width} * row + k] =
+          static_cast<std::uint8_t>(color >> (8 * (k % 4)));
+  }
+  return image;
+}
+
+/** Put a view into its place. */
+void
+place(const pcl_uvol::Image& view, const PictureCell& cell, pcl_uvol::Image& picture)
+{
+  for (std::uint32_t row = 0; row < view.height; ++row)
+    std::copy_n(view.color.begin() + std::ptrdiff_t{4} * row * view.width,
+                4 * view.width,
+                picture.color.begin() +
+                    std::ptrdiff_t{4} *
+                        ((row + cell.top) * std::ptrdiff_t{picture.width} + cell.left));
+}
+
+/** Lay a view over what is in its place. */
+void
+layOver(const pcl_uvol::Image& view, const PictureCell& cell, pcl_uvol::Image& picture)
+{
+  for (std::uint32_t row = 0; row < view.height; ++row)
+    for (std::uint32_t column = 0; column < view.width; ++column) {
+      const std::uint8_t* const pixel =
+          &view.color[4 * (std::size_t{row} * view.width + column)];
+      if (pixel[3] > 0)
+        blend(picture,
+              cell.left + static_cast<int>(column),
+              cell.top + static_cast<int>(row),
+              {pixel[0], pixel[1], pixel[2]},
+              pixel[3] / 255.0);
+    }
+}
+
+pcl::PointCloud<pcl::PointXYZ>
+cornersOf(const Eigen::AlignedBox3d& box)
+{
+  pcl::PointCloud<pcl::PointXYZ> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3f corner =
+        box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)).cast<float>();
+    corners.push_back({corner.x(), corner.y(), corner.z()});
+  }
+  return corners;
+}
+
+} // namespace
+
+Eigen::AlignedBox3d
+boxAround(const pcl_uvol::CloudView& cloud)
+{
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    const Eigen::Vector3f point = Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i));
+    if (point.allFinite())
+      box.extend(point.cast<double>());
+  }
+  return box;
+}
+
+pcl_uvol::Camera
+findCameraOf(const Subject& subject,
+             const PictureCell& cell,
+             const FindCamera& find_camera)
+{
+  if (!subject.box)
+    return find_camera(subject.bounds, cell, subject.cloud);
+  const auto corners = cornersOf(*subject.box);
+  return find_camera({subject.box->center(), 0.5 * subject.box->diagonal().norm()},
+                     cell,
+                     pcl_uvol::viewOf(corners));
+}
+
+bool
+Figure::fits(int width, int height) const
+{
+  constexpr int least = 16;
+  const PictureCell first = layOut(width, height)[0];
+  return std::min(first.width, first.height) >= least ||
+         (views.empty() && title.empty());
+}
+
+double
+Figure::getFill(const PictureCell& cell) const
+{
+  constexpr double usual = 0.9, least = 0.4, letters = 11.0; // of values on both sides
+  if (!has_ticks)
+    return usual;
+  const double side = std::min(cell.width, cell.height);
+  return std::clamp(1.0 - letters * letterSize(cell.height) / side, least, usual);
+}
+
+pcl_uvol::Background
+Figure::getBackgroundOfViews(pcl_uvol::Background background) const
+{
+  if (drawsMarks())
+    background.kind = pcl_uvol::Background::Kind::Transparent;
+  return background;
+}
+
+std::vector<PictureCell>
+Figure::layOut(int width, int height) const
+{
+  const int top = title.empty() ? 0 : titleRows(height);
+  const int count = std::max(1, static_cast<int>(views.size()));
+  // As many columns as leave the largest square for each view.
+  int columns = 1, largest = 0;
+  for (int across = 1; across <= count; ++across) {
+    const int down = (count + across - 1) / across;
+    const int side = std::min(width / across, (height - top) / down);
+    if (side > largest) {
+      largest = side;
+      columns = across;
+    }
+  }
+  const int rows = (count + columns - 1) / columns;
+  std::vector<PictureCell> cells;
+  for (int i = 0; i < count; ++i) {
+    const int column = i % columns, row = i / columns;
+    const auto split = [](int length, int part, int parts) {
+      return length * part / parts;
+    };
+    const int left = split(width, column, columns),
+              above = top + split(height - top, row, rows);
+    cells.push_back({left,
+                     above,
+                     split(width, column + 1, columns) - left,
+                     top + split(height - top, row + 1, rows) - above,
+                     views.empty() ? "" : views[static_cast<std::size_t>(i)]});
+  }
+  return cells;
+}
+
+void
+Figure::drawBehind(pcl_uvol::Image& image,
+                   const PictureCell& cell,
+                   const pcl_uvol::Camera& camera,
+                   const DataBox& box) const
+{
+  const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
+  const int font = letterSize(cell.height);
+  const MarkStyle style{font, inkOn(image)};
+  if (showsBox())
+    drawBoxBehind(image, perspective, box, style, has_ticks);
+  if (views.size() > 1)
+    writeText(image,
+              cell.view,
+              font,
+              cell.left + font,
+              cell.top + 3 * font / 2,
+              TextAnchor::Left,
+              style.ink);
+}
+
+void
+Figure::drawBefore(pcl_uvol::Image& image,
+                   const PictureCell& cell,
+                   const pcl_uvol::Camera& camera,
+                   const DataBox& box) const
+{
+  const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
+  const int font = letterSize(cell.height);
+  const MarkStyle style{font, inkOn(image)};
+  if (has_box)
+    drawBoxBefore(image, perspective, box, style);
+  const double length = std::min(3.0 * font, 0.12 * std::min(cell.width, cell.height));
+  const double margin = length + 1.5 * font;
+  if (has_triad)
+    drawTriad(image,
+              perspective,
+              {cell.left + margin, cell.top + cell.height - margin},
+              length,
+              style);
+  if (has_scale_bar) {
+    constexpr double longest = 0.25; // of the view's width
+    const double distance = perspective.seenFromEye(box.box.center()).z();
+    drawScaleBar(
+        image,
+        {cell.left + cell.width - 1.5 * font, cell.top + cell.height - 1.5 * font},
+        perspective.pixelsOf(box.factors.x(), distance),
+        longest * cell.width,
+        box.unit,
+        style);
+  }
+}
+
+pcl_uvol::Image
+Figure::drawViews(const Subject& subject,
+                  const Ground& ground,
+                  const FindCamera& find_camera,
+                  const DrawView& draw) const
+{
+  pcl_uvol::Image picture = makeGround(ground.background, ground.width, ground.height),
+                  image;
+  DataBox box{{}, Eigen::Vector3d(subject.origin.data()), ground.factors, unit};
+  if (drawsMarks())
+    box.box = subject.box ? *subject.box : boxAround(subject.cloud);
+  Subject seen = subject;
+  if (showsBox())
+    seen.box = box.box;
+  for (const PictureCell& cell : layOut(ground.views_width, ground.height)) {
+    const pcl_uvol::Camera camera = findCameraOf(seen, cell, find_camera);
+    draw(camera, cell, image);
+    if (drawsMarks()) {
+      drawBehind(picture, cell, camera, box);
+      layOver(image, cell, picture);
+      drawBefore(picture, cell, camera, box);
+    }
+    else
+      place(image, cell, picture);
+  }
+  return picture;
+}
+
+void
+Figure::drawTitle(pcl_uvol::Image& image) const
+{
+  if (title.empty())
+    return;
+  const int height = static_cast<int>(image.height);
+  writeText(image,
+            title,
+            titleSize(height),
+            static_cast<int>(image.width) / 2,
+            titleRows(height) / 2,
+            TextAnchor::Center,
+            inkOn(image));
+}
+
+} // namespace uvol_tools

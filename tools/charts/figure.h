@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What explains a picture of a surface: axes, box, directions, lengths, a title, and
+// several views side by side.
+#pragma once
+
+#include "charts/data_box.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/lighting.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief A part of a picture that a camera draws into, in pixels. */
+struct PictureCell {
+  int left, top, width, height;
+  std::string view; ///< the side that it is seen from; "": as the options say
+};
+
+/** \brief What a picture is drawn of. */
+struct Subject {
+  const pcl_uvol::CloudView& cloud;
+  pcl_uvol::BoundingSphere bounds;
+  std::array<double, 3> origin; ///< of its coordinates
+  /** What cameras see and marks show, in its coordinates; none: the cloud. */
+  std::optional<Eigen::AlignedBox3d> box = std::nullopt;
+};
+
+/** \brief The box around the points of a cloud that have a place. */
+Eigen::AlignedBox3d
+boxAround(const pcl_uvol::CloudView& cloud);
+
+/** \brief Gives the camera of a view.
+ * \param bounds of what it has to see
+ * \param cloud that it has to see */
+using FindCamera =
+    std::function<pcl_uvol::Camera(const pcl_uvol::BoundingSphere& bounds,
+                                   const PictureCell& cell,
+                                   const pcl_uvol::CloudView& cloud)>;
+
+/** \brief The camera that sees a subject, or its box if it has one. */
+pcl_uvol::Camera
+findCameraOf(const Subject& subject,
+             const PictureCell& cell,
+             const FindCamera& find_camera);
+
+/** \brief What a picture is drawn on. */
+struct Ground {
+  pcl_uvol::Background background;
+  int width, height; ///< pixels
+  int views_width;   ///< of the width, on the left, what is left to the views
+  /** Along the axes, that the subject is stretched by. */
+  Eigen::Vector3d factors = Eigen::Vector3d::Ones();
+};
+
+/** \brief Marks, a title and views of a picture. */
+struct Figure {
+  bool has_ticks = false, has_box = false, has_triad = false, has_scale_bar = false;
+  std::string unit; ///< of the coordinates; "": none
+  std::string title;
+  std::vector<std::string> views; ///< sides; none: one view, as the options say
+
+  /** \brief True if views and a title have room in a picture of that size. */
+  bool
+  fits(int width, int height) const;
+
+  /** \brief Part of a view that what is drawn may fill. */
+  double
+  getFill(const PictureCell& cell) const;
+
+  /** \brief The background of views: none if marks are drawn there beforehand. */
+  pcl_uvol::Background
+  getBackgroundOfViews(pcl_uvol::Background background) const;
+
+  /** \brief Draws a view of a size with a camera, on getBackgroundOfViews(). */
+  using DrawView = std::function<void(
+      const pcl_uvol::Camera& camera, const PictureCell& cell, pcl_uvol::Image& image)>;
+
+  /** \brief Draw all views with their marks. */
+  pcl_uvol::Image
+  drawViews(const Subject& subject,
+            const Ground& ground,
+            const FindCamera& find_camera,
+            const DrawView& draw) const;
+
+  /** \brief Write the title over the middle of a picture. */
+  void
+  drawTitle(pcl_uvol::Image& image) const;
+
+private:
+  /** True if something lies behind the surface, or beside it. */
+  bool
+  drawsMarks() const
+  {
+    return has_ticks || has_box || has_triad || has_scale_bar || views.size() > 1;
+  }
+
+  /** True if cameras have to see a box around the surface. */
+  bool
+  showsBox() const
+  {
+    return has_ticks || has_box;
+  }
+
+  /** The parts of a picture, of which the columns on the right are taken. */
+  std::vector<PictureCell>
+  layOut(int width, int height) const;
+
+  /** Draw what is behind a surface, or beside it. */
+  void
+  drawBehind(pcl_uvol::Image& image,
+             const PictureCell& cell,
+             const pcl_uvol::Camera& camera,
+             const DataBox& box) const;
+
+  /** Draw what lies before it. */
+  void
+  drawBefore(pcl_uvol::Image& image,
+             const PictureCell& cell,
+             const pcl_uvol::Camera& camera,
+             const DataBox& box) const;
+};
+
+} // namespace uvol_tools
