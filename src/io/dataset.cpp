@@ -42,6 +42,8 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openNpy(path);
   case FileFormat::Npz:
     return openNpz(path);
+  case FileFormat::Bgeo:
+    return openBgeo(path);
   case FileFormat::Plot3d:
     return openPlot3d(path);
   case FileFormat::Netcdf:

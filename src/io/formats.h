@@ -26,6 +26,7 @@ enum class FileFormat {
   Las,
   Npy,
   Npz,
+  Bgeo,
   Netcdf,
   Plot3d
 };
@@ -129,6 +130,10 @@ openNpy(const std::string& path);
 
 std::unique_ptr<RecordSource>
 openNpz(const std::string& path);
+
+/** \brief Particles of Houdini, version 5. */
+std::unique_ptr<RecordSource>
+openBgeo(const std::string& path);
 
 /** Not there where the build lacks the library of NetCDF. */
 std::unique_ptr<RecordSource>

@@ -238,6 +238,12 @@ readLas(const std::uint8_t* bytes, std::size_t size)
 }
 
 void
+readBgeo(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.bgeo", bytes, size), true);
+}
+
+void
 readNpy(const std::uint8_t* bytes, std::size_t size)
 {
   readPoints(writeBytes("a.npy", bytes, size), true);
