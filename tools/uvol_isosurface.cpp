@@ -74,9 +74,9 @@ run(int argc, char** argv)
       "Extracts the isosurface of a scalar field given at scattered points, as "
       "an oriented point cloud,\nor with -mesh as a closed triangle mesh.\nReads pcd "
       "ply csv txt vtk vtp vtu vts h5 nc, snapshots of Gadget and others (uvol "
-      "--list-formats), writes pcd ply vtp csv, "
-      "meshes as ply vtp obj off "
-      "stl.");
+      "--list-formats), writes pcd ply vtp vtkhdf csv, "
+      "meshes as ply vtp vtkhdf "
+      "obj off stl.");
   arguments.declare(options);
   uvol_tools::declareSeries(options);
   if (!options.parse(argc, argv))

@@ -149,9 +149,10 @@ findFormat(const std::string& path, const LoadOptions& options)
     throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
                           "' is none.");
   if (options.cells && format != FileFormat::Vtk)
-    throw InvalidArgument("Cells can be chosen in files of VTK, Exodus, EnSight and "
-                          "OpenFOAM only, and '" +
-                          path + "' is none.");
+    throw InvalidArgument(
+        "Cells can be chosen in files of VTK but .vtkhdf, Exodus, EnSight and "
+        "OpenFOAM only, and '" +
+        path + "' is none.");
   return format;
 }
 

@@ -84,6 +84,10 @@ readText(const std::string& path, const LoadOptions& options);
 std::vector<Triangle>
 readVtpTriangles(const std::string& path);
 
+/** \brief The same of a .vtkhdf; none of another type than PolyData. */
+std::vector<Triangle>
+readVtkHdfTriangles(const std::string& path);
+
 /** \brief .vtk, .vtp, .vtu or .vts, lists of such files, and what VTK itself reads. */
 Dataset
 readVtk(const std::string& path, const LoadOptions& options);
@@ -200,6 +204,13 @@ writeVtp(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
          const std::vector<Triangle>& triangles);
+
+/** \brief The same as .vtkhdf. */
+void
+writeVtkHdf(const std::string& file,
+            const std::string& path,
+            const Dataset& dataset,
+            const std::vector<Triangle>& triangles);
 
 /** \brief Meshes as text, vertices with their normals where they have any. */
 void
