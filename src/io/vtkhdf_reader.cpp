@@ -349,7 +349,8 @@ VtkHdfReader::openPoints()
   const auto count = static_cast<std::uint64_t>(points);
   const auto steps = file_.readAttribute(inside("Steps"), "NSteps");
   if (!steps.empty() && steps[0] > 1.0)
-    notes_.push_back("Of its " + std::to_string(static_cast<long long>(steps[0])) +
+    notes_.push_back("Of its " +
+                     std::to_string(std::llround(std::min(steps[0], 1e15))) +
                      " times the first one is read.");
   columns_.push_back(
       {{"x", "y", "z"},
