@@ -144,7 +144,7 @@ class Mesh(Surface):
         return _measures.measure(self, self._samples, curved, find_intersections, threads, progress)
 
     def save(self, path, ascii=False, progress=None):
-        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name."""
+        """Write a mesh as ply, vtp, vtkhdf, obj, off or stl, by the ending of the name."""
         self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
