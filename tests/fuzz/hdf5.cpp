@@ -185,7 +185,7 @@ Hdf5Maker::addAttribute(Bytes& bytes)
 void
 Hdf5Maker::writeChunk(hid_t table, Bytes& bytes)
 {
-  const std::array<hsize_t, 2> first{};
+  const std::array<hsize_t, 3> first{};
   const auto mask = static_cast<std::uint32_t>(bytes.choose(8));
   std::vector<std::uint8_t> packed(1 + bytes.choose(64));
   for (std::uint8_t& byte : packed)
@@ -231,7 +231,7 @@ Hdf5Maker::addTable(Bytes& bytes)
   if (table >= 0 && rank > 0 && sizes[0] > 0) {
     if (bytes.choose(8) != 0)
       writeNumbers(table, bytes, sizes[0] * (rank > 1 ? sizes[1] : 1));
-    if (has_chunks && rank < 3 && bytes.choose(4) == 0)
+    if (has_chunks && bytes.choose(4) == 0)
       writeChunk(table, bytes);
   }
   if (table >= 0)

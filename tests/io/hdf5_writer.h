@@ -81,19 +81,21 @@ public:
     H5Sclose(space);
   }
 
-  /** \param sizes of the table, the slowest one first */
+  /** \param sizes of the table, the slowest one first
+   * \param chunk of as many sizes; none: nothing is packed */
   void
   block(const std::string& name,
         hid_t type,
         const std::vector<hsize_t>& sizes,
         const std::vector<double>& numbers,
-        bool is_packed = false)
+        const std::vector<hsize_t>& chunk = {})
   {
     const auto rank = static_cast<int>(sizes.size());
     const hid_t space = H5Screate_simple(rank, sizes.data(), nullptr);
     const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
-    if (is_packed) {
-      H5Pset_chunk(made, rank, sizes.data());
+    if (!chunk.empty()) {
+      H5Pset_chunk(made, rank, chunk.data());
+      H5Pset_shuffle(made);
       H5Pset_deflate(made, 4);
     }
     const hid_t id =

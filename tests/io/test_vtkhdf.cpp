@@ -72,8 +72,13 @@ protected:
     if (!has_data)
       return;
     file.block("/VTKHDF/PointData/T", H5T_IEEE_F32LE, {2, 2, 3}, numbersOf(12, 100));
+    file.block("/VTKHDF/PointData/v",
+               H5T_STD_I32LE,
+               {2, 2, 3, 2},
+               numbersOf(24, 0),
+               {1, 2, 2, 1});
     file.block(
-        "/VTKHDF/PointData/v", H5T_STD_I32LE, {2, 2, 3, 2}, numbersOf(24, 0), true);
+        "/VTKHDF/PointData/w", H5T_IEEE_F64BE, {2, 2, 3}, numbersOf(12, 5), {2, 1, 2});
     file.block("/VTKHDF/PointData/short", H5T_STD_I32LE, {2, 5}, numbersOf(10, 0));
   }
 
@@ -332,6 +337,7 @@ TEST_F(VtkHdf, ImagesAreSamples)
     EXPECT_EQ(30.0 + layer, valueAt(points, "z", i) + points.origin[2]);
     EXPECT_EQ(100.0 + static_cast<double>(i), valueAt(points, "T", i));
     EXPECT_EQ(2.0 * static_cast<double>(i) + 1.0, valueAt(points, "v[1]", i));
+    EXPECT_EQ(5.0 + static_cast<double>(i), valueAt(points, "w", i));
   }
   ASSERT_EQ(1u, points.notes.size());
   EXPECT_EQ(0u, points.notes[0].find("The array 'short' has 2 layers"))
