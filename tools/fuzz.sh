@@ -25,7 +25,7 @@ for target in "${targets[@]}"; do
   options=(-max_total_time="$each" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 "-artifact_prefix=$findings/")
   [ ! -f "tests/fuzz/dictionaries/$target.dict" ] || options+=("-dict=tests/fuzz/dictionaries/$target.dict")
   # Stages make their points of these bytes; a kilobyte is 250 of them.
-  grep -qw "$target" <<<"pcd ply text legacy_vtk xml_vtk nrrd meta_image gadget las npy npz scene" || options+=(-max_len=1024)
+  grep -qw "$target" <<<"pcd ply text legacy_vtk xml_vtk nrrd meta_image gadget bgeo las npy npz scene" || options+=(-max_len=1024)
   status=0
   LLVM_PROFILE_FILE=build/fuzz/coverage/$target.profraw OMP_NUM_THREADS=1 "build/fuzz/bin/fuzz_$target" "${options[@]}" "$corpus" "tests/fuzz/corpus/$target" \
     >"$log" 2>&1 || status=$?

@@ -107,8 +107,8 @@ printFormats()
                "standard input"
             << "\nPoints, written: " << joined(listSavedEndings())
             << ", by many processes .pvtp\n"
-               "Meshes, read:    .ply\n"
-               "Meshes, written: .ply .vtp .obj .off .stl\n"
+               "Meshes, read:    .ply .vtp .vtkhdf .obj .off .stl\n"
+               "Meshes, written: .ply .vtp .vtkhdf .obj .off .stl\n"
                "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
                "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
                "Scenes, read:    .scene .txt\n"

@@ -105,7 +105,8 @@ run(int argc, char** argv)
   Options options(
       "uvol_compare",
       "a.ply b.ply [out.ply] [options]",
-      "Measures how far surfaces, meshes (ply vtp obj off stl) or points, are apart "
+      "Measures how far surfaces, meshes (ply vtp vtkhdf obj off stl) or points, are "
+      "apart "
       "both ways, and how much the fields\ndiffer that both have. Writes a with the "
       "field distance, negative inside of b, which uvol_render draws by\n-color "
       "distance.");

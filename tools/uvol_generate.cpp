@@ -207,7 +207,7 @@ run(int argc, char** argv)
   std::string purpose = "Generates scattered samples: of an analytic field, of a "
                         "volume (nrrd nhdr vti mha "
                         "mhd) at random\npositions, or points spread evenly over a "
-                        "mesh (ply vtp obj off stl).\n\nFields, with "
+                        "mesh (ply vtp vtkhdf obj off stl).\n\nFields, with "
                         "isovalues that show them:";
   for (const auto& field : pcl_uvol::analyticFields()) {
     purpose += std::string("\n  ") + field.name + ": " + field.description + ", -iso ";

@@ -14,8 +14,8 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     Parameters
     ----------
     path : str or os.PathLike
-        pcd, ply, csv, txt, xyz, dat, tsv, vtk, vtp, vtu, vts, npy, npz, las, or HDF5
-        (`file.h5:/group` names a part of it), by the ending, which .gz, .bz2 or .zst may
+        pcd, ply, csv, txt, xyz, dat, tsv, vtk, vtp, vtu, vts, vtkhdf, npy, npz, las, bgeo, or
+        HDF5 (`file.h5:/group` names a part of it), by the ending, which .gz, .bz2 or .zst may
         follow; and snapshots of Gadget. "-" is standard input.
     xyz : sequence of three str, optional
         Columns of a text file that hold the coordinates, by names or numbers from 0; by

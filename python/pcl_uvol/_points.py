@@ -102,7 +102,7 @@ class Points(Bridges):
         raise FieldError(describe_missing(name, self.keys()))
 
     def save(self, path, ascii=False, progress=None):
-        """Write a file as the tools do: pcd, ply, vtp or csv, by the ending of its name.
+        """Write a file as the tools do: pcd, ply, vtp, vtkhdf, csv or npz, by the ending of its name.
 
         Parameters
         ----------

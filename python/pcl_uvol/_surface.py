@@ -145,7 +145,7 @@ class Mesh(Surface):
                                  progress=progress)
 
     def save(self, path, ascii=False, progress=None):
-        """Write a mesh as ply, vtp, obj, off or stl, by the ending of the name: `path` and
+        """Write a mesh as ply, vtp, vtkhdf, obj, off or stl, by the ending of the name: `path` and
         `ascii` are as those of `Surface.save`."""
         self._save(path, self.triangles, ascii, progress)
 

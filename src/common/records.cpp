@@ -295,6 +295,20 @@ checkComplete(const pcl::PCLPointCloud2& cloud)
 }
 
 Fields
+findNormals(const Fields& fields)
+{
+  Fields normals;
+  for (const char* const axis : normal_names)
+    if (const auto* const field = findField(fields, axis))
+      if (field->count == 1 &&
+          (normals.empty() || normals.front().datatype == field->datatype))
+        normals.push_back(*field);
+  if (normals.size() < normal_names.size() || findField(fields, "Normals"))
+    normals.clear();
+  return normals;
+}
+
+Fields
 savedFields(const Dataset& dataset)
 {
   const auto& cloud = dataset.cloud;

@@ -50,6 +50,16 @@ makeRecords(Fields fields, std::uint64_t count);
 PCL_UVOL_EXPORTS void
 checkComplete(const pcl::PCLPointCloud2& cloud);
 
+/** \brief Fields of a normal. */
+inline constexpr std::array<const char*, 3> normal_names{
+    {"normal_x", "normal_y", "normal_z"}};
+
+/** \brief The fields normal_x, normal_y and normal_z, which an array of VTK called
+ * Normals holds; none unless all three are there, single numbers of one type, and no
+ * field is called Normals. */
+PCL_UVOL_EXPORTS Fields
+findNormals(const Fields& fields);
+
 /** \brief The fields to be written: no padding, x, y, z in double if needed; offsets
  * are those in the point.
  * \throws InvalidArgument unless x, y, z are float32 and the data is complete */

@@ -29,7 +29,6 @@ namespace {
 using Type = pcl::PCLPointField;
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
-constexpr const char* normal_names[] = {"normal_x", "normal_y", "normal_z"};
 
 std::uint8_t
 datatypeOf(vtkDataArray& array)
@@ -344,16 +343,10 @@ vtkSmartPointer<vtkPolyData>
 fromPointCloud(const Dataset& dataset)
 {
   const Fields fields = savedFields(dataset);
-  Fields xyz, normals;
+  const Fields normals = findNormals(fields);
+  Fields xyz;
   for (const char* const axis : axis_names)
     xyz.push_back(*findField(fields, axis));
-  for (const char* const axis : normal_names)
-    if (const auto* const field = findField(fields, axis))
-      if (field->count == 1 &&
-          (normals.empty() || normals.front().datatype == field->datatype))
-        normals.push_back(*field);
-  if (normals.size() < 3 || findField(fields, "Normals"))
-    normals.clear();
   auto data = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
   points->SetData(makeDataArray(dataset, "Points", xyz));

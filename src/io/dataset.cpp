@@ -10,7 +10,8 @@
 namespace pcl_uvol {
 namespace {
 
-constexpr const char* saved_endings[] = {".pcd", ".ply", ".vtp", ".csv", ".npz"};
+constexpr const char* saved_endings[] = {
+    ".pcd", ".ply", ".vtp", ".vtkhdf", ".csv", ".npz"};
 
 } // namespace
 
@@ -42,6 +43,8 @@ openRecords(const std::string& path, FileFormat format, const LoadOptions& optio
     return openNpy(path);
   case FileFormat::Npz:
     return openNpz(path);
+  case FileFormat::Bgeo:
+    return openBgeo(path);
   case FileFormat::Plot3d:
     return openPlot3d(path);
   case FileFormat::Netcdf:
@@ -87,6 +90,8 @@ saveDataset(const std::string& path, const Dataset& dataset, const SaveOptions& 
       io::writePly(file, path, dataset, {}, options);
     else if (ending == ".vtp")
       io::writeVtp(file, path, dataset, {});
+    else if (ending == ".vtkhdf")
+      io::writeVtkHdf(file, path, dataset, {});
     else if (ending == ".npz")
       io::writeNpz(file, path, dataset);
     else
@@ -100,9 +105,10 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
   const std::string ending = io::getEnding(path);
   if (std::find(std::begin(saved_endings), std::end(saved_endings), ending) ==
       std::end(saved_endings))
-    io::throwUnwritable(path,
-                        io::describeEnding(ending) +
-                            "; points are written as .pcd, .ply, .vtp, .csv or .npz");
+    io::throwUnwritable(
+        path,
+        io::describeEnding(ending) +
+            "; points are written as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz");
   io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);

@@ -16,25 +16,26 @@ namespace {
 constexpr struct {
   const char* ending;
   FileFormat format;
-} known_endings[] = {{".pcd", FileFormat::Pcd},     {".ply", FileFormat::Ply},
-                     {".csv", FileFormat::Text},    {".txt", FileFormat::Text},
-                     {".xyz", FileFormat::Text},    {".dat", FileFormat::Text},
-                     {".tsv", FileFormat::Text},    {".vtk", FileFormat::Vtk},
-                     {".vtp", FileFormat::Vtk},     {".vtu", FileFormat::Vtk},
-                     {".vts", FileFormat::Vtk},     {".las", FileFormat::Las},
-                     {".npy", FileFormat::Npy},     {".npz", FileFormat::Npz},
-                     {".h5", FileFormat::Hdf5},     {".hdf5", FileFormat::Hdf5},
-                     {".hdf", FileFormat::Hdf5},    {".he5", FileFormat::Hdf5},
-                     {".h5part", FileFormat::Hdf5}, {".vtkhdf", FileFormat::Hdf5},
-                     {".nc", FileFormat::Netcdf},   {".nc4", FileFormat::Netcdf},
-                     {".cdf", FileFormat::Netcdf},  {".ex2", FileFormat::Vtk},
-                     {".exo", FileFormat::Vtk},     {".e", FileFormat::Vtk},
-                     {".exii", FileFormat::Vtk},    {".case", FileFormat::Vtk},
-                     {".foam", FileFormat::Vtk},    {".pvd", FileFormat::Vtk},
-                     {".vtm", FileFormat::Vtk},     {".pvtu", FileFormat::Vtk},
-                     {".pvtp", FileFormat::Vtk},    {".pvts", FileFormat::Vtk},
-                     {".vthb", FileFormat::Vtk},    {".htg", FileFormat::Vtk},
-                     {".p3d", FileFormat::Plot3d}};
+} known_endings[] = {{".pcd", FileFormat::Pcd},       {".ply", FileFormat::Ply},
+                     {".csv", FileFormat::Text},      {".txt", FileFormat::Text},
+                     {".xyz", FileFormat::Text},      {".dat", FileFormat::Text},
+                     {".tsv", FileFormat::Text},      {".vtk", FileFormat::Vtk},
+                     {".vtp", FileFormat::Vtk},       {".vtu", FileFormat::Vtk},
+                     {".vts", FileFormat::Vtk},       {".las", FileFormat::Las},
+                     {".npy", FileFormat::Npy},       {".npz", FileFormat::Npz},
+                     {".h5", FileFormat::Hdf5},       {".hdf5", FileFormat::Hdf5},
+                     {".hdf", FileFormat::Hdf5},      {".he5", FileFormat::Hdf5},
+                     {".h5part", FileFormat::Hdf5},   {".vtkhdf", FileFormat::Hdf5},
+                     {".nc", FileFormat::Netcdf},     {".nc4", FileFormat::Netcdf},
+                     {".cdf", FileFormat::Netcdf},    {".ex2", FileFormat::Vtk},
+                     {".exo", FileFormat::Vtk},       {".e", FileFormat::Vtk},
+                     {".exii", FileFormat::Vtk},      {".case", FileFormat::Vtk},
+                     {".foam", FileFormat::Vtk},      {".pvd", FileFormat::Vtk},
+                     {".vtm", FileFormat::Vtk},       {".pvtu", FileFormat::Vtk},
+                     {".pvtp", FileFormat::Vtk},      {".pvts", FileFormat::Vtk},
+                     {".vthb", FileFormat::Vtk},      {".htg", FileFormat::Vtk},
+                     {".p3d", FileFormat::Plot3d},    {".bgeo", FileFormat::Bgeo},
+                     {".bhclassic", FileFormat::Bgeo}};
 
 /** Grids, whose points are no samples but lattices, and whose cells may be. */
 constexpr const char* grid_endings[] = {".vti", ".vtr", ".pvti", ".pvtr"};
@@ -46,7 +47,7 @@ constexpr struct {
 } converters[] = {
     {".laz", "laszip -i in.laz -o out.las unpacks it"},
     {".e57", "pdal translate in.e57 out.las converts it"},
-    {".bgeo", "splashsurf convert in.bgeo out.vtk converts it"},
+    {".bgeosc", "saved by Houdini as .bhclassic it can be read"},
     {".cgns", "meshio convert in.cgns out.vtu converts it, and so does ParaView"},
     {".msh", "meshio convert in.msh out.vtu converts it"},
     {".xdmf", "meshio convert in.xdmf out.vtu converts it"},
@@ -91,7 +92,7 @@ throwUnknown(const std::string& path, const std::string& ending)
       path,
       describeEnding(ending) + (nearest.empty() ? "" : ", but " + nearest + " is") +
           "; points are read from .pcd, .ply, .csv, .txt, .xyz, .dat, "
-          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, PLOT3D, Exodus, "
+          ".tsv, .vtk, .vtp, .vtu, .vts, .las, .npy, .npz, .nc, .bgeo, PLOT3D, Exodus, "
           "EnSight, OpenFOAM, files of HDF5 and snapshots of Gadget");
 }
 
@@ -148,9 +149,10 @@ findFormat(const std::string& path, const LoadOptions& options)
     throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
                           "' is none.");
   if (options.cells && format != FileFormat::Vtk)
-    throw InvalidArgument("Cells can be chosen in files of VTK, Exodus, EnSight and "
-                          "OpenFOAM only, and '" +
-                          path + "' is none.");
+    throw InvalidArgument(
+        "Cells can be chosen in files of VTK but .vtkhdf, Exodus, EnSight and "
+        "OpenFOAM only, and '" +
+        path + "' is none.");
   return format;
 }
 

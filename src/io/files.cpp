@@ -100,7 +100,8 @@ InputFile::InputFile(const std::string& path, Packing packing)
   if (descriptor_ < 0)
     throwUnreadable(path, std::strerror(errno));
   takeSize();
-  if (packing == Packing::Keep || !isPacked(path))
+  if (packing == Packing::Keep ||
+      !(isPacked(path) || isPackedInside(path, descriptor_)))
     return;
   const InputFile packed(path, descriptor_); // closes it
   descriptor_ = -1;

@@ -26,6 +26,7 @@ enum class FileFormat {
   Las,
   Npy,
   Npz,
+  Bgeo,
   Netcdf,
   Plot3d
 };
@@ -83,6 +84,10 @@ readText(const std::string& path, const LoadOptions& options);
 std::vector<Triangle>
 readVtpTriangles(const std::string& path);
 
+/** \brief The same of a .vtkhdf; none of another type than PolyData. */
+std::vector<Triangle>
+readVtkHdfTriangles(const std::string& path);
+
 /** \brief .vtk, .vtp, .vtu or .vts, lists of such files, and what VTK itself reads. */
 Dataset
 readVtk(const std::string& path, const LoadOptions& options);
@@ -129,6 +134,10 @@ openNpy(const std::string& path);
 
 std::unique_ptr<RecordSource>
 openNpz(const std::string& path);
+
+/** \brief Particles of Houdini, version 5. */
+std::unique_ptr<RecordSource>
+openBgeo(const std::string& path);
 
 /** Not there where the build lacks the library of NetCDF. */
 std::unique_ptr<RecordSource>
@@ -195,6 +204,13 @@ writeVtp(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
          const std::vector<Triangle>& triangles);
+
+/** \brief The same as .vtkhdf. */
+void
+writeVtkHdf(const std::string& file,
+            const std::string& path,
+            const Dataset& dataset,
+            const std::vector<Triangle>& triangles);
 
 /** \brief Meshes as text, vertices with their normals where they have any. */
 void

@@ -8,7 +8,8 @@
 #include <pcl/PCLPointField.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <zlib.h>
 
@@ -59,7 +60,18 @@ struct Storage {
   bool is_packed = false;
   bool can_unpack = false;           ///< by the filters known here
   std::vector<H5Z_filter_t> filters; ///< in the order of packing
-  std::array<hsize_t, 2> sizes{{0, 1}}, chunk{{0, 1}};
+  /** Of the table and of a chunk, at least two: a list has one column. @{ */
+  std::vector<hsize_t> sizes{0, 1}, chunk{0, 1};
+  /** @} */
+
+  std::uint64_t
+  chunkBytes() const
+  {
+    return std::accumulate(chunk.begin(),
+                           chunk.end(),
+                           std::uint64_t{number_bytes},
+                           std::multiplies<std::uint64_t>());
+  }
 };
 
 Storage
@@ -78,8 +90,10 @@ describeStorage(hid_t dataset, const Hdf5Shape& shape)
   const int rank = H5Sget_simple_extent_ndims(*space);
   const int filters = H5Pget_nfilters(*properties);
   storage.is_packed = filters > 0;
-  if (H5Pget_layout(*properties) != H5D_CHUNKED || rank > 2 || !storage.is_plain)
+  if (H5Pget_layout(*properties) != H5D_CHUNKED || !storage.is_plain)
     return storage;
+  storage.sizes.resize(std::max<std::size_t>(static_cast<std::size_t>(rank), 2), 1);
+  storage.chunk.resize(storage.sizes.size(), 1);
   H5Sget_simple_extent_dims(*space, storage.sizes.data(), nullptr);
   H5Pget_chunk(*properties, rank, storage.chunk.data());
   for (int i = 0; i < filters; ++i) {
@@ -117,7 +131,7 @@ public:
       , dataset_(std::move(dataset))
       , components_(static_cast<std::size_t>(shape.components))
       , storage_(std::move(storage))
-      , chunk_bytes_(storage_.chunk[0] * storage_.chunk[1] * storage_.number_bytes)
+      , chunk_bytes_(storage_.chunkBytes())
   {
   }
 
@@ -149,7 +163,9 @@ private:
   void
   fillBand(std::uint64_t band);
   bool
-  readChunk(std::uint64_t row, std::uint64_t column);
+  readChunk(const std::vector<hsize_t>& place);
+  void
+  copyChunk(const std::vector<hsize_t>& place, std::size_t rows);
   void
   unpack(std::uint32_t mask);
   void
@@ -173,39 +189,80 @@ private:
   std::vector<std::uint8_t> rows_, chunk_, other_;
 };
 
+/** The next of the places between 0 and ends, the last axis fastest.
+ * \param first axis that changes
+ * \return false behind the last one, and the first one */
+bool
+advance(std::vector<hsize_t>& place,
+        const std::vector<hsize_t>& ends,
+        const std::vector<hsize_t>& steps,
+        std::size_t first)
+{
+  for (std::size_t axis = place.size(); axis-- > first;) {
+    place[axis] += steps[axis];
+    if (place[axis] < ends[axis])
+      return true;
+    place[axis] = 0;
+  }
+  return false;
+}
+
 /** Rows that one or more chunks beside each other hold. */
 void
 ChunkedColumn::fillBand(std::uint64_t band)
 {
   const std::size_t size = storage_.number_bytes, step = components_ * size;
-  const std::uint64_t row = band * storage_.chunk[0];
+  std::vector<hsize_t> place(storage_.sizes.size(), 0);
+  place[0] = band * storage_.chunk[0];
   const auto rows = static_cast<std::size_t>(
-      std::min<std::uint64_t>(storage_.chunk[0], storage_.sizes[0] - row));
+      std::min<std::uint64_t>(storage_.chunk[0], storage_.sizes[0] - place[0]));
   band_.reset();
-  rows_.resize(rows * step);
-  for (std::uint64_t column = 0; column < components_; column += storage_.chunk[1]) {
-    const auto columns = static_cast<std::size_t>(
-        std::min<std::uint64_t>(storage_.chunk[1], components_ - column));
-    const bool is_there = readChunk(row, column);
-    for (std::size_t i = 0; i < rows; ++i) {
-      std::uint8_t* const to = rows_.data() + i * step + column * size;
-      if (is_there)
-        std::copy_n(chunk_.data() + i * storage_.chunk[1] * size, columns * size, to);
-      else
-        std::fill_n(to, columns * size, std::uint8_t(0));
-    }
-  }
+  rows_.assign(rows * step, 0);
+  do
+    if (readChunk(place))
+      copyChunk(place, rows);
+  while (advance(place, storage_.sizes, storage_.chunk, 1));
   if (storage_.swapped)
     swapBytes(rows_.data(), size, rows * components_);
   band_ = band;
 }
 
+/** Run by run along the last axis, from a chunk to the rows.
+ * \param rows of the chunk that the table has */
+void
+ChunkedColumn::copyChunk(const std::vector<hsize_t>& place, std::size_t rows)
+{
+  const auto& sizes = storage_.sizes;
+  const auto& chunk = storage_.chunk;
+  if (std::equal(sizes.begin() + 1, sizes.end(), chunk.begin() + 1)) { // whole rows
+    std::copy_n(chunk_.data(), rows_.size(), rows_.data());
+    return;
+  }
+  const std::size_t size = storage_.number_bytes, last = sizes.size() - 1;
+  std::vector<hsize_t> ends{rows};
+  for (std::size_t axis = 1; axis <= last; ++axis)
+    ends.push_back(std::min(chunk[axis], sizes[axis] - place[axis]));
+  std::vector<hsize_t> within(last, 0);
+  const std::vector<hsize_t> ones(last, 1);
+  do {
+    std::uint64_t from = 0, to = place[last];
+    std::uint64_t from_step = chunk[last], to_step = sizes[last];
+    for (std::size_t axis = last; axis-- > 0;) {
+      from += within[axis] * from_step;
+      to += ((axis > 0 ? place[axis] : 0) + within[axis]) * to_step;
+      from_step *= chunk[axis];
+      to_step *= sizes[axis];
+    }
+    std::copy_n(
+        chunk_.data() + from * size, ends[last] * size, rows_.data() + to * size);
+  } while (advance(within, ends, ones, 0));
+}
+
 /** \return false for a chunk that was never written: its numbers are 0 */
 bool
-ChunkedColumn::readChunk(std::uint64_t row, std::uint64_t column)
+ChunkedColumn::readChunk(const std::vector<hsize_t>& place)
 {
   const Hdf5Session session;
-  const std::array<hsize_t, 2> place{{row, column}};
   hsize_t bytes = 0;
   if (H5Dget_chunk_storage_size(*dataset_, place.data(), &bytes) < 0 || bytes == 0)
     return false;
@@ -361,11 +418,9 @@ openHdf5Column(const std::string& path,
   const Storage storage = describeStorage(*dataset, shape);
   const std::uint64_t promised = shape.rows * shape.components * storage.number_bytes;
   const std::uint64_t stored = H5Dget_storage_size(*dataset);
-  if (shape.rows > UINT32_MAX ||
-      std::max<std::uint64_t>(
-          promised, storage.chunk[0] * storage.chunk[1] * storage.number_bytes) /
-              (storage.is_packed ? most_expansion : 1) >
-          stored)
+  if (shape.rows > UINT32_MAX || std::max(promised, storage.chunkBytes()) /
+                                         (storage.is_packed ? most_expansion : 1) >
+                                     stored)
     throwUnreadable(path,
                     "it is truncated or damaged: " + quoteText(name) + " is promised " +
                         std::to_string(shape.rows) + " rows, but only " +

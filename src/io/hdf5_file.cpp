@@ -45,6 +45,16 @@ openDataset(hid_t file, const std::string& name)
   return own(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
 }
 
+/** Null for what is not there. */
+Handle
+openAttribute(hid_t file, const std::string& object, const std::string& name)
+{
+  const Handle owner = openObject(file, object);
+  if (!owner || H5Aexists(*owner, name.c_str()) <= 0)
+    return nullptr;
+  return own(H5Aopen(*owner, name.c_str(), H5P_DEFAULT));
+}
+
 std::optional<Hdf5Shape>
 shapeOf(hid_t dataset)
 {
@@ -126,10 +136,7 @@ std::vector<double>
 Hdf5File::readAttribute(const std::string& object, const std::string& name) const
 {
   const Hdf5Session session;
-  const Handle owner = openObject(*file_, object);
-  if (!owner || H5Aexists(*owner, name.c_str()) <= 0)
-    return {};
-  const Handle attribute = own(H5Aopen(*owner, name.c_str(), H5P_DEFAULT));
+  const Handle attribute = openAttribute(*file_, object, name);
   if (!attribute)
     return {};
   const Handle type = own(H5Aget_type(*attribute)),
@@ -143,6 +150,35 @@ Hdf5File::readAttribute(const std::string& object, const std::string& name) cons
   if (H5Aread(*attribute, H5T_NATIVE_DOUBLE, numbers.data()) < 0)
     return {};
   return numbers;
+}
+
+std::string
+Hdf5File::readText(const std::string& object, const std::string& name) const
+{
+  const Hdf5Session session;
+  const Handle attribute = openAttribute(*file_, object, name);
+  if (!attribute)
+    return "";
+  const Handle type = own(H5Aget_type(*attribute)),
+               space = own(H5Aget_space(*attribute));
+  if (!type || !space || H5Tget_class(*type) != H5T_STRING ||
+      H5Sget_simple_extent_npoints(*space) != 1)
+    return "";
+  if (H5Tis_variable_str(*type) > 0) {
+    char* characters = nullptr;
+    if (H5Aread(*attribute, *type, &characters) < 0 || !characters)
+      return "";
+    std::string text(characters);
+    H5free_memory(characters);
+    return text;
+  }
+  const std::size_t size = H5Tget_size(*type);
+  if (size > std::size_t{most_numbers})
+    return "";
+  std::string text(size, '\0');
+  if (H5Aread(*attribute, *type, text.data()) < 0)
+    return "";
+  return text.substr(0, text.find('\0'));
 }
 
 std::vector<double>

@@ -49,6 +49,10 @@ public:
   std::vector<double>
   readAttribute(const std::string& object, const std::string& name) const;
 
+  /** \brief The text of an attribute; "" if it is not there, or holds none. */
+  std::string
+  readText(const std::string& object, const std::string& name) const;
+
   /** \brief The numbers of a small table; empty if it is not there, or holds none.
    * \throws IOError for chunks that are damaged */
   std::vector<double>

@@ -80,5 +80,18 @@ private:
 std::unique_ptr<RecordSource>
 openPhantom(const Hdf5File& file, const std::string& particles);
 
+/** \brief The group that files of VTKHDF hold. */
+extern const char* const vtkhdf_group;
+
+/** \brief The points of a group of VTKHDF with their data; null for a group that says
+ * no type of VTK.
+ *
+ * PolyData and UnstructuredGrid give their points, of several times those of the first
+ * one, ImageData the places of its lattice. Cells are not looked at.
+ *
+ * \throws IOError */
+std::unique_ptr<RecordSource>
+openVtkHdf(const Hdf5File& file, const std::string& group);
+
 } // namespace io
 } // namespace pcl_uvol

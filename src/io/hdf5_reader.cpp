@@ -127,7 +127,7 @@ std::unique_ptr<RecordSource>
 openGroup(Hdf5Group& reader, const std::string& group, std::vector<std::string> notes)
 {
   reader.takeFields(group);
-  reader.takeFields(joinNames(group, "PointData")); // VTKHDF
+  reader.takeFields(joinNames(group, "PointData")); // VTKHDF without its type
   return reader.open(std::move(notes));
 }
 
@@ -211,6 +211,8 @@ openHdf5(const std::string& path, const LoadOptions& options)
   if (!options.particles.empty())
     throwUnreadable(
         path, "-particles chooses from snapshots, and this is none that is known");
+  if (auto data = openVtkHdf(file, name.inside.empty() ? vtkhdf_group : name.inside))
+    return data;
   return name.inside.empty() ? openAnyGroup(file) : openInside(file, name.inside);
 }
 

@@ -55,7 +55,7 @@ describeUnheldLabels(const std::string& path, const Dataset& dataset)
   for (const auto& field : dataset.cloud.fields)
     if (findLabels(dataset.cloud.fields, dataset.labels, field.name))
       fields += (fields.empty() ? "" : ", ") + quoteText(field.name);
-  if (fields.empty() || (!has_comments && ending != ".npz"))
+  if (fields.empty() || (!has_comments && ending != ".npz" && ending != ".vtkhdf"))
     return "";
   return path + " holds numbers only: the names in " + fields +
          (has_comments ? " are counted from 0 in alphabetical order, and comments of "

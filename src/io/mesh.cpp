@@ -4,6 +4,7 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/mesh_readers.h"
+#include "io/record_source.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -30,10 +31,13 @@ readMesh(const std::string& path)
     return readStl(path);
   if (ending == ".vtp")
     return {readVtk(path, {}), readVtpTriangles(path)};
+  if (ending == ".vtkhdf")
+    return {readWhole(openHdf5(path, {}), {}), readVtkHdfTriangles(path)};
   if (InputFile(path).head(3) != "ply")
-    throwUnreadable(path,
-                    "meshes are read from .ply, .vtp, .obj, .off and .stl, and this is "
-                    "none");
+    throwUnreadable(
+        path,
+        "meshes are read from .ply, .vtp, .vtkhdf, .obj, .off and .stl, and this is "
+        "none");
   return readPlyMesh(path);
 }
 
@@ -82,6 +86,8 @@ saveMesh(const std::string& path,
       io::writePly(file, path, vertices, triangles, options);
     else if (ending == ".vtp")
       io::writeVtp(file, path, vertices, triangles);
+    else if (ending == ".vtkhdf")
+      io::writeVtkHdf(file, path, vertices, triangles);
     else if (ending == ".obj")
       io::writeObj(file, path, vertices, triangles, options);
     else if (ending == ".off")
@@ -95,7 +101,8 @@ void
 checkMeshPath(const std::string& path)
 {
   if (!isMeshPath(path))
-    io::throwUnwritable(path, "meshes are written as .ply, .vtp, .obj, .off or .stl");
+    io::throwUnwritable(
+        path, "meshes are written as .ply, .vtp, .vtkhdf, .obj, .off or .stl");
   io::checkWritable(path);
 }
 
@@ -103,7 +110,8 @@ bool
 isMeshPath(const std::string& path)
 {
   const std::string ending = io::getEnding(path);
-  return ending == ".ply" || ending == ".vtp" || isMeshOnly(path);
+  return ending == ".ply" || ending == ".vtp" || ending == ".vtkhdf" ||
+         isMeshOnly(path);
 }
 
 bool

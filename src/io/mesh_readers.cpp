@@ -412,5 +412,39 @@ readStl(const std::string& path)
   return mesh;
 }
 
+std::uint64_t
+countCorners(const std::string& path, const std::vector<double>& ends)
+{
+  double begin = 0.0;
+  for (const double end : ends) {
+    if (!(end >= begin && end <= 0x1p53))
+      throwUnreadable(path, "its polygons do not follow one another");
+    begin = end;
+  }
+  return static_cast<std::uint64_t>(begin);
+}
+
+void
+addFans(const std::string& path,
+        const std::vector<double>& ends,
+        const std::vector<double>& corners,
+        std::uint64_t points,
+        std::uint64_t first,
+        std::vector<Triangle>& triangles)
+{
+  const auto vertex = [&](std::size_t corner) {
+    if (!(corners[corner] >= 0.0 && corners[corner] < static_cast<double>(points)))
+      throwUnreadable(path, "a polygon names a point that is not there");
+    return static_cast<std::uint32_t>(first +
+                                      static_cast<std::uint64_t>(corners[corner]));
+  };
+  std::size_t start = 0;
+  for (const double end : ends) {
+    for (std::size_t k = start + 2; k < static_cast<std::size_t>(end); ++k)
+      triangles.push_back({vertex(start), vertex(k - 1), vertex(k)});
+    start = static_cast<std::size_t>(end);
+  }
+}
+
 } // namespace io
 } // namespace pcl_uvol

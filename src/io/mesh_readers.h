@@ -4,7 +4,9 @@
 
 #include "io/formats.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pcl_uvol {
 namespace io {
@@ -25,6 +27,25 @@ readOff(const std::string& path);
 LoadedMesh
 readStl(const std::string& path);
 /** @} */
+
+/** \brief Corners of the polygons of VTK's files.
+ * \param ends of the polygons among their corners, one behind the other
+ * \throws IOError unless they ascend */
+std::uint64_t
+countCorners(const std::string& path, const std::vector<double>& ends);
+
+/** \brief Append the fans of polygons whose corners were counted.
+ * \param corners numbers of points
+ * \param points that there are
+ * \param first number of these points among all
+ * \throws IOError for a polygon that names a point that is not there */
+void
+addFans(const std::string& path,
+        const std::vector<double>& ends,
+        const std::vector<double>& corners,
+        std::uint64_t points,
+        std::uint64_t first,
+        std::vector<Triangle>& triangles);
 
 } // namespace io
 } // namespace pcl_uvol

@@ -3,6 +3,7 @@
 #include "io/columns.h"
 #include "io/files.h"
 #include "io/formats.h"
+#include "io/little_endian.h"
 
 #include <pcl/PCLPointField.h>
 
@@ -16,14 +17,6 @@ namespace {
 using Type = pcl::PCLPointField;
 
 constexpr std::size_t block_points = 1u << 14;
-
-template <typename T>
-void
-append(std::string& bytes, T value)
-{
-  for (std::size_t i = 0; i < sizeof(T); ++i)
-    bytes += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i));
-}
 
 /** "<f4" and the like; files are written in the order of this machine's bytes. */
 std::string
@@ -51,7 +44,7 @@ makeHeader(std::uint8_t datatype, std::size_t points, std::size_t components)
     text += ' ';
   text += '\n';
   std::string header("\x93NUMPY\1\0", 8);
-  append(header, static_cast<std::uint16_t>(text.size()));
+  appendLittle(header, static_cast<std::uint16_t>(text.size()));
   return header + text;
 }
 
@@ -112,20 +105,20 @@ ZipWriter::add(const std::string& name,
                      static_cast<uInt>(block.size()));
   });
   const std::string entry = name + ".npy";
-  std::string common;                      // of both headers
-  append(common, std::uint16_t(20));       // version that is needed
-  append(common, std::uint16_t(0x800));    // names are UTF-8
-  append(common, std::uint16_t(0));        // not packed
-  append(common, std::uint32_t(0x210000)); // 1980-01-01: same input, same bytes
-  append(common, static_cast<std::uint32_t>(checksum));
-  append(common, static_cast<std::uint32_t>(bytes));
-  append(common, static_cast<std::uint32_t>(bytes));
-  append(common, static_cast<std::uint16_t>(entry.size()));
-  append(common, std::uint16_t(0));
+  std::string common;                            // of both headers
+  appendLittle(common, std::uint16_t(20));       // version that is needed
+  appendLittle(common, std::uint16_t(0x800));    // names are UTF-8
+  appendLittle(common, std::uint16_t(0));        // not packed
+  appendLittle(common, std::uint32_t(0x210000)); // 1980-01-01: same input, same bytes
+  appendLittle(common, static_cast<std::uint32_t>(checksum));
+  appendLittle(common, static_cast<std::uint32_t>(bytes));
+  appendLittle(common, static_cast<std::uint32_t>(bytes));
+  appendLittle(common, static_cast<std::uint16_t>(entry.size()));
+  appendLittle(common, std::uint16_t(0));
   directory_ += "PK\1\2";
-  append(directory_, std::uint16_t(20));
+  appendLittle(directory_, std::uint16_t(20));
   directory_ += common + std::string(10, '\0');
-  append(directory_, static_cast<std::uint32_t>(offset_));
+  appendLittle(directory_, static_cast<std::uint32_t>(offset_));
   directory_ += entry;
   ++entries_;
   put("PK\3\4" + common + entry);
@@ -136,11 +129,11 @@ void
 ZipWriter::close()
 {
   std::string end("PK\5\6\0\0\0\0", 8);
-  append(end, entries_);
-  append(end, entries_);
-  append(end, static_cast<std::uint32_t>(directory_.size()));
-  append(end, static_cast<std::uint32_t>(offset_));
-  append(end, std::uint16_t(0));
+  appendLittle(end, entries_);
+  appendLittle(end, entries_);
+  appendLittle(end, static_cast<std::uint32_t>(directory_.size()));
+  appendLittle(end, static_cast<std::uint32_t>(offset_));
+  appendLittle(end, std::uint16_t(0));
   put(directory_ + end);
   out_.close();
 }

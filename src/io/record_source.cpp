@@ -4,6 +4,7 @@
 
 #include "common/scalar_field.h"
 #include "io/formats.h"
+#include "io/vtk_arrays.h"
 
 #include <algorithm>
 
@@ -20,13 +21,13 @@ constexpr std::size_t cached_bytes = std::size_t(1) << 18;
 constexpr std::size_t told_records = 1u << 14;
 
 void
-swapBytes(const Fields& fields, std::size_t step, std::uint8_t* at, std::size_t count)
+swapRecords(const Fields& fields, std::size_t step, std::uint8_t* at, std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i, at += step)
-    for (const auto& field : fields) {
-      const std::size_t bytes = datatypeSize(field.datatype);
-      std::reverse(at + field.offset, at + field.offset + bytes);
-    }
+    for (const auto& field : fields)
+      swapBytes(at + field.offset,
+                datatypeSize(field.datatype),
+                fieldBytes(field) / datatypeSize(field.datatype));
 }
 
 } // namespace
@@ -68,7 +69,7 @@ FixedSource::read(std::size_t count, std::uint8_t* records)
     std::uint8_t* const to = records + done * step_;
     file_.read(offset_ + next_ * step_, to, now * step_);
     if (swapped_)
-      swapBytes(info_.fields, step_, to, now);
+      swapRecords(info_.fields, step_, to, now);
     next_ += now;
   }
 }

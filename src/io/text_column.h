@@ -47,6 +47,10 @@ struct TextColumn {
   getDatatype() const;
 };
 
+/** \brief Names of a column that are kept: beyond it they rather describe single rows.
+ */
+constexpr std::size_t most_names = 1u << 16;
+
 constexpr double no_name = -1.0; ///< the label of a missing name
 
 /** \brief True for an empty cell, "NaN", "n/a" and the like. */

@@ -20,8 +20,6 @@ namespace {
 
 using Type = pcl::PCLPointField;
 
-/** Names of a column that are kept: beyond it they rather describe single rows. */
-constexpr std::size_t most_names = 1u << 16;
 constexpr std::size_t told_rows = 1u << 14; ///< between two looks at the progress
 
 /** A table whose header was read. */

@@ -5,6 +5,7 @@
 #include "io/files.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -188,6 +189,17 @@ isPacked(const std::string& path)
   return packing == ".gz" || packing == ".bz2" || packing == ".zst";
 }
 
+bool
+isPackedInside(const std::string& path, int file)
+{
+  const std::string ending = packingOf(path);
+  std::array<unsigned char, 2> head{};
+  return (ending == ".bgeo" || ending == ".bhclassic") &&
+         ::pread(file, head.data(), head.size(), 0) ==
+             static_cast<ssize_t>(head.size()) &&
+         head[0] == 0x1f && head[1] == 0x8b;
+}
+
 std::string
 withoutPacking(const std::string& path)
 {
@@ -230,7 +242,7 @@ unpackFile(const std::string& path, int packed)
             },
             to.get()};
   const std::string packing = packingOf(path);
-  if (packing == ".gz")
+  if (packing == ".gz" || !isPacked(path))
     inflateAll(pipe, MAX_WBITS + 16);
 #ifdef PCL_UVOL_HAS_BZIP2
   else if (packing == ".bz2")

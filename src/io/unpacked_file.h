@@ -57,6 +57,12 @@ isStandardStream(const std::string& path)
 bool
 isPacked(const std::string& path);
 
+/** \brief True for a file that gzip packs although its name does not tell: Partio and
+ * splashsurf write .bgeo so.
+ * \param file its descriptor */
+bool
+isPackedInside(const std::string& path, int file);
+
 /** \brief The name without that ending. */
 std::string
 withoutPacking(const std::string& path);

@@ -4,6 +4,7 @@
 #include "common/scalar_field.h"
 #include "io/encoded_bytes.h"
 #include "io/formats.h"
+#include "io/mesh_readers.h"
 #include "io/vtk_messages.h"
 #include "io/vtk_readers.h"
 #include "io/vtk_xml_tags.h"
@@ -172,27 +173,9 @@ addPolygons(const std::string& path,
 {
   const std::vector<double> ends =
       readPolygonNumbers(path, reader, piece, "offsets", piece.polygon_count);
-  double begin = 0.0;
-  for (const double end : ends) {
-    if (!(end >= begin && end <= 0x1p53))
-      throwUnreadable(path, "its polygons do not follow one another");
-    begin = end;
-  }
-  const std::vector<double> corners = readPolygonNumbers(
-      path, reader, piece, "connectivity", static_cast<std::uint64_t>(begin));
-  const auto vertex = [&](std::size_t corner) {
-    if (!(corners[corner] >= 0.0 &&
-          corners[corner] < static_cast<double>(piece.points)))
-      throwUnreadable(path, "a polygon names a point that is not there");
-    return static_cast<std::uint32_t>(first +
-                                      static_cast<std::uint64_t>(corners[corner]));
-  };
-  std::size_t start = 0;
-  for (const double end : ends) {
-    for (std::size_t k = start + 2; k < static_cast<std::size_t>(end); ++k)
-      triangles.push_back({vertex(start), vertex(k - 1), vertex(k)});
-    start = static_cast<std::size_t>(end);
-  }
+  const std::vector<double> corners =
+      readPolygonNumbers(path, reader, piece, "connectivity", countCorners(path, ends));
+  addFans(path, ends, corners, piece.points, first, triangles);
 }
 
 /** A file that is cut off may have lost nothing but its end. */

@@ -19,30 +19,65 @@ namespace {
 
 constexpr std::size_t most_objects = 12, most_rows = 20, most_columns = 4;
 
-constexpr std::array<const char*, 5> groups{
-    {"/Header", "/PartType0", "/PartType4", "/particles", "/header"}};
-constexpr std::array<const char*, 16> tables{{"/PartType0/Coordinates",
-                                              "/PartType0/Masses",
-                                              "/PartType0/Density",
-                                              "/PartType4/Coordinates",
-                                              "/particles/xyz",
-                                              "/particles/h",
-                                              "/particles/itype",
-                                              "/particles/rho",
-                                              "/header/hfact",
-                                              "/header/massoftype",
-                                              "/x",
-                                              "/y",
-                                              "/z",
-                                              "/pos",
-                                              "/particles/x",
-                                              "/particles/a b"}};
-constexpr std::array<const char*, 6> attributes{{"NumPart_ThisFile",
-                                                 "NumPart_Total",
-                                                 "NumFilesPerSnapshot",
-                                                 "MassTable",
-                                                 "Redshift",
-                                                 "BoxSize"}};
+struct AttributeName {
+  const char* object;
+  const char* name;
+};
+
+/** What readers of one kind of file look for. */
+struct Layout {
+  std::vector<const char*> groups, tables;
+  std::vector<AttributeName> attributes;
+};
+
+const Layout snapshots{{"/Header", "/PartType0", "/PartType4", "/particles", "/header"},
+                       {"/PartType0/Coordinates",
+                        "/PartType0/Masses",
+                        "/PartType0/Density",
+                        "/PartType4/Coordinates",
+                        "/particles/xyz",
+                        "/particles/h",
+                        "/particles/itype",
+                        "/particles/rho",
+                        "/header/hfact",
+                        "/header/massoftype",
+                        "/x",
+                        "/y",
+                        "/z",
+                        "/pos",
+                        "/particles/x",
+                        "/particles/a b"},
+                       {{"/Header", "NumPart_ThisFile"},
+                        {"/Header", "NumPart_Total"},
+                        {"/Header", "NumFilesPerSnapshot"},
+                        {"/Header", "MassTable"},
+                        {"/Header", "Redshift"},
+                        {"/Header", "BoxSize"}}};
+
+const Layout data_of_vtk{{"/VTKHDF",
+                          "/VTKHDF/PointData",
+                          "/VTKHDF/CellData",
+                          "/VTKHDF/Polygons",
+                          "/VTKHDF/Block"},
+                         {"/VTKHDF/Points",
+                          "/VTKHDF/NumberOfPoints",
+                          "/VTKHDF/PointData/a",
+                          "/VTKHDF/PointData/x",
+                          "/VTKHDF/PointData/Normals",
+                          "/VTKHDF/CellData/a",
+                          "/VTKHDF/Polygons/NumberOfCells",
+                          "/VTKHDF/Polygons/Offsets",
+                          "/VTKHDF/Polygons/Connectivity",
+                          "/VTKHDF/Steps/NumberOfParts",
+                          "/VTKHDF/Steps/PartOffsets",
+                          "/VTKHDF/Steps/PointOffsets",
+                          "/VTKHDF/Steps/PointDataOffsets/a",
+                          "/VTKHDF/Block/Points"},
+                         {{"/VTKHDF", "WholeExtent"},
+                          {"/VTKHDF", "Origin"},
+                          {"/VTKHDF", "Spacing"},
+                          {"/VTKHDF", "Direction"},
+                          {"/VTKHDF/Steps", "NSteps"}}};
 
 hid_t
 takeType(Bytes& bytes)
@@ -60,11 +95,12 @@ takeType(Bytes& bytes)
 
 class Hdf5Maker {
 public:
-  explicit Hdf5Maker(const std::string& path)
+  Hdf5Maker(const std::string& path, const Layout& layout)
       : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT))
+      , layout_(layout)
   {
-    for (const char* const group : groups)
-      H5Gclose(H5Gcreate2(file_, group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    for (const char* const group : layout.groups)
+      addGroup(group);
   }
   Hdf5Maker(const Hdf5Maker&) = delete;
   Hdf5Maker&
@@ -75,25 +111,57 @@ public:
   }
 
   void
+  addGroup(const char* name)
+  {
+    H5Gclose(H5Gcreate2(file_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  void
+  addText(const char* object, const char* name, const std::string& text);
+  /** Fills the file. */
+  void
+  addObjects(Bytes& bytes)
+  {
+    for (std::size_t i = 0; i < most_objects && bytes.size() > 0; ++i)
+      if (bytes.choose(3) == 0)
+        addAttribute(bytes);
+      else
+        addTable(bytes);
+  }
+
+private:
+  void
   addAttribute(Bytes& bytes);
   void
   addTable(Bytes& bytes);
-
-private:
   void
   writeNumbers(hid_t table, Bytes& bytes, std::size_t count);
   void
   writeChunk(hid_t table, Bytes& bytes);
 
   hid_t file_;
+  const Layout& layout_;
 };
+
+void
+Hdf5Maker::addText(const char* object, const char* name, const std::string& text)
+{
+  const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, text.size());
+  const hid_t made = H5Acreate_by_name(
+      file_, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(made, type, text.data());
+  H5Aclose(made);
+  H5Tclose(type);
+  H5Sclose(space);
+}
 
 void
 Hdf5Maker::addAttribute(Bytes& bytes)
 {
-  const char* const name = attributes[bytes.choose(attributes.size())];
-  if (H5Aexists_by_name(file_, "/Header", name, H5P_DEFAULT) > 0)
-    return;
+  const AttributeName& attribute =
+      layout_.attributes[bytes.choose(layout_.attributes.size())];
+  if (H5Aexists_by_name(file_, attribute.object, attribute.name, H5P_DEFAULT) != 0)
+    return; // it is there, or its group is not
   const hsize_t size = 1 + bytes.choose(7);
   std::vector<double> numbers;
   for (hsize_t i = 0; i < size; ++i)
@@ -101,8 +169,8 @@ Hdf5Maker::addAttribute(Bytes& bytes)
                                    : static_cast<double>(bytes.choose(most_rows)));
   const hid_t space = H5Screate_simple(1, &size, nullptr);
   const hid_t made = H5Acreate_by_name(file_,
-                                       "/Header",
-                                       name,
+                                       attribute.object,
+                                       attribute.name,
                                        takeType(bytes),
                                        space,
                                        H5P_DEFAULT,
@@ -117,7 +185,7 @@ Hdf5Maker::addAttribute(Bytes& bytes)
 void
 Hdf5Maker::writeChunk(hid_t table, Bytes& bytes)
 {
-  const std::array<hsize_t, 2> first{};
+  const std::array<hsize_t, 3> first{};
   const auto mask = static_cast<std::uint32_t>(bytes.choose(8));
   std::vector<std::uint8_t> packed(1 + bytes.choose(64));
   for (std::uint8_t& byte : packed)
@@ -138,9 +206,9 @@ Hdf5Maker::writeNumbers(hid_t table, Bytes& bytes, std::size_t count)
 void
 Hdf5Maker::addTable(Bytes& bytes)
 {
-  const char* const name = tables[bytes.choose(tables.size())];
-  if (H5Lexists(file_, name, H5P_DEFAULT) > 0)
-    return;
+  const char* const name = layout_.tables[bytes.choose(layout_.tables.size())];
+  if (H5Lexists(file_, name, H5P_DEFAULT) != 0)
+    return; // it is there, or its group is not
   const int rank = static_cast<int>(bytes.choose(4));
   std::array<hsize_t, 3> sizes{
       {bytes.choose(most_rows), 1 + bytes.choose(most_columns), 1}};
@@ -163,7 +231,7 @@ Hdf5Maker::addTable(Bytes& bytes)
   if (table >= 0 && rank > 0 && sizes[0] > 0) {
     if (bytes.choose(8) != 0)
       writeNumbers(table, bytes, sizes[0] * (rank > 1 ? sizes[1] : 1));
-    if (has_chunks && rank < 3 && bytes.choose(4) == 0)
+    if (has_chunks && bytes.choose(4) == 0)
       writeChunk(table, bytes);
   }
   if (table >= 0)
@@ -184,14 +252,34 @@ readHdf5(const std::uint8_t* data, std::size_t size)
   const char* const inside = insides[bytes.choose(insides.size())];
   {
     const pcl_uvol::io::Hdf5Session session;
-    Hdf5Maker file(path);
-    for (std::size_t i = 0; i < most_objects && bytes.size() > 0; ++i)
-      if (bytes.choose(3) == 0)
-        file.addAttribute(bytes);
-      else
-        file.addTable(bytes);
+    Hdf5Maker(path, snapshots).addObjects(bytes);
   }
   readPoints(path + inside, true);
+}
+
+void
+readVtkHdf(const std::uint8_t* data, std::size_t size)
+{
+  Bytes bytes(data, size);
+  const std::string path = fileNamed("a.vtkhdf");
+  constexpr std::array<const char*, 5> types{
+      {"PolyData", "UnstructuredGrid", "ImageData", "MultiBlockDataSet", ""}};
+  const char* const type = types[bytes.choose(types.size())];
+  const bool is_series = bytes.choose(4) == 1;
+  {
+    const pcl_uvol::io::Hdf5Session session;
+    Hdf5Maker file(path, data_of_vtk);
+    if (*type != '\0')
+      file.addText("/VTKHDF", "Type", type);
+    if (is_series)
+      for (const char* const group :
+           {"/VTKHDF/Steps", "/VTKHDF/Steps/PointDataOffsets"})
+        file.addGroup(group);
+    file.addText("/VTKHDF/Block", "Type", "PolyData");
+    file.addObjects(bytes);
+  }
+  readPoints(path, true);
+  readMesh(path);
 }
 
 } // namespace uvol_fuzz

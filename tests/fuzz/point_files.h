@@ -16,4 +16,9 @@ fileNamed(const std::string& name);
 void
 readPoints(const std::string& path, bool has_stream);
 
+/** \brief Reads a mesh, whose triangles have vertices.
+ * \throws BrokenPromise */
+void
+readMesh(const std::string& path);
+
 } // namespace uvol_fuzz

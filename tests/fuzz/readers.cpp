@@ -172,6 +172,19 @@ readPoints(const std::string& path, bool has_stream)
 }
 
 void
+readMesh(const std::string& path)
+{
+  refusalOf<IOError>(
+      [&] {
+        const auto mesh = pcl_uvol::loadMesh(path);
+        for (const auto& triangle : mesh.triangles)
+          for (const auto vertex : triangle)
+            require(vertex < mesh.vertices.size(), "triangles have vertices");
+      },
+      path);
+}
+
+void
 readPcd(const std::uint8_t* bytes, std::size_t size)
 {
   readPoints(writeBytes("a.pcd", bytes, size), true);
@@ -182,14 +195,7 @@ readPly(const std::uint8_t* bytes, std::size_t size)
 {
   const std::string path = writeBytes("a.ply", bytes, size);
   readPoints(path, true);
-  refusalOf<IOError>(
-      [&] {
-        const auto mesh = pcl_uvol::loadMesh(path);
-        for (const auto& triangle : mesh.triangles)
-          for (const auto vertex : triangle)
-            require(vertex < mesh.vertices.size(), "triangles have vertices");
-      },
-      path);
+  readMesh(path);
 }
 
 void
@@ -229,6 +235,12 @@ void
 readGadget(const std::uint8_t* bytes, std::size_t size)
 {
   readPoints(writeBytes("snap.0", bytes, size), true);
+}
+
+void
+readBgeo(const std::uint8_t* bytes, std::size_t size)
+{
+  readPoints(writeBytes("a.bgeo", bytes, size), true);
 }
 
 void

@@ -16,6 +16,8 @@ listTargets()
       {"meta_image", readMetaImage},
       {"gadget", readGadget},
       {"hdf5", readHdf5},
+      {"vtkhdf", readVtkHdf},
+      {"bgeo", readBgeo},
       {"las", readLas},
       {"npy", readNpy},
       {"npz", readNpz},

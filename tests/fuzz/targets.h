@@ -38,6 +38,10 @@ readGadget(const std::uint8_t* bytes, std::size_t size);
 void
 readHdf5(const std::uint8_t* bytes, std::size_t size);
 void
+readVtkHdf(const std::uint8_t* bytes, std::size_t size);
+void
+readBgeo(const std::uint8_t* bytes, std::size_t size);
+void
 readLas(const std::uint8_t* bytes, std::size_t size);
 void
 readNpy(const std::uint8_t* bytes, std::size_t size);

@@ -348,7 +348,7 @@ TEST(AtomicWriting, PathsThatCannotBe)
   for (const auto& [path, words] : std::vector<std::pair<std::string, std::string>>{
            {folder / "file/a.pcd", "is not a folder"},
            {folder / "none/a.pcd", "there is no folder"},
-           {folder / "a.obj", ".pcd, .ply, .vtp, .csv or .npz"},
+           {folder / "a.obj", ".pcd, .ply, .vtp, .vtkhdf, .csv or .npz"},
            {folder / "a", "no ending"},
            {"/proc/a.pcd", "/proc/a.pcd"}}) {
     const std::string checked = messageOf<IOError>([&] { checkSavePath(path); });

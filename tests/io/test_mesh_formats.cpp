@@ -151,7 +151,7 @@ TEST(MeshFormats, WhatIsWrittenIsReadAgain)
 {
   const TemporaryFolder folder;
   const Tetrahedron shape;
-  for (const char* const name : {"a.ply", "a.vtp", "a.obj", "a.off"}) {
+  for (const char* const name : {"a.ply", "a.vtp", "a.vtkhdf", "a.obj", "a.off"}) {
     saveMesh(folder / name, shape.vertices, shape.triangles);
     std::vector<Triangle> triangles;
     const Dataset read = loadMesh(folder / name, triangles);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Snapshots of particles: binary ones of Gadget and those in HDF5.
+#include "hdf5_writer.h"
 #include "io/memory_need.h"
 #include "io/point_stream.h"
 #include "random_dataset.h"
@@ -7,8 +8,6 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <filesystem>
-#include <hdf5.h>
-#include <numeric>
 
 using namespace pcl_uvol;
 using namespace uvol_test;
@@ -245,91 +244,6 @@ TEST(PlanetRemnant, IsTheTableMadeOfIt)
       EXPECT_NEAR(expected, valueAt(snapshot, own, i), 1e-6 * std::abs(expected))
           << own;
     }
-}
-
-/** Writes files by the library itself. */
-class Hdf5Writer {
-public:
-  explicit Hdf5Writer(const std::string& path)
-      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT))
-  {
-  }
-  Hdf5Writer(const Hdf5Writer&) = delete;
-  Hdf5Writer&
-  operator=(const Hdf5Writer&) = delete;
-  ~Hdf5Writer()
-  {
-    H5Fclose(file_);
-  }
-
-  void
-  group(const std::string& name)
-  {
-    H5Gclose(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  }
-
-  void
-  attribute(const std::string& object,
-            const std::string& name,
-            const std::vector<double>& numbers)
-  {
-    const hsize_t size = numbers.size();
-    const hid_t space = H5Screate_simple(1, &size, nullptr);
-    const hid_t id = H5Acreate_by_name(file_,
-                                       object.c_str(),
-                                       name.c_str(),
-                                       H5T_IEEE_F64LE,
-                                       space,
-                                       H5P_DEFAULT,
-                                       H5P_DEFAULT,
-                                       H5P_DEFAULT);
-    H5Awrite(id, H5T_NATIVE_DOUBLE, numbers.data());
-    H5Aclose(id);
-    H5Sclose(space);
-  }
-
-  /** \param chunk rows that are packed together; 0: none are packed */
-  void
-  table(const std::string& name,
-        hid_t type,
-        std::size_t components,
-        const std::vector<double>& numbers,
-        hsize_t chunk = 0)
-  {
-    const hsize_t sizes[2] = {numbers.size() / components, components};
-    const int rank = components > 1 ? 2 : 1;
-    const hid_t space = H5Screate_simple(rank, sizes, nullptr);
-    const hid_t made = H5Pcreate(H5P_DATASET_CREATE);
-    if (chunk > 0) {
-      const hsize_t chunks[2] = {chunk, components};
-      H5Pset_chunk(made, rank, chunks);
-      H5Pset_deflate(made, 4);
-    }
-    const hid_t id =
-        H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, made, H5P_DEFAULT);
-    if (!numbers.empty())
-      H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
-    H5Dclose(id);
-    H5Pclose(made);
-    H5Sclose(space);
-  }
-
-  hid_t
-  getId() const
-  {
-    return file_;
-  }
-
-private:
-  hid_t file_;
-};
-
-std::vector<double>
-numbersOf(std::size_t count, double first)
-{
-  std::vector<double> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), first);
-  return numbers;
 }
 
 class Hdf5 : public testing::Test {

@@ -225,6 +225,24 @@ def test_kinds_of_particles(tmp_path):
     assert len(uvol.read(tmp_path / "snap.hdf5", particles="dm")) == 2
 
 
+def test_vtkhdf_is_what_h5py_reads_and_writes(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    uvol.Samples(POINTS, {"a": [1.5, 2.5, 3.5]}).save(tmp_path / "a.vtkhdf")
+    with h5py.File(tmp_path / "a.vtkhdf") as file:
+        group = file["VTKHDF"]
+        assert group.attrs["Type"] == b"PolyData" and list(group.attrs["Version"]) == [2, 0]
+        assert np.array_equal(group["Points"], POINTS) and list(group["PointData/a"]) == [1.5, 2.5, 3.5]
+        assert list(group["Vertices/Offsets"]) == [0, 1, 2, 3] and list(group["Polygons/Offsets"]) == [0]
+    with h5py.File(tmp_path / "b.vtkhdf", "w") as file:
+        group = file.create_group("VTKHDF")
+        group.attrs["Type"], group.attrs["Version"] = "UnstructuredGrid", [1, 0]
+        group["NumberOfPoints"] = [1, 2]
+        group.create_dataset("Points", data=POINTS, chunks=(2, 3), compression="gzip")
+        group.create_group("PointData")["a"] = np.arange(3)
+    samples = uvol.read(tmp_path / "b.vtkhdf")
+    assert np.array_equal(samples.points, POINTS) and list(samples["a"]) == [0, 1, 2]
+
+
 def test_meshes_come_back_with_their_fields(tmp_path):
     samples = uvol.Samples(POINTS, {"a": [1.5, 2.5, 3.5]})
     samples.save(tmp_path / "points.ply")

@@ -29,8 +29,12 @@ expectSentences(const std::string& tool, const CommandResult& result)
       continue;
     }
     EXPECT_LE(line.size(), most_bytes) << line;
+    const std::string ending = ".vtkhdf"; // no class of VTK
+    std::string words = line;
+    for (std::size_t at; (at = words.find(ending)) != std::string::npos;)
+      words.erase(at, ending.size());
     for (const char* const word : {"std::", "vector::", "0x", "vtk", "exception"})
-      EXPECT_EQ(std::string::npos, line.find(word)) << line;
+      EXPECT_EQ(std::string::npos, words.find(word)) << line;
     // The runtime of OpenMP ends a program that gets no threads.
     const bool is_error = line.compare(0, tool.size() + 2, tool + ": ") == 0 ||
                           line.compare(0, 9, "libgomp: ") == 0;

@@ -287,6 +287,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Tool{"raytrace", "uvol_raytrace SURFACE OUT.png -size 16x16"},
                     Tool{"generate", "uvol_generate OUT.csv -n 50"},
                     Tool{"convert", "uvol_convert IN OUT.npz"},
+                    Tool{"hdf5", "uvol_convert IN OUT.vtkhdf"},
                     Tool{"measure", "uvol_measure MESH OUT.csv"},
                     Tool{"compare", "uvol_compare MESH SURFACE OUT.ply"}),
     [](const auto& tool) { return tool.param.name; });

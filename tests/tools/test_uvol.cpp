@@ -75,8 +75,16 @@ TEST(Uvol, ListsFormats)
 {
   const auto result = runCommand(tool_folder + "/uvol --list-formats");
   EXPECT_EQ(0, result.exit_code);
-  for (const char* const ending :
-       {".pcd", ".csv", ".vts", ".stl", ".mhd", ".pvtp", ".las", ".npz"})
+  for (const char* const ending : {".pcd",
+                                   ".csv",
+                                   ".vts",
+                                   ".stl",
+                                   ".mhd",
+                                   ".pvtp",
+                                   ".las",
+                                   ".npz",
+                                   ".bgeo",
+                                   ".vtkhdf"})
     EXPECT_THAT(result.out, HasSubstr(ending));
 }
 

@@ -37,8 +37,12 @@ const std::string table = "x,y,z,rho\n1,2,3,0.5\n4,5,6,1.5\n7,8,9.25,2.5\n";
 TEST_F(Convert, KeepsNamesTypesAndNumbers)
 {
   write("a.csv", table);
-  for (const char* const chain :
-       {"a.csv b.npz", "b.npz c.vtp", "c.vtp d.pcd", "d.pcd e.ply", "e.ply f.csv"})
+  for (const char* const chain : {"a.csv b.npz",
+                                  "b.npz c.vtp",
+                                  "c.vtp d.pcd",
+                                  "d.pcd d.vtkhdf",
+                                  "d.vtkhdf e.ply",
+                                  "e.ply f.csv"})
     ASSERT_EQ(0, run(chain).exit_code) << chain;
   EXPECT_EQ(table, readFile(folder_ / "f.csv"));
   ASSERT_EQ(0, run("a.csv g.csv -where 'rho>1'").exit_code);

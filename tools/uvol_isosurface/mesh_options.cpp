@@ -16,7 +16,7 @@ MeshOptions::declare(Options& options)
   options.flag("mesh",
                is_asked_for_,
                "make a closed triangle mesh whose vertices are isopoints; .obj, .off "
-               "and .stl imply it, .ply and .vtp hold one as well");
+               "and .stl imply it, .ply, .vtp and .vtkhdf hold one as well");
   options.choice("remesh",
                  parameters_.remesh,
                  "with -mesh: even triangles, or those between the cells as they are");

@@ -49,8 +49,8 @@ struct PCL_UVOL_EXPORTS SaveOptions {
  * kept.
  *
  * Names that end in .gz, .bz2 or .zst are unpacked into a temporary file (in TMPDIR),
- * "-" is standard input. Arrays of NumPy (.npy, .npz) and laser scans (.las) are read
- * as well.
+ * "-" is standard input. Arrays of NumPy (.npy, .npz), laser scans (.las) and particles
+ * of Houdini (.bgeo) are read as well.
  *
  * Within a file of HDF5 a group or tables may be named: file.h5:/group,
  * file.h5:/group/pos, file.h5:/group/x,y,z. Of snapshots in several files any one is
@@ -61,9 +61,9 @@ struct PCL_UVOL_EXPORTS SaveOptions {
 PCL_UVOL_EXPORTS Dataset
 loadDataset(const std::string& path, const LoadOptions& options = {});
 
-/** \brief Write points as .pcd, .ply, .vtp, .csv or .npz, by the ending of the name, or
- * to standard output: "-" is PLY, "-.csv" and the like another format. The file
- * appears whole or not at all; an empty cloud gives a valid file with zero points.
+/** \brief Write points as .pcd, .ply, .vtp, .vtkhdf, .csv or .npz, by the ending of the
+ * name, or to standard output: "-" is PLY, "-.csv" and the like another format. The
+ * file appears whole or not at all; an empty cloud gives a valid file with zero points.
  * \param path of the file, or "-"
  * \param dataset what is written
  * \param options text or binary, comments
