@@ -36,27 +36,22 @@ NaturalNeighborFinder::find(const Query& place,
                             std::size_t count)
 {
   const bool is_bounded = cells_.find(place, near, count);
-  const ConvexCell& cell = cells_.getCell();
   neighbors_.clear();
   offsets_.clear();
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    if (cell[i].tag == ConvexCell::no_tag)
-      continue;
+  cells_.forFaces([&](const CellFace& face) {
     const std::uint32_t sample =
-        cells_.getNeighbors()[static_cast<std::size_t>(cell[i].tag)];
+        cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
     const Vector3d offset = cells_.offsetOf(sample);
-    const PolygonMoments face = computeMoments(cell[i].vertices);
-    const double ratio = face.area / offset.norm();
+    const PolygonMoments moments = face.polygon.computeMoments();
+    const double ratio = moments.area / offset.norm();
     neighbors_.push_back({sample, ratio, {}});
     // The face moves with the place, farther from its foot more so.
-    for (int axis = 0; axis < 3; ++axis)
-      neighbors_.back().gradient[static_cast<std::size_t>(axis)] =
-          ratio * face.centroid[axis];
+    const Vector3d gradient = ratio * face.plane.placeOf(moments.centroid);
+    std::copy_n(gradient.data(), 3, neighbors_.back().gradient.begin());
     offsets_.push_back(offset);
-  }
+  });
   if (coordinates_ == NaturalCoordinates::Sibson)
-    for (std::size_t i = 0; i < neighbors_.size(); ++i)
-      neighbors_[i].weight = stolenVolume(i);
+    computeVolumes();
   else
     for (Neighbor& neighbor : neighbors_)
       neighbor.gradient.fill(std::numeric_limits<double>::quiet_NaN());
@@ -66,24 +61,41 @@ NaturalNeighborFinder::find(const Query& place,
   return is_bounded;
 }
 
-double
-NaturalNeighborFinder::stolenVolume(std::size_t face)
+void
+NaturalNeighborFinder::computeVolumes()
 {
-  const Vector3d& own = offsets_[face];
-  part_.start(cells_.getCell());
-  // The nearest ones cut most off, so that little is left to cut.
-  others_.clear();
-  for (std::size_t i = 0; i < offsets_.size(); ++i)
-    if (i != face)
-      others_.emplace_back((offsets_[i] - own).squaredNorm(), i);
-  std::sort(others_.begin(), others_.end());
-  for (const auto& other : others_) {
-    const Vector3d& offset = offsets_[other.second];
-    part_.cut(offset - own,
-              0.5 * (offset.squaredNorm() - own.squaredNorm()),
-              ConvexCell::no_tag);
+  // By the divergence theorem a volume is a third of the areas of its faces, each times
+  // its height over the place: that of the cell's face, and those between the parts,
+  // which belong to two of them with opposite signs.
+  halves_.clear();
+  for (std::size_t i = 0; i < offsets_.size(); ++i) {
+    halves_.push_back(0.5 * offsets_[i].squaredNorm());
+    neighbors_[i].weight *= halves_[i]; // area / distance until now
   }
-  return std::max(0.0, part_.getVolume());
+  for (std::size_t i = 0; i < offsets_.size(); ++i)
+    for (std::size_t j = i + 1; j < offsets_.size(); ++j) {
+      const double moment = measureBetween(i, j);
+      neighbors_[i].weight += moment;
+      neighbors_[j].weight -= moment;
+    }
+  for (Neighbor& neighbor : neighbors_)
+    neighbor.weight = std::max(0.0, neighbor.weight / 3.0);
+}
+
+double
+NaturalNeighborFinder::measureBetween(std::size_t i, std::size_t j)
+{
+  const CellPlane plane(offsets_[j] - offsets_[i], halves_[j] - halves_[i]);
+  const double sq_room =
+      cells_.getReach() * cells_.getReach() - plane.height * plane.height;
+  if (!(sq_room > 0.0))
+    return 0.0;
+  part_.start(std::sqrt(sq_room));
+  plane.cut(part_, offsets_[i], halves_[i], 0.0);
+  for (std::size_t k = 0; k < offsets_.size() && part_.size() > 0; ++k)
+    if (k != i && k != j)
+      plane.cut(part_, offsets_[k] - offsets_[i], halves_[k] - halves_[i], 0.0);
+  return plane.height * part_.computeMoments().area;
 }
 
 NaturalModel::NaturalModel(const SampledFields& sampled, NaturalCoordinates coordinates)

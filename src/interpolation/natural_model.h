@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -45,15 +44,21 @@ public:
   }
 
 private:
+  /** The volumes of the parts of the cell that each face's sample was nearest to. */
+  void
+  computeVolumes();
+
+  /** The area, within the cell, of the face between the cells that two samples had.
+   * \return that times the height of its plane over the first one's side */
   double
-  stolenVolume(std::size_t face);
+  measureBetween(std::size_t i, std::size_t j);
 
   VoronoiCellFinder cells_;
   NaturalCoordinates coordinates_;
   std::vector<Neighbor> neighbors_;
   std::vector<Eigen::Vector3d> offsets_; ///< of the samples of the faces
-  std::vector<std::pair<double, std::size_t>> others_;
-  ConvexCell part_;
+  std::vector<double> halves_;           ///< of their squared lengths
+  ConvexPolygon part_;
 };
 
 /** \brief The mean of the natural neighbours' values by their coordinates: passes

@@ -52,16 +52,13 @@ public:
     if (others_.empty())
       return found_;
     cells_.findWhole(sample, others_.data(), others_.size());
-    const detail::ConvexCell& cell = cells_.getCell();
-    for (std::size_t i = 0; i < cell.size(); ++i) {
-      if (cell[i].tag == detail::ConvexCell::no_tag)
-        continue;
+    cells_.forFaces([&](const detail::CellFace& face) {
       const std::uint32_t other =
-          cells_.getNeighbors()[static_cast<std::size_t>(cell[i].tag)];
-      if (detail::computeMoments(cell[i].vertices).area >
+          cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
+      if (face.polygon.computeMoments().area >
           least_area * cells_.offsetOf(other).squaredNorm())
         found_.push_back(other);
-    }
+    });
     std::sort(found_.begin(), found_.end());
     return found_;
   }

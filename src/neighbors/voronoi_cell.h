@@ -3,7 +3,7 @@
 // triangulation.
 #pragma once
 
-#include "neighbors/convex_cell.h"
+#include "neighbors/convex_polygon.h"
 #include "neighbors/query.h"
 #include "neighbors/sample_set.h"
 
@@ -11,6 +11,56 @@
 #include <vector>
 
 namespace pcl_uvol::detail {
+
+/** \brief A plane, with axes of its own in it. */
+struct CellPlane {
+  Eigen::Vector3d normal, first, second; ///< orthonormal
+  double height = 0.0;                   ///< of the plane, along the normal
+
+  CellPlane() = default;
+
+  /** \param normal of any length but 0
+   * \param limit the plane is where normal . x = limit */
+  CellPlane(const Eigen::Vector3d& normal, double limit);
+
+  /** \brief Keep the part of a polygon in this plane where another normal . x <= limit.
+   * \return false if that is all there was */
+  bool
+  cut(ConvexPolygon& polygon,
+      const Eigen::Vector3d& other_normal,
+      double limit,
+      double tolerance) const
+  {
+    return polygon.cut(other_normal.dot(first),
+                       other_normal.dot(second),
+                       limit - height * other_normal.dot(normal),
+                       tolerance);
+  }
+
+  /** \brief A place in the plane. */
+  Eigen::Vector3d
+  placeOf(const Eigen::Vector2d& in_plane) const
+  {
+    return height * normal + in_plane.x() * first + in_plane.y() * second;
+  }
+};
+
+/** \brief A face of a cell. It is a polygon of its own: cutting a cell never has to
+ * find its way from face to face, so that no rounding can break it, whatever the planes
+ * have in common. */
+struct CellFace {
+  static constexpr int no_tag = -1; ///< of the cube that a cell starts as
+  int tag = no_tag;                 ///< of the sample beyond the face
+  CellPlane plane;
+  ConvexPolygon polygon;
+
+  /** \brief Squared distance of the farthest vertex from the place. */
+  double
+  getSqReach() const
+  {
+    return plane.height * plane.height + polygon.getSqReach();
+  }
+};
 
 /** \brief Cells of one place after another; one object per thread.
  *
@@ -37,12 +87,22 @@ public:
   void
   findWhole(std::uint32_t sample, const std::uint32_t* near, std::size_t count);
 
-  /** \brief Relative to the place; the tags of its faces are places in getNeighbors().
-   */
-  const ConvexCell&
-  getCell() const
+  /** \brief Call visit(face) for the faces that samples give the cell, relative to the
+   * place; their tags are places in getNeighbors(). */
+  template <typename Visit>
+  void
+  forFaces(const Visit& visit) const
   {
-    return cell_;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (faces_[i].tag != CellFace::no_tag)
+        visit(faces_[i]);
+  }
+
+  /** \brief Distance of the farthest vertex of the cell from the place. */
+  double
+  getReach() const
+  {
+    return reach_;
   }
 
   /** \brief Samples whose bisectors were tried, some of them without a face. */
@@ -74,6 +134,15 @@ private:
   void
   start(const Query& place, const std::uint32_t* near, std::size_t count);
 
+  /** A face at the end. */
+  CellFace&
+  addFace(int tag, const CellPlane& plane);
+
+  /** Keep what lies nearer to the place than to a sample.
+   * \return false if that is all there was, but for rounding */
+  bool
+  cut(const Eigen::Vector3d& offset, int tag);
+
   /** Look at the farthest vertex that may not be final: cut it off if it is not.
    * \return false if all are */
   bool
@@ -89,7 +158,9 @@ private:
   const SampleSet& samples_;
   Query place_{};
   std::uint32_t own_ = no_sample; ///< at the place
-  ConvexCell cell_;
+  std::size_t count_ = 0;         ///< of faces
+  std::vector<CellFace> faces_;   ///< those behind the last keep their memory
+  double reach_ = 0.0;
   std::vector<std::uint32_t> neighbors_;
   std::vector<Vertex> final_; ///< ascending
   bool is_bounded_ = true;

@@ -261,33 +261,27 @@ TEST(NaturalNeighborFinder, KnowsTheConvexHull)
   }
 }
 
-TEST(ConvexCell, CubesAndTheirParts)
+TEST(ConvexPolygon, IsCutDownToNothing)
 {
-  ConvexCell cell;
-  cell.start(1.0);
-  EXPECT_NEAR(cell.getVolume(), 8.0, 1e-14);
-  EXPECT_FALSE(cell.cut({1.0, 0.0, 0.0}, 1.0, 0)); // along a face
-  EXPECT_TRUE(cell.cut({1.0, 1.0, 0.0}, 0.0, 1));  // through two edges
-  EXPECT_NEAR(cell.getVolume(), 4.0, 1e-14);
-  EXPECT_TRUE(cell.cut({0.0, 0.0, 2.0}, 1.0, 2));
-  EXPECT_NEAR(cell.getVolume(), 3.0, 1e-14);
-  ConvexCell part;
-  part.start(cell);
-  EXPECT_TRUE(part.cut({-1.0, -1.0, -1.0}, -3.0, 3)); // nothing is left
-  EXPECT_EQ(part.size(), 0u);
-  EXPECT_EQ(part.getVolume(), 0.0);
-  EXPECT_NEAR(cell.getVolume(), 3.0, 1e-14);
-}
-
-TEST(ConvexCell, MomentsOfPolygons)
-{
-  const PolygonMoments square = computeMoments({{0.0, 0.0, 5.0},
-                                                {2.0, 0.0, 5.0},
-                                                {2.0, 0.0, 5.0},
-                                                {2.0, 4.0, 5.0},
-                                                {0.0, 4.0, 5.0}});
-  EXPECT_NEAR(square.area, 8.0, 1e-14);
-  EXPECT_LT((square.centroid - Eigen::Vector3d(1.0, 2.0, 5.0)).norm(), 1e-14);
+  ConvexPolygon polygon;
+  polygon.start(1.0);
+  EXPECT_NEAR(4.0, polygon.computeMoments().area, 1e-14);
+  EXPECT_NEAR(2.0, polygon.getSqReach(), 1e-14);
+  EXPECT_FALSE(polygon.cut(1.0, 0.0, 1.0, 0.0)); // along a side
+  EXPECT_FALSE(polygon.cut(1.0, 0.0, 0.9, 0.2)); // within the tolerance
+  EXPECT_TRUE(polygon.cut(1.0, 1.0, 0.0, 0.0));  // through two vertices
+  const PolygonMoments half = polygon.computeMoments();
+  EXPECT_NEAR(2.0, half.area, 1e-14);
+  EXPECT_LT((half.centroid - Eigen::Vector2d(-1.0 / 3.0, -1.0 / 3.0)).norm(), 1e-14);
+  EXPECT_TRUE(polygon.cut(0.0, -2.0, 0.0, 0.0)); // y >= 0
+  EXPECT_NEAR(0.5, polygon.computeMoments().area, 1e-14);
+  EXPECT_NEAR(2.0, polygon.getSqReach(), 1e-14);
+  EXPECT_TRUE(polygon.cut(-1.0, 0.0, 0.5, 0.0)); // x >= -1/2
+  EXPECT_NEAR(0.125, polygon.computeMoments().area, 1e-14);
+  EXPECT_NEAR(0.5, polygon.getSqReach(), 1e-14);
+  EXPECT_TRUE(polygon.cut(1.0, 0.0, -3.0, 0.0));
+  EXPECT_EQ(0u, polygon.size());
+  EXPECT_EQ(0.0, polygon.computeMoments().area);
 }
 
 } // namespace
