@@ -100,6 +100,17 @@ def test_lattices_beyond_the_faces_are_those_of_the_tool(tmp_path, run_tool):
         assert (tmp_path / f"module_{name}").read_bytes() == (tmp_path / name).read_bytes()
 
 
+def test_colors_of_slices_do_not_go_by_images(tmp_path, run_tool):
+    pytest.importorskip("matplotlib")
+    random = np.random.default_rng(8)
+    uvol.Samples(random.random((100, 3)), {"f": random.standard_normal(100)}).save(tmp_path / "in.ply")
+    run_tool("uvol_probe", "in.ply", "tool.vti", "-plane", "z=0.5", "-size", "60", "-field", "laplacian(f)", "-periodic", "1,1,1",
+             "-png", "tool.png")
+    cut = uvol.Interpolator(uvol.read(tmp_path / "in.ply"), field="laplacian(f)", periodic=(1, 1, 1)).slice("z=0.5", 60)
+    tool = read_pixels(tmp_path / "tool.png")
+    assert np.array_equal(cut.render().pixels[..., :tool.shape[2]], tool)
+
+
 def read_pixels(path):
     import matplotlib.image
     return np.round(matplotlib.image.imread(path) * 255).astype(np.uint8)
