@@ -101,7 +101,7 @@ class Interpolator:
                                           shepard=shepard, periodic=periodic, threads=threads)
         self.samples = samples
         self._sides = samples._find_box(periodic)
-        own = len(samples)
+        self._own = len(samples)
         if any(self._sides):
             samples = Samples._of(samples._with_images(self._sides, (1.0, 1.0, 1.0), threads, progress).samples)
         self._is_single = isinstance(field, str)
@@ -111,7 +111,7 @@ class Interpolator:
         for name in wanted:
             samples, found = samples._with_field(name, threads, progress)
             names += [found] if found else []
-        self._placed = samples  # with expressions, and images
+        self._placed = samples  # with expressions, and images behind the others
         if not any(self._sides):
             self.samples = samples
         stretch = _parameters.Stretch(scale, rotate)
@@ -128,7 +128,7 @@ class Interpolator:
             "shepard": _parameters.mapping(shepard, "shepard"),
         }
         with listening(progress) as listener:
-            self._core = _core.Interpolator(samples._dataset, own, self._sides, _parameters.to_json(parameters),
+            self._core = _core.Interpolator(samples._dataset, self._own, self._sides, _parameters.to_json(parameters),
                                             self._threads, listener)
         self.fields = self._core.names
         _report.tell(self._core.report["warnings"])
@@ -319,10 +319,11 @@ class Interpolator:
                        self._placed)
 
     def _find_ranges(self):
-        """The lowest and the highest finite value of every field."""
+        """The lowest and the highest finite value of every field, images left out: derivatives of the outermost are
+        one-sided."""
         ranges = {}
         for name in self.fields:
-            values = self._placed[name]
+            values = self._placed[name][:self._own]
             values = values[np.isfinite(values)]
             ranges[name] = (float(values.min()), float(values.max())) if len(values) else (-np.inf, np.inf)
         return ranges

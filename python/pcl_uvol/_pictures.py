@@ -295,7 +295,7 @@ class Drawable:
         if color in _OWN_COLORS:
             return self._dataset
         because = "from points on a surface, but from samples: Samples.compute adds them there"
-        return self._dataset.with_field(color, because, threads, None)[0]
+        return self._dataset.with_field(color, because, [0.0] * 3, threads, None)[0]
 
     def _draw(self, look, rays, threads, progress):
         """A picture of these points, or the frames of a turn."""

@@ -220,20 +220,21 @@ class Samples(Drawable, Points):
         """
         return Samples._of(self._dataset.take(np.arange(len(self))[indices]))
 
-    def _with_field(self, expression, threads, progress):
+    def _with_field(self, expression, threads, progress, sides=(0.0, 0.0, 0.0)):
         """Samples that have the field, and its name. Made once: a tree built for them
-        serves again."""
+        serves again. Derivatives see across the faces of a box of such sides."""
         if not isinstance(expression, str):
             raise TypeError(f"field is {expression!r}: it must be the name of a field, or an expression.")
         if expression == "":
             return self, ""
-        if expression not in self._derived:
+        made = (expression, *sides)
+        if made not in self._derived:
             with listening(progress) as listener:
-                dataset, name, report = self._dataset.with_field(expression, "", _parameters.count(threads, "threads"),
+                dataset, name, report = self._dataset.with_field(expression, "", sides, _parameters.count(threads, "threads"),
                                                                  listener)
             samples = self if dataset is self._dataset else Samples._of(dataset)
-            self._derived[expression] = (samples, name, report["warnings"])
-        samples, name, messages = self._derived[expression]
+            self._derived[made] = (samples, name, report["warnings"])
+        samples, name, messages = self._derived[made]
         _report.tell(messages)
         return samples, name
 

@@ -185,7 +185,8 @@ class Extractor:
         Surface
             With `mesh` a Mesh.
         """
-        samples, field = self.samples._with_field(field, threads, progress)
+        sides = self.samples._find_box(periodic)
+        samples, field = self.samples._with_field(field, threads, progress, sides)
         if scale is None:
             scale = "auto" if fill_gaps else (1.0, 1.0, 1.0)
         stretch = _parameters.Stretch(scale, rotate)
@@ -212,7 +213,7 @@ class Extractor:
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
             "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
-            "periodic": self.samples._find_box(periodic),
+            "periodic": sides,
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 

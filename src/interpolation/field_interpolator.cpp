@@ -9,7 +9,6 @@
 #include "interpolation/kernel_sums.h"
 #include "interpolation/kriging_model.h"
 #include "interpolation/natural_model.h"
-#include "interpolation/query_lattice.h"
 #include "interpolation/query_order.h"
 #include "interpolation/simple_models.h"
 #include "neighbors/sample_values.h"
@@ -360,18 +359,19 @@ FieldInterpolator::interpolate(const std::vector<std::array<double, 3>>& queries
 }
 
 void
-FieldInterpolator::interpolate(const QueryLattice& lattice,
+FieldInterpolator::interpolate(std::size_t queries,
+                               const PlaceOf& place_of,
                                unsigned threads,
                                Report& report,
                                const TakeAnswers& take) const
 {
-  StepTimer step(report, "interpolation", groups_.size() * lattice.size());
-  std::vector<std::array<double, 3>> queries;
-  for (std::size_t first = 0; first < lattice.size(); first += lattice_block) {
-    queries.resize(std::min(lattice_block, lattice.size() - first));
-    for (std::size_t i = 0; i < queries.size(); ++i)
-      queries[i] = lattice.at(first + i);
-    const InterpolatedFields result = answer(queries, threads, step);
+  StepTimer step(report, "interpolation", groups_.size() * queries);
+  std::vector<std::array<double, 3>> places;
+  for (std::size_t first = 0; first < queries; first += lattice_block) {
+    places.resize(std::min(lattice_block, queries - first));
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] = place_of(first + i);
+    const InterpolatedFields result = answer(places, threads, step);
     countSupport(result.support, report);
     take(first, result);
   }

@@ -161,15 +161,6 @@ QueryLattice::spacing(std::size_t axis) const
   return largest * (step / largest).norm();
 }
 
-QueryLattice
-QueryLattice::shiftedBy(const Place& offset) const
-{
-  QueryLattice shifted = *this;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    shifted.origin[axis] += offset[axis];
-  return shifted;
-}
-
 Bounds
 boundsOf(const CloudView& cloud)
 {

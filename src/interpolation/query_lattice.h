@@ -34,10 +34,6 @@ struct PCL_UVOL_EXPORTS QueryLattice {
   /** \brief The length of a step. */
   double
   spacing(std::size_t axis) const;
-
-  /** \brief The same places counted from an origin elsewhere. */
-  QueryLattice
-  shiftedBy(const Place& offset) const;
 };
 
 /** \brief A box that holds points. */

@@ -99,11 +99,17 @@ double
 PeriodicBox::toBox(double coordinate, std::size_t axis) const
 {
   const double from_low = coordinate - low[axis], side = sides[axis];
-  if (!(side > 0.0) || (from_low >= 0.0 && from_low < side))
+  if (!(side > 0.0) || !std::isfinite(from_low) || (from_low >= 0.0 && from_low < side))
     return from_low;
   const double place = std::fmod(from_low, side);
   const double positive = place < 0.0 ? place + side : place;
   return positive < side ? positive : 0.0;
+}
+
+std::array<double, 3>
+PeriodicBox::toBox(const std::array<double, 3>& place) const
+{
+  return {toBox(place[0], 0), toBox(place[1], 1), toBox(place[2], 2)};
 }
 
 bool

@@ -22,10 +22,14 @@ struct PCL_UVOL_EXPORTS PeriodicBox {
   std::array<double, 3> sides{}; ///< 0: it does not repeat along that axis
 
   /** \brief The coordinate of the image that lies in the box, counted from low; that
-   * on the high face is the one on the low face. Not periodic: the coordinate itself,
-   * counted from low. */
+   * on the high face is the one on the low face. Not periodic, or not finite: the
+   * coordinate itself, counted from low. */
   double
   toBox(double coordinate, std::size_t axis) const;
+
+  /** \brief The same of a place. */
+  std::array<double, 3>
+  toBox(const std::array<double, 3>& place) const;
 
   /** \brief True for a place, counted from low, within the box. */
   bool

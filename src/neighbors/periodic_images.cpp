@@ -41,7 +41,7 @@ public:
     for (std::size_t i = 0; i < cloud.count; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto x = static_cast<double>(cloud.xyz(i)[axis]);
-        auto place = static_cast<float>(std::isfinite(x) ? box.toBox(x, axis) : x);
+        auto place = static_cast<float>(box.toBox(x, axis));
         if (box.sides[axis] > 0.0 && static_cast<double>(place) >= box.sides[axis])
           place = 0.0f; // rounded to the high face, which is the low one
         places_[i][static_cast<int>(axis)] = place;

@@ -35,4 +35,31 @@ SamplesInBox::dropImages(Dataset& points)
   points = dropPeriodicImages(std::move(images_), before_);
 }
 
+void
+addFieldsInBox(Dataset& samples,
+               const std::array<double, 3>& sides,
+               double least,
+               unsigned threads,
+               const ProgressCallback& progress,
+               const std::function<void(Dataset&)>& add)
+{
+  if (!isPeriodic(sides))
+    return add(samples);
+  Report own; // whoever uses the box tells of it
+  own.progress = progress;
+  std::vector<std::uint32_t> all(samples.cloud.width);
+  std::iota(all.begin(), all.end(), 0u);
+  PeriodicReach reach;
+  reach.least = least;
+  auto images = addPeriodicImages(
+      samples,
+      all,
+      cutAtWidestGap(samples, findPeriodicBox(samples, sides, own), threads),
+      reach,
+      threads,
+      own);
+  add(images.samples);
+  samples = dropPeriodicImages(std::move(images), samples);
+}
+
 } // namespace pcl_uvol

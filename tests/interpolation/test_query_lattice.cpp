@@ -175,7 +175,11 @@ TEST(QueryLattice, BlocksGiveWhatSingleQueriesGet)
   Report blocks;
   blocks.progress = [&](const std::string&, double done) { progress.push_back(done); };
   interpolator.interpolate(
-      grid, 2, blocks, [&](std::size_t first, const InterpolatedFields& answers) {
+      grid.size(),
+      [&](std::size_t query) { return grid.at(query); },
+      2,
+      blocks,
+      [&](std::size_t first, const InterpolatedFields& answers) {
         EXPECT_EQ(first, values.size());
         EXPECT_LE(answers.size, lattice_block);
         values.insert(values.end(), answers.values.begin(), answers.values.end());

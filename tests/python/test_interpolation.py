@@ -65,7 +65,7 @@ def test_the_tool_has_the_same_slices(tmp_path, run_tool, linear):
 def test_fields_in_boxes_that_repeat_are_those_of_the_tool(tmp_path, run_tool, model):
     points = np.random.default_rng(3).random((3000, 3)) + [7, 0, 0]
     uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)}).save(tmp_path / "in.ply")
-    queries = uvol.Samples(np.random.default_rng(4).uniform(5, 9, (40, 3)))
+    queries = uvol.Samples(np.random.default_rng(4).uniform([5, 0, 5], [9, 1, 9], (40, 3)))
     queries.save(tmp_path / "queries.ply")
     options = ["-field", "f,|grad(f)|", "-model", model, "-periodic", "1,0,1"]
     run_tool("uvol_probe", "in.ply", "tool.ply", "-points", "queries.ply", "-gradients", *options)
@@ -83,6 +83,32 @@ def test_fields_in_boxes_that_repeat_are_those_of_the_tool(tmp_path, run_tool, m
     assert len(interpolator.samples) == 3000 and "3000 points" in repr(interpolator)
     again = pickle.loads(pickle.dumps(interpolator))
     assert np.array_equal(again([[7.01, 0.5, 0.5], [8.01, 0.5, 0.5]])[0][:, 0], again([[9.01, 0.5, 0.5]] * 2)[0][:, 0])
+
+
+def test_lattices_beyond_the_faces_are_those_of_the_tool(tmp_path, run_tool):
+    points = np.random.default_rng(3).random((3000, 3)) + [7.3, 0, 0]
+    uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)}).save(tmp_path / "in.ply")
+    options = ["-field", "f,|grad(f)|", "-periodic", "1,1,1", "-gradients", "-box", "5.6,-1,-0.4,9.1,2,1.7"]
+    run_tool("uvol_probe", "in.ply", "grid.vti", "-grid", "7", *options)
+    run_tool("uvol_probe", "in.ply", "slice.vts", "-plane", "7.5,0.5,0.5,1,2,3", "-size", "20", *options)
+    interpolator = uvol.Interpolator(uvol.read(tmp_path / "in.ply"), field=["f", "|grad(f)|"], periodic=(1, 1, 1))
+    box = [5.6, -1, -0.4], [9.1, 2, 1.7]
+    grid, cut = interpolator.grid(7, box), interpolator.slice(([7.5, 0.5, 0.5], [1, 2, 3]), 20, box)
+    for lattice, name in ((grid, "grid.vti"), (cut, "slice.vts")):
+        assert (lattice["support"] <= 2).all()
+        lattice.save(tmp_path / f"module_{name}")
+        assert (tmp_path / f"module_{name}").read_bytes() == (tmp_path / name).read_bytes()
+
+
+def test_colors_of_slices_do_not_go_by_images(tmp_path, run_tool):
+    pytest.importorskip("matplotlib")
+    random = np.random.default_rng(8)
+    uvol.Samples(random.random((100, 3)), {"f": random.standard_normal(100)}).save(tmp_path / "in.ply")
+    run_tool("uvol_probe", "in.ply", "tool.vti", "-plane", "z=0.5", "-size", "60", "-field", "laplacian(f)", "-periodic", "1,1,1",
+             "-png", "tool.png")
+    cut = uvol.Interpolator(uvol.read(tmp_path / "in.ply"), field="laplacian(f)", periodic=(1, 1, 1)).slice("z=0.5", 60)
+    tool = read_pixels(tmp_path / "tool.png")
+    assert np.array_equal(cut.render().pixels[..., :tool.shape[2]], tool)
 
 
 def read_pixels(path):

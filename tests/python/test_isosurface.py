@@ -57,6 +57,18 @@ def test_the_tool_writes_the_same_bytes(tmp_path, run_tool, ball, options, argum
     assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
 
 
+@pytest.mark.parametrize("field, iso", [("|grad(f)|", 8), ("laplacian(f)*f", -40), ("f+x", 8)])
+def test_derivatives_see_across_the_faces_as_those_of_the_tool(tmp_path, run_tool, field, iso):
+    points = np.random.default_rng(3).random((3000, 3)) + [7, 0, 0]
+    uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)}).save(tmp_path / "samples.ply")
+    run_tool("uvol_isosurface", "samples.ply", "tool.ply", "-field", field, "-iso", iso, "-periodic", "1,0,1")
+    extractor = uvol.Extractor(uvol.read(tmp_path / "samples.ply"))
+    alone = extractor.extract(field=field, iso=iso)
+    extractor.extract(field=field, iso=iso, periodic=(1, 0, 1)).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    assert extractor.extract(field=field, iso=iso).records.tobytes() == alone.records.tobytes()
+
+
 @pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
 def test_the_tool_writes_the_same_mesh(tmp_path, run_tool, ball, ending):
     uvol.Samples(*ball).save(tmp_path / "samples.ply")

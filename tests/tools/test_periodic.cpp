@@ -25,7 +25,13 @@ protected:
   Periodic()
       : ToolTest(PCL_UVOL_TOOL_DIR "/uvol_isosurface", "out.csv")
   {
-    in_ = folder_ / "in.csv";
+    writeSamples(0.0);
+  }
+
+  /** A field in a box that begins there along x. */
+  void
+  writeSamples(double begin) const
+  {
     Random random(5);
     std::ostringstream text;
     text.precision(9);
@@ -35,7 +41,7 @@ protected:
       double place[3];
       for (int axis = 0, rest = i; axis < 3; ++axis, rest /= n)
         place[axis] = (rest % n + 0.5 + 0.6 * (random.uniform() - 0.5)) * side / n;
-      text << place[0] << ',' << place[1] << ',' << place[2] << ','
+      text << begin + place[0] << ',' << place[1] << ',' << place[2] << ','
            << gyroid(place[0], place[1], place[2]) << '\n';
     }
     writeFile(in_, text.str());
@@ -99,6 +105,29 @@ TEST_F(Periodic, FieldsAreAskedForAcrossTheFaces)
   EXPECT_EQ(side, *std::max_element(places.begin(), places.end()));
   for (const double s : fieldOf(grid, "support"))
     EXPECT_EQ(1.0, s);
+}
+
+TEST_F(Periodic, LatticesBeyondTheFacesAreAskedForAsPoints)
+{
+  writeSamples(69.3); // the low corner of the box is no round number
+  for (const std::string lattice :
+       {"-grid 4 -box 61.2,-4.1,-2,79,12,12",
+        "-grid 5x4x3 -box 0,-17,3,24,1,30",
+        "-plane z=-1 -size 9 -box 60,-4,-4,79,12,12",
+        "-plane 69,0,9,1,2,3 -size 9 -box 61,-9,-9,89,12,12"}) {
+    const std::string options = " -field f -periodic 8,8,8 -gradients " + lattice;
+    runTool("uvol_probe", options);
+    const auto points = pcl_uvol::loadDataset(out_);
+    const std::string parts = folder_ / "out.vts";
+    const auto result =
+        runCommand(PCL_UVOL_TOOL_DIR "/uvol_probe " + in_ + " " + parts + options);
+    EXPECT_EQ(0, result.exit_code) << result.err;
+    const auto written = pcl_uvol::loadDataset(parts);
+    for (const char* const name : {"x", "y", "z", "f", "support"})
+      EXPECT_EQ(fieldOf(points, name), fieldOf(written, name)) << lattice << name;
+    for (const double support : fieldOf(written, "support"))
+      EXPECT_EQ(1.0, support) << lattice;
+  }
 }
 
 TEST_F(Periodic, LevelSetsKeepTheSamples)

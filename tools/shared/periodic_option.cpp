@@ -5,7 +5,6 @@
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace uvol_tools {
 
@@ -51,32 +50,6 @@ PeriodicOption::findSides(const pcl_uvol::Dataset& samples,
     throw pcl_uvol::InvalidArgument("The file names no box: give its sides, as in "
                                     "-periodic 100,100,100.");
   return samples.box;
-}
-
-void
-addFieldsInBox(pcl_uvol::Dataset& samples,
-               const std::array<double, 3>& sides,
-               double least,
-               unsigned threads,
-               const std::function<void(pcl_uvol::Dataset&)>& add)
-{
-  if (!pcl_uvol::isPeriodic(sides))
-    return add(samples);
-  pcl_uvol::Report own; // whoever uses the box tells of it
-  std::vector<std::uint32_t> all(samples.cloud.width);
-  std::iota(all.begin(), all.end(), 0u);
-  pcl_uvol::PeriodicReach reach;
-  reach.least = least;
-  auto images = pcl_uvol::addPeriodicImages(
-      samples,
-      all,
-      pcl_uvol::cutAtWidestGap(
-          samples, pcl_uvol::findPeriodicBox(samples, sides, own), threads),
-      reach,
-      threads,
-      own);
-  add(images.samples);
-  samples = pcl_uvol::dropPeriodicImages(std::move(images), samples);
 }
 
 Fact

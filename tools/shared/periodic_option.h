@@ -8,7 +8,6 @@
 #include <pcl_uvol/common/dataset.h>
 
 #include <array>
-#include <functional>
 #include <string>
 
 namespace uvol_tools {
@@ -41,18 +40,6 @@ public:
 private:
   std::string text_;
 };
-
-/** \brief Add fields to samples while images of them are there.
- *
- * \param sides all 0: without images
- *
- * \param least reach of images beyond the faces, a length */
-void
-addFieldsInBox(pcl_uvol::Dataset& samples,
-               const std::array<double, 3>& sides,
-               double least,
-               unsigned threads,
-               const std::function<void(pcl_uvol::Dataset&)>& add);
 
 /** \brief Tell of the box, for a report.
  *

@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "interpolation/outer_layer.h"
+#include "neighbors/samples_in_box.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
@@ -91,11 +92,12 @@ loadSamples(const Options& options,
     arguments.picture.addColorOfSamples(options, points, report);
   };
   if (arguments.hasFieldsOfNeighbors())
-    addFieldsInBox(*samples,
-                   sides,
-                   arguments.density.findReach(*samples),
-                   options.threads(),
-                   add_fields);
+    pcl_uvol::addFieldsInBox(*samples,
+                             sides,
+                             arguments.density.findReach(*samples),
+                             options.threads(),
+                             report.progress,
+                             add_fields);
   else
     add_fields(*samples);
   checkOutput(arguments, *samples);

@@ -8,7 +8,6 @@
 #include <pcl_uvol/io/mesh.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -32,6 +31,7 @@ public:
   Runner(const Probe& probe, AnswerSummary& summary, Report& report)
       : probe_(probe)
       , samples_(probe.samples)
+      , box_{{}, probe.sides}
       , summary_(summary)
       , report_(report)
   {
@@ -45,7 +45,10 @@ public:
 
 private:
   InterpolatedFields
-  answer(std::vector<Place> queries);
+  answer(const std::vector<Place>& queries);
+
+  Place
+  toSamples(const Place& place, const Place& origin) const;
 
   Facts
   writePoints(const InterpolatedFields& answers,
@@ -66,6 +69,7 @@ private:
 
   const Probe& probe_;
   const Dataset& samples_;
+  const pcl_uvol::PeriodicBox box_; ///< of the samples, with its low corner at 0
   AnswerSummary& summary_;
   Report& report_;
 };
@@ -86,17 +90,23 @@ putNumbers(const pcl_uvol::PutNumbers& put,
 }
 
 InterpolatedFields
-Runner::answer(std::vector<Place> queries)
+Runner::answer(const std::vector<Place>& queries)
 {
-  const pcl_uvol::PeriodicBox box{{}, probe_.sides};
-  for (Place& query : queries)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (box.sides[axis] > 0.0 && std::isfinite(query[axis]))
-        query[axis] = box.toBox(query[axis], axis);
   InterpolatedFields answers =
       probe_.interpolator.interpolate(queries, probe_.options.threads(), report_);
   summary_.add(answers);
   return answers;
+}
+
+/** The query at a place: counted from the samples' origin, and in their box.
+ * \param origin that the place counts from */
+Place
+Runner::toSamples(const Place& place, const Place& origin) const
+{
+  Place query = place;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    query[axis] += origin[axis] - samples_.origin[axis];
+  return box_.toBox(query);
 }
 
 /** Append answers to points and write them. */
@@ -142,8 +152,7 @@ Runner::probePoints()
   std::vector<Place> queries =
       pcl_uvol::detail::placesOf(pcl_uvol::viewOf(points.cloud));
   for (Place& query : queries)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      query[axis] += points.origin[axis] - samples_.origin[axis];
+    query = toSamples(query, points.origin);
   const InterpolatedFields answers = answer(queries);
   Facts facts = writePoints(answers, triangles, points);
   if (!triangles.empty())
@@ -160,12 +169,10 @@ Runner::writeLatticeAsPoints(const Slice& slice)
   std::vector<double> xyz, distances;
   xyz.reserve(3 * queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    queries[i] = lattice.at(i);
+    const Place place = lattice.at(i);
+    queries[i] = toSamples(place, {});
     distances.push_back(static_cast<double>(i) * lattice.spacing(0));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      xyz.push_back(queries[i][axis]);
-      queries[i][axis] -= samples_.origin[axis];
-    }
+    xyz.insert(xyz.end(), place.begin(), place.end());
   }
   const InterpolatedFields answers = answer(queries);
   Dataset points;
@@ -220,7 +227,6 @@ Runner::listArrays() const
 Facts
 Runner::writeLattice(const Slice& slice)
 {
-  const Place to_samples{-samples_.origin[0], -samples_.origin[1], -samples_.origin[2]};
   const auto arrays = listArrays();
   const std::vector<std::string> files = pcl_uvol::latticeFiles(probe_.output, arrays);
   checkDistinct({probe_.input}, files);
@@ -250,7 +256,8 @@ Runner::writeLattice(const Slice& slice)
   saveLattice(
       probe_.output, slice.lattice, arrays, [&](const pcl_uvol::PutNumbers& put) {
         probe_.interpolator.interpolate(
-            slice.lattice.shiftedBy(to_samples),
+            slice.lattice.size(),
+            [&](std::size_t query) { return toSamples(slice.lattice.at(query), {}); },
             probe_.options.threads(),
             report_,
             [&](std::size_t first, const InterpolatedFields& answers) {

@@ -21,7 +21,6 @@ namespace pcl_uvol {
 
 namespace detail {
 
-struct QueryLattice;
 struct FittedVariogram;
 
 /** \brief Queries of a lattice that are answered at a time. */
@@ -53,15 +52,20 @@ public:
               unsigned threads,
               Report& report) const;
 
+  /** \brief The place of a query, in coordinates like those of the cloud. */
+  using PlaceOf = std::function<std::array<double, 3>(std::size_t query)>;
+
   /** \brief Gets the answers to some consecutive queries.
    * \param first index of the first of them */
   using TakeAnswers =
       std::function<void(std::size_t first, const InterpolatedFields& answers)>;
 
-  /** \brief Answer the queries of a lattice, in their order and some at a time, so that
-   * memory does not grow with the lattice. */
+  /** \brief Answer queries whose places are told when they are needed, as those of a
+   * lattice, in their order and some at a time, so that memory does not grow with them.
+   */
   void
-  interpolate(const QueryLattice& queries,
+  interpolate(std::size_t queries,
+              const PlaceOf& place_of,
               unsigned threads,
               Report& report,
               const TakeAnswers& take) const;

@@ -3,8 +3,10 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
+#include "expressions/formula.h"
 #include "interpolation/outer_layer.h"
 #include "interpolation/sph_density.h"
+#include "neighbors/samples_in_box.h"
 #include "pipeline/dataset_info.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
@@ -118,11 +120,14 @@ listFields(const Dataset& dataset)
 }
 
 /** The dataset itself where it has the field, else a copy with it.
- * \param no_derivatives see DerivedFieldOptions */
+ * \param no_derivatives see DerivedFieldOptions
+ * \param sides of a box that the points repeat in, across whose faces derivatives see;
+ * all 0: of none */
 py::tuple
 withField(const DatasetPtr& dataset,
           const std::string& expression,
           const std::string& no_derivatives,
+          const std::array<double, 3>& sides,
           unsigned threads,
           const py::object& progress)
 {
@@ -136,7 +141,13 @@ withField(const DatasetPtr& dataset,
     }
     catch (const InvalidArgument&) {
       result = std::make_shared<Dataset>(*dataset);
-      name = addDerivedField(*result, expression, {threads, no_derivatives}, report);
+      const auto add = [&](Dataset& points) {
+        name = addDerivedField(points, expression, {threads, no_derivatives}, report);
+      };
+      if (mayHaveDerivative(expression))
+        addFieldsInBox(*result, sides, 0.0, threads, callback, add);
+      else
+        add(*result);
     }
   });
   return py::make_tuple(result, toText(name), toDict(report));

@@ -13,7 +13,6 @@
 #include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <numeric>
 #include <pybind11/stl.h>
@@ -72,10 +71,11 @@ public:
   answer(const Queries& queries, unsigned threads, const py::object& progress) const
   {
     std::vector<Place> places(static_cast<std::size_t>(queries.shape(0)));
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < places.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis)
-        places[i][axis] =
-            toBox(queries.data()[3 * i + axis] - samples_->origin[axis], axis);
+        places[i][axis] = queries.data()[3 * i + axis] - samples_->origin[axis];
+      places[i] = box_.toBox(places[i]);
+    }
     InterpolatedFields answers;
     Report report;
     report.counts = report_.counts;
@@ -95,10 +95,11 @@ public:
   {
     auto result = std::make_shared<Dataset>(points);
     std::vector<Place> places = detail::placesOf(viewOf(points.cloud));
-    for (Place& place : places)
+    for (Place& place : places) {
       for (std::size_t axis = 0; axis < 3; ++axis)
-        place[axis] =
-            toBox(place[axis] + points.origin[axis] - samples_->origin[axis], axis);
+        place[axis] += points.origin[axis] - samples_->origin[axis];
+      place = box_.toBox(place);
+    }
     Report report;
     report.counts = report_.counts;
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
@@ -195,14 +196,6 @@ public:
   }
 
 private:
-  double
-  toBox(double coordinate, std::size_t axis) const
-  {
-    return box_.sides[axis] > 0.0 && std::isfinite(coordinate)
-               ? box_.toBox(coordinate, axis)
-               : coordinate;
-  }
-
   Folds
   split(std::size_t folds, const std::string& by, unsigned threads) const
   {
