@@ -152,7 +152,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   job->report.progress = std::ref(job->bar);
   pcl_uvol::Dataset surface = job->extract();
   const bool is_drawn = arguments.picture.isAskedFor();
-  if (is_drawn && step && surface.cloud.width > 0) {
+  if (is_drawn && step && surface.cloud.width > 0 &&
+      arguments.picture.getLook().sharesView()) {
     step->pictures.add(job->options,
                        arguments.picture.getLook(),
                        std::move(surface),

@@ -85,7 +85,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);
   look.exaggerate(dataset);
-  if (step)
+  if (step && look.sharesView())
     step->pictures.add(options, look, std::move(dataset), [job](const auto& surface) {
       job->draw(surface);
     });

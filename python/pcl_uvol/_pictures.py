@@ -68,9 +68,9 @@ def _place(value):
     return None if value is None else _parameters.numbers(value, "A place or direction")
 
 
-def look_of(size, view, eye, at, up, fov, zoom, background, supersample):
+def look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample):
     """What all pictures are asked for with, scenes as well."""
-    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, zoom=zoom,
+    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, parallel=bool(parallel), zoom=zoom,
                 supersample=_parameters.count(supersample, "supersample"), **pixel_sides(size))
     if isinstance(background, str):
         look["background"] = background
@@ -98,7 +98,7 @@ class Drawable:
     _frames = None  # of a full turn; None: one picture
 
     def render(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024), view="iso",
-               eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
+               eye=None, at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None, exaggerate=None,
                opacity=None, lights=None, material=None, supersample=0, culling=False, footprints=True,
                silhouettes=False, features=False, thickness=2, line_color=None, ticks=False, box=False, triad=False,
                scale_bar=False, unit="", title="", views=(), passes=None, threads=0, progress=None):
@@ -126,6 +126,9 @@ class Drawable:
             that is upwards.
         fov : float
             Vertical field of view, degrees.
+        parallel : bool
+            No perspective; with `eye` the picture shows what a field of view of `fov` would
+            show around the place looked at.
         zoom : float
             Enlarge the middle of the picture.
         background : {"white", "black", "gradient", "transparent"}, or a colour
@@ -175,7 +178,7 @@ class Drawable:
         >>> picture.pixels.shape, picture.field
         ((200, 320, 4), 'isovalue')
         """
-        look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
+        look = look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
                     culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
                     thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"),
@@ -184,7 +187,7 @@ class Drawable:
         return self._draw(look, None, threads, progress)
 
     def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
-                 view="iso", eye=None, at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None,
+                 view="iso", eye=None, at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None,
                  exaggerate=None, lights=None, material=None, supersample=0, depth=4, shadows=True, light_samples=16,
                  occlusion=0, occlusion_distance=0.0, reflect=0.0, transparent=0.0, index=1.0, splats=None, ticks=False,
                  box=False, triad=False, scale_bar=False, unit="", title="", views=(), threads=0, progress=None):
@@ -214,7 +217,7 @@ class Drawable:
         -------
         Picture
         """
-        look = look_of(size, view, eye, at, up, fov, zoom, background, supersample)
+        look = look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
                     **_figure(ticks, box, triad, scale_bar, unit, title, views))
         rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
@@ -260,7 +263,7 @@ class Drawable:
                     exaggerate=_place(exaggerate), surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
     def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,
-                  at=None, up=None, fov=30.0, zoom=1.0, background="white", surface_color=None, exaggerate=None,
+                  at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None, exaggerate=None,
                   lights=None, material=None, threads=0, progress=None):
         """Write the points as a web page: one file that turns in any browser, with no
         server and no network, as uvol_render writes it.
@@ -269,7 +272,7 @@ class Drawable:
         ----------
         path : str or os.PathLike
             Ends in .html.
-        color, colormap, range, log, bar, view, eye, at, up, fov, zoom, background, surface_color, exaggerate, lights, material
+        color, colormap, range, log, bar, view, eye, at, up, fov, parallel, zoom, background, surface_color, exaggerate, lights, material
             As those of `render`.
 
         Returns
@@ -281,7 +284,7 @@ class Drawable:
         path = os.fspath(path)
         if not path.endswith(".html"):
             raise ValueError(f"{path!r} is no web page: its name must end in .html.")
-        look = look_of(1024, view, eye, at, up, fov, zoom, background, 0)
+        look = look_of(1024, view, eye, at, up, fov, parallel, zoom, background, 0)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material))
         count = _parameters.count(threads, "threads")
         dataset = self._find_colors(look["color"], count)
@@ -322,7 +325,7 @@ def finish(pixels, field, limits, report):
     return picture
 
 
-def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, zoom=1.0, turn=0.0,
+def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, parallel=False, zoom=1.0, turn=0.0,
              background=None, lights=None, supersample=None, depth=None, shadows=None, light_samples=None,
              occlusion=None, occlusion_distance=None, threads=0, progress=None):
     """Draw a scene of uvol_raytrace: surfaces of several files with their materials,
@@ -337,7 +340,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     turn : float
         Degrees that the camera goes around the place that it looks at, counter-clockwise
         as seen from above: the frames of a full turn have those of `np.arange(0, 360, 10)`.
-    size, view, eye, at, up, fov, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
+    size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
         As those of `Surface.raytrace`, instead of what the scene says; the camera is
         that of the scene unless `view` or `eye` is given.
 
@@ -350,7 +353,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     rays = dict(depth=depth, shadows=shadows, light_samples=light_samples, occlusion=occlusion,
                 occlusion_distance=occlusion_distance)
     given = {name for name, value in {**asked, **rays}.items() if value is not None}
-    look = look_of(size or (1024, 1024), view or "iso", eye, at, up, 30.0 if fov is None else fov, zoom,
+    look = look_of(size or (1024, 1024), view or "iso", eye, at, up, 30.0 if fov is None else fov, parallel, zoom,
                    "white" if background is None else background, supersample or 0)
     look["lights"] = _lights(lights)
     with listening(progress) as listener:

@@ -28,6 +28,8 @@ def pixels_of(path):
     (dict(color="none", eye=[3, 2, 1], at=[0.5, 0.5, 0.4], up=[0, 1, 0], fov=20, zoom=1.5, surface_color=[1, 0.2, 0]),
      ["-color", "none", "-eye", "3,2,1", "-at", "0.5,0.5,0.4", "-up", "0,1,0", "-fov", "20", "-zoom", "1.5",
       "-surface-color", "1,0.2,0"]),
+    (dict(parallel=True, view="top", color="r"), ["-parallel", "-view", "top", "-color", "r"]),
+    (dict(parallel=True, eye=[3, 2, 1]), ["-parallel", "-eye", "3,2,1"]),
     (dict(color="r*2", silhouettes=True, features=True, thickness=3, supersample=1, culling=True, up=[0, 1, 0],
           background="transparent", line_color=[0, 0, 1], footprints=False, bar=False),
      ["-color", "r*2", "-silhouettes", "-features", "-thickness", "3", "-supersample", "1", "-culling",

@@ -253,6 +253,18 @@ TEST_F(GrowingBalls, PicturesShareCameraAndColours)
   }
 }
 
+TEST_F(GrowingBalls, PicturesThatShareNothingDoNotWait)
+{
+  ASSERT_EQ(0, runTool("isosurface s_0.csv o_0.ply -field f -iso 0").exit_code);
+  const auto result =
+      runCommand("cd '" + (folder_ / "") +
+                 "' && TMPDIR=/nonexistent " PCL_UVOL_TOOL_DIR
+                 "/uvol_render 'o_{}.ply' 'p_{}.png' -color T -size 50 -range 0,9 "
+                 "-eye 9,0,0 -at 0,0,0");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_TRUE(exists("p_0.png"));
+}
+
 TEST_F(GrowingBalls, SurfacesThatAreNotThereLeaveNoPicture)
 {
   write("s_1.csv", "x,y,z,f,T\n0,0,0,1,1\n1,0,0,2,1\n0,1,0,3,1\n0,0,1,4,1\n");

@@ -95,19 +95,19 @@ struct Figure {
   void
   drawTitle(pcl_uvol::Image& image) const;
 
+  /** \brief True if cameras have to see a box around the surface. */
+  bool
+  showsBox() const
+  {
+    return has_ticks || has_box;
+  }
+
 private:
   /** True if something lies behind the surface, or beside it. */
   bool
   drawsMarks() const
   {
     return has_ticks || has_box || has_triad || has_scale_bar || views.size() > 1;
-  }
-
-  /** True if cameras have to see a box around the surface. */
-  bool
-  showsBox() const
-  {
-    return has_ticks || has_box;
   }
 
   /** The parts of a picture, of which the columns on the right are taken. */

@@ -91,6 +91,14 @@ public:
              const PictureCell& cell,
              const pcl_uvol::CloudView* cloud) const;
 
+  /** \brief False if options say all that pictures of a series would have in common. */
+  bool
+  sharesView() const
+  {
+    return eye_.empty() || at_.empty() || !colors_.getRange() ||
+           figure_.get().showsBox();
+  }
+
   /** \brief Add a surface to what pictures have in common.
    * \throws InvalidArgument as findColorScale */
   void

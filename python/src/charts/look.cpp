@@ -153,6 +153,7 @@ makeCamera(const PictureParameters& parameters,
   choice.at = place(parameters.at);
   choice.up = direction(parameters.up);
   choice.fov = parameters.fov;
+  choice.is_parallel = parameters.parallel;
   choice.zoom = parameters.zoom;
   choice.fill = makeFigure(parameters).getFill(cell);
   return chooseCamera(

@@ -94,6 +94,7 @@ struct PictureParameters {
   std::string view = "iso";
   std::optional<Eigen::Array3d> eye, at, up;
   double fov = 30.0, zoom = 1.0;
+  bool parallel = false; ///< no perspective, as CameraChoice says
   int width = 1024, height = 1024;
   int supersample = 0; ///< 0: 2, with rays 1
   BackgroundKind background = BackgroundKind::White;
@@ -125,6 +126,7 @@ struct PictureParameters {
                            Member{"at", &Own::at},
                            Member{"up", &Own::up},
                            Member{"fov", &Own::fov},
+                           Member{"parallel", &Own::parallel},
                            Member{"zoom", &Own::zoom},
                            Member{"width", &Own::width},
                            Member{"height", &Own::height},

@@ -63,6 +63,8 @@ findCamera(const PictureParameters& look,
     camera.up = look.up->matrix();
   if (has(given, "fov"))
     camera.vertical_fov = look.fov;
+  if (look.parallel)
+    camera = camera.parallel();
   return zoomed(camera, look.zoom);
 }
 
