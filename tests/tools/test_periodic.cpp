@@ -81,6 +81,16 @@ TEST_F(Periodic, DensitiesDoNotFallAtTheFaces)
     EXPECT_NEAR(0.0, value, 1e-5);
 }
 
+TEST_F(Periodic, CoordinatesBesideADerivativeAreThoseOfTheSamples)
+{
+  for (const double value : {0.5, 2.5, 7.0}) {
+    const std::string iso = " -periodic 8,8,8 -iso " + std::to_string(value);
+    const auto alone = fieldOf(resultOf("-field x+0" + iso), "x");
+    EXPECT_GT(alone.size(), 100u);
+    EXPECT_EQ(alone, fieldOf(resultOf("-field 'x+0*|grad(f)|'" + iso), "x")) << value;
+  }
+}
+
 TEST_F(Periodic, FieldsAreAskedForAcrossTheFaces)
 {
   writeFile(folder_ / "at.csv",
