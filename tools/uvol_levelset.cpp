@@ -290,8 +290,8 @@ run(int argc, char** argv)
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   const std::size_t points = dataset.cloud.width;
   const auto sides = arguments.periodic.findSides(dataset, report);
-  if (arguments.scale.isFromField()) // which images across faces need
-    uvol_tools::addField(dataset, parameters.field, options, report);
+  uvol_tools::addField(dataset, parameters.field, options, report, sides);
+  uvol_tools::addField(dataset, parameters.initial.field_name, options, report, sides);
   uvol_tools::Facts of_scale;
   const auto stretch = arguments.scale.resolve(
       pcl_uvol::viewOf(dataset.cloud),
@@ -305,8 +305,6 @@ run(int argc, char** argv)
   parameters.rotation = stretch.rotation;
   pcl_uvol::SamplesInBox boxed(
       dataset, sides, parameters.scale, options.threads(), report);
-  uvol_tools::addField(dataset, parameters.field, options, report);
-  uvol_tools::addField(dataset, parameters.initial.field_name, options, report);
   pcl_uvol::checkSavePath(arguments.output, dataset.cloud.fields);
   const pcl_uvol::CloudView view = pcl_uvol::viewOf(dataset.cloud);
   parameters.initial = shift(parameters.initial, dataset.origin);

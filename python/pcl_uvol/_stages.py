@@ -79,19 +79,18 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     if any(sides) and any(stretch.rotation):
         raise ValueError("periodic goes without rotate and a scale of nine numbers: the sides of the box lie along x, y "
                          "and z.")
-    with_field, name = samples._with_field(field, threads, progress)
-    factors = stretch.resolve(with_field._dataset, name)
+    samples, name = samples._with_field(field, threads, progress, sides)
+    initial = {}
+    if isinstance(start, str):
+        samples, start_name = samples._with_field(start, threads, progress, sides)
+        initial = {"kind": "field", "field": start_name}
+    elif start is not None:
+        initial = _parameters.mapping(start, "start")
+    factors = stretch.resolve(samples._dataset, name)
     imaged = None
     if any(sides):
         imaged = samples._with_images(sides, factors, threads, progress)
         samples = Samples._of(imaged.samples)
-    samples, name = samples._with_field(field, threads, progress)
-    initial = {}
-    if isinstance(start, str):
-        samples, start_name = samples._with_field(start, threads, progress)
-        initial = {"kind": "field", "field": start_name}
-    elif start is not None:
-        initial = _parameters.mapping(start, "start")
     parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
                       scale=factors, rotation=stretch.rotation)
     dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,

@@ -93,19 +93,20 @@ compute(Derivative derivative,
 Columns
 deriveColumns(Derivative derivative,
               const Columns& fields,
-              const CloudView& cloud,
+              const FormulaPoints& points,
               unsigned threads,
               std::uint64_t& undefined,
               Report& report)
 {
   const bool is_vector =
       derivative == Derivative::Gradient || derivative == Derivative::Curl;
-  Columns columns(is_vector ? 3 : 1, std::vector<double>(cloud.count, none));
+  const std::size_t count = points.with_images.count;
+  Columns columns(is_vector ? 3 : 1, std::vector<double>(count, none));
   std::atomic<std::uint64_t> missing{0};
   Report own; // its counts are those of the samples, which others count as well
   own.progress = report.progress;
   detail::computeDerivatives(
-      cloud,
+      points.with_images,
       fields,
       threads,
       [&](std::size_t point, const detail::PointDerivatives* derivatives) {
@@ -114,13 +115,16 @@ deriveColumns(Derivative derivative,
         for (std::size_t i = 0; i < columns.size(); ++i)
           if (std::isfinite(result[i]))
             columns[i][point] = result[i];
-          else
+          else if (point < points.own.count)
             ++missing;
       },
       own);
+  for (auto& column : columns) // those of the outermost images are one-sided
+    for (std::size_t i = 0; i < points.image_of.size(); ++i)
+      column[points.own.count + i] = column[points.image_of[i]];
   undefined += missing;
   const auto reduced = static_cast<double>(own.getCount("reduced_fits"));
-  if (reduced > most_reduced * static_cast<double>(cloud.count))
+  if (reduced > most_reduced * static_cast<double>(count))
     report.warnings.push_back(
         "Around " + std::to_string(own.getCount("reduced_fits")) +
         " samples others lie on few planes or lines: derivatives across these count "

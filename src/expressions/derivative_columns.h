@@ -6,12 +6,13 @@
 
 namespace pcl_uvol {
 
-/** \param fields one column, or three of a vector
+/** \param fields one column, or three of a vector, at points and images
+ * \return columns of points and images: images have the numbers of their points
  * \param undefined, report see evaluateFormula */
 Columns
 deriveColumns(Derivative derivative,
               const Columns& fields,
-              const CloudView& cloud,
+              const FormulaPoints& points,
               unsigned threads,
               std::uint64_t& undefined,
               Report& report);

@@ -5,9 +5,11 @@
 #include "expressions/derived_source.h"
 #include "expressions/evaluation.h"
 #include "expressions/operand_names.h"
+#include "neighbors/periodic_box.h"
 #include <pcl_uvol/expressions/derived_fields.h>
 
 #include <cstring>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -34,6 +36,34 @@ checkDerivatives(const Formula& formula, const DerivedFieldOptions& options)
                           " are not to be had " + options.no_derivatives + ".");
 }
 
+/** The points with images. */
+PeriodicSamples
+findImages(const Dataset& dataset,
+           const Formula& formula,
+           const DerivedFieldOptions& options,
+           const ProgressCallback& progress)
+{
+  Report own; // whoever uses the box tells of it
+  own.progress = progress;
+  const PeriodicBox box = findPeriodicBox(dataset, options.periodic, own);
+  if (!formula.hasCoordinate())
+    return addPeriodicImages(dataset,
+                             cutAtWidestGap(dataset, box, options.threads),
+                             {},
+                             options.threads,
+                             own);
+  // Coordinates are those of the points, and go on beyond the faces.
+  PeriodicSamples images = addPeriodicImages(dataset, box, {}, options.threads, own);
+  pcl::PCLPointCloud2& cloud = images.samples.cloud;
+  const CloudView places = viewOf(cloud);
+  for (std::size_t i = 0; i < places.count; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      putCoordinate(static_cast<double>(places.xyz(i)[axis]) + box.low[axis],
+                    axis,
+                    &cloud.data[i * cloud.point_step]);
+  return images;
+}
+
 std::vector<double>
 computeColumn(const Dataset& dataset,
               const Formula& formula,
@@ -46,12 +76,17 @@ computeColumn(const Dataset& dataset,
   if (formula.hasDerivative() && !dataset.has_coordinates)
     throw InvalidArgument("The derivatives in " + quoteText(formula.text) +
                           " need coordinates, and the points have none.");
-  return evaluateFormula(formula,
-                         viewOf(dataset.cloud),
-                         missing,
-                         options.threads,
-                         undefined,
-                         report)
+  checkPeriodic(options.periodic);
+  FormulaPoints points;
+  points.own = viewOf(dataset.cloud);
+  points.with_images = points.own;
+  PeriodicSamples images;
+  if (formula.hasDerivative() && isPeriodic(options.periodic)) {
+    images = findImages(dataset, formula, options, report.progress);
+    points.with_images = viewOf(images.samples.cloud);
+    points.image_of = std::move(images.image_of);
+  }
+  return evaluateFormula(formula, points, missing, options.threads, undefined, report)
       .front();
 }
 

@@ -32,10 +32,11 @@ DerivedSource::addField(pcl::PCLPointCloud2& block) const
   dataset.cloud = std::move(block);
   std::uint64_t undefined = 0;
   Report report;
+  const CloudView cloud = viewOf(dataset.cloud);
   setField(dataset,
            field_,
            evaluateFormula(*formula_,
-                           viewOf(dataset.cloud),
+                           {cloud, cloud, {}},
                            Missing::Everything,
                            threads_,
                            undefined,

@@ -23,8 +23,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /** Derivatives first, which see all points, then everything else block by block. */
 class Evaluation {
 public:
-  Evaluation(const CloudView& cloud, unsigned threads, Report& report)
-      : cloud_(cloud)
+  Evaluation(const FormulaPoints& points, unsigned threads, Report& report)
+      : points_(points)
       , threads_(threads)
       , report_(report)
   {
@@ -33,18 +33,7 @@ public:
   Columns
   compute(const Formula& formula, Missing missing)
   {
-    for (const Operand& operand : formula.operands)
-      prepare(operand);
-    Columns columns(formula.width(), std::vector<double>(cloud_.count));
-    std::atomic<std::uint64_t> undefined{0};
-    parallelBlocks(cloud_.count, block_points, threads_, [&](auto begin, auto end) {
-      std::vector<double*> targets;
-      for (auto& column : columns)
-        targets.push_back(&column[begin]);
-      undefined += fill(formula, missing, begin, end - begin, targets);
-    });
-    undefined_ += undefined;
-    return columns;
+    return compute(formula, points_.own, missing);
   }
 
   std::uint64_t
@@ -54,6 +43,28 @@ public:
   }
 
 private:
+  Columns
+  compute(const Formula& formula, const CloudView& cloud, Missing missing)
+  {
+    for (const Operand& operand : formula.operands)
+      prepare(operand);
+    Columns columns(formula.width(), std::vector<double>(cloud.count));
+    std::atomic<std::uint64_t> undefined{0};
+    const auto fill_rows = [&](std::size_t begin, std::size_t end) {
+      std::vector<double*> targets;
+      for (auto& column : columns)
+        targets.push_back(column.data() + begin);
+      return fill(formula, cloud, missing, begin, end - begin, targets);
+    };
+    parallelBlocks(cloud.count, block_points, threads_, [&](auto begin, auto end) {
+      const std::size_t images = std::clamp<std::size_t>(points_.own.count, begin, end);
+      undefined += fill_rows(begin, images);
+      fill_rows(images, end);
+    });
+    undefined_ += undefined;
+    return columns;
+  }
+
   void
   prepare(const Operand& operand)
   {
@@ -67,28 +78,29 @@ private:
     }
     Columns fields;
     for (const Formula& argument : operand.arguments)
-      for (auto& column : compute(argument, Missing::Everything))
+      for (auto& column : compute(argument, points_.with_images, Missing::Everything))
         fields.push_back(std::move(column));
     derived_[&operand] = deriveColumns(
-        operand.derivative, fields, cloud_, threads_, undefined_, report_);
+        operand.derivative, fields, points_, threads_, undefined_, report_);
   }
 
   /** The components of a formula at consecutive points.
    * \return how many numbers are undefined */
   std::uint64_t
   fill(const Formula& formula,
+       const CloudView& cloud,
        Missing missing,
        std::size_t begin,
        std::size_t count,
        const std::vector<double*>& targets) const
   {
     if (formula.program.empty())
-      return fill(formula.operands.front(), begin, count, targets);
+      return fill(formula.operands.front(), cloud, begin, count, targets);
     std::uint64_t undefined = 0;
     Columns operands;
     for (const Operand& operand : formula.operands) {
       operands.emplace_back(count);
-      undefined += fill(operand, begin, count, {operands.back().data()});
+      undefined += fill(operand, cloud, begin, count, {operands.back().data()});
     }
     Program program(formula.program, operands.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -109,12 +121,13 @@ private:
 
   std::uint64_t
   fill(const Operand& operand,
+       const CloudView& cloud,
        std::size_t begin,
        std::size_t count,
        const std::vector<double*>& targets) const
   {
     if (operand.kind == Operand::Kind::Norm)
-      return fillNorm(operand, begin, count, targets[0]);
+      return fillNorm(operand, cloud, begin, count, targets[0]);
     const std::size_t first = operand.component.value_or(0);
     for (std::size_t c = 0; c < targets.size(); ++c)
       if (operand.kind == Operand::Kind::Derivative) {
@@ -123,13 +136,14 @@ private:
       }
       else
         for (std::size_t i = 0; i < count; ++i)
-          targets[c][i] = operand.components[first + c].read(cloud_.point(begin + i)) +
+          targets[c][i] = operand.components[first + c].read(cloud.point(begin + i)) +
                           operand.addends[first + c];
     return 0;
   }
 
   std::uint64_t
   fillNorm(const Operand& norm,
+           const CloudView& cloud,
            std::size_t begin,
            std::size_t count,
            double* target) const
@@ -141,7 +155,7 @@ private:
       std::vector<double*> targets;
       for (auto& column : columns)
         targets.push_back(column.data());
-      undefined += fill(argument, Missing::Everything, begin, count, targets);
+      undefined += fill(argument, cloud, Missing::Everything, begin, count, targets);
       for (const auto& column : columns)
         for (std::size_t i = 0; i < count; ++i)
           target[i] += column[i] * column[i];
@@ -151,7 +165,7 @@ private:
     return undefined;
   }
 
-  const CloudView& cloud_;
+  const FormulaPoints& points_;
   unsigned threads_;
   Report& report_;
   std::uint64_t undefined_ = 0;
@@ -162,13 +176,13 @@ private:
 
 Columns
 evaluateFormula(const Formula& formula,
-                const CloudView& cloud,
+                const FormulaPoints& points,
                 Missing missing,
                 unsigned threads,
                 std::uint64_t& undefined,
                 Report& report)
 {
-  Evaluation evaluation(cloud, threads, report);
+  Evaluation evaluation(points, threads, report);
   Columns columns = evaluation.compute(formula, missing);
   undefined += evaluation.countUndefined();
   return columns;

@@ -6,6 +6,24 @@
 #include <algorithm>
 
 namespace pcl_uvol {
+namespace {
+
+/** True if an operand of that kind is in a formula, at any depth. */
+template <typename Predicate>
+bool
+hasOperand(const Formula& formula, const Predicate& is_meant)
+{
+  return std::any_of(
+      formula.operands.begin(), formula.operands.end(), [&](const Operand& operand) {
+        return is_meant(operand) || std::any_of(operand.arguments.begin(),
+                                                operand.arguments.end(),
+                                                [&](const Formula& argument) {
+                                                  return hasOperand(argument, is_meant);
+                                                });
+      });
+}
+
+} // namespace
 
 std::size_t
 Operand::fullWidth() const
@@ -33,24 +51,24 @@ describeComponents(const Operand& operand)
 bool
 Formula::hasDerivative() const
 {
-  return std::any_of(operands.begin(), operands.end(), [](const Operand& operand) {
-    return operand.kind == Operand::Kind::Derivative ||
-           std::any_of(
-               operand.arguments.begin(),
-               operand.arguments.end(),
-               [](const Formula& argument) { return argument.hasDerivative(); });
+  return hasOperand(*this, [](const Operand& operand) {
+    return operand.kind == Operand::Kind::Derivative;
   });
 }
 
 bool
 Formula::hasField() const
 {
-  return std::any_of(operands.begin(), operands.end(), [](const Operand& operand) {
-    return operand.kind == Operand::Kind::Field ||
-           std::any_of(operand.arguments.begin(),
-                       operand.arguments.end(),
-                       [](const Formula& argument) { return argument.hasField(); });
+  return hasOperand(*this, [](const Operand& operand) {
+    return operand.kind == Operand::Kind::Field;
   });
+}
+
+bool
+Formula::hasCoordinate() const
+{
+  return hasOperand(*this,
+                    [](const Operand& operand) { return operand.is_coordinate; });
 }
 
 } // namespace pcl_uvol

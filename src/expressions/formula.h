@@ -28,6 +28,7 @@ struct Operand {
   std::vector<FieldComponent> components;
   std::vector<double> addends;
   /** @} */
+  bool is_coordinate = false; ///< x, y or z
   Derivative derivative = Derivative::Gradient;
   std::vector<Formula> arguments;       ///< of norms and derivatives
   std::optional<std::size_t> component; ///< the one of several that is meant
@@ -65,6 +66,10 @@ struct Formula {
   /** True if a field is in it, at any depth. */
   bool
   hasField() const;
+
+  /** True if a coordinate is in it, at any depth. */
+  bool
+  hasCoordinate() const;
 };
 
 /** Resolve an expression against the fields of a dataset, whose points are not looked

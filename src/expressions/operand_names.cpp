@@ -132,8 +132,10 @@ makeFieldOperand(const Fields& fields,
   Operand operand;
   operand.components = findComponents(fields, name);
   operand.addends.resize(operand.components.size());
-  if (const int axis = axisOf(name); axis >= 0 && operand.components.size() == 1)
+  if (const int axis = axisOf(name); axis >= 0 && operand.components.size() == 1) {
     operand.addends[0] = origin[static_cast<std::size_t>(axis)];
+    operand.is_coordinate = true;
+  }
   return operand;
 }
 

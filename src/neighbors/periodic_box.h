@@ -121,6 +121,14 @@ addPeriodicImages(const Dataset& samples,
                   unsigned threads,
                   Report& report);
 
+/** \brief The same for all samples. */
+PCL_UVOL_EXPORTS PeriodicSamples
+addPeriodicImages(const Dataset& samples,
+                  const PeriodicBox& box,
+                  const PeriodicReach& reach,
+                  unsigned threads,
+                  Report& report);
+
 /** \brief The samples that came in, at their own places, with the fields that have been
  * added since. */
 PCL_UVOL_EXPORTS Dataset

@@ -263,6 +263,18 @@ addPeriodicImages(const Dataset& samples,
   return result;
 }
 
+PeriodicSamples
+addPeriodicImages(const Dataset& samples,
+                  const PeriodicBox& box,
+                  const PeriodicReach& reach,
+                  unsigned threads,
+                  Report& report)
+{
+  std::vector<std::uint32_t> all(samples.cloud.width);
+  std::iota(all.begin(), all.end(), 0u);
+  return addPeriodicImages(samples, all, box, reach, threads, report);
+}
+
 Dataset
 dropPeriodicImages(PeriodicSamples&& images, const Dataset& samples)
 {

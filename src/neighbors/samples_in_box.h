@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 
 namespace pcl_uvol {
 
@@ -73,20 +72,5 @@ private:
   Dataset before_;         ///< the samples as they came, where there is a box
   PeriodicSamples images_; ///< without the samples, which are the caller's
 };
-
-/** \brief Add fields to samples while images of them are there.
- *
- * \param sides all 0: without images
- *
- * \param least reach of images beyond the faces, a length
- *
- * \param progress told of the images */
-PCL_UVOL_EXPORTS void
-addFieldsInBox(Dataset& samples,
-               const std::array<double, 3>& sides,
-               double least,
-               unsigned threads,
-               const ProgressCallback& progress,
-               const std::function<void(Dataset&)>& add);
 
 } // namespace pcl_uvol

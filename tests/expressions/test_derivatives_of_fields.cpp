@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace pcl_uvol;
@@ -28,10 +29,14 @@ makeDataset(const Places& places, const std::vector<Function>& functions)
 }
 
 std::vector<double>
-derive(Dataset dataset, const std::string& expression, unsigned threads = 0)
+derive(Dataset dataset,
+       const std::string& expression,
+       unsigned threads = 0,
+       const std::array<double, 3>& periodic = {})
 {
   Report report;
-  const std::string name = addDerivedField(dataset, expression, {threads, ""}, report);
+  const std::string name =
+      addDerivedField(dataset, expression, {threads, "", periodic}, report);
   const CloudView cloud = viewOf(dataset.cloud);
   const ScalarField field(cloud.fields, name);
   std::vector<double> values;
@@ -270,6 +275,95 @@ TEST(DerivativesOfFields, MissingValuesAndDuplicates)
             1);
   EXPECT_EQ(slope[3], slope.back());
   EXPECT_NEAR(slope[3], cubicGradient(vectorOf(places[3])).norm(), 1e-8);
+}
+
+namespace {
+
+/** A wave that repeats in the unit box, with its slope along x. @{ */
+const double k = 2.0 * std::acos(-1.0);
+
+double
+wave(const Vector3d& x)
+{
+  return std::sin(k * x[0]) + std::cos(k * x[1]) * std::sin(k * x[2]);
+}
+
+double
+waveSlope(const Vector3d& x)
+{
+  return k * std::cos(k * x[0]);
+}
+/** @} */
+
+constexpr std::array<double, 3> unit_box{{1.0, 1.0, 1.0}};
+
+/** In the unit box, but for some that have left it. */
+Places
+placesAboutBox()
+{
+  Places about = randomPlaces(3000, 11);
+  for (std::size_t i = 0; i < about.size(); i += 50)
+    about[i][i % 3] += i % 4 == 0 ? 1.0 : -1.0;
+  return about;
+}
+
+} // namespace
+
+TEST(DerivativesOfFields, BoxesThatRepeatHaveNoEnds)
+{
+  const Places about = placesAboutBox();
+  Dataset dataset = makeDataset(about, {wave});
+  dataset.origin = {{0.0, 4.0, -2.0}};
+  const auto error = [&](const std::string& expression,
+                         const std::array<double, 3>& box,
+                         const Function& truth) {
+    const auto values = derive(dataset, expression, 0, box);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < about.size(); ++i)
+      largest = std::max(largest, std::abs(values[i] - truth(vectorOf(about[i]))));
+    return largest;
+  };
+  EXPECT_GT(error("grad(f0)[0]", {}, waveSlope), 0.5);
+  EXPECT_LT(error("grad(f0)[0]", unit_box, waveSlope), 0.15);
+  // Derivatives of derivatives know no more of faces than those.
+  const Function bend = [](const Vector3d& x) { return -k * k * std::sin(k * x[0]); };
+  EXPECT_LT(error("grad(grad(f0)[0])[0]", unit_box, bend), 3.0);
+}
+
+TEST(DerivativesOfFields, CoordinatesInBoxesAreThoseOfTheSamples)
+{
+  const Places about = placesAboutBox();
+  Dataset dataset = makeDataset(about, {wave});
+  dataset.origin = {{0.0, 4.0, -2.0}};
+  for (const std::string axis : {"x", "y", "z", "|x,y|"})
+    EXPECT_EQ(derive(dataset, axis + "+0"),
+              derive(dataset, axis + "+0*|grad(f0)|", 0, unit_box));
+  const Dataset inside = makeDataset(places, {wave}); // from -1 to 1
+  for (const double slope :
+       derive(inside, "grad(x)[0]-grad(z+2*y)[1]", 0, {{2.0, 2.0, 2.0}}))
+    EXPECT_NEAR(-1.0, slope, 1e-5);
+  const auto sums =
+      derive(inside, "grad(x*f0)[0]-x*grad(f0)[0]-f0", 0, {{2.0, 2.0, 2.0}});
+  for (const double none : sums)
+    EXPECT_NEAR(0.0, none, 1.5);
+}
+
+TEST(DerivativesOfFields, ImagesAreNotUndefinedOnceMore)
+{
+  Dataset dataset = makeDataset(placesAboutBox(), {wave});
+  Report report;
+  addDerivedField(dataset, "|grad(f0*1)|/0", {0, "", unit_box}, report);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find(" 3000 of 3000 "), std::string::npos)
+      << report.warnings[0];
+  addDerivedField(dataset, "|grad(ln(f0))|", {0, "", unit_box}, report);
+  const auto values = derive(dataset, "f0*1");
+  const auto negative =
+      std::count_if(values.begin(), values.end(), [](double f) { return f < 0.0; });
+  EXPECT_NE(report.warnings.back().find(" " + std::to_string(negative) + " of 3000 "),
+            std::string::npos)
+      << report.warnings.back();
+  EXPECT_THROW(derive(dataset, "|grad(f0)|", 0, {{-1.0, 0.0, 0.0}}), InvalidArgument);
 }
 
 TEST(DerivativesOfFields, TooFewSamples)

@@ -69,6 +69,15 @@ def test_derivatives_see_across_the_faces_as_those_of_the_tool(tmp_path, run_too
     assert extractor.extract(field=field, iso=iso).records.tobytes() == alone.records.tobytes()
 
 
+def test_coordinates_beside_a_derivative_are_those_of_the_samples():
+    points = np.random.default_rng(3).random((3000, 3))
+    samples = uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)})
+    for iso in (0.1, 0.3, 0.9):
+        alone = uvol.isosurface(samples, field="x+0", iso=iso, periodic=(1, 1, 1))
+        beside = uvol.isosurface(samples, field="x+0*|grad(f)|", iso=iso, periodic=(1, 1, 1))
+        assert len(alone) > 100 and np.array_equal(alone.points, beside.points)
+
+
 @pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
 def test_the_tool_writes_the_same_mesh(tmp_path, run_tool, ball, ending):
     uvol.Samples(*ball).save(tmp_path / "samples.ply")

@@ -47,6 +47,21 @@ def test_level_sets_in_boxes_that_repeat(tmp_path, run_tool, arguments, options)
         uvol.level_set(samples, field="f", iso=0, rotate=(1, 2, 3), **options)
 
 
+@pytest.mark.parametrize("scale", ["1,1,1", "auto"])
+def test_level_sets_of_derivatives_see_across_the_faces(tmp_path, run_tool, scale):
+    points = np.random.default_rng(3).random((4000, 3))
+    samples = uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)})
+    options = dict(field="|grad(f)|", iso=8, start="x-f", mu=0.5, max_steps=2, periodic=(1, 1, 1),
+                   scale="auto" if scale == "auto" else (1, 1, 1))
+    compare(tmp_path, run_tool, "uvol_levelset", samples,
+            ["-field", "|grad(f)|", "-iso", "8", "-start", "x-f", "-mu", "0.5", "-steps", "2", "-periodic", "1,1,1",
+             "-scale", scale],
+            lambda samples: uvol.level_set(samples, **options))
+    smooth = uvol.level_set(samples, **options)
+    truth = np.linalg.norm(2 * np.pi * np.cos(2 * np.pi * points), axis=1)
+    assert np.abs(smooth["|grad(f)|"] - truth).max() < 0.15
+
+
 def test_a_level_set_tells_of_its_steps(ball):
     smooth = uvol.level_set(*ball, field="r", iso=0.3, mu=0.5)
     assert smooth.report["mu"] == 0.5 and len(smooth.report["steps"]) > 0

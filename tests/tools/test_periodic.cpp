@@ -81,6 +81,35 @@ TEST_F(Periodic, DensitiesDoNotFallAtTheFaces)
     EXPECT_NEAR(0.0, value, 1e-5);
 }
 
+TEST_F(Periodic, CoordinatesBesideADerivativeAreThoseOfTheSamples)
+{
+  for (const double value : {0.5, 2.5, 7.0}) {
+    const std::string iso = " -periodic 8,8,8 -iso " + std::to_string(value);
+    const auto alone = fieldOf(resultOf("-field x+0" + iso), "x");
+    EXPECT_GT(alone.size(), 100u);
+    EXPECT_EQ(alone, fieldOf(resultOf("-field 'x+0*|grad(f)|'" + iso), "x")) << value;
+  }
+}
+
+TEST_F(Periodic, LevelSetsOfDerivativesSeeAcrossTheFaces)
+{
+  for (const std::string scale : {"1,1,1", "auto"}) {
+    runTool("uvol_levelset",
+            "-field 'grad(f)[0]' -iso 0 -periodic 8,8,8 -mu 0.5 -steps 2 -scale " +
+                scale);
+    const auto found = pcl_uvol::loadDataset(out_);
+    const auto x = fieldOf(found, "x"), y = fieldOf(found, "y"),
+               z = fieldOf(found, "z"), slopes = fieldOf(found, "grad(f)[0]");
+    const double k = 2.0 * std::acos(-1.0) / side;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(k * (std::cos(k * x[i]) * std::cos(k * y[i]) -
+                       std::sin(k * z[i]) * std::sin(k * x[i])),
+                  slopes[i],
+                  0.03)
+          << scale;
+  }
+}
+
 TEST_F(Periodic, FieldsAreAskedForAcrossTheFaces)
 {
   writeFile(folder_ / "at.csv",

@@ -3,12 +3,14 @@
 
 #include "common/scalar_field.h"
 #include "interpolation/sph_density.h"
+#include "neighbors/periodic_box.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace uvol_tools {
 
@@ -43,8 +45,8 @@ double
 DensityOptions::findReach(const pcl_uvol::Dataset& dataset) const
 {
   constexpr double kernel_end = 2.0; // of the cubic spline, in smoothing lengths
-  if (!is_asked_for_ || length_ > 0.0)
-    return is_asked_for_ ? kernel_end * length_ : 0.0;
+  if (length_ > 0.0)
+    return kernel_end * length_;
   const std::string name = pcl_uvol::findSphFields(dataset.cloud.fields).length_field;
   if (name.empty())
     return 0.0;
@@ -60,7 +62,8 @@ DensityOptions::findReach(const pcl_uvol::Dataset& dataset) const
 void
 DensityOptions::addField(pcl_uvol::Dataset& dataset,
                          unsigned threads,
-                         pcl_uvol::Report& report) const
+                         pcl_uvol::Report& report,
+                         const std::array<double, 3>& periodic) const
 {
   if (length_ > 0.0 && !is_asked_for_)
     throw UsageError("-density-length goes with -density.");
@@ -69,6 +72,28 @@ DensityOptions::addField(pcl_uvol::Dataset& dataset,
   if (pcl_uvol::findField(dataset.cloud.fields, "sph_density") != nullptr)
     throw pcl_uvol::InvalidArgument("There is a field sph_density already.");
   const pcl_uvol::StepTimer timer(report, "density");
+  if (!pcl_uvol::isPeriodic(periodic))
+    return computeField(dataset, threads, report);
+  pcl_uvol::Report own; // whoever uses the box tells of it
+  own.progress = report.progress;
+  pcl_uvol::PeriodicReach reach;
+  reach.least = findReach(dataset);
+  auto images = pcl_uvol::addPeriodicImages(
+      dataset,
+      pcl_uvol::cutAtWidestGap(
+          dataset, pcl_uvol::findPeriodicBox(dataset, periodic, own), threads),
+      reach,
+      threads,
+      own);
+  computeField(images.samples, threads, report);
+  dataset = pcl_uvol::dropPeriodicImages(std::move(images), dataset);
+}
+
+void
+DensityOptions::computeField(pcl_uvol::Dataset& dataset,
+                             unsigned threads,
+                             pcl_uvol::Report& report) const
+{
   const auto fields = pcl_uvol::findSphFields(dataset.cloud.fields);
   pcl_uvol::Report own; // the samples are counted by whoever uses them
   own.progress = report.progress;

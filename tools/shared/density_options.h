@@ -6,6 +6,8 @@
 #include "shared/options.h"
 #include <pcl_uvol/common/dataset.h>
 
+#include <array>
+
 namespace uvol_tools {
 
 /** \brief -density and -density-length. */
@@ -22,22 +24,31 @@ public:
 
   /** \brief Add the field sph_density, if it is asked for.
    *
+   * \param periodic sides of the box that the samples repeat in, 0 along an axis for
+   * none
+   *
    * \throws UsageError for a length without -density */
   void
   addField(pcl_uvol::Dataset& dataset,
            unsigned threads,
-           pcl_uvol::Report& report) const;
-
-  /** \brief How far the kernels of the samples reach, where the option or a field
-   * tells; 0: not known, or not asked for. */
-  double
-  findReach(const pcl_uvol::Dataset& dataset) const;
+           pcl_uvol::Report& report,
+           const std::array<double, 3>& periodic = {}) const;
 
   /** \brief Bytes of adding it to so many points of such a step, on top of them. */
   static pcl_uvol::MemoryNeed
   getMemoryNeed(double points, double step);
 
 private:
+  /** How far the kernels of the samples reach, where the option or a field tells; 0:
+   * not known. */
+  double
+  findReach(const pcl_uvol::Dataset& dataset) const;
+
+  void
+  computeField(pcl_uvol::Dataset& dataset,
+               unsigned threads,
+               pcl_uvol::Report& report) const;
+
   bool is_asked_for_ = false;
   double length_ = 0.0;
 };

@@ -85,13 +85,28 @@ loadPoints(const std::string& path,
   return dataset;
 }
 
+namespace {
+
+void
+resolveField(pcl_uvol::Dataset& points,
+             std::string& name,
+             const pcl_uvol::DerivedFieldOptions& options,
+             pcl_uvol::Report& report)
+{
+  if (!name.empty())
+    name = pcl_uvol::addDerivedField(points, name, options, report);
+}
+
+} // namespace
+
 void
 addField(pcl_uvol::Dataset& samples,
          std::string& name,
          const Options& options,
-         pcl_uvol::Report& report)
+         pcl_uvol::Report& report,
+         const std::array<double, 3>& periodic)
 {
-  addField(samples, name, "", options, report);
+  resolveField(samples, name, {options.threads(), "", periodic}, report);
 }
 
 void
@@ -101,9 +116,7 @@ addField(pcl_uvol::Dataset& points,
          const Options& options,
          pcl_uvol::Report& report)
 {
-  if (!name.empty())
-    name =
-        pcl_uvol::addDerivedField(points, name, {options.threads(), because}, report);
+  resolveField(points, name, {options.threads(), because, {}}, report);
 }
 
 void

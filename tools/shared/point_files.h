@@ -7,6 +7,7 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/io/dataset.h>
 
+#include <array>
 #include <string>
 
 namespace uvol_tools {
@@ -40,12 +41,14 @@ loadPoints(const std::string& path,
 
 /** \brief Make sure that samples have the field that an option names, see
  * addDerivedField.
- * \param name becomes what stages call it; "" stays "" */
+ * \param name becomes what stages call it; "" stays ""
+ * \param periodic see DerivedFieldOptions::periodic */
 void
 addField(pcl_uvol::Dataset& samples,
          std::string& name,
          const Options& options,
-         pcl_uvol::Report& report);
+         pcl_uvol::Report& report,
+         const std::array<double, 3>& periodic = {});
 
 /** \brief The same for points that have no derivatives.
  * \param because see DerivedFieldOptions::no_derivatives */

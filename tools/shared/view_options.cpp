@@ -235,11 +235,12 @@ ViewOptions::addColor(const Options& options,
 void
 ViewOptions::addColorOfSamples(const Options& options,
                                pcl_uvol::Dataset& samples,
-                               pcl_uvol::Report& report)
+                               pcl_uvol::Report& report,
+                               const std::array<double, 3>& periodic)
 {
   labels_ = samples.labels;
   if (hasColorOfSamples())
-    addField(samples, color_, options, report);
+    addField(samples, color_, options, report, periodic);
 }
 
 bool

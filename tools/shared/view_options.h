@@ -167,11 +167,13 @@ public:
   addColor(const Options& options, pcl_uvol::Dataset& points, pcl_uvol::Report& report);
 
   /** \brief The same from samples, for what a surface of them cannot give: derivatives.
-   * The surface gets the field with all others. */
+   * The surface gets the field with all others.
+   * \param periodic see DerivedFieldOptions::periodic */
   void
   addColorOfSamples(const Options& options,
                     pcl_uvol::Dataset& samples,
-                    pcl_uvol::Report& report);
+                    pcl_uvol::Report& report,
+                    const std::array<double, 3>& periodic = {});
 
   /** \brief True if -color can be computed from samples only. */
   bool

@@ -5,7 +5,6 @@
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
 #include "interpolation/outer_layer.h"
-#include "neighbors/samples_in_box.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/mesh.h>
@@ -82,24 +81,13 @@ loadSamples(const Options& options,
   arguments.resolveSpacing(*samples);
   const auto sides = arguments.periodic.findSides(*samples, report);
   arguments.parameters.periodic = Eigen::Array3d(sides.data());
-  const auto add_fields = [&](pcl_uvol::Dataset& points) {
-    arguments.density.addField(points, options.threads(), report);
-    if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
-      arguments.parameters.isosurface.field = "sph_density";
-    addField(points, arguments.parameters.isosurface.field, options, report);
-    if (std::isfinite(arguments.outside_value))
-      addOuterLayer(options, arguments, points, report);
-    arguments.picture.addColorOfSamples(options, points, report);
-  };
-  if (arguments.hasFieldsOfNeighbors())
-    pcl_uvol::addFieldsInBox(*samples,
-                             sides,
-                             arguments.density.findReach(*samples),
-                             options.threads(),
-                             report.progress,
-                             add_fields);
-  else
-    add_fields(*samples);
+  arguments.density.addField(*samples, options.threads(), report, sides);
+  if (arguments.density.isAskedFor() && arguments.parameters.isosurface.field.empty())
+    arguments.parameters.isosurface.field = "sph_density";
+  addField(*samples, arguments.parameters.isosurface.field, options, report, sides);
+  if (std::isfinite(arguments.outside_value))
+    addOuterLayer(options, arguments, *samples, report);
+  arguments.picture.addColorOfSamples(options, *samples, report, sides);
   checkOutput(arguments, *samples);
   return samples;
 }

@@ -37,10 +37,6 @@ struct PipelineOptions : IsosurfaceOptions {
   bool
   needsAllSamples() const;
 
-  /** \brief Whether fields are added that a sample has from those around it. */
-  bool
-  hasFieldsOfNeighbors() const;
-
   const MeshOptions&
   getMesh() const
   {
@@ -52,6 +48,10 @@ struct PipelineOptions : IsosurfaceOptions {
   makeOutOfCoreSettings(const Options& options) const;
 
 private:
+  /** Whether fields are added that a sample has from those around it. */
+  bool
+  hasFieldsOfNeighbors() const;
+
   void
   checkCombinations(const Options& options) const;
 

@@ -48,10 +48,11 @@ SurfacePicture::check(const Options& options)
 void
 SurfacePicture::addColorOfSamples(const Options& options,
                                   pcl_uvol::Dataset& samples,
-                                  pcl_uvol::Report& report)
+                                  pcl_uvol::Report& report,
+                                  const std::array<double, 3>& periodic)
 {
   if (isAskedFor())
-    look_.addColorOfSamples(options, samples, report);
+    look_.addColorOfSamples(options, samples, report, periodic);
 }
 
 void

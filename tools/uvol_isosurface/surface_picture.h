@@ -7,6 +7,7 @@
 #include "shared/render_options.h"
 #include <pcl_uvol/io/dataset.h>
 
+#include <array>
 #include <string>
 
 namespace uvol_tools {
@@ -32,7 +33,8 @@ public:
   void
   addColorOfSamples(const Options& options,
                     pcl_uvol::Dataset& samples,
-                    pcl_uvol::Report& report);
+                    pcl_uvol::Report& report,
+                    const std::array<double, 3>& periodic);
   void
   addColor(const Options& options,
            pcl_uvol::Dataset& surface,

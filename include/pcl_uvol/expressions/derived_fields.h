@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -47,6 +48,10 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
   /** Why points have no derivatives, as a subordinate clause without its end:
    * "because these points are a surface"; empty (default): they have. */
   std::string no_derivatives;
+  /** Sides of the box that points repeat in, 0 along an axis for none: derivatives see
+   * neighbours across its faces. Coordinates outside of derivatives stay those of the
+   * points, in derivatives they go on beyond the faces. */
+  std::array<double, 3> periodic{};
 };
 
 /** \brief Make sure that a data set has a field.
@@ -69,12 +74,12 @@ struct PCL_UVOL_EXPORTS DerivedFieldOptions {
  * the result is no finite number.
  * \param dataset gets the field
  * \param expression name of a field, or what to compute
- * \param options threads, and why there are no derivatives
+ * \param options threads, the box, and why there are no derivatives
  * \return the name of the field
  * \param report gets the time "derived_fields", and warnings that say where an
  * expression has no value
  * \throws ExpressionError, and InvalidArgument where there are fewer than four samples
- * for derivatives, or none are to be had */
+ * for derivatives, or none are to be had, or a side of the box is none */
 PCL_UVOL_EXPORTS std::string
 addDerivedField(Dataset& dataset,
                 const std::string& expression,

@@ -3,10 +3,8 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
-#include "expressions/formula.h"
 #include "interpolation/outer_layer.h"
 #include "interpolation/sph_density.h"
-#include "neighbors/samples_in_box.h"
 #include "pipeline/dataset_info.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
@@ -120,9 +118,7 @@ listFields(const Dataset& dataset)
 }
 
 /** The dataset itself where it has the field, else a copy with it.
- * \param no_derivatives see DerivedFieldOptions
- * \param sides of a box that the points repeat in, across whose faces derivatives see;
- * all 0: of none */
+ * \param no_derivatives, sides see DerivedFieldOptions */
 py::tuple
 withField(const DatasetPtr& dataset,
           const std::string& expression,
@@ -141,13 +137,8 @@ withField(const DatasetPtr& dataset,
     }
     catch (const InvalidArgument&) {
       result = std::make_shared<Dataset>(*dataset);
-      const auto add = [&](Dataset& points) {
-        name = addDerivedField(points, expression, {threads, no_derivatives}, report);
-      };
-      if (mayHaveDerivative(expression))
-        addFieldsInBox(*result, sides, 0.0, threads, callback, add);
-      else
-        add(*result);
+      name = addDerivedField(
+          *result, expression, {threads, no_derivatives, sides}, report);
     }
   });
   return py::make_tuple(result, toText(name), toDict(report));
