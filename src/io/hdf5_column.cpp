@@ -72,6 +72,17 @@ struct Storage {
                            std::uint64_t{number_bytes},
                            std::multiplies<std::uint64_t>());
   }
+
+  /** Of a table in chunks that no filter packs: whether so many bytes can be those of
+   * its chunks. The library reads as many as an index says, which damage may change. */
+  bool
+  mayHold(std::uint64_t bytes) const
+  {
+    std::uint64_t chunks = 1;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis)
+      chunks *= (sizes[axis] + chunk[axis] - 1) / chunk[axis];
+    return bytes % chunkBytes() == 0 && bytes / chunkBytes() <= chunks;
+  }
 };
 
 Storage
@@ -424,6 +435,11 @@ openHdf5Column(const std::string& path,
     throwUnreadable(path,
                     "it is truncated or damaged: " + quoteText(name) + " is promised " +
                         std::to_string(shape.rows) + " rows, but only " +
+                        std::to_string(stored) + " bytes are stored");
+  if (storage.can_unpack && !storage.is_packed && !storage.mayHold(stored))
+    throwUnreadable(path,
+                    "it is damaged: " + quoteText(name) + " has chunks of " +
+                        std::to_string(storage.chunkBytes()) + " bytes, but " +
                         std::to_string(stored) + " bytes are stored");
   if (storage.can_unpack)
     return std::make_unique<ChunkedColumn>(path, name, dataset, shape, storage);
