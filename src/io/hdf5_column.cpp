@@ -382,6 +382,10 @@ std::recursive_mutex&
 Hdf5Session::mutex()
 {
   static std::recursive_mutex all;
+  // What damaged headers have left open the library cannot close at exit, and prints
+  // so.
+  static const herr_t leaves_no_handler = H5dont_atexit();
+  static_cast<void>(leaves_no_handler);
   return all;
 }
 

@@ -3,6 +3,7 @@
 are those of the module."""
 
 import os
+import pathlib
 import subprocess
 import sys
 import textwrap
@@ -37,14 +38,18 @@ def sphere(ball):
 
 
 @pytest.fixture
-def run_tool(tmp_path):
-    """Calls run_tool("uvol_isosurface", argument, ...), in a folder of the test's own: what the tool prints."""
+def tool_folder():
     folder = os.environ.get("PCL_UVOL_TOOL_DIR")
     if not folder:
         pytest.skip("PCL_UVOL_TOOL_DIR does not say where the tools are")
+    return pathlib.Path(folder)
 
+
+@pytest.fixture
+def run_tool(tmp_path, tool_folder):
+    """Calls run_tool("uvol_isosurface", argument, ...), in a folder of the test's own: what the tool prints."""
     def run(tool, *arguments):
-        command = [os.path.join(folder, tool), *map(str, arguments)]
+        command = [tool_folder / tool, *map(str, arguments)]
         return subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True).stdout
 
     return run

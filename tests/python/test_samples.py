@@ -2,6 +2,7 @@
 """Arrays of all kinds into samples, and out again."""
 
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
@@ -223,6 +224,23 @@ def test_kinds_of_particles(tmp_path):
             group["Masses"] = np.arange(count, dtype=float)
     assert len(uvol.read(tmp_path / "snap.hdf5")) == 3
     assert len(uvol.read(tmp_path / "snap.hdf5", particles="dm")) == 2
+
+
+def test_the_library_is_silent_about_what_damaged_files_left_open(tmp_path, tool_folder):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "whole.h5", "w") as file:
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [8, 0, 0, 0, 0, 0]
+        group = file.create_group("PartType0")
+        group.create_dataset("Coordinates", data=np.arange(24.0).reshape(8, 3), chunks=(3, 3))
+        group["Density"] = np.arange(8, dtype=">f4")
+    whole = (tmp_path / "whole.h5").read_bytes()
+    for place in range(120):  # of the superblock and what follows it
+        damaged = bytearray(whole)
+        damaged[place] ^= 0xff
+        (tmp_path / "damaged.h5").write_bytes(damaged)
+        told = subprocess.run([tool_folder / "uvol_info", tmp_path / "damaged.h5"], capture_output=True, check=False)
+        assert told.returncode in (0, 1)
+        assert b"HDF5: " not in told.stderr
 
 
 def test_vtkhdf_is_what_h5py_reads_and_writes(tmp_path):
