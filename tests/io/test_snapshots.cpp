@@ -250,7 +250,10 @@ class Hdf5 : public testing::Test {
 protected:
   /** 8 of gas and 4 stars, as Gadget 4, AREPO, SWIFT and GIZMO write them. */
   void
-  saveSnapshot(const std::string& name, double first = 0.0, int files = 1)
+  saveSnapshot(const std::string& name,
+               double first = 0.0,
+               int files = 1,
+               bool is_timed = false)
   {
     Hdf5Writer file(folder_ / name);
     file.group("/Header");
@@ -259,7 +262,8 @@ protected:
     file.attribute("/Header", "NumFilesPerSnapshot", {double(files)});
     file.attribute("/Header", "MassTable", {0, 0, 0, 0, 2.5, 0});
     file.attribute("/Header", "Redshift", {0.5});
-    file.attribute("/Header", "Time", {1.5});
+    if (is_timed)
+      file.attribute("/Header", "Time", {1.5});
     file.group("/PartType0");
     file.table("/PartType0/Coordinates", H5T_IEEE_F64LE, 3, numbersOf(24, first), 3);
     file.table("/PartType0/Density", H5T_IEEE_F32BE, 1, numbersOf(8, 100 + first));
@@ -294,7 +298,9 @@ TEST_F(Hdf5, SnapshotsGiveTheirNumbers)
   }
   EXPECT_TRUE(hasNote(gas, "8 of gas (0), 4 of stars (4)"));
   EXPECT_TRUE(hasNote(gas, "redshift 0.5"));
-  EXPECT_EQ(1.5, peekHeader(folder_ / "a.hdf5")->time);
+  EXPECT_FALSE(peekHeader(folder_ / "a.hdf5")->time);
+  saveSnapshot("timed.hdf5", 0.0, 1, true);
+  EXPECT_EQ(1.5, peekHeader(folder_ / "timed.hdf5")->time);
   expectStreams(folder_ / "a.hdf5");
   LoadOptions options;
   options.particles = "stars";
