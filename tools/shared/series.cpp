@@ -151,6 +151,7 @@ runOne(const RunFile& run, const std::vector<std::string>& arguments, SeriesStep
 {
   std::vector<std::string> copies = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(copies.size() + 1);
   for (std::string& copy : copies)
     pointers.push_back(copy.data());
   pointers.push_back(nullptr);
