@@ -366,7 +366,7 @@ Lattice
 VtkHdfReader::readLattice() const
 {
   const auto numbers = [&](const char* name, std::size_t count) {
-    const auto found = file_.readAttribute(group_, name);
+    auto found = file_.readAttribute(group_, name);
     if (found.size() != count)
       throwUnreadable(path_,
                       "it is truncated or damaged: its image has no " +

@@ -119,7 +119,7 @@ ViewOptions::drawFrame(const Subject& surface,
   const auto findCamera = [&](const pcl_uvol::BoundingSphere& bounds,
                               const PictureCell& cell,
                               const pcl_uvol::CloudView& cloud) {
-    const auto camera = turned(makeCamera(bounds, surface.origin, cell, &cloud), frame);
+    auto camera = turned(makeCamera(bounds, surface.origin, cell, &cloud), frame);
     texts.emplace_back("Camera", describeCamera(camera, data));
     return camera;
   };
