@@ -161,6 +161,14 @@ expectSameFields(const pcl_uvol::Dataset& actual, const pcl_uvol::Dataset& expec
   }
 }
 
+/** \brief A number of a point. */
+inline double
+valueAt(const pcl_uvol::Dataset& dataset, const std::string& name, std::size_t point)
+{
+  return pcl_uvol::ScalarField(dataset.cloud.fields, name)
+      .read(dataset.cloud.data.data() + point * dataset.cloud.point_step);
+}
+
 /** \brief The message of the exception that this throws; empty if it throws none. */
 template <typename ExceptionT, typename Function>
 std::string

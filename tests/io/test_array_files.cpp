@@ -19,13 +19,6 @@ add(std::string& bytes, T value)
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
-double
-valueAt(const Dataset& dataset, const std::string& name, std::size_t point)
-{
-  return ScalarField(dataset.cloud.fields, name)
-      .read(dataset.cloud.data.data() + point * dataset.cloud.point_step);
-}
-
 class ArrayFiles : public testing::Test {
 protected:
   std::string

@@ -110,13 +110,6 @@ systemOf(int kind, int vertices)
   return bytes;
 }
 
-double
-valueAt(const Dataset& dataset, const std::string& name, std::size_t point)
-{
-  return ScalarField(dataset.cloud.fields, name)
-      .read(dataset.cloud.data.data() + point * dataset.cloud.point_step);
-}
-
 class Bgeo : public testing::Test {
 protected:
   std::string

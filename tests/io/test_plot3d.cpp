@@ -124,13 +124,6 @@ makeSolution(const Plot3dLayout& layout, const std::vector<std::array<int, 3>>& 
   return writer.getBytes();
 }
 
-double
-valueAt(const Dataset& dataset, const std::string& name, std::size_t point)
-{
-  return ScalarField(dataset.cloud.fields, name)
-      .read(&dataset.cloud.data[point * dataset.cloud.point_step]);
-}
-
 TEST(Plot3d, AllLayoutsAreKnownByTheirSizes)
 {
   const TemporaryFolder folder;

@@ -14,13 +14,6 @@ using namespace uvol_test;
 
 namespace {
 
-double
-valueAt(const Dataset& dataset, const std::string& name, std::size_t point)
-{
-  return ScalarField(dataset.cloud.fields, name)
-      .read(dataset.cloud.data.data() + point * dataset.cloud.point_step);
-}
-
 /** Blocks give the bytes of the whole, and the header tells of it. */
 void
 expectStreams(const std::string& path, const LoadOptions& options = {})

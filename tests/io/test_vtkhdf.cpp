@@ -16,13 +16,6 @@ using namespace uvol_test;
 
 namespace {
 
-double
-valueAt(const Dataset& dataset, const std::string& name, std::size_t point)
-{
-  return ScalarField(dataset.cloud.fields, name)
-      .read(dataset.cloud.data.data() + point * dataset.cloud.point_step);
-}
-
 /** The numbers of a table, by the library. */
 std::vector<double>
 tableOf(const std::string& path, const std::string& name)

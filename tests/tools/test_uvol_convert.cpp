@@ -8,28 +8,13 @@ using namespace uvol_test;
 
 namespace {
 
-class Convert : public testing::Test {
+class Convert : public FolderTest {
 protected:
   CommandResult
   run(const std::string& arguments) const
   {
-    return runCommand("cd '" + (folder_ / "") +
-                      "' && " PCL_UVOL_TOOL_DIR "/uvol_convert " + arguments);
+    return runTool("convert " + arguments);
   }
-
-  void
-  write(const std::string& name, const std::string& text) const
-  {
-    writeFile(folder_ / name, text);
-  }
-
-  bool
-  exists(const std::string& name) const
-  {
-    return std::filesystem::exists(folder_ / name);
-  }
-
-  TemporaryFolder folder_;
 };
 
 const std::string table = "x,y,z,rho\n1,2,3,0.5\n4,5,6,1.5\n7,8,9.25,2.5\n";

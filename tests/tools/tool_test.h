@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,32 @@ protected:
   const std::string tool_;
   TemporaryFolder folder_;
   std::string in_ = folder_ / "in.csv", out_;
+};
+
+/** Command lines in a folder of their own. */
+class FolderTest : public testing::Test {
+protected:
+  /** \param arguments behind "uvol_" */
+  CommandResult
+  runTool(const std::string& arguments) const
+  {
+    return runCommand("cd '" + (folder_ / "") + "' && " PCL_UVOL_TOOL_DIR "/uvol_" +
+                      arguments);
+  }
+
+  void
+  write(const std::string& name, const std::string& text) const
+  {
+    writeFile(folder_ / name, text);
+  }
+
+  bool
+  exists(const std::string& name) const
+  {
+    return std::filesystem::exists(folder_ / name);
+  }
+
+  TemporaryFolder folder_;
 };
 
 } // namespace uvol_test
