@@ -266,7 +266,10 @@ public:
       const uvol_tools::SeriesStep& step,
       const SurfaceFigures& figures)
   {
+    // Which outputs are those of all files is known while one of them is worked on.
     arguments_ = arguments;
+    writes_table_ = uvol_tools::isOfAll(arguments.output);
+    draws_curve_ = uvol_tools::isOfAll(arguments.picture);
     have_times_ = have_times_ && step.time;
     uvol_tools::MeasureTable rows = makeTable(arguments, figures);
     rows.prepend("time", step.time.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -279,11 +282,11 @@ public:
   void
   write() const
   {
-    if (uvol_tools::isOfAll(arguments_.output)) {
+    if (writes_table_) {
       Report report;
       uvol_tools::savePoints(arguments_.output, table_.toDataset(), {}, report);
     }
-    if (uvol_tools::isOfAll(arguments_.picture))
+    if (draws_curve_)
       pcl_uvol::savePng(arguments_.picture,
                         uvol_tools::drawProfile(makeProfile(
                             arguments_, table_, have_times_ ? "time" : "number")));
@@ -298,7 +301,7 @@ public:
 private:
   Arguments arguments_;
   uvol_tools::MeasureTable table_{{}};
-  bool have_times_ = true;
+  bool have_times_ = true, writes_table_ = false, draws_curve_ = false;
   std::size_t files_ = 0;
 };
 

@@ -284,4 +284,26 @@ TEST(ConvexPolygon, IsCutDownToNothing)
   EXPECT_EQ(0.0, polygon.computeMoments().area);
 }
 
+/** Tangents of the unit circle: more vertices than room or a word of bits is for. */
+TEST(ConvexPolygon, MayHaveManyVertices)
+{
+  constexpr int sides = 300;
+  constexpr double pi = 3.14159265358979323846;
+  ConvexPolygon polygon;
+  polygon.start(2.0);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * pi * (7 * i % sides) / sides;
+    EXPECT_TRUE(polygon.cut(std::cos(angle), std::sin(angle), 1.0, 0.0)) << i;
+  }
+  EXPECT_EQ(static_cast<std::size_t>(sides), polygon.size());
+  const PolygonMoments moments = polygon.computeMoments();
+  EXPECT_NEAR(sides * std::tan(pi / sides), moments.area, 1e-12);
+  EXPECT_LT(moments.centroid.norm(), 1e-12);
+  EXPECT_NEAR(1.0 / std::pow(std::cos(pi / sides), 2), polygon.getSqReach(), 1e-12);
+  EXPECT_TRUE(polygon.cut(0.0, 1.0, 0.0, 0.0)); // half of it
+  EXPECT_NEAR(0.5 * moments.area, polygon.computeMoments().area, 1e-12);
+  EXPECT_TRUE(polygon.cut(0.0, 1.0, -3.0, 0.0));
+  EXPECT_EQ(0u, polygon.size());
+}
+
 } // namespace

@@ -133,6 +133,14 @@ TEST_F(TimedSeries, FilesOfTheSameTimeAreNotWrittenOverOneAnother)
   EXPECT_NE(std::string::npos, result.err.find("2 of 3 files are done"));
 }
 
+TEST_F(TimedSeries, TimesNeedASeries)
+{
+  const auto result = run("snap_000 '{t}.csv'");
+  EXPECT_EQ(2, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("a file of a series")) << result.err;
+  EXPECT_FALSE(exists("{t}.csv"));
+}
+
 TEST_F(TimedSeries, FilesWithoutATimeAreNamed)
 {
   const auto result = run("'in_{:04d}.csv' '{t}.csv'");
@@ -295,6 +303,20 @@ TEST_F(GrowingBalls, MeasuresAreATableOverTime)
   const auto refused = runTool("measure 's_{}.csv' -field f -iso 0,0.1 -png c.png");
   EXPECT_EQ(2, refused.exit_code);
   EXPECT_NE(std::string::npos, refused.err.find("-iso one value")) << refused.err;
+}
+
+/** The outputs of a file are its own, whatever becomes of those behind it. */
+TEST_F(GrowingBalls, TablesOfFilesStayWhereTheLastOneFails)
+{
+  write("s_2.csv", "nothing\n");
+  const auto result =
+      runTool("measure 's_{}.csv' 'm_{}.csv' -field f -iso 0 -keep-going");
+  EXPECT_EQ(1, result.exit_code);
+  for (const char* const name : {"m_0.csv", "m_1.csv"}) {
+    const auto rows = pcl_uvol::loadDataset(folder_ / name);
+    EXPECT_EQ(1u, rows.cloud.width) << name;
+    EXPECT_EQ(nullptr, pcl_uvol::findField(rows.cloud.fields, "number")) << name;
+  }
 }
 
 TEST_F(GrowingBalls, FoldersThatTakeNoFilesAreOneSentence)

@@ -367,6 +367,15 @@ runSeries(const char* tool, int argc, char** argv, const RunFile& run)
       throw UsageError(
           "-snapshots and -keep-going need names with a place for a number, "
           "as in snap_{:04d}.h5.");
+    if (!series.input && std::any_of(series.arguments.begin(),
+                                     series.arguments.end(),
+                                     [](const std::string& argument) {
+                                       return argument.find(time_place) !=
+                                              std::string::npos;
+                                     }))
+      throw UsageError(
+          "{t} is the time of a file of a series, which needs names with a "
+          "place for a number, as in snap_{:04d}.h5.");
     if (!series.input)
       return run(argc, argv, nullptr);
     exit_code = runAll(tool, series, run);
