@@ -177,7 +177,8 @@ class Extractor:
     def extract(self, *, iso, field="", scale=None, rotate=None, outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
-                validate=0, validate_by="random", mesh=False, periodic=None, threads=0, progress=None):
+                validate=0, validate_by="random", mesh=False, periodic=None, periodic_mesh="cut", threads=0,
+                progress=None):
         """Extract the isosurfaces of a field: see `isosurface`.
 
         Returns
@@ -214,6 +215,7 @@ class Extractor:
             "validation": _validation(validate, validate_by),
             "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
             "periodic": sides,
+            "periodic_mesh": periodic_mesh,
         }
         return _extract(self._extractor, samples, parameters, threads, progress)
 
@@ -299,6 +301,10 @@ def isosurface(points, fields=None, **options):
         Sides of the box that the samples repeat in, 0 along an axis for none, or those
         that the file names (`Samples.box`): neighbours are seen across its faces, where a
         mesh is cut.
+    periodic_mesh : "cut" or "weld"
+        With `mesh` and `periodic`. "weld": rims in opposite faces have the same vertices,
+        and the field `image_of` names the vertex that each is the image of, so that
+        `mesh["image_of"][mesh.triangles]` is the mesh closed across the faces.
     threads : int
         0: all cores. The result does not depend on it.
     progress : bool or callable, optional

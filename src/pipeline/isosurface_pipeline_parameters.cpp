@@ -50,6 +50,10 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if (isPeriodic(sidesOf(parameters)) && parameters.fill_gaps)
     throw InvalidArgument("Gaps are not filled in a box that repeats: samples that "
                           "kriging adds would have no images.");
+  if (parameters.periodic_mesh == PeriodicMesh::Weld &&
+      (!parameters.mesh || !isPeriodic(sidesOf(parameters))))
+    throw InvalidArgument(
+        "Only a mesh in a box that repeats can be welded across its faces.");
   if (!parameters.mesh)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});

@@ -249,6 +249,154 @@ TEST(PeriodicBox, MeshesEndInTheFaces)
   EXPECT_EQ(mesh.isopoints, std::vector<std::size_t>{mesh.edges.size()});
 }
 
+/** A result whose mesh is to be welded. */
+IsosurfaceResult
+runWelded(const std::shared_ptr<Dataset>& samples,
+          IsosurfacePipelineParameters parameters,
+          unsigned threads = 0)
+{
+  parameters.mesh.emplace();
+  parameters.periodic_mesh = PeriodicMesh::Weld;
+  return runPipeline(samples, parameters, threads);
+}
+
+/** Images lie one side of the box from their vertices along the axes that repeat, and
+ * have the same values. \return how many there are */
+std::size_t
+checkImages(const IsosurfaceResult& result, const Eigen::Array3d& sides)
+{
+  const CloudView view = viewOf(result.surface.cloud);
+  const ScalarField image_of(view.fields, "image_of"), f(view.fields, "f"),
+      nx(view.fields, "normal_x");
+  std::size_t images = 0;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const auto vertex = static_cast<std::size_t>(image_of.read(view.point(i)));
+    if (vertex == i)
+      continue;
+    ++images;
+    const Place at = placeOf(result.surface, i), from = placeOf(result.surface, vertex);
+    SCOPED_TRACE(testing::Message() << "image " << testing::PrintToString(at) << " of "
+                                    << testing::PrintToString(from));
+    EXPECT_EQ(vertex, image_of.read(view.point(vertex))); // itself
+    EXPECT_EQ(f.read(view.point(vertex)), f.read(view.point(i)));
+    EXPECT_EQ(nx.read(view.point(vertex)), nx.read(view.point(i)));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_TRUE(at[axis] == from[axis] ||
+                  std::abs(at[axis] - from[axis]) == sides[static_cast<int>(axis)]);
+  }
+  return images;
+}
+
+TEST(PeriodicBox, WeldedMeshesCloseAcrossTheFaces)
+{
+  struct Surface {
+    Field field;
+    double isovalue;
+    std::vector<std::uint32_t> genus;
+  };
+  const auto sheets = [](const Place& p) {
+    return std::cos(2.0 * pi * p[2] / side) +
+           0.2 * std::sin(2.0 * pi * (p[0] + p[1]) / side);
+  };
+  // The gyroid has eight saddles in its cube; two sheets are tori; of the sphere on a
+  // corner eight parts are one.
+  const Surface surfaces[] = {{gyroid, 0.0, {5}},
+                              {gyroid, 0.4, {5}},
+                              {sheets, 0.3, {1, 1}},
+                              {distanceToCorner, 2.0, {0}},
+                              {distanceToCorner, 3.3, {0}}};
+  // At an eighth of the side the gyroid has saddles in the faces: any line would do
+  // there.
+  for (const Surface& surface : surfaces)
+    for (const Place& shift :
+         {Place{}, Place{{1.5, 2.5, 4.0}}, Place{{6.7, 0.25, 3.2}}}) {
+      const auto samples = makeSamples(5000, surface.field, shift);
+      const auto result = runWelded(samples, makeParameters(surface.isovalue));
+      SCOPED_TRACE(testing::Message() << surface.isovalue << " moved by " << shift[0]);
+      ASSERT_EQ(surface.genus.size(), result.pieces.size());
+      for (std::size_t i = 0; i < surface.genus.size(); ++i) {
+        EXPECT_EQ(surface.genus[i], result.pieces[i].genus);
+        EXPECT_EQ(0u, result.pieces[i].rims);
+      }
+      EXPECT_GT(checkImages(result, Eigen::Array3d::Constant(side)), 30u);
+      for (const std::string& warning : result.report.warnings)
+        EXPECT_EQ(std::string::npos, warning.find("no image")) << warning;
+    }
+}
+
+TEST(PeriodicBox, WeldingKeepsTheSurface)
+{
+  const auto samples = makeSamples(8000, gyroid);
+  IsosurfacePipelineParameters parameters = makeParameters(0.1);
+  const auto welded = runWelded(samples, parameters);
+  parameters.mesh.emplace();
+  const auto cut = runPipeline(samples, parameters);
+  EXPECT_NEAR(areaOf(cut), areaOf(welded), 1e-3 * areaOf(cut));
+  const CloudView view = viewOf(welded.surface.cloud);
+  for (std::size_t i = 0; i < view.count; ++i) // deviation over a slope of about 1
+    EXPECT_NEAR(0.1, gyroid(placeOf(welded.surface, i)), 0.02);
+}
+
+TEST(PeriodicBox, WeldedMeshesAreTheSameOnAnyThreads)
+{
+  const auto samples = makeSamples(6000, gyroid);
+  const auto one = runWelded(samples, makeParameters(0.1), 1),
+             three = runWelded(samples, makeParameters(0.1), 3);
+  EXPECT_EQ(one.surface.cloud.data, three.surface.cloud.data);
+  EXPECT_EQ(one.triangles, three.triangles);
+}
+
+TEST(PeriodicBox, OfSeveralIsovaluesAndAlongOneAxisMeshesAreWelded)
+{
+  IsosurfacePipelineParameters parameters = makeParameters(-0.2);
+  parameters.isosurface.isovalues.push_back(-0.25); // a tenth of a spacing beside it
+  const auto both = runWelded(makeSamples(8000, gyroid), parameters);
+  ASSERT_EQ(2u, both.pieces.size());
+  for (const SurfacePiece& piece : both.pieces) {
+    EXPECT_EQ(5u, piece.genus);
+    EXPECT_EQ(0u, piece.rims);
+  }
+  // A tube along x, closed by the faces alone.
+  const auto tube = [](const Place& p) {
+    return std::hypot(p[1] - 4.0, p[2] - 4.0) - 0.3 * std::sin(2.0 * pi * p[0] / side);
+  };
+  parameters = makeParameters(2.0);
+  parameters.isosurface.outside = Outside::Higher;
+  parameters.periodic << side, 0.0, 0.0;
+  const auto torus = runWelded(makeSamples(8000, tube), parameters);
+  ASSERT_EQ(1u, torus.pieces.size());
+  EXPECT_EQ(1u, torus.pieces[0].genus);
+  EXPECT_EQ(0u, torus.pieces[0].rims);
+  checkImages(torus, parameters.periodic);
+}
+
+TEST(PeriodicBox, WhatCannotBeWeldedIsToldOf)
+{
+  // Noise of the size of the surface itself: rims differ by more than samples do.
+  auto samples = makeSamples(3000, [](const Place& p) {
+    return gyroid(p) +
+           normalAt(3, static_cast<std::uint64_t>(1e6 * (p[0] + 11 * p[1])), 0);
+  });
+  const auto result = runWelded(samples, makeParameters(0.0));
+  std::size_t rims = 0;
+  for (const SurfacePiece& piece : result.pieces)
+    rims += piece.rims;
+  const bool is_told = std::any_of(result.report.warnings.begin(),
+                                   result.report.warnings.end(),
+                                   [](const std::string& text) {
+                                     return text.find("no image") != std::string::npos;
+                                   });
+  EXPECT_EQ(rims > 0, is_told);
+  checkImages(result, Eigen::Array3d::Constant(side));
+
+  IsosurfacePipelineParameters parameters = makeParameters(0.0);
+  parameters.periodic_mesh = PeriodicMesh::Weld;
+  EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
+  parameters.mesh.emplace();
+  parameters.periodic.setZero();
+  EXPECT_THROW(runPipeline(samples, parameters), InvalidArgument);
+}
+
 /** Squared distances of the nearest samples among all images, by brute force. */
 std::vector<double>
 findNearest(const Dataset& samples, std::size_t i, const Place& sides, std::size_t k)

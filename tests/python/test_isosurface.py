@@ -78,6 +78,25 @@ def test_coordinates_beside_a_derivative_are_those_of_the_samples():
         assert len(alone) > 100 and np.array_equal(alone.points, beside.points)
 
 
+def test_images_of_a_welded_mesh_close_it(tmp_path, run_tool):
+    points = np.random.default_rng(3).random((4000, 3))
+    samples = uvol.Samples(points, {"f": np.sin(2 * np.pi * points).sum(axis=1)})
+    samples.save(tmp_path / "samples.ply")
+    options = ["-field", "f", "-iso", "0.3", "-mesh", "-periodic", "1,1,1", "-periodic-mesh", "weld"]
+    run_tool("uvol_isosurface", "samples.ply", "tool.ply", *options)
+    mesh = uvol.isosurface(uvol.read(tmp_path / "samples.ply"), field="f", iso=0.3, mesh=True, periodic=(1, 1, 1),
+                           periodic_mesh="weld")
+    mesh.save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+    a, b, c = mesh["image_of"][mesh.triangles].T
+    edges = {*zip(a, b), *zip(b, c), *zip(c, a)}
+    assert len(edges) == 3 * len(mesh.triangles) and all((to, start) in edges for start, to in edges)
+    with pytest.raises(ValueError, match="Only a mesh in a box"):
+        uvol.isosurface(samples, field="f", iso=0.3, periodic_mesh="weld")
+    with pytest.raises(ValueError, match="weld"):
+        uvol.isosurface(samples, field="f", iso=0.3, mesh=True, periodic=(1, 1, 1), periodic_mesh="sew")
+
+
 @pytest.mark.parametrize("ending", ["ply", "obj", "stl"])
 def test_the_tool_writes_the_same_mesh(tmp_path, run_tool, ball, ending):
     uvol.Samples(*ball).save(tmp_path / "samples.ply")

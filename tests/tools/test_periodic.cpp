@@ -65,6 +65,30 @@ TEST_F(Periodic, ReportsNameTheBox)
   EXPECT_NE(std::string::npos, result.out.find("\"periodic_box\"")) << result.out;
 }
 
+TEST_F(Periodic, WeldedMeshesAreClosedAcrossTheFaces)
+{
+  expectFailure("-iso 0 -periodic-mesh weld", 2, "-periodic-mesh needs -mesh.");
+  const std::string ply = folder_ / "out.ply";
+  const std::string tool = PCL_UVOL_TOOL_DIR "/uvol_isosurface " + in_ + " " + ply +
+                           " -iso 0.3 -mesh -periodic-mesh weld";
+  const auto alone = runCommand(tool);
+  EXPECT_EQ(2, alone.exit_code);
+  EXPECT_NE(std::string::npos, alone.err.find("-periodic-mesh needs -periodic."));
+  const auto welded = runCommand(tool + " -periodic 8,8,8");
+  EXPECT_EQ(0, welded.exit_code);
+  EXPECT_EQ("", welded.err);
+  const auto pieces = welded.out.find("pieces: ");
+  ASSERT_NE(std::string::npos, pieces);
+  const std::string line =
+      welded.out.substr(pieces, welded.out.find('\n', pieces) - pieces);
+  EXPECT_EQ(std::string::npos, line.find("rim")) << line;
+  const auto image_of = fieldOf(pcl_uvol::loadDataset(ply), "image_of");
+  std::size_t images = 0;
+  for (std::size_t i = 0; i < image_of.size(); ++i)
+    images += image_of[i] != static_cast<double>(i);
+  EXPECT_GT(images, 100u);
+}
+
 TEST_F(Periodic, DensitiesDoNotFallAtTheFaces)
 {
   const double mean = std::pow(14.0 / side, 3);

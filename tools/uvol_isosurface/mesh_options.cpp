@@ -34,6 +34,12 @@ MeshOptions::declare(Options& options)
                   0,
                   std::numeric_limits<std::int32_t>::max(),
                   "with -mesh: leave out pieces of fewer triangles");
+  options.choice(
+      "periodic-mesh",
+      periodic_mesh_,
+      "with -mesh and -periodic: cut it at the faces of the box, or weld it: "
+      "rims in opposite faces get the same vertices, and a field image_of "
+      "names those that are one");
   options.flag(
       "measure",
       is_measured_,
@@ -50,7 +56,7 @@ MeshOptions::finish(const Options& options, const std::string& output) const
 {
   if (!is_asked_for_ && !pcl_uvol::isMeshOnly(output)) {
     for (const char* const name :
-         {"remesh", "edge-length", "open", "drop-pieces", "check"})
+         {"remesh", "edge-length", "open", "drop-pieces", "periodic-mesh", "check"})
       if (options.given(name))
         throw UsageError(std::string("-") + name + " needs -mesh.");
     return std::nullopt;

@@ -22,6 +22,13 @@ public:
   std::optional<pcl_uvol::MeshingParameters>
   finish(const Options& options, const std::string& output) const;
 
+  /** \brief -periodic-mesh. */
+  pcl_uvol::PeriodicMesh
+  getPeriodicMesh() const
+  {
+    return periodic_mesh_;
+  }
+
   /** \brief -measure: whether to tell area, volume and the like. */
   bool
   isMeasured() const
@@ -40,6 +47,7 @@ private:
   bool is_asked_for_ = false, is_measured_ = false, is_checked_ = false;
   std::uint64_t drop_pieces_ = 0;
   pcl_uvol::MeshingParameters parameters_;
+  pcl_uvol::PeriodicMesh periodic_mesh_ = pcl_uvol::PeriodicMesh::Cut;
 };
 
 } // namespace uvol_tools

@@ -146,6 +146,8 @@ PipelineOptions::checkCombinations(const Options& options) const
       throw UsageError(std::string("-") + name + " needs -smooth.");
   if (options.given("validate-by") && !options.given("validate"))
     throw UsageError("-validate-by needs -validate.");
+  if (options.given("periodic-mesh") && !periodic.isAskedFor())
+    throw UsageError("-periodic-mesh needs -periodic.");
   if (options.given("scratch") && !options.given("max-memory"))
     throw UsageError("-scratch needs -max-memory.");
   if (options.given("max-memory") && needsAllSamples())
@@ -196,6 +198,7 @@ PipelineOptions::finish(const Options& options)
   if (parameters.validation.by == pcl_uvol::ValidateBy::Field)
     parameters.validation.field = validate_by_;
   parameters.mesh = mesh_.finish(options, output);
+  parameters.periodic_mesh = mesh_.getPeriodicMesh();
   // Fits swing where the field steps to the value outside.
   if (std::isfinite(outside_value) && !options.given("interpolation") &&
       !parameters.mesh)

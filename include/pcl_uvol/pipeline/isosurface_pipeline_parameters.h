@@ -67,6 +67,19 @@ listWords(ValidateBy)
            {ValidateBy::Field, "field"}}};
 }
 
+/** \brief What becomes of a mesh at the faces of a box that repeats. */
+enum class PeriodicMesh {
+  Cut, ///< it ends there in rims (default)
+  Weld ///< rims in opposite faces have the same vertices, so that copies of the mesh
+       ///< join
+};
+
+constexpr std::array<EnumWord<PeriodicMesh>, 2>
+listWords(PeriodicMesh)
+{
+  return {{{PeriodicMesh::Cut, "cut"}, {PeriodicMesh::Weld, "weld"}}};
+}
+
 /** \brief A hold-out test of the surface, see ValidationScore. */
 struct PCL_UVOL_EXPORTS ValidationParameters {
   /** Parts that are left out one after the other, at least 2; 0: no test. The
@@ -129,6 +142,11 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * the samples do, at 0, about 0, or at the lowest of them; isopoints lie in it, their
    * edges may join samples across its faces, and a mesh is cut there. */
   Eigen::Array3d periodic{0.0, 0.0, 0.0};
+  /** With a mesh in a box that repeats. Weld adds the field `image_of`: the vertex in
+   * the low face that one in a high face is the image of, else the vertex itself.
+   * Pieces, their rims and handles are then those of the mesh whose images are one
+   * vertex. */
+  PeriodicMesh periodic_mesh = PeriodicMesh::Cut;
 
   static auto
   listMembers()
@@ -146,7 +164,8 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"fill_gaps", &Own::fill_gaps},
                            Member{"validation", &Own::validation},
                            Member{"mesh", &Own::mesh},
-                           Member{"periodic", &Own::periodic});
+                           Member{"periodic", &Own::periodic},
+                           Member{"periodic_mesh", &Own::periodic_mesh});
   }
 
   std::string
@@ -163,10 +182,10 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
  * number; a hold-out test of one fold, or in a box that repeats; sides of such a box
- * that are negative or not finite; a mesh with a bound of the error, without
- * bridged points, with other normals than those of the fits, and as
- * checkParameters(SurfaceMeshParameters)
- * \param parameters to be checked before samples are there */
+ * that are negative or not finite; welding without such a box or a mesh; a mesh with a
+ * bound of the error, without bridged points, with other normals than those of the
+ * fits, and as checkParameters(SurfaceMeshParameters) \param parameters to be checked
+ * before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfacePipelineParameters& parameters);
 
