@@ -19,6 +19,7 @@ using pcl_uvol::Report;
 struct Arguments {
   std::string input, field, screenshot;
   double isovalue = std::numeric_limits<double>::infinity();
+  pcl_uvol::WindowBackend backend = pcl_uvol::WindowBackend::Auto;
 };
 
 void
@@ -37,6 +38,10 @@ declare(uvol_tools::Options& options, Arguments& arguments)
                  largest,
                  "isovalue to start with (default the first that uvol_info proposes)");
   options.group("Picture");
+  options.choice("backend",
+                 arguments.backend,
+                 "what draws; auto: OpenGL on a GPU where there is one, else the CPU, "
+                 "whose picture OpenGL shows");
   options.output("screenshot",
                  "out.png",
                  arguments.screenshot,
@@ -101,11 +106,14 @@ run(int argc, char** argv)
                                              : surface.proposeIsoValue());
   }
   uvol_tools::ViewerWindow window(
-      "uvol_viewer " + arguments.input, surface, look, options);
+      "uvol_viewer " + arguments.input, surface, look, options, arguments.backend);
   report.merge(window.getReport());
   if (!arguments.screenshot.empty())
     window.save(arguments.screenshot);
-  uvol_tools::printReport(options, report, {{"input", arguments.input}});
+  uvol_tools::printReport(
+      options,
+      report,
+      {{"input", arguments.input}, {"backend", window.describeBackend()}});
   std::cout.flush();
   if (arguments.screenshot.empty())
     window.run();

@@ -87,4 +87,14 @@ GlBackend::renderToFramebuffer(const Frame& frame,
   });
 }
 
+void
+GlBackend::pasteToFramebuffer(const View& view,
+                              const Image& image,
+                              const GlFramebuffer& target,
+                              Report& report)
+{
+  implementation_->run(
+      [&](ImagePasses& passes) { passes.paste(view, image, target, report); });
+}
+
 } // namespace pcl_uvol

@@ -49,6 +49,17 @@ public:
   void
   renderToFramebuffer(const Frame& frame, const GlFramebuffer& target, Report& report);
 
+  /** \brief Draw an image over what a framebuffer holds already, as
+   * renderToFramebuffer() does: where OpenGL is software, another backend is faster.
+   * \param image with depths, on a transparent background
+   * \param view that it was made for
+   * \throws as render() */
+  void
+  pasteToFramebuffer(const View& view,
+                     const Image& image,
+                     const GlFramebuffer& target,
+                     Report& report);
+
 private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;

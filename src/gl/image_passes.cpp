@@ -356,12 +356,37 @@ void
 ImagePasses::compose(const Frame& frame, const GlFramebuffer& target, Report& report)
 {
   const PassTimer timer(gl_, report, "output");
-  const View& view = frame.view;
-  const float* const p = target.projection;
   const Program& program = programs_.use(shaders::composite);
-  setView(program, view);
   program.setTexture("colors", 0, canvas_->colors[color_]);
   program.setTexture("state", 1, canvas_->states[state_]);
+  drawOver(program, frame.view, target);
+}
+
+void
+ImagePasses::paste(const View& view,
+                   const Image& image,
+                   const GlFramebuffer& target,
+                   Report& report)
+{
+  const PassTimer timer(gl_, report, "output");
+  prepareState();
+  const GlName colors =
+      makeTexture(gl_, GL_RGBA8, view.width, view.height, image.color.data());
+  const GlName depths =
+      makeTexture(gl_, GL_R32F, view.width, view.height, image.depth.data());
+  const Program& program = programs_.use(shaders::composite, "#define OF_IMAGE\n");
+  program.setTexture("colors", 0, colors);
+  program.setTexture("depths", 1, depths);
+  drawOver(program, view, target);
+}
+
+void
+ImagePasses::drawOver(const Program& program,
+                      const View& view,
+                      const GlFramebuffer& target) const
+{
+  const float* const p = target.projection;
+  setView(program, view);
   program.set("origin", static_cast<float>(target.x), static_cast<float>(target.y));
   program.set("height", static_cast<float>(view.height));
   program.set("border", static_cast<float>(image_border));

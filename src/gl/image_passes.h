@@ -28,6 +28,14 @@ public:
   void
   compose(const Frame& frame, const GlFramebuffer& target, Report& report);
 
+  /** \brief Draw an image with depths into somebody's framebuffer, instead of draw()
+   * and compose(). */
+  void
+  paste(const View& view,
+        const Image& image,
+        const GlFramebuffer& target,
+        Report& report);
+
 private:
   void
   prepareState() const;
@@ -58,6 +66,10 @@ private:
 
   void
   drawOutput(const Frame& frame);
+
+  /** Draw colours and depths of the program that is in use. */
+  void
+  drawOver(const Program& program, const View& view, const GlFramebuffer& target) const;
 
   void
   readBack(const Frame& frame, Image& image) const;

@@ -66,6 +66,8 @@ transferFormat(GLenum format)
     return GL_RG_INTEGER;
   case GL_R8UI:
     return GL_RED_INTEGER;
+  case GL_R32F:
+    return GL_RED;
   case GL_DEPTH_COMPONENT32F:
     return GL_DEPTH_COMPONENT;
   default:
@@ -88,11 +90,15 @@ makeVertexArray(const GlFunctions& gl)
 }
 
 GlName
-makeTexture(const GlFunctions& gl, GLenum format, int width, int height)
+makeTexture(
+    const GlFunctions& gl, GLenum format, int width, int height, const void* texels)
 {
   GlName texture = makeTextureName(gl);
   const GLenum transfer = transferFormat(format);
   const bool is_integer = transfer == GL_RG_INTEGER || transfer == GL_RED_INTEGER;
+  const GLenum type = is_integer           ? GL_UNSIGNED_INT
+                      : format == GL_RGBA8 ? GL_UNSIGNED_BYTE
+                                           : GL_FLOAT;
   gl.ActiveTexture(GL_TEXTURE0);
   gl.BindTexture(GL_TEXTURE_RECTANGLE, texture.get());
   gl.TexImage2D(GL_TEXTURE_RECTANGLE,
@@ -102,8 +108,8 @@ makeTexture(const GlFunctions& gl, GLenum format, int width, int height)
                 height,
                 0,
                 transfer,
-                is_integer ? GL_UNSIGNED_INT : GL_FLOAT,
-                nullptr);
+                type,
+                texels);
   gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_RECTANGLE, GL_TEXTURE_MAX_LEVEL, 0);

@@ -69,9 +69,16 @@ GlName
 makeVertexArray(const GlFunctions& gl);
 
 /** \brief A texture that is sampled texel by texel: a rectangle, as software OpenGL is
- * half as fast at texelFetch(). */
+ * half as fast at texelFetch().
+ *
+ * \param texels row by row: of GL_RGBA8 bytes, of integers unsigned ints, else floats;
+ * null: it is not filled */
 GlName
-makeTexture(const GlFunctions& gl, GLenum format, int width, int height);
+makeTexture(const GlFunctions& gl,
+            GLenum format,
+            int width,
+            int height,
+            const void* texels = nullptr);
 
 /** \brief A texture over the bytes of a buffer. */
 GlName

@@ -30,10 +30,9 @@ void main()
 // Into a window, whose row 0 is at the bottom.
 const char* const composite_fragment = R"(
 uniform sampler2DRect colors;
-uniform usampler2DRect state;
 uniform vec2 origin;   // of the image in the window
 uniform float height;  // of the image
-uniform float border; // texels around the image
+uniform float border; // texels around the image, of buffers
 uniform vec2 center;
 uniform float per_focal;
 uniform float far;
@@ -42,14 +41,40 @@ uniform vec4 clip_w;
 
 layout(location = 0) out vec4 color;
 
+#ifdef OF_IMAGE
+uniform sampler2DRect depths;
+
+float depthAt(vec2 pixel)
+{
+  return texture(depths, pixel).x;
+}
+
+vec4 colorAt(vec2 pixel)
+{
+  vec4 straight = texture(colors, pixel);
+  return vec4(straight.rgb * straight.a, straight.a);
+}
+#else
+uniform usampler2DRect state;
+
+float depthAt(vec2 pixel)
+{
+  return uintBitsToFloat(texture(state, pixel + border).x);
+}
+
+vec4 colorAt(vec2 pixel)
+{
+  return texture(colors, pixel + border);
+}
+#endif
+
 // A pixel of background that shows a part of a surface lies as deep as that.
-float nearestAround(vec2 texel)
+float nearestAround(vec2 pixel)
 {
   float depth = 1.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
-      depth = min(depth,
-                  uintBitsToFloat(texture(state, texel + vec2(x, y)).x));
+      depth = min(depth, depthAt(pixel + vec2(x, y)));
   return depth;
 }
 
@@ -57,13 +82,12 @@ void main()
 {
   vec2 pixel = gl_FragCoord.xy - origin;
   pixel.y = height - pixel.y;
-  pixel += border;
-  color = texture(colors, pixel);
+  color = colorAt(pixel);
   if (color.a == 0.0)
     discard;
-  float depth = uintBitsToFloat(texture(state, pixel).x);
+  float depth = depthAt(pixel);
   depth = depth < 1.0 ? depth : nearestAround(pixel);
-  vec3 ray = normalize(vec3((pixel - margin - center) * per_focal, 1.0));
+  vec3 ray = normalize(vec3((pixel + border - margin - center) * per_focal, 1.0));
   vec4 position = vec4(ray * (depth * far), 1.0);
   gl_FragDepth =
       depth < 1.0 ? 0.5 + 0.5 * dot(clip_z, position) / dot(clip_w, position) : 1.0;

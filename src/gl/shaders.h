@@ -54,7 +54,7 @@ extern const Pass lines; ///< WITH_SILHOUETTES, WITH_FEATURES
 extern const Pass anti_alias;
 
 // output_shaders.cpp
-extern const Pass output; ///< IS_TRANSPARENT
-extern const Pass composite;
+extern const Pass output;    ///< IS_TRANSPARENT
+extern const Pass composite; ///< OF_IMAGE: of colours and depths of an image
 
 } // namespace pcl_uvol::shaders

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/gl_backend.h"
+#include "render/image_space/cpu_backend.h"
 #include "vtk/scoped_gl_state.h"
 #include "vtk/window_view.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
@@ -16,7 +17,10 @@ namespace pcl_uvol {
 
 vtkStandardNewMacro(ImageSpaceProp);
 
-ImageSpaceProp::ImageSpaceProp() = default;
+ImageSpaceProp::ImageSpaceProp()
+    : cpu_(std::make_unique<CpuBackend>())
+{
+}
 
 ImageSpaceProp::~ImageSpaceProp()
 {
@@ -83,6 +87,14 @@ ImageSpaceProp::GetBounds()
   return Bounds;
 }
 
+std::string
+ImageSpaceProp::describeBackend() const
+{
+  if (!backend_)
+    return "none";
+  return is_by_cpu_ ? cpu_->describe() : backend_->describe();
+}
+
 int
 ImageSpaceProp::RenderOpaqueGeometry(vtkViewport* viewport)
 {
@@ -115,9 +127,30 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
   const ScopedGlState drawing(*window, *context);
   GlBackend& backend = backendFor(*window, context);
   shown.target.name = drawing.getFramebuffer();
+  is_by_cpu_ = choice_ == WindowBackend::Cpu ||
+               (choice_ == WindowBackend::Auto && !context->isHardware());
   renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {
-    backend.renderToFramebuffer(frame, shown.target, report);
+    if (is_by_cpu_)
+      paste(frame, shown.target, backend, report);
+    else
+      backend.renderToFramebuffer(frame, shown.target, report);
   });
+}
+
+void
+ImageSpaceProp::paste(const Frame& frame,
+                      const GlFramebuffer& target,
+                      GlBackend& backend,
+                      Report& report)
+{
+
+  ImageSpaceSettings settings = frame.settings;
+  settings.background.kind = Background::Kind::Transparent;
+  ImagePlanes planes;
+  planes.depth = true;
+  cpu_->render(
+      {frame.cloud, frame.view, settings, planes, frame.threads}, image_, report);
+  backend.pasteToFramebuffer(frame.view, image_, target, report);
 }
 
 GlBackend&

@@ -359,11 +359,20 @@ TEST_F(UvolViewer, TheToolSavesWhatItShows)
             runCommand("uvol_render sphere.ply same.png -background black -view front "
                        "-size 240x180")
                 .exit_code);
-  const Image shown = read("sphere.png"), drawn = read("same.png");
-  int different = 0;
-  for (std::size_t i = 0; i < shown.color.size(); ++i)
-    different += std::abs(shown.color[i] - drawn.color[i]) > 8;
-  EXPECT_LT(different, static_cast<int>(shown.color.size()) / 50);
+  const Image drawn = read("same.png");
+  const auto expectSame = [&](const Image& shown) {
+    int different = 0;
+    for (std::size_t i = 0; i < shown.color.size(); ++i)
+      different += std::abs(shown.color[i] - drawn.color[i]) > 8;
+    EXPECT_LT(different, static_cast<int>(shown.color.size()) / 50);
+  };
+  EXPECT_NE(std::string::npos, result.out.find("backend: cpu (")) << result.out;
+  expectSame(read("sphere.png"));
+  result = runCommand("uvol_viewer sphere.ply -background black -backend gl" + options +
+                      "gl.png");
+  EXPECT_EQ(0, result.exit_code) << result.err;
+  EXPECT_NE(std::string::npos, result.out.find("backend: vtk")) << result.out;
+  expectSame(read("gl.png"));
 }
 
 TEST_F(UvolViewer, WrongUseIsOneSentence)

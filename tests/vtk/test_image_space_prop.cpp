@@ -97,7 +97,8 @@ expectNearerSphereSeen(const Image& image, double fov)
   EXPECT_LE(wrong, (red + grey) / 100);
 }
 
-class ImageSpacePropTest : public uvol_test::DisplayTest {
+class ImageSpacePropTest : public uvol_test::DisplayTest,
+                           public testing::WithParamInterface<pcl_uvol::WindowBackend> {
 protected:
   void
   SetUp() override
@@ -109,6 +110,7 @@ protected:
     window_->SetSize(width, height);
     window_->AddRenderer(renderer_);
     place(*renderer_->GetActiveCamera());
+    prop_->setBackend(GetParam());
     prop_->setInputCloud(makeCloud());
     renderer_->AddViewProp(prop_);
     watch(*prop_);
@@ -212,7 +214,7 @@ protected:
   int error_count_ = 0;
 };
 
-TEST_F(ImageSpacePropTest, LooksAsOnTheCpu)
+TEST_P(ImageSpacePropTest, LooksAsOnTheCpu)
 {
   prop_->renderer().settings().silhouettes = true;
   pcl_uvol::Camera camera;
@@ -239,7 +241,20 @@ TEST_F(ImageSpacePropTest, LooksAsOnTheCpu)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, ParallelProjectionsAreThoseOfVtk)
+TEST_P(ImageSpacePropTest, TellsWhatDraws)
+{
+  EXPECT_EQ("none", prop_->describeBackend());
+  shoot();
+  const bool is_by_cpu = GetParam() == pcl_uvol::WindowBackend::Cpu;
+  EXPECT_EQ(is_by_cpu, prop_->describeBackend().rfind("cpu (", 0) == 0)
+      << prop_->describeBackend();
+  // The display of the tests has no graphics card.
+  prop_->setBackend(pcl_uvol::WindowBackend::Auto);
+  shoot();
+  EXPECT_EQ(0u, prop_->describeBackend().rfind("cpu (", 0));
+}
+
+TEST_P(ImageSpacePropTest, ParallelProjectionsAreThoseOfVtk)
 {
   vtkCamera& seen_by = *renderer_->GetActiveCamera();
   seen_by.ParallelProjectionOn();
@@ -265,7 +280,7 @@ TEST_F(ImageSpacePropTest, ParallelProjectionsAreThoseOfVtk)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, TheNearerPropIsSeen)
+TEST_P(ImageSpacePropTest, TheNearerPropIsSeen)
 {
   addSphere(center, radius);
   expectNearerSphereSeen(shoot(), 30.0);
@@ -285,7 +300,7 @@ TEST_F(ImageSpacePropTest, TheNearerPropIsSeen)
   EXPECT_NEAR(100, red, 40);
 }
 
-TEST_F(ImageSpacePropTest, WorksInPclVisualizer)
+TEST_P(ImageSpacePropTest, WorksInPclVisualizer)
 {
   pcl::visualization::PCLVisualizer viewer("prop", true);
   viewer.setSize(width, height);
@@ -314,7 +329,7 @@ TEST_F(ImageSpacePropTest, WorksInPclVisualizer)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, FramesItselfWhereverItIs)
+TEST_P(ImageSpacePropTest, FramesItselfWhereverItIs)
 {
   const double* const bounds = prop_->GetBounds();
   ASSERT_NE(nullptr, bounds);
@@ -333,7 +348,7 @@ TEST_F(ImageSpacePropTest, FramesItselfWhereverItIs)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, WhatItCannotDrawIsToldOnce)
+TEST_P(ImageSpacePropTest, WhatItCannotDrawIsToldOnce)
 {
   prop_->SetScale(1.0, 2.0, 1.0);
   EXPECT_EQ(0, covered(shoot()));
@@ -368,7 +383,7 @@ TEST_F(ImageSpacePropTest, WhatItCannotDrawIsToldOnce)
   EXPECT_GT(covered(shoot()), 3000);
 }
 
-TEST_F(ImageSpacePropTest, SeveralPropsAndWindows)
+TEST_P(ImageSpacePropTest, SeveralPropsAndWindows)
 {
   const int alone = covered(shoot());
   vtkNew<ImageSpaceProp> second;
@@ -394,7 +409,7 @@ TEST_F(ImageSpacePropTest, SeveralPropsAndWindows)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, GoesInAnyOrder)
+TEST_P(ImageSpacePropTest, GoesInAnyOrder)
 {
   const int seen = covered(shoot());
   auto* const window = vtkRenderWindow::New();
@@ -422,7 +437,7 @@ TEST_F(ImageSpacePropTest, GoesInAnyOrder)
   EXPECT_EQ("", errors_);
 }
 
-TEST_F(ImageSpacePropTest, TilesMakeALargerPicture)
+TEST_P(ImageSpacePropTest, TilesMakeALargerPicture)
 {
   renderer_->ResetCameraClippingRange();
   pcl_uvol::Camera camera;
@@ -430,5 +445,13 @@ TEST_F(ImageSpacePropTest, TilesMakeALargerPicture)
   expectSame(drawOnCpu(camera, makeCloud(), 2), screenshot(*window_, 2));
   EXPECT_EQ("", errors_);
 }
+
+INSTANTIATE_TEST_SUITE_P(By,
+                         ImageSpacePropTest,
+                         testing::Values(pcl_uvol::WindowBackend::OpenGl,
+                                         pcl_uvol::WindowBackend::Cpu),
+                         [](const auto& backend) {
+                           return std::string(toWord(backend.param));
+                         });
 
 } // namespace

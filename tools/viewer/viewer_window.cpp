@@ -103,7 +103,8 @@ setColor(vtkTextProperty& text, double grey)
 ViewerWindow::ViewerWindow(const std::string& title,
                            ShownSurface& surface,
                            const RenderOptions& look,
-                           const Options& options)
+                           const Options& options,
+                           pcl_uvol::WindowBackend backend)
     : surface_(surface)
     , look_(look)
 {
@@ -111,6 +112,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
   if (!cloud)
     throw pcl_uvol::InvalidArgument("There are no points at this isovalue of " +
                                     surface_.getField() + ": choose another one.");
+  prop_->setBackend(backend);
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
   colors_.emplace(look_, *cloud);

@@ -34,7 +34,8 @@ public:
   ViewerWindow(const std::string& title,
                ShownSurface& surface,
                const RenderOptions& look,
-               const Options& options);
+               const Options& options,
+               pcl_uvol::WindowBackend backend = pcl_uvol::WindowBackend::Auto);
   ViewerWindow(const ViewerWindow&) = delete;
   ViewerWindow&
   operator=(const ViewerWindow&) = delete;
@@ -57,6 +58,13 @@ public:
   interactor()
   {
     return *interactor_;
+  }
+
+  /** \brief What draws, see ImageSpaceProp::describeBackend. */
+  std::string
+  describeBackend() const
+  {
+    return prop_->describeBackend();
   }
 
   /** \brief Counts and times of the last isosurface and frame. */

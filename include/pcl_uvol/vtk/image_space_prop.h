@@ -4,12 +4,14 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <vtkProp3D.h>
 #include <vtkWeakPointer.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -18,10 +20,27 @@ class vtkRenderer;
 
 namespace pcl_uvol {
 
+class CpuBackend;
 class GlBackend;
 class GlContext;
+struct GlFramebuffer;
 
-/** \brief A surface given as points, drawn by image-space rendering in OpenGL.
+/** \brief What draws the frames of a window. */
+enum class WindowBackend {
+  Auto,   ///< OpenGL on a graphics card, else the CPU (default)
+  OpenGl, ///< OpenGL, be it software
+  Cpu     ///< plain C++; OpenGL only shows its picture
+};
+
+constexpr std::array<EnumWord<WindowBackend>, 3>
+listWords(WindowBackend)
+{
+  return {{{WindowBackend::Auto, "auto"},
+           {WindowBackend::OpenGl, "gl"},
+           {WindowBackend::Cpu, "cpu"}}};
+}
+
+/** \brief A surface given as points, drawn by image-space rendering.
  *
  * \code
  * vtkNew<pcl_uvol::ImageSpaceProp> prop;
@@ -32,9 +51,10 @@ class GlContext;
  * may be in several windows, of which each change costs an upload. Position,
  * orientation, origin and a scale that is the same along all axes are honoured. Shading
  * takes the lights of the settings, not those of VTK's renderer; anti-aliased borders
- * blend with what was drawn before. VTK's errors (vtkErrorMacro) tell, once each and
- * without a picture, of a bad cloud or bad settings, another scale, pixels that are not
- * square, a failing OpenGL. Memory of the graphics card as GlBackend. */
+ * blend with what was drawn before. Where OpenGL is software the CPU draws, several
+ * times as fast. VTK's errors (vtkErrorMacro) tell, once each and without a picture, of
+ * a bad cloud or bad settings, another scale, pixels that are not square, a failing
+ * OpenGL. Memory of the graphics card as GlBackend. */
 class PCL_UVOL_EXPORTS ImageSpaceProp : public vtkProp3D {
 public:
   vtkTypeMacro(ImageSpaceProp, vtkProp3D);
@@ -57,6 +77,19 @@ public:
   {
     return renderer_;
   }
+
+  /** \brief What draws from now on; the pictures are the same but for rounding. */
+  void
+  setBackend(WindowBackend backend)
+  {
+    choice_ = backend;
+    Modified();
+  }
+
+  /** \brief What drew the last frame, see ImageSpaceBackend::describe; "none" before.
+   */
+  std::string
+  describeBackend() const;
 
   /** \brief Box around the finite points of the cloud where it is shown; null without
    * any. */
@@ -93,6 +126,13 @@ private:
   void
   draw(vtkRenderer& renderer);
 
+  /** Draw by the CPU what the backend shows. */
+  void
+  paste(const Frame& frame,
+        const GlFramebuffer& target,
+        GlBackend& backend,
+        Report& report);
+
   /** The backend in the context of a window, which is current. */
   GlBackend&
   backendFor(vtkOpenGLRenderWindow& window, const std::shared_ptr<GlContext>& context);
@@ -108,6 +148,10 @@ private:
   ImageSpaceRenderer<pcl::PCLPointCloud2> renderer_;
   bool measured_ = false;
   double box_[6]; // as VTK's: lower and upper x, y, z
+  WindowBackend choice_ = WindowBackend::Auto;
+  std::unique_ptr<CpuBackend> cpu_;
+  Image image_;            // of cpu_
+  bool is_by_cpu_ = false; // the last frame
   std::unique_ptr<GlBackend> backend_;
   vtkWeakPointer<vtkOpenGLRenderWindow> window_; // that backend_ draws in
   std::string reported_;
