@@ -5,12 +5,14 @@
 #include "support/surfaces.h"
 #include "support/virtual_display.h"
 #include "viewer/keys.h"
+#include "viewer/point_picking.h"
 #include "viewer/viewer_window.h"
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
@@ -104,6 +106,25 @@ public:
     mouse.InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
   }
 
+  void
+  click(int x, int y)
+  {
+    drag(x, y, x, y);
+  }
+
+  void
+  pointAt(int x, int y)
+  {
+    window->interactor().SetEventInformation(x, y);
+    window->interactor().InvokeEvent(vtkCommand::MouseMoveEvent);
+  }
+
+  vtkRenderer&
+  renderer()
+  {
+    return *window->interactor().GetRenderWindow()->GetRenderers()->GetFirstRenderer();
+  }
+
   /** Pull the slider from its isovalue to another one. */
   void
   slide(double isovalue)
@@ -121,7 +142,8 @@ public:
   type(char key)
   {
     vtkRenderWindowInteractor& keyboard = window->interactor();
-    keyboard.SetEventInformation(5, 5, 0, 0, key);
+    const int* const at = keyboard.GetEventPosition();
+    keyboard.SetEventInformation(at[0], at[1], 0, 0, key);
     keyboard.InvokeEvent(vtkCommand::KeyPressEvent);
     keyboard.InvokeEvent(vtkCommand::CharEvent);
   }
@@ -129,11 +151,7 @@ public:
   vtkCamera&
   camera()
   {
-    return *window->interactor()
-                .GetRenderWindow()
-                ->GetRenderers()
-                ->GetFirstRenderer()
-                ->GetActiveCamera();
+    return *renderer().GetActiveCamera();
   }
 
   Image
@@ -286,6 +304,79 @@ TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
   open.type('s');
   EXPECT_EQ(3u, folder_.list().size());
   EXPECT_EQ(static_cast<std::uint32_t>(width), read("uvol_viewer_2.png").width);
+}
+
+TEST_F(UvolViewer, PointsAreFoundUnderTheMouse)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  open.shoot();
+  const pcl::PCLPointCloud2& cloud = *open.surface.getCloud();
+  const auto find = [&](double column, double row) {
+    return uvol_tools::findPointAt(cloud, open.renderer(), column, row);
+  };
+  // From the front the ellipsoid's half axis of a quarter points to the eye.
+  const auto middle = find(0.5 * width, 0.5 * height);
+  ASSERT_TRUE(middle);
+  const float* const p = pcl_uvol::viewOf(cloud).xyz(*middle);
+  EXPECT_NEAR(0.0, p[0], 0.06);
+  EXPECT_NEAR(-0.25, p[1], 0.02);
+  EXPECT_NEAR(0.0, p[2], 0.06);
+  EXPECT_FALSE(find(2.0, height - 2.0));
+
+  const std::string text = uvol_tools::describePoint(cloud, {{1e6, 0.0, 0.0}}, *middle);
+  EXPECT_EQ(0u, text.find(p[0] < 0.0f ? "x 999999.9" : "x 1000000")) << text;
+  EXPECT_NE(std::string::npos, text.find("\nintensity 0.5")) << text;
+
+  open.click(width / 2, height / 2);
+  const Image told = open.shoot();
+  open.click(2, height - 2);
+  EXPECT_TRUE(told.color != open.shoot().color);
+  open.pointAt(width / 2, height / 2);
+  open.type('f');
+  const Eigen::Vector3d center(open.camera().GetFocalPoint());
+  EXPECT_EQ(Eigen::Vector3d(p[0], p[1], p[2]), center);
+  open.pointAt(2, height - 2);
+  open.type('f'); // no point is there
+  EXPECT_EQ(center, Eigen::Vector3d(open.camera().GetFocalPoint()));
+}
+
+TEST_F(UvolViewer, AKeyCutsAwayWhatLiesInFront)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  const std::size_t whole = open.surface.getCloud()->width;
+  const double depth = open.camera().GetFocalPoint()[1];
+  open.type('k');
+  const auto checkCut = [&] {
+    const pcl_uvol::CloudView cut = pcl_uvol::viewOf(*open.surface.getCloud());
+    for (std::size_t i = 0; i < cut.count; ++i)
+      EXPECT_GE(static_cast<double>(cut.xyz(i)[1]), depth - 1e-6);
+  };
+  checkCut();
+  EXPECT_NEAR(0.5, static_cast<double>(open.surface.getCloud()->width) / whole, 0.05);
+  open.type('+'); // stays cut
+  checkCut();
+  open.type('-');
+  open.type('k');
+  EXPECT_EQ(whole, open.surface.getCloud()->width);
+}
+
+TEST_F(UvolViewer, IsovaluesAreTyped)
+{
+  OpenWindow open(makeVolume(), "intensity", {});
+  const auto typeAll = [&](const std::string& keys) {
+    for (const char key : keys)
+      open.type(key);
+    return open.surface.getIsoValue();
+  };
+  EXPECT_EQ(0.4, typeAll("=0.45\b\r"));
+  EXPECT_EQ(0.3, typeAll("=x3e-1\r"));
+  EXPECT_EQ(0.3, typeAll("=0.\x1b")); // given up
+  EXPECT_EQ(0.3, typeAll("=1e\r"));   // no number
+  EXPECT_EQ(0.3, typeAll("=99\r"));   // beyond the range
+  EXPECT_EQ(0.3, typeAll("=\r"));
+  const Image before = open.shoot();
+  open.type('4'); // is a pass again
+  EXPECT_TRUE(before.color != open.shoot().color);
 }
 
 TEST_F(UvolViewer, KeysLookFromSidesAndPrintTheCamera)

@@ -127,7 +127,8 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);
     bar.SetTitle(field.c_str());
-    bar.SetVisibility(look_.hasBar());
+    const bool has_range = scale.low < scale.high || !legend_.categories.empty();
+    bar.SetVisibility(look_.hasBar() && has_range);
   }
   renderer.setColorField(field);
 }

@@ -66,9 +66,13 @@ describeKeys()
   std::string text = "left drag: turn   middle drag: move   wheel, right drag: zoom\n";
   for (const PassKey& key : pass_keys)
     text += std::string(1, key.key) + "  " + key.help + " on or off\n";
-  return text + "c  colour by the next field\n"
+  return text + "click: what a point holds\n"
+                "f  turn about the point under the mouse\n"
+                "k  cut away what lies in front of that, or show it again\n"
+                "c  colour by the next field\n"
                 "m  mesh of the isosurface instead of its points, or back\n"
                 "+ -  next isovalue (or drag the slider)\n"
+                "=  type an isovalue, up to the return key\n"
                 "x y z  from the right, the front and above (X Y Z: the other sides)\n"
                 "r  whole surface in view\n"
                 "s  save a picture   e  save the surface\n"

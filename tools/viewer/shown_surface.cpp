@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/shown_surface.h"
 
+#include "common/records.h"
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -71,7 +72,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   const auto samples = std::make_shared<const pcl_uvol::Dataset>(std::move(dataset));
   samples_ = Cloud::ConstPtr(samples, &samples->cloud);
   if (field_.empty()) {
-    cloud_ = samples_;
+    whole_ = cloud_ = samples_;
     return;
   }
   range_ = findRange(*samples_, field_);
@@ -82,15 +83,21 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   pipeline_.setNumberOfThreads(threads);
 }
 
-double
-ShownSurface::proposeIsoValue() const
+std::vector<double>
+ShownSurface::readValues() const
 {
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*samples_);
   const pcl_uvol::ScalarField field(cloud.fields, field_);
   std::vector<double> values(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i)
     values[i] = field.read(cloud.point(i));
-  const auto proposed = pcl_uvol::describeValues(values).isovalues;
+  return values;
+}
+
+double
+ShownSurface::proposeIsoValue() const
+{
+  const auto proposed = pcl_uvol::describeValues(readValues()).isovalues;
   return proposed.empty() ? 0.5 * range_[0] + 0.5 * range_[1] : proposed.front();
 }
 
@@ -129,9 +136,40 @@ ShownSurface::extract(double isovalue, bool is_meshed)
   isovalue_ = isovalue;
   is_meshed_ = is_meshed;
   triangles_ = std::move(result.triangles);
-  cloud_.reset();
+  whole_.reset();
   if (result.surface.cloud.width > 0)
-    cloud_ = pcl::make_shared<Cloud>(std::move(result.surface.cloud));
+    whole_ = pcl::make_shared<Cloud>(std::move(result.surface.cloud));
+  applyCut();
+}
+
+void
+ShownSurface::setCut(const std::optional<Eigen::Hyperplane<double, 3>>& plane)
+{
+  plane_ = plane;
+  applyCut();
+}
+
+void
+ShownSurface::applyCut()
+{
+  cloud_ = whole_;
+  if (!plane_ || !whole_)
+    return;
+  const pcl_uvol::CloudView whole = pcl_uvol::viewOf(*whole_);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < whole.count; ++i)
+    if (plane_->signedDistance(
+            Eigen::Map<const Eigen::Vector3f>(whole.xyz(i)).cast<double>()) <= 0.0)
+      kept.push_back(static_cast<std::uint32_t>(i));
+  cloud_.reset();
+  if (kept.empty())
+    return;
+  const auto part =
+      pcl::make_shared<Cloud>(pcl_uvol::makeRecords(whole_->fields, kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    std::copy_n(
+        whole.point(kept[i]), part->point_step, &part->data[i * part->point_step]);
+  cloud_ = part;
 }
 
 pcl_uvol::BoundingSphere

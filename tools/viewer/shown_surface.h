@@ -7,7 +7,10 @@
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/render/camera.h>
 
+#include <Eigen/Geometry>
+
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,10 @@ public:
   {
     return range_;
   }
+
+  /** \brief Values of the samples' field. */
+  std::vector<double>
+  readValues() const;
 
   /** \brief A value with samples on both sides: the first that uvol_info proposes, else
    * the middle of the range. */
@@ -72,6 +79,17 @@ public:
     return triangles_;
   }
 
+  /** \brief Leave out the points in front of a plane from now on; none: show all again.
+   * A mesh stays whole. */
+  void
+  setCut(const std::optional<Eigen::Hyperplane<double, 3>>& plane);
+
+  bool
+  isCut() const
+  {
+    return plane_.has_value();
+  }
+
   /** \brief Null where an isosurface has no points. */
   const Cloud::ConstPtr&
   getCloud() const
@@ -101,7 +119,13 @@ private:
   void
   extract(double isovalue, bool is_meshed);
 
-  Cloud::ConstPtr samples_, cloud_;
+  /** Take the points that are not cut away. */
+  void
+  applyCut();
+
+  Cloud::ConstPtr samples_;
+  Cloud::ConstPtr whole_, cloud_; // the surface, and what is shown of it
+  std::optional<Eigen::Hyperplane<double, 3>> plane_;
   std::array<double, 3> origin_;
   std::string field_;
   std::array<double, 2> range_{{0.0, 0.0}};

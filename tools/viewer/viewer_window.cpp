@@ -2,11 +2,14 @@
 #include "viewer/viewer_window.h"
 
 #include "viewer/keys.h"
+#include "viewer/value_histogram.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/point_data.h>
 
+#include <vtkAxesActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkCaptionActor2D.h>
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkInteractorStyleTrackballCamera.h>
@@ -52,7 +55,31 @@ public:
     press(Interactor->GetKeyCode());
   }
 
+  void
+  OnLeftButtonDown() override
+  {
+    std::copy_n(Interactor->GetEventPosition(), 2, pressed_at_);
+    vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
+  }
+
+  void
+  OnLeftButtonUp() override
+  {
+    vtkInteractorStyleTrackballCamera::OnLeftButtonUp();
+    const int* const at = Interactor->GetEventPosition();
+    if (std::abs(at[0] - pressed_at_[0]) + std::abs(at[1] - pressed_at_[1]) <=
+        still_pixels)
+      click(at[0], at[1]);
+  }
+
   std::function<void(char)> press;
+  std::function<void(int column, int row)> click;
+
+private:
+  /** A hand that clicks moves the mouse by no more. */
+  static constexpr int still_pixels = 2;
+
+  int pressed_at_[2] = {0, 0};
 };
 
 vtkStandardNewMacro(MouseStyle);
@@ -81,6 +108,14 @@ extractWords(const std::string& error)
   const std::size_t start = error.find("): ");
   std::string words = error.substr(start == std::string::npos ? 0 : start + 3);
   return words.substr(0, words.find('\n'));
+}
+
+/** What is read on a background. */
+double
+greyOn(const pcl_uvol::Background& background)
+{
+  const pcl_uvol::Color& color = background.color;
+  return color.r + color.g + color.b > 1.5f ? 0.15 : 0.85;
 }
 
 void
@@ -127,6 +162,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
   window_->SetWindowName((title + " (h: keys)").c_str());
   if (!surface_.getField().empty())
     setUpSlider();
+  setUpTriad(greyOn(background));
   render();
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
@@ -160,6 +196,10 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
 
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };
+  style->click = [this](int column, int row) {
+    attempt([&] { tellPoint(column, row); });
+    render();
+  };
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style);
 }
@@ -167,8 +207,7 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
 void
 ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
 {
-  const pcl_uvol::Color& color = background.color;
-  const double grey = color.r + color.g + color.b > 1.5f ? 0.15 : 0.85;
+  const double grey = greyOn(background);
   setColor(*help_->GetTextProperty(), grey);
   setColor(*message_->GetTextProperty(), grey);
   setColor(*bar_->GetTitleTextProperty(), grey);
@@ -219,6 +258,8 @@ ViewerWindow::setUpSlider()
     end->SetCoordinateSystemToNormalizedDisplay();
     end->SetValue(x, 0.12);
   }
+  renderer_->AddViewProp(
+      drawHistogram(surface_.readValues(), scale_, {{0.1, 0.125, 0.9, 0.2}}));
   slider_->SetInteractor(interactor_);
   slider_->SetRepresentation(slider_shape_);
   slider_->SetAnimationModeToJump();
@@ -226,6 +267,28 @@ ViewerWindow::setUpSlider()
     attempt([this] { followSlider(); });
   });
   slider_->EnabledOn();
+}
+
+void
+ViewerWindow::setUpTriad(double grey)
+{
+  vtkNew<vtkAxesActor> axes;
+  axes->SetXAxisLabelText("x");
+  axes->SetYAxisLabelText("y");
+  axes->SetZAxisLabelText("z");
+  for (vtkCaptionActor2D* const caption : {axes->GetXAxisCaptionActor2D(),
+                                           axes->GetYAxisCaptionActor2D(),
+                                           axes->GetZAxisCaptionActor2D()}) {
+    vtkTextProperty& letters = *caption->GetCaptionTextProperty();
+    setColor(letters, grey);
+    letters.SetBackgroundOpacity(0.0);
+    caption->GetTextActor()->SetTextScaleModeToNone(); // else it goes by the corner
+  }
+  triad_->SetOrientationMarker(axes);
+  triad_->SetInteractor(interactor_);
+  triad_->SetViewport(0.86, 0.86, 1.0, 1.0);
+  triad_->EnabledOn();
+  triad_->InteractiveOff(); // the mouse turns the surface there, too
 }
 
 void
@@ -289,10 +352,29 @@ ViewerWindow::nextColor()
 void
 ViewerWindow::followSlider()
 {
-  surface_.setIsoValue(valueAt(scale_, slider_shape_->GetValue()));
+  showIsoValue(valueAt(scale_, slider_shape_->GetValue()));
+}
+
+void
+ViewerWindow::showIsoValue(double isovalue)
+{
+  surface_.setIsoValue(isovalue);
   nameIsoValue();
   showSurface();
   show(surface_.getCloud() ? "" : "no points at this isovalue");
+}
+
+void
+ViewerWindow::typeIsoValue(char key)
+{
+  if (surface_.getField().empty())
+    return;
+  const std::optional<double> isovalue = typed_.press(key);
+  show(typed_.isBegun() ? surface_.getField() + " = " + typed_.getText() + "_" : "");
+  if (!isovalue)
+    return;
+  showIsoValue(*isovalue);
+  slider_shape_->SetValue(scale_.placeOf(*isovalue));
 }
 
 void
@@ -319,10 +401,16 @@ ViewerWindow::press(char key)
   if (key != 'h')
     help_->VisibilityOff();
   attempt([this, key] {
-    if (switchPass(key, prop_->renderer().settings()))
+    if (key == '=' || typed_.isBegun())
+      typeIsoValue(key);
+    else if (switchPass(key, prop_->renderer().settings()))
       show("");
     else if (key == 'c')
       nextColor();
+    else if (key == 'f')
+      turnAboutPoint();
+    else if (key == 'k')
+      switchCut();
     else if (key == 'm')
       switchMesh();
     else if (key == '+' || key == '-')

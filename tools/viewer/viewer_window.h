@@ -5,10 +5,12 @@
 #include "shared/render_options.h"
 #include "viewer/color_choice.h"
 #include "viewer/shown_surface.h"
+#include "viewer/typed_number.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
 
 #include <vtkActor.h>
 #include <vtkNew.h>
+#include <vtkOrientationMarkerWidget.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -81,6 +83,10 @@ private:
   void
   setUpSlider();
 
+  /** Show how the axes lie, in a corner. */
+  void
+  setUpTriad(double grey);
+
   /** Show the surface as it is now, coloured. */
   void
   showSurface();
@@ -99,6 +105,26 @@ private:
 
   void
   nextColor();
+
+  /** Tell what the point at a pixel holds, counted from the lower left. */
+  void
+  tellPoint(int column, int row);
+
+  /** Turn about the point under the mouse from now on. */
+  void
+  turnAboutPoint();
+
+  /** Cut away what lies in front of the centre of turning, or show it again. */
+  void
+  switchCut();
+
+  /** Take a key of an isovalue that is typed. */
+  void
+  typeIsoValue(char key);
+
+  /** Show the isosurface of another value. */
+  void
+  showIsoValue(double isovalue);
 
   /** The isovalue of the slider, not drawn yet. */
   void
@@ -145,6 +171,7 @@ private:
   ShownSurface& surface_;
   const RenderOptions& look_;
   std::optional<ColorChoice> colors_;
+  TypedNumber typed_;
   pcl_uvol::ColorScale scale_; // of the slider
   std::string error_;          // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
@@ -157,6 +184,7 @@ private:
   vtkNew<vtkScalarBarActor> bar_;
   vtkNew<vtkSliderRepresentation2D> slider_shape_;
   vtkNew<vtkSliderWidget> slider_;
+  vtkNew<vtkOrientationMarkerWidget> triad_;
 };
 
 } // namespace uvol_tools
