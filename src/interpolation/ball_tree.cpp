@@ -4,6 +4,7 @@
 #include "common/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -41,18 +42,24 @@ sqGap(const std::array<double, 3>& low,
 }
 
 BallTree::BallTree(const SampleSet& samples,
-                   const std::function<double(const Bucket&)>& reach,
-                   unsigned threads)
+                   const FindReach& reach,
+                   unsigned threads,
+                   FindReach closer)
+    : closer_(std::move(closer))
 {
   addNode(samples.getTree(), samples.getTree().getRoot());
+  closer_reaches_ = std::vector<std::atomic<double>>(closer_ ? buckets_.size() : 0);
+  for (std::atomic<double>& unknown : closer_reaches_)
+    unknown.store(-1.0, std::memory_order_relaxed);
+  std::vector<double> reaches(buckets_.size());
   parallelBlocks(buckets_.size(), block_buckets, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
-      buckets_[i].reach = reach(buckets_[i]);
+      reaches[i] = reach(buckets_[i]);
   });
   // Children stand behind their parents.
   for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node)
     node->reach = node->left == 0
-                      ? buckets_[node->bucket].reach
+                      ? reaches[node->bucket]
                       : std::max(nodes_[node->left].reach, nodes_[node->right].reach);
 }
 
@@ -64,7 +71,7 @@ BallTree::addNode(const KdTree& tree, const KdNode& node)
   nodes_[index].box = tree.getBox(node);
   if (KdTree::isBucket(node)) {
     nodes_[index].bucket = static_cast<std::uint32_t>(buckets_.size());
-    buckets_.push_back({node.begin, node.count, nodes_[index].box, 0.0});
+    buckets_.push_back({node.begin, node.count, nodes_[index].box});
     return index;
   }
   const std::uint32_t left = addNode(tree, node.left()),
@@ -85,6 +92,18 @@ BallTree::bucketOf(std::uint32_t sample) const
   return static_cast<std::size_t>(after - buckets_.begin()) - 1;
 }
 
+double
+BallTree::findCloserReach(const Node& leaf) const
+{
+  std::atomic<double>& kept = closer_reaches_[leaf.bucket];
+  double reach = kept.load(std::memory_order_relaxed);
+  if (reach < 0.0) { // threads that find it at once find the same
+    reach = closer_(buckets_[leaf.bucket]);
+    kept.store(reach, std::memory_order_relaxed);
+  }
+  return reach;
+}
+
 bool
 BallTree::findReaching(const std::array<double, 3>& low,
                        const std::array<double, 3>& high,
@@ -101,6 +120,11 @@ BallTree::findReaching(const std::array<double, 3>& low,
     if (sqGap(low, high, node.box) > reach * reach)
       continue;
     if (node.left == 0) {
+      if (closer_) {
+        const double closer = factor * findCloserReach(node);
+        if (sqGap(low, high, node.box) > closer * closer)
+          continue;
+      }
       if (buckets.size() == most)
         return false;
       buckets.push_back(node.bucket);

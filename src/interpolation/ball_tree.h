@@ -6,6 +6,7 @@
 #include "neighbors/sample_set.h"
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -27,13 +28,22 @@ public:
   struct Bucket {
     std::uint32_t begin, count;
     KdBox box;
-    double reach; ///< no ball of its samples is larger
   };
 
-  /** \param reach of a bucket whose own is not set yet; called from several threads */
+  /** \brief How far balls around the samples of a bucket reach at most; called from
+   * several threads. */
+  using FindReach = std::function<double(const Bucket&)>;
+
+  /** \param reach of every bucket
+   * \param closer a smaller bound for buckets that some place is within the reach of,
+   * if that one is worth some work; kept once it is found */
   BallTree(const SampleSet& samples,
-           const std::function<double(const Bucket&)>& reach,
-           unsigned threads);
+           const FindReach& reach,
+           unsigned threads,
+           FindReach closer = nullptr);
+  BallTree(const BallTree&) = delete;
+  BallTree&
+  operator=(const BallTree&) = delete;
 
   const std::vector<Bucket>&
   getBuckets() const
@@ -63,9 +73,15 @@ private:
     std::uint32_t left, right; ///< 0: a leaf
   };
 
+  /** The closer bound of a bucket, if there is one. */
+  double
+  findCloserReach(const Node& leaf) const;
+
   std::uint32_t
   addNode(const KdTree& tree, const KdNode& node);
 
+  const FindReach closer_;
+  mutable std::vector<std::atomic<double>> closer_reaches_; // negative: not found yet
   std::vector<Bucket> buckets_;
   std::vector<Node> nodes_;
 };

@@ -13,14 +13,31 @@ namespace {
 /** Room for the rounding of distances. */
 constexpr double slack = 1.0001;
 
+/** No sample of a bucket is farther from another one; where they are few in all, fits
+ * reach farther than their only bucket. */
+double
+boundByBox(const BallTree::Bucket& bucket)
+{
+  double sq_extent = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent =
+        static_cast<double>(bucket.box.high[axis]) - bucket.box.low[axis];
+    sq_extent += extent * extent;
+  }
+  const double diagonal = std::sqrt(sq_extent);
+  return slack * (bucket.count <= BucketFitter::blended_samples
+                      ? std::max(1.0, 2.0 * diagonal)
+                      : diagonal);
+}
+
 } // namespace
 
 SampleFits::SampleFits(const SampledFields& sampled, unsigned threads)
     : sampled_(sampled)
-    , balls_(
-          *sampled.samples,
-          [this](const BallTree::Bucket& bucket) { return boundReach(bucket); },
-          threads)
+    , balls_(*sampled.samples,
+             boundByBox,
+             threads,
+             [this](const BallTree::Bucket& bucket) { return boundReach(bucket); })
     , fits_(balls_.getBuckets().size())
     , once_(balls_.getBuckets().size())
 {
@@ -32,16 +49,8 @@ SampleFits::boundReach(const BallTree::Bucket& bucket) const
   // Neighbours of the same bucket are no nearer than the nearest ones.
   const std::vector<Position>& positions = sampled_.samples->getPositions();
   constexpr std::size_t blended = BucketFitter::blended_samples;
-  if (bucket.count <= blended) {
-    // Few samples in all: their only bucket.
-    double sq_extent = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double extent =
-          static_cast<double>(bucket.box.high[axis]) - bucket.box.low[axis];
-      sq_extent += extent * extent;
-    }
-    return slack * std::max(1.0, 2.0 * std::sqrt(sq_extent));
-  }
+  if (bucket.count <= blended)
+    return boundByBox(bucket);
   double sq_reach = 0.0;
   std::vector<double> sq_dists(bucket.count);
   for (std::uint32_t i = bucket.begin; i < bucket.begin + bucket.count; ++i) {

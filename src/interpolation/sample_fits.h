@@ -33,6 +33,9 @@ class SampleFits {
 public:
   /** \param sampled must outlive the fits */
   SampleFits(const SampledFields& sampled, unsigned threads);
+  SampleFits(const SampleFits&) = delete;
+  SampleFits&
+  operator=(const SampleFits&) = delete;
 
   /** \brief The balls in which fits have a weight. */
   const BallTree&
