@@ -243,7 +243,7 @@ LocalMetricFinder::setMetric(const LineMoments& lines)
 bool
 LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
 {
-  if (known_ == Known::Nothing || sample != last_) {
+  if (known_ == Known::Nothing || known_ == Known::Refined || sample != last_) {
     last_ = sample;
     is_seen_ = lookAround(sample);
     first_ratio_ = ratio_;
@@ -253,7 +253,7 @@ LocalMetricFinder::find(std::uint32_t sample, double least_ratio)
     return false;
   if (known_ == Known::FirstLook) {
     has_metric_ = search(sample);
-    known_ = Known::All;
+    known_ = Known::Searched;
   }
   return has_metric_;
 }
@@ -343,7 +343,7 @@ LocalMetricFinder::refine(std::uint32_t sample,
                           const LocalMetricFinder& nearby,
                           double least_ratio)
 {
-  if (known_ == Known::Nothing || sample != last_) {
+  if (known_ != Known::Refined || sample != last_) {
     last_ = sample;
     metric_ = nearby.metric_;
     reach_ = nearby.reach_;
@@ -354,9 +354,7 @@ LocalMetricFinder::refine(std::uint32_t sample,
          ++round)
       ratio = lookInMetric(sample, sqFarthest(), false);
     has_metric_ = ratio < even_ratio;
-    is_seen_ = has_metric_;
-    first_ratio_ = ratio_;
-    known_ = Known::All;
+    known_ = Known::Refined;
   }
   return has_metric_ && ratio_ >= least_ratio;
 }

@@ -67,7 +67,7 @@ public:
   bool
   hasFailed() const
   {
-    return known_ == Known::All && !has_metric_;
+    return known_ == Known::Searched && !has_metric_;
   }
 
   /** \brief The metric at the last sample: x -> metric * x makes spacings equal. 1
@@ -181,8 +181,10 @@ private:
   double reach_ = 0.0, ratio_ = 1.0, first_ratio_ = 1.0;
   double typical_reach_ = 1.0; ///< of the sample before: where a search starts
 
-  /** What is known of the last sample: edges of a group follow one another. */
-  enum class Known { Nothing, FirstLook, All };
+  /** What is known of the last sample: edges of a group follow one another. What one
+   * way has found is nothing to the other, so that the answer does not depend on what
+   * was asked for before. */
+  enum class Known { Nothing, FirstLook, Searched, Refined };
   Known known_ = Known::Nothing;
   std::uint32_t last_ = 0;
   bool is_seen_ = false; ///< samples on all sides at the first look

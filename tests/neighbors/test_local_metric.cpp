@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Metrics of samples depend on what is asked for, not on what was asked for before.
+#include "src/common/random.h"
+#include "src/neighbors/local_metric.h"
+#include <pcl_uvol/common/report.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace {
+
+using pcl_uvol::LocalMetricFinder;
+using pcl_uvol::Position;
+using pcl_uvol::SampleSet;
+
+/** Random samples, a little stretched: some ratios of spacings are below any bound,
+ * some above it. */
+SampleSet::ConstPtr
+makeSamples(std::size_t count)
+{
+  std::vector<Position> places;
+  for (std::uint64_t i = 0; i < count; ++i)
+    places.push_back({{static_cast<float>(pcl_uvol::uniformAt(3, i, 0)),
+                       static_cast<float>(pcl_uvol::uniformAt(3, i, 1)),
+                       static_cast<float>(0.6 * pcl_uvol::uniformAt(3, i, 2))}});
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::Report report;
+  return SampleSet::build(places[0].x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
+}
+
+void
+expectEqual(bool found,
+            const LocalMetricFinder& metrics,
+            bool expected,
+            const LocalMetricFinder& alone)
+{
+  EXPECT_EQ(expected, found);
+  EXPECT_EQ(alone.getRatio(), metrics.getRatio());
+  EXPECT_EQ(alone.getMetric(), metrics.getMetric());
+}
+
+TEST(LocalMetric, DoesNotDependOnWhatWasAskedBefore)
+{
+  const auto samples = makeSamples(1000);
+  LocalMetricFinder used(*samples), group(*samples);
+  std::size_t found = 0;
+  for (std::uint32_t i = 0; i < 1000; i += 3) {
+    LocalMetricFinder first(*samples), refined(*samples);
+    const double bound = i % 2 == 0 ? 2.0 : 1.1;
+    group.find(used.findAnchor(i), 1.0);
+    const bool by_itself = first.find(i, bound);
+    const bool from_nearby = refined.refine(i, group, bound);
+    found += by_itself + from_nearby;
+    expectEqual(used.find(i, bound), used, by_itself, first);
+    expectEqual(used.refine(i, group, bound), used, from_nearby, refined);
+    expectEqual(used.find(i, bound), used, by_itself, first);
+  }
+  EXPECT_GT(found, 100u);
+  EXPECT_LT(found, 600u);
+}
+
+} // namespace
