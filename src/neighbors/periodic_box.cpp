@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/periodic_box.h"
 
-#include "common/parallel.h"
-#include "common/records.h"
-#include <pcl_uvol/common/cloud_view.h>
+#include "neighbors/widest_gap.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace pcl_uvol {
@@ -22,75 +19,42 @@ constexpr double slack = 0.01;
  * none. */
 constexpr double least_fill = 0.75;
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
-
-Extent
-findExtent(const CloudView& cloud, std::size_t axis)
-{
-  Extent extent;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const double x = static_cast<double>(cloud.xyz(i)[axis]);
-    if (!std::isfinite(x))
-      continue;
-    extent.low = std::min(extent.low, x);
-    extent.high = std::max(extent.high, x);
-  }
-  return extent;
-}
-
 double
-chooseLow(const Extent& extent, double side, double origin)
+chooseLow(const SampleExtents& extents, std::size_t axis, double side, double origin)
 {
   const double room = slack * side;
   for (const double low : {-origin, -origin - side / 2.0})
-    if (extent.low >= low - room && extent.high <= low + side + room)
+    if (extents.low[axis] >= low - room && extents.high[axis] <= low + side + room)
       return low;
-  return extent.high - extent.low <= side ? extent.low : -origin;
+  return extents.getLength(axis) <= side ? extents.low[axis] : -origin;
 }
 
-/** Where a cyclic sequence is best begun so that it is the greatest of all beginnings:
- * one pass, two candidates that are compared number by number. */
-std::size_t
-findGreatestRotation(const std::vector<double>& numbers)
+void
+warnIfEmpty(const SampleExtents& extents, std::size_t axis, double side, Report& report)
 {
-  const std::size_t n = numbers.size();
-  std::size_t first = 0, second = 1, same = 0;
-  while (first < n && second < n && same < n) {
-    const double a = numbers[(first + same) % n], b = numbers[(second + same) % n];
-    if (a == b) {
-      ++same;
-      continue;
+  const double length = extents.getLength(axis);
+  if (length >= least_fill * side)
+    return;
+  std::ostringstream text;
+  text << "Samples fill " << length << " of the side " << side << " of the box along "
+       << "xyz"[axis] << ": if they should fill it, its side is wrong.";
+  report.warnings.push_back(text.str());
+}
+
+std::uint64_t
+countOutside(const CloudView& cloud, const PeriodicBox& box)
+{
+  std::uint64_t outside = 0;
+  for (std::size_t i = 0; i < cloud.count; ++i) {
+    bool is_outside = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double from_low = static_cast<double>(cloud.xyz(i)[axis]) - box.low[axis];
+      is_outside = is_outside || (box.sides[axis] > 0.0 &&
+                                  (from_low < 0.0 || from_low > box.sides[axis]));
     }
-    (a > b ? second : first) += same + 1;
-    if (first == second)
-      ++second;
-    same = 0;
+    outside += is_outside;
   }
-  return std::min(first, second);
-}
-
-/** The coordinate that follows the widest gap. */
-double
-findCut(const CloudView& cloud,
-        const PeriodicBox& box,
-        std::size_t axis,
-        unsigned threads)
-{
-  std::vector<double> places;
-  for (std::size_t i = 0; i < cloud.count; ++i)
-    if (const float x = cloud.xyz(i)[axis]; std::isfinite(x))
-      places.push_back(box.toBox(static_cast<double>(x), axis));
-  if (places.empty())
-    return 0.0;
-  parallelSort(places.begin(), places.end(), threads, std::less<>());
-  std::vector<double> gaps(places.size()); // in front of each place
-  gaps[0] = places.front() + box.sides[axis] - places.back();
-  for (std::size_t i = 1; i < places.size(); ++i)
-    gaps[i] = places[i] - places[i - 1];
-  return places[findGreatestRotation(gaps)];
+  return outside;
 }
 
 } // namespace
@@ -132,37 +96,60 @@ checkPeriodic(const std::array<double, 3>& sides)
                             std::to_string(side) + " is none.");
 }
 
+void
+SampleExtents::add(const float* xyz)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(xyz[axis]))
+      continue;
+    low[axis] = std::min(low[axis], static_cast<double>(xyz[axis]));
+    high[axis] = std::max(high[axis], static_cast<double>(xyz[axis]));
+  }
+}
+
+void
+SampleExtents::add(const SampleExtents& other)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis] = std::min(low[axis], other.low[axis]);
+    high[axis] = std::max(high[axis], other.high[axis]);
+  }
+}
+
+SampleExtents
+findExtents(const CloudView& cloud)
+{
+  SampleExtents extents;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    extents.add(cloud.xyz(i));
+  return extents;
+}
+
 PeriodicBox
 findPeriodicBox(const Dataset& samples,
                 const std::array<double, 3>& sides,
                 Report& report)
 {
+  return findPeriodicBox(samples, findExtents(viewOf(samples.cloud)), sides, report);
+}
+
+PeriodicBox
+findPeriodicBox(const Dataset& part,
+                const SampleExtents& extents,
+                const std::array<double, 3>& sides,
+                Report& report)
+{
   checkPeriodic(sides);
-  const CloudView cloud = viewOf(samples.cloud);
   PeriodicBox box;
   box.sides = sides;
-  std::vector<std::uint8_t> is_outside(cloud.count, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Extent extent = findExtent(cloud, axis);
-    if (!(sides[axis] > 0.0) || !(extent.low <= extent.high))
+    if (!(sides[axis] > 0.0) || !(extents.low[axis] <= extents.high[axis]))
       continue;
-    box.low[axis] = chooseLow(extent, sides[axis], samples.origin[axis]);
-    if (extent.high - extent.low < least_fill * sides[axis]) {
-      std::ostringstream text;
-      text << "Samples fill " << extent.high - extent.low << " of the side "
-           << sides[axis] << " of the box along "
-           << "xyz"[axis] << ": if they should fill it, its side is wrong.";
-      report.warnings.push_back(text.str());
-    }
-    for (std::size_t i = 0; i < cloud.count; ++i) {
-      const double from_low = static_cast<double>(cloud.xyz(i)[axis]) - box.low[axis];
-      if (from_low < 0.0 || from_low > sides[axis])
-        is_outside[i] = 1;
-    }
+    box.low[axis] = chooseLow(extents, axis, sides[axis], part.origin[axis]);
+    warnIfEmpty(extents, axis, sides[axis], report);
   }
-  const auto outside = std::count(is_outside.begin(), is_outside.end(), 1);
-  if (outside > 0)
-    report.count("moved_into_box", static_cast<std::uint64_t>(outside));
+  if (const auto outside = countOutside(viewOf(part.cloud), box); outside > 0)
+    report.count("moved_into_box", outside);
   return box;
 }
 
@@ -171,9 +158,19 @@ cutAtWidestGap(const Dataset& samples, const PeriodicBox& box, unsigned threads)
 {
   const CloudView cloud = viewOf(samples.cloud);
   PeriodicBox cut = box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (box.sides[axis] > 0.0)
-      cut.low[axis] += findCut(cloud, box, axis, threads);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.sides[axis] > 0.0))
+      continue;
+    const std::vector<double> places = sortPlaces(cloud, box, axis, threads);
+    if (places.empty())
+      continue;
+    std::vector<Gap> gaps =
+        listGaps(places, places.front() + box.sides[axis] - places.back());
+    const std::size_t count = gaps.size(), compared = std::min(count, most_compared);
+    gaps.insert(
+        gaps.end(), gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(compared));
+    cut.low[axis] += gaps[findWidestGap(gaps, count, compared)].place;
+  }
   return cut;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "neighbors/kd_tree.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/report.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace pcl_uvol {
@@ -47,6 +49,32 @@ isPeriodic(const std::array<double, 3>& sides)
 PCL_UVOL_EXPORTS void
 checkPeriodic(const std::array<double, 3>& sides);
 
+/** \brief The smallest box around samples, by those coordinates that are finite. */
+struct PCL_UVOL_EXPORTS SampleExtents {
+  std::array<double, 3> low{{infinity, infinity, infinity}};
+  std::array<double, 3> high{{-infinity, -infinity, -infinity}};
+
+  /** \param xyz three coordinates */
+  void
+  add(const float* xyz);
+
+  void
+  add(const SampleExtents& other);
+
+  /** \brief Their length along an axis; 0 where there are none. */
+  double
+  getLength(std::size_t axis) const
+  {
+    return high[axis] > low[axis] ? high[axis] - low[axis] : 0.0;
+  }
+
+private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+};
+
+PCL_UVOL_EXPORTS SampleExtents
+findExtents(const CloudView& cloud);
+
 /** \brief Where the box lies that samples come in: its low corner at 0, or at minus
  * half of its sides, or at the lowest sample, the first of these that holds them all;
  * else at 0, for samples that have left it.
@@ -60,9 +88,20 @@ findPeriodicBox(const Dataset& samples,
                 const std::array<double, 3>& sides,
                 Report& report);
 
+/** \brief The same for samples of which these are a part.
+ *
+ * \param extents of all of them
+ *
+ * \param report gets the count of this part, and the warning of all */
+PCL_UVOL_EXPORTS PeriodicBox
+findPeriodicBox(const Dataset& part,
+                const SampleExtents& extents,
+                const std::array<double, 3>& sides,
+                Report& report);
+
 /** \brief The same box with its faces in the widest gaps between the coordinates of
  * samples: where that is depends on the samples alone, not on where a box was put
- * around them. Of equal gaps the one whose next gaps are wider counts. */
+ * around them, see findWidestGap(). */
 PCL_UVOL_EXPORTS PeriodicBox
 cutAtWidestGap(const Dataset& samples, const PeriodicBox& box, unsigned threads);
 
