@@ -50,14 +50,14 @@ answer(const std::vector<Bytes>& questions,
 
 } // namespace
 
-std::uint64_t
-findFirstIndex(std::uint64_t count, Communicator& communicator)
+std::vector<std::uint64_t>
+findFirstIndices(std::uint64_t count, Communicator& communicator)
 {
-  const auto counts = allGatherItems(communicator, std::vector<std::uint64_t>{count});
-  std::uint64_t first = 0;
-  for (std::size_t rank = 0; rank < communicator.rank(); ++rank)
-    first += counts[rank];
-  return first;
+  std::vector<std::uint64_t> firsts{0};
+  for (const std::uint64_t other :
+       allGatherItems(communicator, std::vector<std::uint64_t>{count}))
+    firsts.push_back(firsts.back() + other);
+  return firsts;
 }
 
 pcl::PCLPointCloud2

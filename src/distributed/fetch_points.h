@@ -13,15 +13,15 @@
 
 namespace pcl_uvol {
 
-/** \brief The index of a process's first point where the points of all processes are
- * counted one process after another.
+/** \brief The index of each process's first point where the points of all processes are
+ * counted one process after another, and behind them how many there are in all.
  * \param count points of this process */
-PCL_UVOL_EXPORTS std::uint64_t
-findFirstIndex(std::uint64_t count, Communicator& communicator);
+PCL_UVOL_EXPORTS std::vector<std::uint64_t>
+findFirstIndices(std::uint64_t count, Communicator& communicator);
 
 /** \brief Get points from the processes that hold them.
  * \param points of this process; all processes have the same fields
- * \param first index of the first of them, see findFirstIndex
+ * \param first index of the first of them, see findFirstIndices
  * \param wanted indices of points, ascending, each once
  * \return these points, in that order
  * \param report gets the count "bytes_of_fields"

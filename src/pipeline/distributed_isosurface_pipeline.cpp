@@ -6,6 +6,7 @@
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
 
@@ -31,9 +32,6 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
   if (parameters.mesh)
     throw InvalidArgument("A mesh is not offered for samples of several processes: its "
                           "cells would have to be joined across their borders.");
-  if ((parameters.periodic > 0.0).any())
-    throw InvalidArgument(
-        "A box that repeats is not offered for samples of several processes.");
   if (parameters.smooth)
     throw InvalidArgument(
         "A level set is not offered for samples of several processes.");
@@ -52,8 +50,7 @@ checkDistributed(const IsosurfacePipelineParameters& parameters)
 /** The isopoints of this process with the fields of the samples at their edges. */
 IsosurfaceResult
 finishIsopoints(const Isopoints& isopoints,
-                const Dataset& part,
-                std::uint64_t first_index,
+                const PartInBox& part,
                 const IsosurfacePipelineParameters& parameters,
                 Communicator& communicator,
                 unsigned threads,
@@ -64,15 +61,17 @@ finishIsopoints(const Isopoints& isopoints,
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     for (const GlobalIsopoint& isopoint : isopoints[i])
       points.push_back(toPointIso(isopoint, parameters.isosurface.isovalues[i]));
-  Dataset samples = withoutCloud(part);
-  samples.cloud =
-      fetchPoints(part.cloud, first_index, ends.points, communicator, report);
-  return finishIsosurface(samples,
-                          std::move(points),
-                          std::move(ends.edges),
-                          parameters,
-                          threads,
-                          std::move(report));
+  Dataset samples = withoutCloud(part.getPoints());
+  samples.cloud = fetchPoints(
+      part.getPoints().cloud, part.getFirstPoint(), ends.points, communicator, report);
+  IsosurfaceResult result = finishIsosurface(samples,
+                                             std::move(points),
+                                             std::move(ends.edges),
+                                             parameters,
+                                             threads,
+                                             std::move(report));
+  part.finish(communicator, result);
+  return result;
 }
 
 } // namespace
@@ -92,12 +91,12 @@ DistributedIsosurfacePipeline::run()
     isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
     isosurface.field = ScalarField::defaultName(fieldsOfNumbers(*part_));
-  const CloudView view = viewOf(part_->cloud);
+  const PartInBox part(part_, parameters, communicator_, threads_, report_);
+  const CloudView view = viewOf(part.getPoints().cloud);
   const ScalarField field(view.fields, isosurface.field);
-  const std::uint64_t first_index = findFirstIndex(view.count, communicator_);
   const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
   Isopoints isopoints =
-      extractFromRanks(readSamples(view, field, frame, first_index, threads_, report_),
+      extractFromRanks(part.readSamples(field, frame, threads_, report_),
                        withErrors(parameters),
                        frame,
                        communicator_,
@@ -105,13 +104,9 @@ DistributedIsosurfacePipeline::run()
                        report_);
   if (is_gathered_)
     isopoints = gatherIsopoints(std::move(isopoints), communicator_, threads_);
-  IsosurfaceResult result = finishIsopoints(isopoints,
-                                            *part_,
-                                            first_index,
-                                            parameters,
-                                            communicator_,
-                                            threads_,
-                                            std::move(report_));
+  part.numberByPoints(isopoints);
+  IsosurfaceResult result = finishIsopoints(
+      isopoints, part, parameters, communicator_, threads_, std::move(report_));
   report_ = result.report;
   return result;
 }

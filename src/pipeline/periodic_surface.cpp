@@ -3,10 +3,8 @@
 
 #include "common/records.h"
 #include "common/scalar_field.h"
-#include "neighbors/periodic_box.h"
 #include "pipeline/periodic_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <cmath>
 #include <utility>
@@ -20,16 +18,16 @@ constexpr double reach_of_fits = 3.0, reach_of_meshes = 5.0, reach_of_level_sets
 
 /** From places counted from the corner of one box to coordinates within another. */
 void
-movePoints(const PeriodicSamples& images, const PeriodicBox& box, Dataset& surface)
+movePoints(const PeriodicBox& cut, const PeriodicBox& box, Dataset& surface)
 {
   pcl::PCLPointCloud2& cloud = surface.cloud;
   const CloudView view = viewOf(cloud);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // A mesh comes from the box itself, whose high face is not the low one.
-    const bool is_same = images.box.low[axis] == box.low[axis];
+    const bool is_same = cut.low[axis] == box.low[axis];
     for (std::size_t i = 0; i < cloud.width; ++i) {
       const auto place = static_cast<double>(view.xyz(i)[axis]);
-      const double at = images.box.low[axis] + place;
+      const double at = cut.low[axis] + place;
       putCoordinate(is_same ? at : box.low[axis] + box.toBox(at, axis),
                     axis,
                     &cloud.data[i * cloud.point_step]);
@@ -70,25 +68,11 @@ makeImages(const Dataset& samples,
            unsigned threads,
            Report& report)
 {
-  const CloudView cloud = viewOf(samples.cloud);
-  const ScalarField field(cloud.fields, parameters.isosurface.field);
-  std::vector<std::uint32_t> with_value;
-  const auto add = [&](std::size_t point) {
-    if (std::isfinite(field.read(cloud.point(point))))
-      with_value.push_back(static_cast<std::uint32_t>(point));
-  };
-  for (std::size_t i = 0; i < (use ? use->size() : cloud.count); ++i)
-    add(use ? static_cast<std::size_t>((*use)[i]) : i);
-  PeriodicReach reach;
-  reach.scale = toPosition(parameters.isosurface.scale);
-  reach.spacings = parameters.smooth ? reach_of_level_sets
-                   : parameters.mesh ? reach_of_meshes
-                                     : reach_of_fits;
   return addPeriodicImages(samples,
-                           with_value,
+                           listWithValue(samples, use, parameters.isosurface.field),
                            parameters.mesh ? box
                                            : cutAtWidestGap(samples, box, threads),
-                           reach,
+                           reachFor(parameters),
                            threads,
                            report);
 }
@@ -116,9 +100,7 @@ returnToBox(const Dataset& samples,
 {
   if (!result.triangles.empty())
     detail::cutAtFaces(images.box, periodic_mesh, result);
-  countSupport(result);
-  movePoints(images, box, result.surface);
-  result.surface.origin = samples.origin;
+  returnPoints(images.box, box, samples.origin, result);
   for (IsoEdge& edge : result.edges) {
     edge.first = images.sourceOf(edge.first);
     edge.second = images.sourceOf(edge.second);
@@ -126,6 +108,45 @@ returnToBox(const Dataset& samples,
 }
 
 } // namespace
+
+std::vector<std::uint32_t>
+listWithValue(const Dataset& samples,
+              const pcl::IndicesPtr& use,
+              const std::string& field)
+{
+  const CloudView cloud = viewOf(samples.cloud);
+  const ScalarField values(cloud.fields, field);
+  std::vector<std::uint32_t> with_value;
+  const auto add = [&](std::size_t point) {
+    if (std::isfinite(values.read(cloud.point(point))))
+      with_value.push_back(static_cast<std::uint32_t>(point));
+  };
+  for (std::size_t i = 0; i < (use ? use->size() : cloud.count); ++i)
+    add(use ? static_cast<std::size_t>((*use)[i]) : i);
+  return with_value;
+}
+
+PeriodicReach
+reachFor(const IsosurfacePipelineParameters& parameters)
+{
+  PeriodicReach reach;
+  reach.scale = toPosition(parameters.isosurface.scale);
+  reach.spacings = parameters.smooth ? reach_of_level_sets
+                   : parameters.mesh ? reach_of_meshes
+                                     : reach_of_fits;
+  return reach;
+}
+
+void
+returnPoints(const PeriodicBox& cut,
+             const PeriodicBox& box,
+             const std::array<double, 3>& origin,
+             IsosurfaceResult& result)
+{
+  countSupport(result);
+  movePoints(cut, box, result.surface);
+  result.surface.origin = origin;
+}
 
 IsosurfaceResult
 IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)

@@ -2,9 +2,13 @@
 // The box that IsosurfacePipeline's samples repeat in.
 #pragma once
 
-#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include "neighbors/periodic_box.h"
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -15,5 +19,29 @@ sidesOf(const IsosurfacePipelineParameters& parameters)
   const Eigen::Array3d& sides = parameters.periodic;
   return {{sides[0], sides[1], sides[2]}};
 }
+
+/** \brief The points that have a finite value: those that images are of.
+ *
+ * \param use null: all points */
+std::vector<std::uint32_t>
+listWithValue(const Dataset& samples,
+              const pcl::IndicesPtr& use,
+              const std::string& field);
+
+/** \brief How far images reach for what parameters ask for. */
+PeriodicReach
+reachFor(const IsosurfacePipelineParameters& parameters);
+
+/** \brief Bring the points of a surface back from the box that its samples had with
+ * their images to the box that they came in.
+ *
+ * \param cut that box, from whose corner the coordinates count
+ *
+ * \param origin of the samples as they came */
+void
+returnPoints(const PeriodicBox& cut,
+             const PeriodicBox& box,
+             const std::array<double, 3>& origin,
+             IsosurfaceResult& result);
 
 } // namespace pcl_uvol

@@ -38,7 +38,8 @@ expectFound(const std::vector<std::size_t>& held)
       total += held[rank];
     }
     const auto own = numbered(begin, begin + held[communicator.rank()]);
-    const auto first = pcl_uvol::findFirstIndex(own.width, communicator);
+    const auto first =
+        pcl_uvol::findFirstIndices(own.width, communicator)[communicator.rank()];
     EXPECT_EQ(begin, first);
     std::set<std::uint64_t> wanted;
     uvol_test::Random random(communicator.rank());

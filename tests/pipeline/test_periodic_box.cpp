@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples in a box that repeats: neighbours, surfaces and meshes across its faces.
-#include "common/random.h"
-#include "common/records.h"
 #include "common/scalar_field.h"
+#include "pipeline/periodic_samples.h"
 #include "pipeline/run_pipeline.h"
 #include "src/mesh/plane_cut.h"
 #include "src/neighbors/periodic_box.h"
@@ -22,21 +21,7 @@
 namespace {
 
 using namespace pcl_uvol;
-using uvol_test::runPipeline;
-using Place = std::array<double, 3>;
-using Field = std::function<double(const Place&)>;
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double side = 8.0;
-
-double
-gyroid(const Place& p)
-{
-  const double k = 2.0 * pi / side;
-  return std::sin(k * p[0]) * std::cos(k * p[1]) +
-         std::sin(k * p[1]) * std::cos(k * p[2]) +
-         std::sin(k * p[2]) * std::cos(k * p[0]);
-}
+using namespace uvol_test;
 
 /** Length of the gradient, by central differences. */
 double
@@ -53,57 +38,6 @@ slopeOf(const Field& field, Place p)
     x = at;
   }
   return std::sqrt(sum);
-}
-
-/** Distance to the nearest corner of the boxes. */
-double
-distanceToCorner(const Place& p)
-{
-  double sum = 0.0;
-  for (const double x : p)
-    sum += std::pow(x - side * std::round(x / side), 2);
-  return std::sqrt(sum);
-}
-
-/** Random places of which float holds sums and differences exactly, moved and wrapped
- * into the box. The field is that of the places before. */
-std::shared_ptr<Dataset>
-makeSamples(std::size_t count, const Field& field, const Place& shift = {})
-{
-  std::vector<double> xyz, values;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Place place{};
-    for (std::uint64_t axis = 0; axis < 3; ++axis) {
-      place[axis] = std::floor(uniformAt(7, i, axis) * 0x1p16) * 0x1p-16 * side;
-      const double moved = std::fmod(place[axis] + shift[axis], side);
-      xyz.push_back(moved < 0.0 ? moved + side : moved);
-    }
-    values.push_back(field(place));
-  }
-  auto samples = std::make_shared<Dataset>();
-  samples->cloud = makeRecords({}, count);
-  setCoordinates(*samples, xyz);
-  setField(*samples, "f", values);
-  return samples;
-}
-
-IsosurfacePipelineParameters
-makeParameters(double isovalue)
-{
-  IsosurfacePipelineParameters parameters;
-  parameters.isosurface.field = "f";
-  parameters.isosurface.isovalues = {isovalue};
-  parameters.periodic = Eigen::Array3d::Constant(side);
-  return parameters;
-}
-
-Place
-placeOf(const Dataset& dataset, std::size_t i)
-{
-  const CloudView view = viewOf(dataset.cloud);
-  return {{view.xyz(i)[0] + dataset.origin[0],
-           view.xyz(i)[1] + dataset.origin[1],
-           view.xyz(i)[2] + dataset.origin[2]}};
 }
 
 double

@@ -127,6 +127,19 @@ makeRadialCloud(std::size_t n, std::uint64_t seed)
   return radial;
 }
 
+pcl_uvol::Dataset
+rowsOf(const pcl_uvol::Dataset& dataset, std::size_t begin, std::size_t end)
+{
+  pcl_uvol::Dataset rows = dataset;
+  const std::size_t step = dataset.cloud.point_step;
+  rows.cloud.data.assign(
+      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(begin * step),
+      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(end * step));
+  rows.cloud.width = static_cast<pcl::uindex_t>(end - begin);
+  rows.cloud.row_step = rows.cloud.width * rows.cloud.point_step;
+  return rows;
+}
+
 std::string
 testNameOf(std::string shape)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "neighbors/sample_set.h"
+#include <pcl_uvol/common/dataset.h>
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -31,6 +32,10 @@ buildSamples(const pcl::PointCloud<pcl::PointXYZI>& cloud, unsigned threads = 0)
  * values. */
 pcl::PointCloud<pcl::PointXYZI>::Ptr
 makeCloud(const std::string& shape, std::size_t n, std::uint64_t seed);
+
+/** \brief Some of the points of a dataset, from begin to end. */
+pcl_uvol::Dataset
+rowsOf(const pcl_uvol::Dataset& dataset, std::size_t begin, std::size_t end);
 
 /** \brief The thesis's radial test (Table 2.9): n uniform samples in a cube of mean
  * spacing 1, intensity = distance to the centre; side = 160 (n / 4e6)^(1/3), radius =

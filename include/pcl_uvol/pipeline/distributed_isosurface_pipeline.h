@@ -21,7 +21,10 @@ namespace pcl_uvol {
  * \endcode
  * The isopoints of all processes together are those of IsosurfacePipeline, byte for
  * byte, but for normals: an isopoint without a fit has that of its edge, since
- * neighbours may lie on other processes. Memory: about 130 bytes per sample. */
+ * neighbours may lie on other processes. That goes for samples in a box that repeats as
+ * well: each process gives the samples that it holds images, for whoever has those on
+ * the other side. Memory: about 130 bytes per sample; in such a box a copy of all
+ * fields besides. */
 class PCL_UVOL_EXPORTS DistributedIsosurfacePipeline
     : public ParameterStage<IsosurfacePipelineParameters> {
 public:
@@ -34,8 +37,8 @@ public:
   {
   }
 
-  /** \brief The samples of this process, of the same fields on all of them; there may
-   * be none. */
+  /** \brief The samples of this process, of the same fields and the same origin on all
+   * of them; there may be none. */
   void
   setInput(const std::shared_ptr<const Dataset>& part)
   {
@@ -57,7 +60,7 @@ public:
   }
 
   /** \brief Run on all processes at once. Edges of the result are indices into what
-   * they touch of the samples, not into the input.
+   * they touch of the samples and their images, not into the input.
    * \throws InvalidArgument as IsosurfacePipeline, for an automatic scale, a level set
    * and normals other than those of fits and edges; on all processes if there is no
    * sample at all */
