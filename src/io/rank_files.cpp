@@ -82,7 +82,8 @@ struct Layout {
   pcl::uindex_t point_step = 0;
   bool double_coordinates = false;
   Fields fields;
-  LabelNames labels; ///< those of all pieces
+  LabelNames labels;           ///< those of all pieces
+  std::array<double, 3> box{}; ///< none, unless all name the same one
 
   Layout() = default;
   Layout(std::string name, const Dataset& dataset)
@@ -91,6 +92,7 @@ struct Layout {
       , double_coordinates(dataset.double_coordinates)
       , fields(dataset.cloud.fields)
       , labels(dataset.labels)
+      , box(dataset.box)
   {
   }
   explicit Layout(const Bytes& message)
@@ -104,6 +106,7 @@ struct Layout {
     path = getText();
     point_step = reader.get<pcl::uindex_t>();
     double_coordinates = reader.get<bool>();
+    box = reader.get<std::array<double, 3>>();
     for (auto columns = reader.get<std::uint64_t>(); columns > 0; --columns) {
       std::vector<std::string>& names = labels[getText()];
       for (auto count = reader.get<std::uint64_t>(); count > 0; --count)
@@ -130,6 +133,7 @@ struct Layout {
     putText(path);
     writer.put(point_step);
     writer.put(double_coordinates);
+    writer.put(box);
     writer.put(std::uint64_t{labels.size()});
     for (const auto& [field, names] : labels) {
       putText(field);
@@ -172,6 +176,8 @@ struct Layout {
                             describeFields(other.fields) +
                             ": write all of them with the same arrays.");
     double_coordinates |= other.double_coordinates;
+    if (box != other.box)
+      box = {};
     for (const auto& [field, names] : other.labels) {
       const std::vector<std::string> own = std::move(labels[field]);
       labels[field].clear();
@@ -231,6 +237,7 @@ public:
     if (part_.double_coordinates)
       findCommonOrigin();
     part_.labels = layout_.labels;
+    part_.box = layout_.box;
     for (const auto& [field, names] : part_.labels)
       if (findLabels(cloud.fields, part_.labels, field))
         numberLabels(*findField(cloud.fields, field), names);

@@ -22,7 +22,8 @@ findPieces(const std::vector<std::string>& paths);
  * are dealt out whole. Points that are counted one process after another keep the order
  * that they have in the files.
  *
- * Fields and origin are the same on all processes, also on those that have no point.
+ * Fields, origin and box are the same on all processes, also on those that have no
+ * point; pieces have a box if all of them name the same one.
  * Coordinates of pieces in double with origins of their own move to a common one; they
  * may change by what float loses there.
  * \param paths what findPieces gives

@@ -2,6 +2,7 @@
 // What processes read of files is all of it, and what they write is there or not.
 #include "io/rank_files.h"
 #include "random_dataset.h"
+#include "support/snapshots.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -109,6 +110,28 @@ TEST(RankFiles, DealPiecesOut)
       EXPECT_EQ(parts.parts[0].cloud.fields.size(), part.cloud.fields.size());
     }
   }
+}
+
+TEST(RankFiles, TellTheBoxThatAllPiecesName)
+{
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, double box) {
+    GadgetLayout layout;
+    layout.here[0] = layout.total[0] = 20;
+    layout.box = box;
+    writeFile(folder / name, makeGadget(layout));
+    return folder / name;
+  };
+  const auto expectBox = [](double side, const std::vector<std::string>& paths) {
+    for (const std::size_t ranks : {1, 2, 3})
+      for (const Dataset& part : Parts(paths, ranks).parts)
+        EXPECT_EQ((std::array<double, 3>{side, side, side}), part.box);
+  };
+  const std::string first = write("a", 5.0), second = write("b", 5.0),
+                    other = write("c", 6.0);
+  expectBox(5.0, {first});
+  expectBox(5.0, {first, second});
+  expectBox(0.0, {first, second, other});
 }
 
 /** A dataset in pieces is what it was, for VTK as well. */
