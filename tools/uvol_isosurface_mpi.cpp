@@ -2,8 +2,10 @@
 // The main job by many processes: each reads a part of the samples, and writes a part
 // of the isosurface.
 #include "distributed/merge_reports.h"
+#include "distributed/periodic_ranks.h"
 #include "io/rank_files.h"
 #include "shared/isosurface_options.h"
+#include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -33,6 +35,7 @@ constexpr const char* tool = "uvol_isosurface_mpi";
 struct Arguments : uvol_tools::IsosurfaceOptions {
   std::vector<std::string> inputs;
   std::string output;
+  uvol_tools::PeriodicOption periodic;
   bool progress = false, ascii = false;
 
   bool
@@ -59,6 +62,8 @@ declare(Options& options, Arguments& arguments)
   options.flag("progress",
                arguments.progress,
                "draw the progress of the first process, whatever its stderr is");
+  options.group("Input");
+  arguments.periodic.declare(options);
   options.group("Output");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
@@ -74,6 +79,7 @@ finishParameters(const Options& options, Arguments& arguments)
   const Eigen::Array3f& scale = arguments.parameters.isosurface.scale;
   if (!(scale > 0.0f).all() || !scale.isFinite().all())
     throw UsageError("-scale takes three positive factors.");
+  arguments.periodic.check();
   arguments.parameters.normals = pcl_uvol::NormalMethod::Edge;
   if (arguments.inPieces())
     pcl_uvol::checkSavePieces(arguments.output);
@@ -104,6 +110,8 @@ load(Arguments& arguments,
   if (left[0] == 0)
     throw pcl_uvol::InvalidArgument(
         joined(arguments.inputs) + " has no points for which " + arguments.where + ".");
+  const auto sides = arguments.periodic.findSides(part, report);
+  arguments.parameters.periodic = Eigen::Array3d(sides.data());
   std::string& field = arguments.parameters.isosurface.field;
   if (!field.empty())
     field = pcl_uvol::addDerivedField(part, field, options, report);
@@ -131,8 +139,25 @@ save(const Arguments& arguments,
   communicator.barrier();
 }
 
-/** \return the field that was taken */
-std::string
+/** The field that was taken, and the box that repeats. */
+uvol_tools::Facts
+tellSamples(const std::string& field,
+            const pcl_uvol::Dataset& part,
+            const Eigen::Array3d& sides,
+            pcl_uvol::Communicator& communicator)
+{
+  uvol_tools::Facts facts{{"field", field}};
+  if ((sides > 0.0).any()) {
+    Report own; // the pipeline has told of samples outside
+    const pcl_uvol::PeriodicBox box = pcl_uvol::findPeriodicBox(
+        part, {{sides[0], sides[1], sides[2]}}, communicator, own);
+    facts.push_back(uvol_tools::describeBox(box, part.origin));
+  }
+  return facts;
+}
+
+/** \return what there is to tell of the samples */
+uvol_tools::Facts
 extract(Arguments& arguments,
         unsigned threads,
         pcl_uvol::Communicator& communicator,
@@ -152,7 +177,7 @@ extract(Arguments& arguments,
   const pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
   save(arguments, result.field, result.surface, communicator, report);
-  return result.field;
+  return tellSamples(result.field, *part, arguments.parameters.periodic, communicator);
 }
 
 int
@@ -181,27 +206,27 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   std::optional<uvol_tools::ProgressBar> bar;
   if (communicator.rank() == 0)
     report.progress = std::ref(bar.emplace(arguments.progress));
-  const std::string field =
+  const uvol_tools::Facts of_samples =
       extract(arguments, arguments.threads(options), communicator, report);
   bar.reset();
   const Report together =
       mergeReports(report,
                    communicator,
                    {"bytes_redistributed", "bytes_exchanged", "bytes_of_fields"});
+  uvol_tools::Facts facts{{"input", joined(arguments.inputs)},
+                          {"output", arguments.output},
+                          {"processes", static_cast<double>(communicator.size())}};
+  facts.insert(facts.end(), of_samples.begin(), of_samples.end());
+  facts.insert(
+      facts.end(),
+      {{"isovalues",
+        joined(arguments.parameters.isosurface.isovalues),
+        arguments.parameters.isosurface.isovalues},
+       {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
+       {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}});
   if (communicator.rank() == 0)
     uvol_tools::printReport(
-        options,
-        together,
-        {{"input", joined(arguments.inputs)},
-         {"output", arguments.output},
-         {"processes", static_cast<double>(communicator.size())},
-         {"field", field},
-         {"isovalues",
-          joined(arguments.parameters.isosurface.isovalues),
-          arguments.parameters.isosurface.isovalues},
-         {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
-         {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}},
-        true); // mpirun's pipes look like terminals
+        options, together, facts, true); // mpirun's pipes look like terminals
   return 0;
 }
 

@@ -5,6 +5,7 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/mpi_job.h"
+#include "support/snapshots.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ namespace {
 using pcl_uvol::Dataset;
 using uvol_test::CommandResult;
 using uvol_test::mpirun;
+using uvol_test::rowsOf;
 using uvol_test::runCommand;
 
 /** Points with labels that tell them apart. */
@@ -44,19 +46,6 @@ labelled(const pcl::PointCloud<pcl::PointXYZI>& points)
   setField(dataset, "intensity", values);
   setField(dataset, "label", labels);
   return dataset;
-}
-
-Dataset
-rowsOf(const Dataset& dataset, std::size_t begin, std::size_t end)
-{
-  Dataset rows = dataset;
-  const std::size_t step = dataset.cloud.point_step;
-  rows.cloud.data.assign(
-      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(begin * step),
-      dataset.cloud.data.begin() + static_cast<std::ptrdiff_t>(end * step));
-  rows.cloud.width = static_cast<pcl::uindex_t>(end - begin);
-  rows.cloud.row_step = rows.cloud.width * rows.cloud.point_step;
-  return rows;
 }
 
 /** The points of files as bytes, in one order; without the normals that
@@ -253,6 +242,44 @@ TEST_F(IsosurfaceMpi, KeepsLargeCoordinates)
             uvol_test::readFile(folder_ / "out.csv"));
 }
 
+TEST_F(IsosurfaceMpi, SeesAcrossTheFacesOfABox)
+{
+  auto dataset = labelled(*uvol_test::makeCloud("uniform", 3000, 4));
+  save("in.csv", dataset);
+  for (const std::string box : {"1,1,1", "0,1.02,0", "1,0,1 -scale 1,2,0.5"}) {
+    const std::string options =
+        " -iso 0.3,0.6 -field intensity -interpolation fit -periodic " + box;
+    runAlone("in.csv alone.csv -normals edge" + options);
+    runAlone("in.csv alone.pcd -normals edge" + options);
+    const std::string alone = uvol_test::readFile(folder_ / "alone.csv");
+    EXPECT_LT(500, std::count(alone.begin(), alone.end(), '\n'));
+    for (const std::size_t processes : {1, 3}) {
+      expectSuccess(processes, "in.csv out.csv" + options + " -threads 2");
+      EXPECT_EQ(alone, uvol_test::readFile(folder_ / "out.csv")) << box;
+    }
+    expectSuccess(3, "in.csv out.pvtp" + options);
+    EXPECT_EQ(sortedPoints({folder_ / "alone.pcd"}),
+              sortedPoints(piecesOf("out.pvtp")));
+  }
+  const auto told = run(3, "in.csv out.csv -iso 0.3 -field intensity -periodic 1,1,1");
+  EXPECT_NE(std::string::npos, told.out.find("sides 1,1,1 from 0,0,0")) << told.out;
+}
+
+TEST_F(IsosurfaceMpi, TakesTheBoxOfAFile)
+{
+  uvol_test::GadgetLayout layout;
+  layout.here[0] = layout.total[0] = 500;
+  layout.box = 101.0;
+  uvol_test::writeFile(folder_ / "snap", uvol_test::makeGadget(layout));
+  const std::string options = " -field '|VEL|' -iso 200 -interpolation fit";
+  runAlone("snap alone.csv -normals edge -periodic header" + options);
+  expectSuccess(2, "snap out.csv -periodic header" + options);
+  EXPECT_EQ(uvol_test::readFile(folder_ / "alone.csv"),
+            uvol_test::readFile(folder_ / "out.csv"));
+  const auto result = run(2, "snap out.csv" + options);
+  EXPECT_NE(std::string::npos, result.err.find("-periodic header")) << result.err;
+}
+
 TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
 {
   save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 500, 4)));
@@ -278,6 +305,9 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
   expectFailure(3, "in.pcd out.pvtp -field intensity", 2, "-iso is missing");
   expectFailure(3, "in.pcd" + options + " -scale auto", 2, "-scale auto");
   expectFailure(3, "in.pcd" + options + " -scale 1,0,1", 2, "positive");
+  expectFailure(3, "in.pcd" + options + " -periodic 0,0,0", 2, "-periodic takes");
+  expectFailure(3, "in.pcd" + options + " -periodic -1,1,1", 2, "-periodic takes");
+  expectFailure(3, "in.pcd" + options + " -periodic header", 1, "names no box");
   expectFailure(3, "none.pcd" + options, 1, "there is no such file");
   expectFailure(3, "'none_*.vtp'" + options, 1, "no file matches");
   expectFailure(3, "in.pcd out.pvtp -iso 0.4 -field speed", 1, "no field 'speed'");
