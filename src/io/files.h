@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/export.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +60,7 @@ void
 checkWritable(const std::string& path);
 
 /** \brief A regular, non-empty file opened for reading; "-" is standard input. */
-class InputFile {
+class PCL_UVOL_EXPORTS InputFile {
 public:
   /** What is read of a file whose name ends in .gz, .bz2 or .zst. */
   enum class Packing { Unpack, Keep };

@@ -385,8 +385,10 @@ weldMesh(const std::vector<OppositeFaces>& cut, IsosurfaceResult& result)
     result.report.warnings.push_back(
         std::to_string(left) + " of " +
         std::to_string(countOpenEdges(cut, result, apart)) +
-        " edges in the faces of the box have no image in the opposite face, so that the "
-        "mesh is not closed across it: the surface is tangent to the face there, or the "
+        " edges in the faces of the box have no image in the opposite face, so that "
+        "the "
+        "mesh is not closed across it: the surface is tangent to the face there, or "
+        "the "
         "samples are too sparse or noisy.");
   setField(result.surface, "image_of", image_of);
   return joined;
