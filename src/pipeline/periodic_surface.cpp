@@ -6,8 +6,11 @@
 #include "pipeline/periodic_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 namespace {
@@ -89,6 +92,32 @@ indicesWithImages(const PeriodicSamples& images, const pcl::IndicesPtr& use)
   return all;
 }
 
+/** The places that images lie in: as many samples came of them. */
+std::size_t
+countPlaces(const PeriodicSamples& images)
+{
+  const CloudView view = viewOf(images.samples.cloud);
+  std::vector<std::array<float, 3>> places;
+  for (std::size_t i = images.countOwn(); i < view.count; ++i)
+    places.push_back({view.xyz(i)[0], view.xyz(i)[1], view.xyz(i)[2]});
+  std::sort(places.begin(), places.end());
+  return static_cast<std::size_t>(std::unique(places.begin(), places.end()) -
+                                  places.begin());
+}
+
+/** What counts of samples tell is of those that came in. */
+void
+leaveOutImages(const PeriodicSamples& images, Report& report)
+{
+  const std::size_t count = images.image_of.size();
+  // Counting takes a sort, and images coincide where their samples do.
+  const std::size_t places =
+      report.getCount("duplicates") > 0 ? countPlaces(images) : count;
+  report.setCount("samples", report.getCount("samples") - places);
+  report.setCount("duplicates", report.getCount("duplicates") - (count - places));
+  report.setCount("images", count);
+}
+
 /** Bring a surface back to the box of the samples: a mesh is cut at its faces, points
  * lie in it already; coordinates and edges become those of the samples. */
 void
@@ -165,9 +194,7 @@ IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
   inner.setNumberOfThreads(threads_);
   inner.report_ = std::move(report_);
   IsosurfaceResult result = inner.runOnSamples(parameters);
-  const std::size_t count = images->image_of.size();
-  result.report.setCount("samples", result.report.getCount("samples") - count);
-  result.report.setCount("images", count);
+  leaveOutImages(*images, result.report);
   returnToBox(*samples_, *images, box, parameters.periodic_mesh, result);
   for (std::size_t i = 0; parameters.mesh && i < result.isopoints.size(); ++i) {
     result.isopoints[i] = 0;

@@ -387,6 +387,21 @@ TEST(PeriodicBox, ImagesHoldAllNeighbors)
   EXPECT_TRUE(report.warnings.empty());
 }
 
+TEST(PeriodicBox, CountsAreThoseOfTheSamples)
+{
+  const auto samples = makeSamples(3000, gyroid);
+  const std::size_t step = samples->cloud.point_step;
+  // One sample in the corner that comes five hundred times, as its seven images do.
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    putCoordinate(0.01, axis, samples->cloud.data.data());
+  resizePoints(samples->cloud, 3500);
+  for (std::size_t i = 3000; i < 3500; ++i)
+    std::copy_n(&samples->cloud.data[0], step, &samples->cloud.data[i * step]);
+  const auto result = runPipeline(samples, makeParameters(0.1));
+  EXPECT_EQ(3000u, result.report.getCount("samples"));
+  EXPECT_EQ(500u, result.report.getCount("duplicates"));
+}
+
 TEST(PeriodicBox, LiesWhereTheSamplesDo)
 {
   Report report;
