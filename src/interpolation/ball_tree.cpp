@@ -47,35 +47,44 @@ BallTree::BallTree(const SampleSet& samples,
                    FindReach closer)
     : closer_(std::move(closer))
 {
-  addNode(samples.getTree(), samples.getTree().getRoot());
-  closer_reaches_ = std::vector<std::atomic<double>>(closer_ ? buckets_.size() : 0);
-  for (std::atomic<double>& unknown : closer_reaches_)
-    unknown.store(-1.0, std::memory_order_relaxed);
-  std::vector<double> reaches(buckets_.size());
+  addNode(samples.getTree(), samples.getTree().getRoot(), 0);
+  is_close_ = std::vector<std::atomic<bool>>(buckets_.size());
+  for (std::atomic<bool>& is_close : is_close_)
+    is_close.store(!closer_, std::memory_order_relaxed);
+  std::vector<double> of_buckets(buckets_.size());
   parallelBlocks(buckets_.size(), block_buckets, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i)
-      reaches[i] = reach(buckets_[i]);
+      of_buckets[i] = reach(buckets_[i]);
   });
+  reaches_ = std::vector<std::atomic<double>>(nodes_.size());
   // Children stand behind their parents.
-  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node)
-    node->reach = node->left == 0
-                      ? reaches[node->bucket]
-                      : std::max(nodes_[node->left].reach, nodes_[node->right].reach);
+  for (std::size_t i = nodes_.size(); i-- > 0;)
+    reaches_[i].store(nodes_[i].left == 0 ? of_buckets[nodes_[i].bucket]
+                                          : largestBelow(nodes_[i]),
+                      std::memory_order_relaxed);
+}
+
+double
+BallTree::largestBelow(const Node& node) const
+{
+  return std::max(reaches_[node.left].load(std::memory_order_relaxed),
+                  reaches_[node.right].load(std::memory_order_relaxed));
 }
 
 std::uint32_t
-BallTree::addNode(const KdTree& tree, const KdNode& node)
+BallTree::addNode(const KdTree& tree, const KdNode& node, std::uint32_t parent)
 {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({});
   nodes_[index].box = tree.getBox(node);
+  nodes_[index].parent = parent;
   if (KdTree::isBucket(node)) {
     nodes_[index].bucket = static_cast<std::uint32_t>(buckets_.size());
     buckets_.push_back({node.begin, node.count, nodes_[index].box});
     return index;
   }
-  const std::uint32_t left = addNode(tree, node.left()),
-                      right = addNode(tree, node.right());
+  const std::uint32_t left = addNode(tree, node.left(), index),
+                      right = addNode(tree, node.right(), index);
   nodes_[index].left = left;
   nodes_[index].right = right;
   nodes_[index].box = joined(nodes_[left].box, nodes_[right].box);
@@ -92,16 +101,19 @@ BallTree::bucketOf(std::uint32_t sample) const
   return static_cast<std::size_t>(after - buckets_.begin()) - 1;
 }
 
-double
-BallTree::findCloserReach(const Node& leaf) const
+void
+BallTree::boundCloser(std::uint32_t leaf) const
 {
-  std::atomic<double>& kept = closer_reaches_[leaf.bucket];
-  double reach = kept.load(std::memory_order_relaxed);
-  if (reach < 0.0) { // threads that find it at once find the same
-    reach = closer_(buckets_[leaf.bucket]);
-    kept.store(reach, std::memory_order_relaxed);
+  const std::uint32_t bucket = nodes_[leaf].bucket;
+  reaches_[leaf].store(closer_(buckets_[bucket]), std::memory_order_relaxed);
+  is_close_[bucket].store(true, std::memory_order_release);
+  for (std::uint32_t node = leaf; node != 0;) {
+    node = nodes_[node].parent;
+    const double reach = largestBelow(nodes_[node]);
+    if (reach >= reaches_[node].load(std::memory_order_relaxed))
+      break;
+    reaches_[node].store(reach, std::memory_order_relaxed);
   }
-  return reach;
 }
 
 bool
@@ -115,14 +127,19 @@ BallTree::findReaching(const std::array<double, 3>& low,
   std::size_t depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
-    const Node& node = nodes_[stack[--depth]];
-    const double reach = factor * node.reach;
-    if (sqGap(low, high, node.box) > reach * reach)
+    const std::uint32_t index = stack[--depth];
+    const Node& node = nodes_[index];
+    const double sq_gap = sqGap(low, high, node.box);
+    const auto reaches = [&] {
+      const double reach = factor * reaches_[index].load(std::memory_order_relaxed);
+      return sq_gap <= reach * reach;
+    };
+    if (!reaches())
       continue;
     if (node.left == 0) {
-      if (closer_) {
-        const double closer = factor * findCloserReach(node);
-        if (sqGap(low, high, node.box) > closer * closer)
+      if (!is_close_[node.bucket].load(std::memory_order_acquire)) {
+        boundCloser(index);
+        if (!reaches())
           continue;
       }
       if (buckets.size() == most)

@@ -65,25 +65,31 @@ public:
                std::vector<std::uint32_t>& buckets) const;
 
 private:
-  /** Buckets below a node of the tree, and the largest reach among them. */
+  /** Buckets below a node of the tree. */
   struct Node {
     KdBox box;
-    double reach;
     std::uint32_t bucket;      ///< of a leaf
     std::uint32_t left, right; ///< 0: a leaf
+    std::uint32_t parent;      ///< of the root itself
   };
 
-  /** The closer bound of a bucket, if there is one. */
   double
-  findCloserReach(const Node& leaf) const;
+  largestBelow(const Node& node) const;
+
+  /** Finds the closer bound of a leaf, which its parents may have smaller bounds by. */
+  void
+  boundCloser(std::uint32_t leaf) const;
 
   std::uint32_t
-  addNode(const KdTree& tree, const KdNode& node);
+  addNode(const KdTree& tree, const KdNode& node, std::uint32_t parent);
 
   const FindReach closer_;
-  mutable std::vector<std::atomic<double>> closer_reaches_; // negative: not found yet
   std::vector<Bucket> buckets_;
   std::vector<Node> nodes_;
+  /** By node, the largest reach of its buckets. Bounds only fall, and of those that
+   * threads write at once any may stay: all of them are bounds. */
+  mutable std::vector<std::atomic<double>> reaches_;
+  mutable std::vector<std::atomic<bool>> is_close_; ///< by bucket
 };
 
 } // namespace pcl_uvol::detail
