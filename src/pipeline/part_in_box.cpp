@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/part_in_box.h"
 
+#include "distributed/byte_stream.h"
 #include "distributed/fetch_points.h"
 #include "distributed/periodic_ranks.h"
 #include "pipeline/periodic_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -80,6 +84,28 @@ PartInBox::readSamples(const ScalarField& field,
   return samples;
 }
 
+std::uint64_t
+PartInBox::countAllPlaces(Communicator& communicator) const
+{
+  std::vector<std::vector<ImagePlace>> of_ranks(communicator.size());
+  for (const ImagePlace& place : listPlaces(*points_, part_->cloud.width)) {
+    std::array<std::uint32_t, 3> bits;
+    std::memcpy(bits.data(), place.data(), sizeof(bits));
+    of_ranks[(bits[0] ^ bits[1] ^ bits[2]) % of_ranks.size()].push_back(place);
+  }
+  std::vector<Bytes> messages(communicator.size());
+  for (std::size_t rank = 0; rank < messages.size(); ++rank)
+    ByteWriter(messages[rank]).put(of_ranks[rank]);
+  std::vector<ImagePlace> own;
+  for (const Bytes& bytes : communicator.allToAll(std::move(messages))) {
+    ByteReader reader(bytes);
+    reader.get(own);
+  }
+  std::vector<std::uint64_t> count{countPlaces(std::move(own))};
+  communicator.allReduce(count);
+  return count[0];
+}
+
 void
 PartInBox::finish(Communicator& communicator, IsosurfaceResult& result) const
 {
@@ -87,9 +113,17 @@ PartInBox::finish(Communicator& communicator, IsosurfaceResult& result) const
     return;
   returnPoints(cut_, box_, part_->origin, result);
   // Images lie in the pieces of others as well: the first process tells of all samples.
-  std::vector<std::uint64_t> samples{result.report.getCount("samples")};
-  communicator.allReduce(samples);
-  result.report.setCount("samples", rank_ == 0 ? samples[0] - image_firsts_.back() : 0);
+  std::vector<std::uint64_t> counts{result.report.getCount("samples"),
+                                    result.report.getCount("duplicates")};
+  communicator.allReduce(counts);
+  Report all;
+  all.setCount("samples", counts[0]);
+  all.setCount("duplicates", counts[1]);
+  all.setCount("images", image_firsts_.back());
+  leaveOutImages(counts[1] == 0 ? image_firsts_.back() : countAllPlaces(communicator),
+                 all);
+  for (const char* const name : {"samples", "duplicates"})
+    result.report.setCount(name, rank_ == 0 ? all.getCount(name) : 0);
 }
 
 } // namespace pcl_uvol

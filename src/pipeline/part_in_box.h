@@ -66,6 +66,10 @@ public:
   finish(Communicator& communicator, IsosurfaceResult& result) const;
 
 private:
+  /** How many places the images of all processes lie in. */
+  std::uint64_t
+  countAllPlaces(Communicator& communicator) const;
+
   std::uint64_t
   toSource(std::uint64_t point) const;
 

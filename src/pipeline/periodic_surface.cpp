@@ -92,32 +92,6 @@ indicesWithImages(const PeriodicSamples& images, const pcl::IndicesPtr& use)
   return all;
 }
 
-/** The places that images lie in: as many samples came of them. */
-std::size_t
-countPlaces(const PeriodicSamples& images)
-{
-  const CloudView view = viewOf(images.samples.cloud);
-  std::vector<std::array<float, 3>> places;
-  for (std::size_t i = images.countOwn(); i < view.count; ++i)
-    places.push_back({view.xyz(i)[0], view.xyz(i)[1], view.xyz(i)[2]});
-  std::sort(places.begin(), places.end());
-  return static_cast<std::size_t>(std::unique(places.begin(), places.end()) -
-                                  places.begin());
-}
-
-/** What counts of samples tell is of those that came in. */
-void
-leaveOutImages(const PeriodicSamples& images, Report& report)
-{
-  const std::size_t count = images.image_of.size();
-  // Counting takes a sort, and images coincide where their samples do.
-  const std::size_t places =
-      report.getCount("duplicates") > 0 ? countPlaces(images) : count;
-  report.setCount("samples", report.getCount("samples") - places);
-  report.setCount("duplicates", report.getCount("duplicates") - (count - places));
-  report.setCount("images", count);
-}
-
 /** Bring a surface back to the box of the samples: a mesh is cut at its faces, points
  * lie in it already; coordinates and edges become those of the samples. */
 void
@@ -137,6 +111,32 @@ returnToBox(const Dataset& samples,
 }
 
 } // namespace
+
+std::vector<ImagePlace>
+listPlaces(const Dataset& points, std::size_t first)
+{
+  const CloudView view = viewOf(points.cloud);
+  std::vector<ImagePlace> places;
+  for (std::size_t i = first; i < view.count; ++i)
+    places.push_back({view.xyz(i)[0], view.xyz(i)[1], view.xyz(i)[2]});
+  return places;
+}
+
+std::uint64_t
+countPlaces(std::vector<ImagePlace> places)
+{
+  std::sort(places.begin(), places.end());
+  return static_cast<std::uint64_t>(std::unique(places.begin(), places.end()) -
+                                    places.begin());
+}
+
+void
+leaveOutImages(std::uint64_t places, Report& report)
+{
+  const std::uint64_t images = report.getCount("images");
+  report.setCount("samples", report.getCount("samples") - places);
+  report.setCount("duplicates", report.getCount("duplicates") - (images - places));
+}
 
 std::vector<std::uint32_t>
 listWithValue(const Dataset& samples,
@@ -194,7 +194,12 @@ IsosurfacePipeline::runInBox(IsosurfacePipelineParameters parameters)
   inner.setNumberOfThreads(threads_);
   inner.report_ = std::move(report_);
   IsosurfaceResult result = inner.runOnSamples(parameters);
-  leaveOutImages(*images, result.report);
+  result.report.setCount("images", images->image_of.size());
+  if (result.report.getCount("duplicates") == 0)
+    leaveOutImages(images->image_of.size(), result.report);
+  else
+    leaveOutImages(countPlaces(listPlaces(images->samples, images->countOwn())),
+                   result.report);
   returnToBox(*samples_, *images, box, parameters.periodic_mesh, result);
   for (std::size_t i = 0; parameters.mesh && i < result.isopoints.size(); ++i) {
     result.isopoints[i] = 0;

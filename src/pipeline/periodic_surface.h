@@ -44,4 +44,23 @@ returnPoints(const PeriodicBox& cut,
              const std::array<double, 3>& origin,
              IsosurfaceResult& result);
 
+/** \brief Where an image lies. */
+using ImagePlace = std::array<float, 3>;
+
+/** \brief The places of images.
+ *
+ * \param first image among the points */
+std::vector<ImagePlace>
+listPlaces(const Dataset& points, std::size_t first);
+
+/** \brief How many of them differ: images coincide where their samples do. */
+std::uint64_t
+countPlaces(std::vector<ImagePlace> places);
+
+/** \brief Make counts of samples those of the samples that came in.
+ *
+ * \param places that differ, of as many images as the report has */
+void
+leaveOutImages(std::uint64_t places, Report& report);
+
 } // namespace pcl_uvol
