@@ -303,7 +303,11 @@ TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
   open.type('s');
   open.type('s');
   EXPECT_EQ(3u, folder_.list().size());
-  EXPECT_EQ(static_cast<std::uint32_t>(width), read("uvol_viewer_2.png").width);
+  const Image drawn = read("uvol_viewer_2.png");
+  open.type('S');
+  const Image traced = read("uvol_viewer_3.png");
+  EXPECT_TRUE(traced.color != drawn.color); // there are shadows
+  EXPECT_NEAR(covered(drawn), covered(traced), 0.03 * covered(drawn));
 }
 
 TEST_F(UvolViewer, PointsAreFoundUnderTheMouse)

@@ -86,32 +86,48 @@ RayOptions::makeScene(const Options& options,
                                                  splats_.isGiven(options),
                                                  options.threads(),
                                                  report);
+  std::vector<pcl_uvol::Rgba> colors;
+  const std::string field = view.colorField(cloud);
+  if (!field.empty()) {
+    const auto colored = pcl_uvol::colorPoints(cloud, field, view.colorMapping(cloud));
+    range = {colored.scale.low, colored.scale.high};
+    colors = colored.colors;
+  }
+  pcl_uvol::RayMaterial material;
+  static_cast<pcl_uvol::Material&>(material) = view.getMaterial();
+  material.reflectivity = reflectivity_;
+  material.transparency = transparency_;
+  material.refractive_index = refractive_index_;
+  pcl_uvol::Scene scene = makeSplatScene(cloud,
+                                         std::move(splats),
+                                         colors,
+                                         material,
+                                         std::min(view.getWidth(), view.getHeight()));
+  scene.lights = view.getLights();
+  scene.background = view.getBackgroundOfViews();
+  return scene;
+}
+
+pcl_uvol::Scene
+makeSplatScene(const pcl_uvol::CloudView& cloud,
+               pcl_uvol::Splats&& splats,
+               const std::vector<pcl_uvol::Rgba>& colors,
+               const pcl_uvol::RayMaterial& material,
+               int side)
+{
   if (splats.cloud.empty())
     throw pcl_uvol::InvalidArgument("None of the splats can be drawn: the coordinates "
                                     "are too large or too small for "
                                     "them; scaling them helps.");
   pcl_uvol::SplatObject object;
-  const std::string field = view.colorField(cloud);
-  if (!field.empty()) {
-    const auto colored = pcl_uvol::colorPoints(cloud, field, view.colorMapping(cloud));
-    range = {colored.scale.low, colored.scale.high};
+  if (!colors.empty())
     for (const std::uint32_t source : splats.sources)
-      object.colors.push_back(colored.colors[source]);
-  }
+      object.colors.push_back(colors[source]);
   object.splats =
       pcl::make_shared<pcl::PointCloud<pcl_uvol::PointSplat>>(std::move(splats.cloud));
-  static_cast<pcl_uvol::Material&>(object.material) = view.getMaterial();
-  object.material.reflectivity = reflectivity_;
-  object.material.transparency = transparency_;
-  object.material.refractive_index = refractive_index_;
+  object.material = material;
   pcl_uvol::Scene scene;
-  scene.lights = view.getLights();
-  scene.background = view.getBackgroundOfViews();
-  addWithDots(std::move(object),
-              cloud,
-              splats.sources,
-              std::min(view.getWidth(), view.getHeight()),
-              scene);
+  addWithDots(std::move(object), cloud, splats.sources, side, scene);
   return scene;
 }
 

@@ -65,6 +65,18 @@ private:
   double reflectivity_ = 0.0, transparency_ = 0.0, refractive_index_ = 1.0;
 };
 
+/** \brief A scene of one surface, without lights and background.
+ * \param splats that cover the points of the cloud
+ * \param colors of the points; none: that of the material
+ * \param side shorter one of the picture, pixels
+ * \throws InvalidArgument if there are no splats that can be drawn */
+pcl_uvol::Scene
+makeSplatScene(const pcl_uvol::CloudView& cloud,
+               pcl_uvol::Splats&& splats,
+               const std::vector<pcl_uvol::Rgba>& colors,
+               const pcl_uvol::RayMaterial& material,
+               int side);
+
 /** \brief Draw and write all frames of a scene, whose size the tracer has.
  * \param camera that of the scene file, unless the command line has another one
  * \param origin of its coordinates */

@@ -133,6 +133,16 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
   renderer.setColorField(field);
 }
 
+std::vector<pcl_uvol::Rgba>
+ColorChoice::colorPoints(const pcl::PCLPointCloud2& cloud) const
+{
+  if (getField().empty())
+    return {};
+  pcl_uvol::ColorMapping mapping = legend_.mapping;
+  mapping.range = {legend_.scale.low, legend_.scale.high};
+  return pcl_uvol::colorPoints(pcl_uvol::viewOf(cloud), getField(), mapping).colors;
+}
+
 void
 ColorChoice::drawLegend(pcl_uvol::Image& image) const
 {

@@ -47,6 +47,10 @@ public:
   void
   colorLike(pcl_uvol::ImageSpaceRendererBase& renderer) const;
 
+  /** \brief The colours of points by the last apply(); none for one colour. */
+  std::vector<pcl_uvol::Rgba>
+  colorPoints(const pcl::PCLPointCloud2& cloud) const;
+
   /** \brief Draw the bar of the last apply() into a picture. */
   void
   drawLegend(pcl_uvol::Image& image) const;

@@ -75,7 +75,7 @@ describeKeys()
                 "=  type an isovalue, up to the return key\n"
                 "x y z  from the right, the front and above (X Y Z: the other sides)\n"
                 "r  whole surface in view\n"
-                "s  save a picture   e  save the surface\n"
+                "s  save a picture   S  one that rays draw   e  save the surface\n"
                 "p  print the camera as options of uvol_render\n"
                 "h  show or hide the keys\n"
                 "q  quit";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cameras of the window, and what it saves.
+#include "shared/ray_options.h"
 #include "viewer/keys.h"
 #include "viewer/viewer_window.h"
 #include <pcl_uvol/io/image_file.h>
@@ -7,6 +8,7 @@
 
 #include <vtkCamera.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -89,6 +91,38 @@ ViewerWindow::savePicture()
   renderer.setCamera(getCamera());
   pcl_uvol::Image image;
   renderer.render(image);
+  colors_->drawLegend(image);
+  const std::string name = freeName(".png");
+  pcl_uvol::savePng(name, image);
+  show("saved " + name);
+}
+
+void
+ViewerWindow::saveRayTracedPicture()
+{
+  if (!surface_.getCloud())
+    throw pcl_uvol::InvalidArgument("There is no surface to draw.");
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*surface_.getCloud());
+  const pcl_uvol::ImageSpaceSettings& settings = prop_->renderer().settings();
+  const int* const size = window_->GetSize();
+  pcl_uvol::RayMaterial material;
+  static_cast<pcl_uvol::Material&>(material) = settings.material;
+  pcl_uvol::Report report;
+  pcl_uvol::Scene scene =
+      makeSplatScene(cloud,
+                     pcl_uvol::findSplats(cloud, {}, false, 0, report),
+                     colors_->colorPoints(*surface_.getCloud()),
+                     material,
+                     std::min(size[0], size[1]));
+  scene.lights = settings.lights;
+  scene.background = settings.background;
+  pcl_uvol::RayTracer tracer;
+  tracer.setScene(scene);
+  tracer.setSize(size[0], size[1]);
+  tracer.setSupersampling(look_.getSupersampling());
+  tracer.setCamera(getCamera());
+  pcl_uvol::Image image;
+  tracer.render(image);
   colors_->drawLegend(image);
   const std::string name = freeName(".png");
   pcl_uvol::savePng(name, image);

@@ -419,6 +419,8 @@ ViewerWindow::press(char key)
       renderer_->ResetCamera();
     else if (key == 's')
       savePicture();
+    else if (key == 'S')
+      saveRayTracedPicture();
     else if (key == 'e')
       saveSurface();
     else if (key == 'p')

@@ -155,6 +155,10 @@ private:
   void
   savePicture();
 
+  /** Save what the window shows as rays see it. */
+  void
+  saveRayTracedPicture();
+
   void
   saveSurface();
 
