@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
-picture (.png) below pictures/start/ and pictures/how/ that a page shows is made by them.
+picture (.png) below pictures/start/ and pictures/how/ that a page shows is made by them. Below a line
+<!-- not run: WHY --> a block is left out; commands in indented blocks, which nothing would run, are refused.
 
 usage: run_commands.py BIN_FOLDER [--renew] PAGE...; --renew copies the pictures beside the pages
 The commands find the tools in PATH and the data sets in $PCL_UVOL_DATA.
@@ -14,13 +15,17 @@ import subprocess
 import sys
 import tempfile
 
-BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(<!-- not run: [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
 PICTURE = re.compile(r"\]\((\.\./pictures/(?:start|how)/([^)]+\.png))\)")
 
 
 def run_page(page, bin_folder, renew):
     text = page.read_text()
-    script = "set -euo pipefail\n" + "\n".join(BLOCK.findall(text))
+    lost = INDENTED.search(BLOCK.sub("", text))
+    if lost:
+        return f"{page}: nothing runs this command, which belongs into a block of sh: {lost.group(1)}"
+    script = "set -euo pipefail\n" + "\n".join(commands for mark, commands in BLOCK.findall(text) if not mark)
     environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
