@@ -105,6 +105,33 @@ TEST(Options, HelpNamesRareOptionsAndExplainsThemWhereAsked)
             Line().help({"-h", "fine points"}));
 }
 
+TEST(Options, HelpRefusesHeadingsThatAreNotThereAndListsThose)
+{
+  for (const std::vector<const char*>& words :
+       {std::vector<const char*>{"-h", "foo"}, {"a", "--help=foo"}})
+    try {
+      Line().parse(words);
+      FAIL();
+    }
+    catch (const UsageError& error) {
+      EXPECT_STREQ("-h has no heading 'foo'; it takes all, 'Run', 'Input', "
+                   "'Surface', 'Fine points'.",
+                   error.what());
+    }
+  EXPECT_EQ(Line().help({"-h"}), Line().help({"-h", "-json"}));
+}
+
+TEST(Options, NameTheValueThatIsMissing)
+{
+  try {
+    Line().parse({"a", "b", "-iso"});
+    FAIL();
+  }
+  catch (const UsageError& error) {
+    EXPECT_STREQ("The option -iso needs a value, 'v,...'.", error.what());
+  }
+}
+
 TEST(Options, HelpHasOneHeadingPerTitleAndRunLast)
 {
   const std::string help = Line().help({"-h"});

@@ -47,15 +47,32 @@ printEntry(const std::string& left, const std::string& help)
 
 } // namespace
 
+bool
+Options::hasOptions(std::size_t group) const
+{
+  return std::any_of(options_.begin(), options_.end(), [&](const Option& option) {
+    return option.group == group;
+  });
+}
+
+std::string
+Options::listHeadings() const
+{
+  std::string headings;
+  for (std::size_t group = 0; group < groups_.size(); ++group)
+    if (hasOptions(group))
+      headings += ", '" + groups_[group].title + "'";
+  return headings;
+}
+
 void
 Options::printGroup(std::size_t group) const
 {
-  const auto is_of_group = [&](const Option& option) { return option.group == group; };
-  if (std::none_of(options_.begin(), options_.end(), is_of_group))
+  if (!hasOptions(group))
     return;
   std::cout << '\n' << groups_[group].title << ":\n";
   for (const Option& option : options_)
-    if (is_of_group(option))
+    if (option.group == group)
       printEntry("-" + option.name +
                      (option.placeholder.empty() ? "" : " " + option.placeholder),
                  option.help);
@@ -80,10 +97,13 @@ Options::printHelp(const std::string& topic) const
 {
   const std::string wanted = pcl_uvol::lowerCase(topic);
   for (std::size_t group = 0; group < groups_.size(); ++group)
-    if (pcl_uvol::lowerCase(groups_[group].title) == wanted) {
+    if (pcl_uvol::lowerCase(groups_[group].title) == wanted && hasOptions(group)) {
       printGroup(group);
       return;
     }
+  if (!wanted.empty() && wanted != "all")
+    throw UsageError("-h has no heading '" + topic + "'; it takes all" +
+                     listHeadings() + ".");
   std::cout << purpose_ << "\n\nUsage: " << tool_ << ' ' << synopsis_ << '\n';
   bool leaves_out = false;
   for (std::size_t group = 1; group < groups_.size(); ++group) {

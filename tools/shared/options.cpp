@@ -330,8 +330,8 @@ Options::assignOption(const std::vector<std::string>& arguments, std::size_t& i)
     return;
   }
   if (i + 1 == arguments.size() || isOption(arguments[i + 1]))
-    throw UsageError("The option " + argument +
-                     " needs a value: " + option.placeholder + ".");
+    throw UsageError("The option " + argument + " needs a value, '" +
+                     option.placeholder + "'.");
   option.assign(arguments[++i]);
 }
 
@@ -342,7 +342,8 @@ Options::parse(int argc, const char* const* argv)
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     if (argument == "-h" || argument == "-help") {
-      printHelp(i + 1 < arguments.size() ? arguments[i + 1] : "");
+      const bool has_topic = i + 1 < arguments.size() && !isOption(arguments[i + 1]);
+      printHelp(has_topic ? arguments[i + 1] : "");
       return false;
     }
     if (argument == "-version") {

@@ -212,13 +212,20 @@ private:
   void
   checkFiles(const std::vector<std::string>& files) const;
 
-  /** \param topic "all", the title of a group, or anything else for what is used most
-   */
+  /** \param topic "all", the title of a group, or "" for what is used most
+   * \throws UsageError that lists the titles, for any other one */
   void
   printHelp(const std::string& topic) const;
 
   void
   printGroup(std::size_t group) const;
+
+  bool
+  hasOptions(std::size_t group) const;
+
+  /** Titles of the groups that have options, each behind a comma. */
+  std::string
+  listHeadings() const;
 
   void
   nameRareOptions() const;
