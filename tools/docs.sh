@@ -17,6 +17,8 @@ mkdir -p build/docs/source/benchmarks
 cp -r docs/. build/docs/source
 rm -r build/docs/source/site
 python3 docs/site/make_reference.py "$bin" build/docs/source
+# Pages link what they come from, for readers of the repository.
+find build/docs/source -name '*.md' -exec sed -i 's#\.\./tests/benchmarks/README\.md#benchmarks/diary.md#g' {} +
 # These name files of the repository, which are no pages.
 sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' tests/benchmarks/README.md >build/docs/source/benchmarks/diary.md
 sed -E 's/\]\(\.\.?\/[^)]*\)/]/g' python/README.md >build/docs/source/guide/python.md

@@ -5,11 +5,20 @@
 usage: make_reference.py BIN_FOLDER DOCS_FOLDER
 """
 import pathlib
+import re
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/manual"))
 import make_pages  # noqa: E402
+
+
+def fill(page, name, text):
+    """Puts text where the page has, between <!-- NAME --> and <!-- end -->, what readers of the repository see."""
+    filled, count = re.subn(f"<!-- {name} -->\n.*?<!-- end -->\n", lambda match: text, page.read_text(), flags=re.DOTALL)
+    if count != 1:
+        sys.exit(f"{page} has {count} places for {name}.")
+    page.write_text(filled)
 
 
 def main():
@@ -25,10 +34,9 @@ def main():
         purpose = page.purpose.split(". ")[0].rstrip(".").replace("|", "\\|")
         rows.append(f"| [{page.name}](tools/{page.name}.md) | {purpose} |")
     formats = subprocess.run([bin_folder / "uvol", "--list-formats"], capture_output=True, text=True, check=True).stdout
-    page = docs / "reference/tools.md"
-    page.write_text(page.read_text().replace("TABLE_OF_TOOLS", "\n".join(rows)))
-    page = docs / "reference/formats.md"
-    page.write_text(page.read_text().replace("LIST_OF_FORMATS", "".join("    " + line + "\n" for line in formats.splitlines())))
+    fill(docs / "reference/tools.md", "TABLE_OF_TOOLS", "\n".join(["| tool | |", "|---|---|", *rows, ""]))
+    listed = "".join(f"    {line}\n" for line in formats.splitlines())
+    fill(docs / "reference/formats.md", "LIST_OF_FORMATS", f"`uvol --list-formats` says:\n\n{listed}")
 
 
 if __name__ == "__main__":
