@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pages of the tools, made of what they say about themselves, and the list of them.
+"""Pages of the tools, made of what they say about themselves, the list of them, and that of the Python module.
 
 usage: make_reference.py BIN_FOLDER DOCS_FOLDER
 """
@@ -9,8 +9,10 @@ import re
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/manual"))
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "tools/manual"))
 import make_pages  # noqa: E402
+import python_reference  # noqa: E402
 
 
 def fill(page, name, text):
@@ -33,6 +35,7 @@ def main():
         (folder / f"{page.name}.md").write_text(make_pages.write_markdown(page))
         purpose = page.purpose.split(". ")[0].rstrip(".").replace("|", "\\|")
         rows.append(f"| [{page.name}](tools/{page.name}.md) | {purpose} |")
+    (docs / "reference/python.md").write_text(python_reference.write_page(REPOSITORY / "python/pcl_uvol"))
     formats = subprocess.run([bin_folder / "uvol", "--list-formats"], capture_output=True, text=True, check=True).stdout
     fill(docs / "reference/tools.md", "TABLE_OF_TOOLS", "\n".join(["| tool | |", "|---|---|", *rows, ""]))
     listed = "".join(f"    {line}\n" for line in formats.splitlines())
