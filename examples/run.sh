@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the examples against an installed library or a build folder, runs them, and holds what they print
 # against what is true.
-# usage: run.sh CMAKE_PACKAGE_FOLDER: that of pcl_uvolConfig.cmake
+# usage: run.sh CMAKE_PACKAGE_FOLDER: that of pcl_uvolConfig.cmake; where it is a build folder with the Python module, or
+# $PCL_UVOL_PYTHON names the folder of the module, the example in Python runs as well, by $PYTHON.
 set -euo pipefail
 source_dir=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
@@ -31,6 +32,12 @@ expect '^0\.(69999|7)[0-9]* \+- ' ./probe
 expect 'area 3\.1[34].*volume 0\.52' ./mesh_measures
 expect '^1 clusters, [1-9][0-9]* triangles$' ./pcl_algorithms
 expect '^written: [1-9][0-9]* splats$' ./vtk_pipeline splats.vtp
+python=${PYTHON:-/usr/bin/python3}
+module=${PCL_UVOL_PYTHON:-$1/python}
+if [ -e "$module/pcl_uvol" ]; then
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$module \
+    expect '^[1-9][0-9]* triangles, volume 0\.523[56].*genus 0$' "$python" "$source_dir/isosurface.py"
+fi
 if [ -x mpi ]; then
   expect '^[1-9][0-9]* isopoints, [1-9][0-9]* of them' \
     mpirun -q --allow-run-as-root --oversubscribe -np 3 ./mpi
