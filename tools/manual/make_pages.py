@@ -9,8 +9,17 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 ENTRY = re.compile(r"^  (-\S+(?: \S+)?)(?:\s+(.*))?$")
+COLUMNS = re.compile(r"^ |\S {2,}\S")
+
+
+def split_columns(text):
+    """What stands before the first line that is indented or in columns, and the lines from there on."""
+    lines = text.splitlines()
+    start = next((i for i, line in enumerate(lines) if COLUMNS.search(line)), len(lines))
+    return " ".join(" ".join(lines[:start]).split()), textwrap.dedent("\n".join(lines[start:])).splitlines()
 
 
 class Help:
@@ -26,7 +35,7 @@ class Help:
         purpose, _, rest = text.partition("\n\nUsage: ")
         self.name = pathlib.Path(tool).name
         self.version = run("-version").split()[-1]
-        self.purpose = " ".join(purpose.split())
+        self.purpose, self.table = split_columns(purpose)
         self.usage, _, rest = rest.partition("\n")
         self.groups = []  # of (heading, entries), an entry of [option, help]
         for line in rest.splitlines():
@@ -52,7 +61,8 @@ def write_man(page):
     lines = [f'.TH {page.name.upper()} 1 "" "pcl_uvol {page.version}" "User Commands"',
              ".SH NAME", f"{page.name} \\- {escape(summary[0].lower() + summary[1:])}",
              ".SH SYNOPSIS", f".B {escape(page.usage.split()[0])}", escape(page.usage.partition(" ")[2]),
-             ".SH DESCRIPTION", escape(page.purpose), ".SH OPTIONS",
+             ".SH DESCRIPTION", escape(page.purpose), *([".PP", ".nf", *map(escape, page.table), ".fi"] if page.table else []),
+             ".SH OPTIONS",
              "Two dashes are as good as one, and \\-\\-name=value is \\-name value."]
     for heading, entries in page.groups:
         lines.append(f'.SS "{heading}"')
@@ -69,7 +79,8 @@ def write_markdown(page):
     def escape(text):
         return text.replace("|", "\\|").replace("<", "&lt;").replace("*", "\\*")
 
-    lines = [f"# {page.name}", "", page.purpose, "", f"    {page.usage}", ""]
+    table = ["```text", *page.table, "```", ""] if page.table else []
+    lines = [f"# {page.name}", "", page.purpose, "", *table, "```text", page.usage, "```", ""]
     for heading, entries in page.groups:
         lines += [f"## {heading}", "", "| option | |", "|---|---|"]
         lines += ["| `" + option.replace("|", "\\|") + "` | " + escape(words) + " |" for option, words in entries]
