@@ -19,8 +19,9 @@ class Samples(Drawable, Points):
     ----------
     points : array_like, shape (n, 3)
         Coordinates, float32 or float64. Doubles keep their digits: they are held
-        relative to an origin. A structured array with x, y, z brings its other fields;
-        records of `empty` are taken as they are, all others are copied once.
+        relative to an origin. A structured array with x, y, z brings its other fields,
+        as a table of pandas or xarray does (`from_dataframe`); records of `empty` are
+        taken as they are, all others are copied once.
     fields : mapping of str to array_like, optional
         Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
         values and pandas' missing ones are missing values. Columns of names, as texts or
@@ -49,7 +50,9 @@ class Samples(Drawable, Points):
     def __init__(self, points, fields=None):
         dtype = getattr(points, "dtype", None)
         dataset = None
-        if fields is None and dtype is not None and getattr(dtype, "names", None):
+        if fields is None and _is_table(points):
+            points, fields = _columns_of(points, "xyz", None)
+        elif fields is None and getattr(dtype, "names", None):
             dataset = _arrays.take_over(np.asarray(points))
             if dataset is None:
                 points, fields = _split(np.asarray(points), ("x", "y", "z"))
@@ -78,7 +81,9 @@ class Samples(Drawable, Points):
         points : sequence of three str
             Columns of the coordinates.
         fields : sequence of str, optional
-            Columns to take; by default all others that hold numbers or names.
+            Columns to take; by default all others that hold numbers or names. Variables of
+            a grid are repeated along those dimensions of the coordinates that they lack, a
+            further dimension gives several numbers per point.
 
         Returns
         -------
@@ -91,19 +96,9 @@ class Samples(Drawable, Points):
         >>> uvol.Samples.from_dataframe(frame, points=("lon", "lat", "depth"))
         Samples of 2 points: T (int64)
         """
-        axes = list(points)
-        if len(axes) != 3:
-            raise ValueError(f"points names {len(axes)} columns: there must be three.")
-        if not hasattr(frame, "columns") and not hasattr(frame, "variables"):
+        if _names_of(frame) is None:
             raise TypeError(f"{reprlib.repr(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
-        names = list(frame.columns) if hasattr(frame, "columns") else list(frame.variables)
-        for name in axes + list(fields or []):
-            if name not in names:
-                raise FieldError(describe_missing(str(name), [str(known) for known in names]))
-        if fields is None:
-            fields = [name for name in names if name not in axes and _is_field(frame[name])]
-        xyz = np.stack([np.ravel(_arrays.as_array(frame[axis], f"The column {axis!r}")) for axis in axes], axis=1)
-        return cls(xyz, {str(name): _flat(frame[name]) for name in fields})
+        return cls(*_columns_of(frame, points, fields))
 
     def compute(self, expression, threads=0, progress=None):
         """Samples that have a field more: that of an expression.
@@ -288,12 +283,59 @@ def _is_field(column):
     return getattr(getattr(column, "dtype", None), "kind", "O") in "biuf" or _arrays.as_labels(column) is not None
 
 
-def _flat(column):
-    """A column, or a variable of a grid, as one number or name per point."""
-    if _arrays.as_labels(column) is not None:
-        return column
-    values = _arrays.as_array(column, "A column")
-    return values.reshape(-1) if values.ndim != 1 else values
+def _names_of(table):
+    """The columns of a table of pandas, the variables of one of xarray; None for what is
+    no table."""
+    if isinstance(table, np.ndarray):
+        return None
+    names = getattr(table, "columns", getattr(table, "variables", None))
+    return None if names is None else list(names)
+
+
+def _is_table(points):
+    """Whether it is a table with fields; three columns that are not called x, y and z are
+    coordinates in their order."""
+    names = _names_of(points)
+    return names is not None and (hasattr(points, "variables") or len(names) != 3 or set(names) == set("xyz"))
+
+
+def _columns_of(table, axes, fields):
+    """Coordinates and fields of a table."""
+    axes, names = list(axes), _names_of(table)
+    if len(axes) != 3:
+        raise ValueError(f"points names {len(axes)} columns: there must be three.")
+    for name in axes + list(fields or []):
+        if name not in names:
+            raise FieldError(describe_missing(str(name), [str(known) for known in names]))
+    columns = _Grid(table, axes) if hasattr(table, "variables") else table
+    if fields is None:
+        fields = [name for name in columns if name not in axes and _is_field(columns[name])]
+    xyz = np.stack([_arrays.as_array(columns[axis], f"The column {axis!r}") for axis in axes], axis=1)
+    return xyz, {str(name): columns[name] for name in fields}
+
+
+class _Grid:
+    """Variables of a dataset of xarray as columns, with a row for each place."""
+
+    def __init__(self, dataset, axes):
+        self._dataset = dataset
+        spanned = {dim for axis in axes for dim in dataset[axis].dims}
+        in_order = [dim for name in dataset.variables for dim in dataset[name].dims if dim in spanned]
+        self._sizes = {dim: dataset.sizes[dim] for dim in dict.fromkeys(in_order)}
+
+    def __iter__(self):
+        """Names of the variables that depend on the place."""
+        return (name for name in self._dataset.variables if not self._sizes.keys().isdisjoint(self._dataset[name].dims))
+
+    def __getitem__(self, name):
+        variable = self._dataset[name].variable
+        further = [dim for dim in variable.dims if dim not in self._sizes]
+        if len(further) > 1:
+            raise ValueError(f"The variable {name!r} has the dimensions {', '.join(map(str, further))} besides those of "
+                             "the coordinates: one, of several numbers per point, is all that a field can have.")
+        sizes = dict(self._sizes, **{dim: self._dataset.sizes[dim] for dim in further})
+        values = variable.set_dims(sizes).values
+        return values.reshape(-1, values.shape[-1]) if further else values.reshape(-1)
 
 
 def as_samples(points, fields):
@@ -304,6 +346,4 @@ def as_samples(points, fields):
         return points
     if isinstance(points, Points):
         return Samples._of(points._dataset)
-    if hasattr(points, "columns") and fields is None:
-        return Samples.from_dataframe(points)
     return Samples(points, fields)

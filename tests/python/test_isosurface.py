@@ -148,8 +148,9 @@ def test_points_of_tables_and_surfaces_are_samples(ball, sphere):
     pandas = pytest.importorskip("pandas")
     points, fields = ball
     frame = pandas.DataFrame(points, columns=list("xyz")).assign(r=fields["r"])
-    surface = uvol.isosurface(frame, iso=0.3, outside="higher")
-    assert np.array_equal(surface.points, sphere.points)
+    for table in (frame, uvol.Samples(frame), frame.to_xarray()):
+        surface = uvol.isosurface(table, field="r", iso=0.3, outside="higher")
+        assert np.array_equal(surface.points, sphere.points)
 
 
 def test_pickled_surfaces_are_the_same(sphere):

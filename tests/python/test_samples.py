@@ -139,7 +139,34 @@ def test_dataframes():
 def test_grids_of_xarray():
     xarray = pytest.importorskip("xarray")
     data = xarray.Dataset({name: ("n", POINTS[:, axis]) for axis, name in enumerate("xyz")} | {"T": ("n", [1, 2, 3])})
-    assert uvol.Samples.from_dataframe(data)["T"].tolist() == [1, 2, 3]
+    for samples in (uvol.Samples.from_dataframe(data), uvol.Samples(data)):
+        assert samples["T"].tolist() == [1, 2, 3] and np.array_equal(samples.points, POINTS)
+
+
+@pytest.mark.parametrize("lattice", [lambda model: model.grid((6, 5, 4)), lambda model: model.slice("y=0.5", 6)])
+def test_lattices_come_back_from_xarray(lattice):
+    pytest.importorskip("xarray")
+    points = np.random.default_rng(1).random((2000, 3))
+    made = lattice(uvol.Interpolator(points, {"rho": points[:, 0]}, extrapolate=True))
+    samples = uvol.Samples.from_dataframe(made.to_xarray())
+    assert np.allclose(samples.points, made.points.reshape(-1, 3))
+    assert set(samples.keys()) == set(made.keys())
+    assert np.array_equal(samples["rho"], made["rho"].ravel())
+    assert np.array_equal(samples["rho_gradient"], made["rho_gradient"].reshape(-1, 3))
+
+
+def test_variables_of_a_grid_are_repeated_along_further_coordinates():
+    xarray = pytest.importorskip("xarray")
+    data = xarray.Dataset({"T": (("lon", "depth"), np.arange(6).reshape(3, 2)), "ice": ("lon", [True, False, True]),
+                           "wind": ("time", [1.0, 2.0]), "u": (("time", "step", "lon"), np.zeros((2, 2, 3)))},
+                          {"lon": [1.0, 2.0, 3.0], "depth": [10.0, 20.0], "lat": 5.0})
+    places = ("lon", "lat", "depth")
+    samples = uvol.Samples.from_dataframe(data.drop_vars("u"), places)
+    assert samples.points.tolist() == [[lon, 5.0, depth] for lon in (1, 2, 3) for depth in (10, 20)]
+    assert samples.keys() == ["T", "ice"] and samples["T"].tolist() == [0, 1, 2, 3, 4, 5]
+    assert samples["ice"].tolist() == [True, True, False, False, True, True]
+    with pytest.raises(ValueError, match="time, step besides"):
+        uvol.Samples.from_dataframe(data, places)
 
 
 def test_computed_fields():
