@@ -268,7 +268,7 @@ saveSampling(const Arguments& arguments,
                                     "-xyz chooses them.");
   {
     const pcl_uvol::StepTimer timer(report, "sampling");
-    pcl_uvol::addSamplingFields(dataset, stretch, threads);
+    pcl_uvol::addSamplingFields(dataset, stretch, threads, report.progress);
   }
   uvol_tools::savePoints(arguments.output, dataset, {}, report);
 }

@@ -174,9 +174,9 @@ class Interpolator:
         _report.tell(found["report"]["warnings"])
         return Answers(found, places.shape[:-1], self._is_single)
 
-    def __call__(self, queries, threads=None):
+    def __call__(self, queries, threads=None, progress=None):
         """Values and standard errors at queries: those of `evaluate`."""
-        answers = self.evaluate(queries, threads)
+        answers = self.evaluate(queries, threads, progress)
         return answers.values, answers.errors
 
     def probe(self, points, threads=None, progress=None):

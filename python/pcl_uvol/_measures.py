@@ -211,7 +211,7 @@ class Comparison:
         return f"Comparison: mean distances {self.forth.mean:.3g} and {self.back.mean:.3g}, largest {self.largest:.3g}"
 
 
-def compare(a, b, *, threads=0):
+def compare(a, b, *, threads=0, progress=None):
     """Measure how far two surfaces are apart both ways, and how much the fields differ
     that both have.
 
@@ -234,8 +234,9 @@ def compare(a, b, *, threads=0):
     (0.25, [-0.25, -0.25, -0.25])
     """
     (first, first_triangles), (second, second_triangles) = _parts(a, "a"), _parts(b, "b")
-    forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
-                                         _parameters.count(threads, "threads"))
+    with listening(progress) as listener:
+        forth, back, surface = _core.compare(first._dataset, first_triangles, second._dataset, second_triangles,
+                                             _parameters.count(threads, "threads"), listener)
     _report.tell([f"{name} has no triangles: distances to it are those to its points, and no smaller than these lie "
                   "apart." for name, triangles in (("a", first_triangles), ("b", second_triangles))
                   if len(triangles) == 0])

@@ -149,7 +149,7 @@ class Samples(Drawable, Points):
         _report.tell(report["warnings"])
         return Samples._of(dataset)
 
-    def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0):
+    def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
         """Samples with what the sampling is like around each, as `uvol_info -out` writes
         them.
 
@@ -171,8 +171,10 @@ class Samples(Drawable, Points):
         'line'
         """
         stretch = _parameters.Stretch(scale, rotate)
-        return Samples._of(_core.with_sampling(self._dataset, stretch.resolve(self._dataset), stretch.rotation,
-                                               _parameters.count(threads, "threads")))
+        with listening(progress) as listener:
+            dataset = _core.with_sampling(self._dataset, stretch.resolve(self._dataset), stretch.rotation,
+                                          _parameters.count(threads, "threads"), listener)
+        return Samples._of(dataset)
 
     def outer_layer(self, value, field="", threads=0, progress=None):
         """Samples with further ones around them, about a spacing outside, where a field

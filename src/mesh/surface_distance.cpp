@@ -147,16 +147,23 @@ computeQuantile(std::vector<std::pair<double, double>> weighted, double part)
 /** Distances of the places of one surface. */
 class Comparison {
 public:
-  Comparison(const PlacedSurface& from, const PlacedSurface& to, unsigned threads)
+  Comparison(const PlacedSurface& from,
+             const PlacedSurface& to,
+             unsigned threads,
+             const ProgressCallback& progress)
       : from_(from)
       , to_(to)
       , places_(from.listPlaces())
       , nearest_(places_.size())
   {
     const TriangleTree tree(to.getPlaces(), to.getTriangles());
+    Report report;
+    report.progress = progress;
+    StepTimer step(report, "distances", places_.size());
     parallelBlocks(places_.size(), block_places, threads, [&](auto begin, auto end) {
       for (std::size_t i = begin; i < end; ++i)
         nearest_[i] = tree.find(from.placeOf(places_[i]));
+      step.advance(end - begin);
     });
   }
 
@@ -226,11 +233,12 @@ private:
 SurfaceDistances
 measureDistances(const ComparedSurface& from,
                  const ComparedSurface& to,
-                 unsigned threads)
+                 unsigned threads,
+                 const ProgressCallback& progress)
 {
   const std::array<double, 3>& origin = from.vertices.origin;
   const PlacedSurface here(from, origin), there(to, origin);
-  SurfaceDistances result = Comparison(here, there, threads).summarize();
+  SurfaceDistances result = Comparison(here, there, threads, progress).summarize();
   result.farthest += Eigen::Vector3d(origin[0], origin[1], origin[2]);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/report.h>
 
 #include <Eigen/Core>
 
@@ -39,11 +40,13 @@ struct SurfaceDistances {
 /** \brief Distances from one surface to another one (Cignoni et al., Metro, 1998):
  * weighted means at the six points of a quadrature rule in every triangle, and at the
  * vertices.
+ * \param progress told of "distances"; empty: nobody is told
  * \throws InvalidArgument for a surface without points, vertices that are not finite
  * and triangles whose vertices are not there */
 PCL_UVOL_EXPORTS SurfaceDistances
 measureDistances(const ComparedSurface& from,
                  const ComparedSurface& to,
-                 unsigned threads);
+                 unsigned threads,
+                 const ProgressCallback& progress = nullptr);
 
 } // namespace pcl_uvol::detail

@@ -110,13 +110,19 @@ SamplingFinder::find(std::uint32_t sample)
 }
 
 std::vector<LocalSampling>
-diagnoseSampling(const SampleSet& samples, unsigned threads)
+diagnoseSampling(const SampleSet& samples,
+                 unsigned threads,
+                 const ProgressCallback& progress)
 {
   std::vector<LocalSampling> found(samples.size());
+  Report report;
+  report.progress = progress;
+  StepTimer step(report, "sampling", found.size());
   parallelBlocks(found.size(), block_samples, threads, [&](auto begin, auto end) {
     SamplingFinder finder(samples);
     for (std::size_t i = begin; i < end; ++i)
       found[i] = finder.find(static_cast<std::uint32_t>(i));
+    step.advance(end - begin);
   });
   return found;
 }

@@ -7,6 +7,7 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/report.h>
 #include <pcl_uvol/neighbors/sampling_summary.h>
 
 #include <cstddef>
@@ -41,9 +42,12 @@ private:
   NearestFinder nearest_, around_;
 };
 
-/** \brief Describes the sampling around all samples, in leaf order. */
+/** \brief Describes the sampling around all samples, in leaf order.
+ * \param progress told of "sampling"; empty: nobody is told */
 PCL_UVOL_EXPORTS std::vector<LocalSampling>
-diagnoseSampling(const SampleSet& samples, unsigned threads);
+diagnoseSampling(const SampleSet& samples,
+                 unsigned threads,
+                 const ProgressCallback& progress = nullptr);
 
 /** \brief Look at some samples in all parts of the cloud: at 1024 of more.
  * Deterministic, and good to 3 %. */

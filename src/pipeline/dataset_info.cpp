@@ -155,7 +155,10 @@ describePositions(const Dataset& dataset,
 }
 
 void
-addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned threads)
+addSamplingFields(Dataset& dataset,
+                  const detail::Stretch& stretch,
+                  unsigned threads,
+                  const ProgressCallback& progress)
 {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::size_t count = dataset.cloud.width;
@@ -164,6 +167,7 @@ addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned thr
   const CloudView cloud = viewOf(dataset.cloud);
   if (const auto finite = listFinite(cloud); !finite.empty()) {
     Report report;
+    report.progress = progress;
     const CloudView turned = detail::StretchAxes(stretch.rotation).turn(cloud);
     const auto samples = SampleSet::build(turned.xyz(0),
                                           turned.stride(),
@@ -171,7 +175,7 @@ addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned thr
                                           toPosition(stretch.scale),
                                           threads,
                                           report);
-    const std::vector<LocalSampling> found = diagnoseSampling(*samples, threads);
+    const std::vector<LocalSampling> found = diagnoseSampling(*samples, threads, progress);
     const auto assign = [&](std::uint32_t point, const LocalSampling& sampling) {
       dimension[point] = static_cast<std::int32_t>(sampling.dimension);
       along[point] = std::isfinite(sampling.along) ? sampling.along : none;

@@ -65,8 +65,12 @@ describePositions(const Dataset& dataset,
  * volume) and the lengths `spacing_along` and `spacing_across`, NaN where nothing lies
  * beside, and without finite coordinates.
  *
- * \param stretch of the space that lengths are measured in */
+ * \param stretch of the space that lengths are measured in
+ * \param progress told of "tree" and "sampling"; empty: nobody is told */
 PCL_UVOL_EXPORTS void
-addSamplingFields(Dataset& dataset, const detail::Stretch& stretch, unsigned threads);
+addSamplingFields(Dataset& dataset,
+                  const detail::Stretch& stretch,
+                  unsigned threads,
+                  const ProgressCallback& progress);
 
 } // namespace pcl_uvol

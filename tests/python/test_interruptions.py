@@ -16,6 +16,7 @@ FUNCTIONS = {
     "density": lambda ball, **how: uvol.Samples(*ball).density(**how)["sph_density"],
     "outer_layer": lambda ball, **how: uvol.Samples(*ball).outer_layer(0.0, "r", **how).points,
     "info": lambda ball, **how: uvol.info(*ball, **how)["spacing"]["median"],
+    "sampling": lambda ball, **how: uvol.Samples(*ball).sampling(**how)["spacing_along"],
     "Interpolator": lambda ball, **how: uvol.Interpolator(*ball, field="r", **how)([[0.5, 0.5, 0.5]])[0],
     "level_set": lambda ball, **how: uvol.level_set(*ball, field="r", iso=0.3, mu=0.5, **how)["phi"],
     "normals": lambda ball, **how: uvol.normals(ball[0], **how)["normal_x"],
@@ -28,6 +29,7 @@ FUNCTIONS = {
 METHODS = {
     "mesh": lambda sphere, **how: sphere.mesh(**how).vertices,
     "measure": lambda sphere, **how: sphere.measure(find_intersections=True, **how).volume.value,
+    "compare": lambda sphere, **how: uvol.compare(sphere, sphere, **how).largest,
     "render": lambda sphere, **how: sphere.render(size=100, **how).pixels,
     "raytrace": lambda sphere, **how: sphere.raytrace(size=60, **how).pixels,
 }
@@ -56,6 +58,7 @@ def test_a_listener_ends_methods_of_a_surface(sphere, name):
 
 
 @pytest.mark.parametrize("answer", [
+    lambda model, **how: model([[0.5, 0.5, 0.4]], **how)[0],
     lambda model, **how: model.evaluate([[0.5, 0.5, 0.4]], **how).values,
     lambda model, **how: model.grid(20, **how)["r"],
     lambda model, **how: model.probe(model.samples, **how)["r_2_error"],

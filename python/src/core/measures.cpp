@@ -130,18 +130,19 @@ compare(const Dataset& first,
         const TriangleArray& first_triangles,
         const Dataset& second,
         const TriangleArray& second_triangles,
-        unsigned threads)
+        unsigned threads,
+        const py::object& progress)
 {
   const std::vector<Triangle> here = toTriangles(first_triangles),
                               there = toTriangles(second_triangles);
   detail::SurfaceDistances forth, back;
-  auto surface = std::make_shared<Dataset>(first);
-  {
-    const py::gil_scoped_release unlocked;
-    forth = detail::measureDistances({first, here}, {second, there}, threads);
-    back = detail::measureDistances({second, there}, {first, here}, threads);
+  DatasetPtr surface;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    forth = detail::measureDistances({first, here}, {second, there}, threads, callback);
+    back = detail::measureDistances({second, there}, {first, here}, threads, callback);
+    surface = std::make_shared<Dataset>(first);
     setField(*surface, "distance", forth.at_vertices);
-  }
+  });
   return py::make_tuple(describe(std::move(forth)), describe(std::move(back)), surface);
 }
 

@@ -115,13 +115,17 @@ DatasetPtr
 withSampling(const Dataset& dataset,
              const std::array<float, 3>& scale,
              const std::array<double, 3>& rotation,
-             unsigned threads)
+             unsigned threads,
+             const py::object& progress)
 {
-  const py::gil_scoped_release unlocked;
-  auto result = std::make_shared<Dataset>(dataset);
-  addSamplingFields(*result,
-                    {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
-                    threads);
+  DatasetPtr result;
+  runInterruptibly(progress, [&](const ProgressCallback& callback) {
+    result = std::make_shared<Dataset>(dataset);
+    addSamplingFields(*result,
+                      {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
+                      threads,
+                      callback);
+  });
   return result;
 }
 
