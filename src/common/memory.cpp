@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
 
-#include <pcl_uvol/common/exceptions.h>
-
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -157,7 +155,7 @@ checkMemory(const std::string& what, double bytes, double taken)
 {
   const double available = static_cast<double>(availableMemory()) + taken;
   if (bytes > available)
-    throw InvalidArgument(what + " needs " + formatBytes(bytes) +
+    throw NotEnoughMemory(what + " needs " + formatBytes(bytes) +
                           " of memory, and only " + formatBytes(available) +
                           " are available.");
 }

@@ -2,6 +2,7 @@
 // Forecast the memory of a run, and refuse work that does not fit before it begins.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
 #include <algorithm>
@@ -38,10 +39,16 @@ peakMemory();
 PCL_UVOL_EXPORTS std::string
 formatBytes(double bytes);
 
+/** \brief More memory is asked for than there is. */
+class PCL_UVOL_EXPORTS NotEnoughMemory : public InvalidArgument {
+public:
+  using InvalidArgument::InvalidArgument;
+};
+
 /** \brief
  * \param what as a subject: "A grid of 9 x 9 x 9 cells"
  * \param taken bytes of it that the process has in use already
- * \throws InvalidArgument with both figures if more is needed than is available */
+ * \throws NotEnoughMemory with both figures if more is needed than is available */
 PCL_UVOL_EXPORTS void
 checkMemory(const std::string& what, double bytes, double taken = 0.0);
 

@@ -175,7 +175,8 @@ addSamplingFields(Dataset& dataset,
                                           toPosition(stretch.scale),
                                           threads,
                                           report);
-    const std::vector<LocalSampling> found = diagnoseSampling(*samples, threads, progress);
+    const std::vector<LocalSampling> found =
+        diagnoseSampling(*samples, threads, progress);
     const auto assign = [&](std::uint32_t point, const LocalSampling& sampling) {
       dimension[point] = static_cast<std::int32_t>(sampling.dimension);
       along[point] = std::isfinite(sampling.along) ? sampling.along : none;

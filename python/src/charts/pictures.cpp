@@ -4,6 +4,7 @@
 #include "charts/color_bar.h"
 #include "charts/figure.h"
 #include "charts/look.h"
+#include "common/memory.h"
 #include "common/parameter_json.h"
 #include "render/image_space/frame.h"
 #include "render/ray_tracing/gap_dots.h"
@@ -14,6 +15,7 @@
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <algorithm>
+#include <new>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
@@ -78,12 +80,7 @@ public:
     Image picture;
     Report report = preparation_;
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
-      if (rays_)
-        picture = drawBy(tracer_, frame, callback, report);
-      else {
-        picture = drawBy(renderer_, frame, callback, report);
-        range_ = renderer_.getColorRange();
-      }
+      picture = drawPoints(frame, callback, report);
       if (has_legend_)
         uvol_tools::drawLegend(
             picture, cloud_, points_->labels, field_, mapping_, range_);
@@ -98,6 +95,24 @@ public:
   }
 
 private:
+  /** The picture without what explains it. */
+  Image
+  drawPoints(int frame, const ProgressCallback& callback, Report& report)
+  {
+    try {
+      if (rays_)
+        return drawBy(tracer_, frame, callback, report);
+      Image picture = drawBy(renderer_, frame, callback, report);
+      range_ = renderer_.getColorRange();
+      return picture;
+    }
+    catch (const std::bad_alloc&) {
+      throw NotEnoughMemory("There is not enough memory for a picture of " +
+                            std::to_string(look_.width) + " x " +
+                            std::to_string(look_.height) + " pixels.");
+    }
+  }
+
   void
   prepare()
   {

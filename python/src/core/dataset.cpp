@@ -3,6 +3,7 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "core/bindings.h"
+#include "core/large_memory.h"
 #include "interpolation/outer_layer.h"
 #include "interpolation/sph_density.h"
 #include "pipeline/dataset_info.h"
@@ -77,6 +78,8 @@ allocate(const std::vector<FieldSpec>& specs, std::uint64_t count)
   // Points that are records already need not be moved: their step is a multiple of 4.
   dataset.cloud.point_step = (dataset.cloud.point_step + 3u) / 4u * 4u;
   checkSize(count, dataset.cloud.point_step);
+  checkLargeMemory("A cloud of " + std::to_string(count) + " points",
+                   static_cast<double>(count) * dataset.cloud.point_step);
   resizePoints(dataset.cloud, count);
   return share(std::move(dataset));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/memory.h"
 #include "common/similar_words.h"
 #include "core/bindings.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -50,14 +51,16 @@ bindErrors(py::module_& module)
     catch (const Diverged& error) {
       raise(errors.attr("DivergedError"), error.message());
     }
+    catch (const NotEnoughMemory& error) {
+      raise(PyExc_MemoryError, error.message());
+    }
     catch (const Exception& error) {
       raise(isOfMissingField(error.message()) ? errors.attr("FieldError")
                                               : py::handle(PyExc_ValueError),
             error.message());
     }
-    catch (const std::bad_alloc& error) {
-      const bool is_told = std::string(error.what()) != std::bad_alloc().what();
-      raise(PyExc_MemoryError, is_told ? error.what() : "There is not enough memory.");
+    catch (const std::bad_alloc&) {
+      raise(PyExc_MemoryError, "There is not enough memory.");
     }
     catch (const std::length_error&) { // of a vector longer than any memory
       raise(PyExc_MemoryError, "There is not enough memory.");

@@ -2,6 +2,7 @@
 // Fields between the samples: a model that answers queries, and the places of lines,
 // slices and grids.
 #include "core/bindings.h"
+#include "core/large_memory.h"
 #include "interpolation/answer_summary.h"
 #include "interpolation/query_lattice.h"
 #include "interpolation/variogram.h"
@@ -31,6 +32,15 @@ using detail::FieldInterpolator;
 using detail::Place;
 using detail::QueryLattice;
 using Queries = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/** Before so many numbers are made for each of so many places. */
+void
+checkPlaces(std::size_t places, std::size_t numbers)
+{
+  checkLargeMemory("An array of " + std::to_string(places) + " places",
+                   static_cast<double>(places) *
+                       static_cast<double>(numbers * sizeof(double)));
+}
 
 /** A model of some fields, ready for queries. Any number of threads may ask at once. */
 class Interpolator {
@@ -70,7 +80,9 @@ public:
   py::dict
   answer(const Queries& queries, unsigned threads, const py::object& progress) const
   {
-    std::vector<Place> places(static_cast<std::size_t>(queries.shape(0)));
+    const auto size = static_cast<std::size_t>(queries.shape(0));
+    checkPlaces(size, countNumbers());
+    std::vector<Place> places(size);
     for (std::size_t i = 0; i < places.size(); ++i) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         places[i][axis] = queries.data()[3 * i + axis] - samples_->origin[axis];
@@ -196,6 +208,15 @@ public:
   }
 
 private:
+  /** Of a place and the answer there. */
+  std::size_t
+  countNumbers() const
+  {
+    const std::size_t of_field =
+        1u + (parameters_.errors ? 1u : 0u) + (parameters_.gradients ? 3u : 0u);
+    return 3u + of_field * interpolator_->getNames().size();
+  }
+
   Folds
   split(std::size_t folds, const std::string& by, unsigned threads) const
   {
@@ -256,6 +277,7 @@ findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 py::tuple
 describe(const QueryLattice& lattice)
 {
+  checkPlaces(lattice.size(), 3);
   std::vector<double> places;
   places.reserve(3 * lattice.size());
   for (std::size_t i = 0; i < lattice.size(); ++i) {

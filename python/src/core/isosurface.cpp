@@ -22,35 +22,12 @@ namespace {
 /** Edges of a sample across the isovalue, if its value jumps to and fro. */
 constexpr double most_edges = 6.0;
 
-/** Memory that a run will not get, with the forecast. */
-class NotEnoughMemory : public std::bad_alloc {
-public:
-  explicit NotEnoughMemory(std::string message)
-      : message_(std::move(message))
-  {
-  }
-
-  const char*
-  what() const noexcept override
-  {
-    return message_.c_str();
-  }
-
-private:
-  std::string message_;
-};
-
 void
 checkForecast(std::size_t points, double bytes)
 {
   const auto taken = static_cast<double>(residentMemory());
-  try {
-    checkMemory(
-        "An isosurface of " + std::to_string(points) + " points", taken + bytes, taken);
-  }
-  catch (const InvalidArgument& error) {
-    throw NotEnoughMemory(error.message());
-  }
+  checkMemory(
+      "An isosurface of " + std::to_string(points) + " points", taken + bytes, taken);
 }
 
 py::dict
