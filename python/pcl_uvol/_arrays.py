@@ -19,10 +19,12 @@ def as_labels(values):
         return None
     if array.dtype.kind not in "OU" or np.ndim(array) != 1:
         return None
+    if np.ma.isMaskedArray(array):
+        array = array.filled("")
     texts = ["" if _is_missing(value) else value for value in np.asarray(array, dtype=object)]
     if not any(texts) or not all(isinstance(value, str) for value in texts):
         return None
-    names = sorted(set(texts) - {""})
+    names = [_parameters.text(name, "A name") for name in sorted(set(texts) - {""})]
     numbers = {"": -1, **{name: number for number, name in enumerate(names)}}
     return np.array([numbers[text] for text in texts], np.int32), names
 
@@ -138,8 +140,9 @@ def empty(count, fields=None):
 
 def take_over(records):
     """The dataset whose memory records of empty() are, which can no longer be written
-    to; None for other arrays, and for parts of such records."""
-    owner = records
+    to; None for other arrays, for parts of such records, and with a mask, which the memory
+    has not."""
+    owner = None if np.ma.isMaskedArray(records) else records
     while isinstance(owner, np.ndarray):
         owner = owner.base
     if not isinstance(owner, _core.Dataset) or not records.flags.writeable or len(records) != owner.count:
@@ -155,6 +158,7 @@ def take_over(records):
 def _check_name(name):
     if not isinstance(name, str) or not name:
         raise ValueError(f"A field is called {name!r}: names are texts of at least a letter.")
+    _parameters.text(name, "The name of a field")
     if name in ("x", "y", "z"):
         raise ValueError(f"The field {name!r} is a coordinate: it belongs to the points.")
     if name == "_":

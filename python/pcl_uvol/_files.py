@@ -3,11 +3,12 @@
 
 import os
 
-from . import _arrays, _report
+from . import _arrays, _parameters, _report
 from ._progress import listening
 from ._samples import Samples, as_samples
 
 
+@_parameters.with_proposals
 def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     """Read samples from a file, as the tools do.
 
@@ -41,15 +42,17 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     from . import _io
     if isinstance(xyz, str) or not hasattr(xyz, "__iter__"):
         raise TypeError(f"xyz is {xyz!r}: it must be a sequence of three columns.")
-    columns = [str(column) for column in xyz]
+    columns = [_parameters.text(str(column), "A column") for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
     with listening(progress) as listener:
-        dataset = _io.read(os.fspath(path), columns, str(particles), bool(cells), listener)
+        dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), bool(cells),
+                           listener)
     _report.tell(dataset.notes)
     return Samples._of(dataset)
 
 
+@_parameters.with_proposals
 def write(path, points, fields=None, triangles=None, ascii=False, progress=None):
     """Write samples, a surface or a mesh to a file: their `save`.
 
@@ -98,7 +101,7 @@ def read_mesh(path):
     array([[0, 1, 2]], dtype=uint32)
     """
     from . import _io
-    dataset, triangles = _io.read_mesh(os.fspath(path))
+    dataset, triangles = _io.read_mesh(os.fsencode(path))
     _report.tell(dataset.notes)
     return Samples._of(dataset), triangles
 
@@ -117,5 +120,5 @@ def read_volume(path):
     name : str
     """
     from . import _io
-    values, origin, spacing, name = _io.read_volume(os.fspath(path))
+    values, origin, spacing, name = _io.read_volume(os.fsencode(path))
     return values, tuple(origin), tuple(spacing), name

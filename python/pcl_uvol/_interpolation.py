@@ -92,6 +92,7 @@ class Interpolator:
     [0.25, 0.0625]
     """
 
+    @_parameters.with_proposals
     def __init__(self, points, fields=None, *, field="", model="fit", extrapolate=False, gradients=True, errors=True,
                  scale=(1.0, 1.0, 1.0), rotate=None, kriging=None, sph=None, shepard=None, periodic=None, threads=0,
                  progress=None):
@@ -222,7 +223,7 @@ class Interpolator:
         (2000, True)
         """
         with listening(progress) as listener:
-            scores, report = self._core.validate(_parameters.count(folds, "folds"), str(by), self._threads_of(threads),
+            scores, report = self._core.validate(_parameters.count(folds, "folds"), _parameters.text(by, "by"), self._threads_of(threads),
                                                  listener)
         _report.tell(report["warnings"])
         return scores

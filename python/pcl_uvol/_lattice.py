@@ -82,16 +82,17 @@ class Lattice:
             Values get the type of the samples, errors and gradients float32.
         """
         from . import _io
-        path = os.fspath(path)
-        if not _io.is_lattice_file(path):
+        path = os.fsdecode(path)
+        if not _io.is_lattice_file(os.fsencode(path)):
             raise ValueError(f"{path!r} is no file of a lattice: its name must end in .vti, .vts, .nrrd or .mha.")
         arrays = []
         for name, values in self._columns.items():
             is_short = name in self._short or name.endswith(("_error", "_gradient"))
             values = np.ascontiguousarray(values, np.float32 if is_short else None)
             arrays.append((name, values.reshape(self._count(), -1)))
-        _io.write_lattice(path, *self._file_form, arrays)
+        _io.write_lattice(os.fsencode(path), *self._file_form, arrays)
 
+    @_parameters.with_proposals
     def render(self, field="", *, contours=(), colormap="viridis", range=None, log=False, samples=None, label="",
                unit=""):
         """A picture of a slice, or of the values along a line with their errors, as

@@ -112,6 +112,7 @@ def _parts(surface, what):
     return vertices, getattr(surface, "triangles", np.empty((0, 3), np.uint32))
 
 
+@_parameters.with_proposals
 def measure(surface, *, samples=None, curved=True, find_intersections=False, threads=0, progress=None):
     """Area, volume, axes, genus and integrals of fields of a surface, each with its
     error.
@@ -211,6 +212,7 @@ class Comparison:
         return f"Comparison: mean distances {self.forth.mean:.3g} and {self.back.mean:.3g}, largest {self.largest:.3g}"
 
 
+@_parameters.with_proposals
 def compare(a, b, *, threads=0, progress=None):
     """Measure how far two surfaces are apart both ways, and how much the fields differ
     that both have.

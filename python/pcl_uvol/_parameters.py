@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From keyword arguments to the JSON that the library's parameters are read from."""
 
+import functools
+import inspect
 import json
 import math
 import operator
@@ -12,20 +14,21 @@ import numpy as np
 from . import _core
 
 
-def plain(value):
-    """The value as Python's own numbers, texts, lists and dictionaries; what is not a
-    finite number is none."""
+def plain(value, what="A parameter"):
+    """The value as Python's own numbers, texts, lists and dictionaries."""
     if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {text(str(key), "A parameter"): plain(item, str(key)) for key, item in value.items()}
     if isinstance(value, np.ndarray) or hasattr(value, "tolist"):
-        return plain(value.tolist())
+        return plain(value.tolist(), what)
     if isinstance(value, (list, tuple, range, set, frozenset)):
-        return [plain(item) for item in value]
+        return [plain(item, what) for item in value]
     if isinstance(value, float) and not math.isfinite(value):
-        return None
-    if isinstance(value, (bool, int, float, str)) or value is None:
+        raise ValueError(f"{what} is {value!r}: it must be a finite number.")
+    if isinstance(value, str):
+        return text(value, what)
+    if isinstance(value, (bool, int, float)) or value is None:
         return value
-    raise ValueError(f"A parameter is {value!r}: it must be a number, a text, or a list of these.")
+    raise ValueError(f"{what} is {value!r}: the parameter must be a number, a text, or a list of these.")
 
 
 def to_json(parameters):
@@ -50,10 +53,46 @@ def number(value, what):
 
 
 def text(value, what):
-    """A text."""
+    """A text that the library can be given, in UTF-8."""
     if not isinstance(value, str):
         raise TypeError(f"{what} is {reprlib.repr(value)}: it must be a text.")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{what} is {reprlib.repr(value)}: it holds halves of characters, which are no text.") from None
     return value
+
+
+def propose(names, name):
+    """What is said of the name that was meant, if one is similar."""
+    similar = _core.find_similar(names, name.encode(errors="replace").decode())
+    return f" (did you mean {similar!r}?)" if similar else ""
+
+
+def with_proposals(function):
+    """The function, which tells of an unknown keyword the one that was meant."""
+    @functools.wraps(function)
+    def call(*values, **options):
+        known, needed = _keywords_of(call)
+        for option in options:
+            if option not in known:
+                raise TypeError(f"{name}() has no keyword {option!r}{propose(known, option)}.")
+        for keyword in needed:
+            if keyword not in options:
+                raise TypeError(f"{name}() needs the keyword {keyword!r}.")
+        return function(*values, **options)
+
+    name = function.__qualname__.replace(".__init__", "").rpartition(".")[2]
+    return call
+
+
+@functools.cache
+def _keywords_of(function):
+    """Names of all parameters, and of those that must be given by name."""
+    parameters = list(inspect.signature(function).parameters.values())
+    needed = [parameter.name for parameter in parameters
+              if parameter.kind == parameter.KEYWORD_ONLY and parameter.default is parameter.empty]
+    return [parameter.name for parameter in parameters if parameter.name != "self"], needed
 
 
 def names(values, what, of):

@@ -40,7 +40,7 @@ class Picture:
     def save(self, path):
         """Write a PNG file at a path, as the tools do."""
         from . import _io
-        _io.write_png(os.fspath(path), self.pixels)
+        _io.write_png(os.fsencode(path), self.pixels)
 
     def _repr_png_(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -97,6 +97,7 @@ class Drawable:
 
     _frames = None  # of a full turn; None: one picture
 
+    @_parameters.with_proposals
     def render(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024), view="iso",
                eye=None, at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None, exaggerate=None,
                opacity=None, lights=None, material=None, supersample=0, culling=False, footprints=True,
@@ -186,6 +187,7 @@ class Drawable:
                     **_figure(ticks, box, triad, scale_bar, unit, title, views))
         return self._draw(look, None, threads, progress)
 
+    @_parameters.with_proposals
     def raytrace(self, *, color="auto", colormap="auto", range=None, log=False, bar=True, size=(1024, 1024),
                  view="iso", eye=None, at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None,
                  exaggerate=None, lights=None, material=None, supersample=0, depth=4, shadows=True, light_samples=16,
@@ -256,12 +258,14 @@ class Drawable:
         """What points with fields are asked for with."""
         if not isinstance(color, str):
             raise TypeError(f"color is {color!r}: it must be the name of a field, or an expression.")
+        _parameters.text(color, "color")
         if color in self.keys() and self.records.dtype[color].shape:
             color = f"|{color}|"
         return dict(color=color or "none", colormap=colormap, log=bool(log), bar=bool(bar),
                     range=None if range is None else _parameters.numbers(range, "range"),
                     exaggerate=_place(exaggerate), surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
+    @_parameters.with_proposals
     def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,
                   at=None, up=None, fov=30.0, parallel=False, zoom=1.0, background="white", surface_color=None, exaggerate=None,
                   lights=None, material=None, threads=0, progress=None):
@@ -281,7 +285,7 @@ class Drawable:
             The report.
         """
         from . import _charts
-        path = os.fspath(path)
+        path = os.fsdecode(path)
         if not path.endswith(".html"):
             raise ValueError(f"{path!r} is no web page: its name must end in .html.")
         look = look_of(1024, view, eye, at, up, fov, parallel, zoom, background, 0)
@@ -289,7 +293,7 @@ class Drawable:
         count = _parameters.count(threads, "threads")
         dataset = self._find_colors(look["color"], count)
         with listening(progress) as listener:
-            report = _charts.write_page(path, dataset, _parameters.to_json(look), count, listener)
+            report = _charts.write_page(os.fsencode(path), dataset, _parameters.to_json(look), count, listener)
         _report.tell(report["warnings"])
         return report
 
@@ -325,6 +329,7 @@ def finish(pixels, field, limits, report):
     return picture
 
 
+@_parameters.with_proposals
 def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=None, fov=None, parallel=False, zoom=1.0, turn=0.0,
              background=None, lights=None, supersample=None, depth=None, shadows=None, light_samples=None,
              occlusion=None, occlusion_distance=None, threads=0, progress=None):
@@ -358,7 +363,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     look["lights"] = _lights(lights)
     with listening(progress) as listener:
         pixels, report = _charts.trace_scene(
-            os.fspath(scene), os.fspath(folder), _parameters.to_json(look),
+            os.fsencode(scene), os.fsencode(folder), _parameters.to_json(look),
             _parameters.to_json({name: value for name, value in rays.items() if name in given}), given,
             _parameters.number(turn, "turn"), _parameters.count(threads, "threads"), listener)
     return finish(pixels, "", (0.0, 1.0), report)

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from . import _arrays, _core
+from . import _arrays, _parameters
 from ._bridges import Bridges
 from ._errors import FieldError
 from ._progress import listening
@@ -98,6 +98,7 @@ class Points(Bridges):
         if name in self.keys():
             return self.records[name]
         if any(mark in name for mark in "[|"):
+            _parameters.text(name, "The name of a field")
             return self._dataset.read_scalar(name)
         raise FieldError(describe_missing(name, self.keys()))
 
@@ -117,7 +118,7 @@ class Points(Bridges):
     def _save(self, path, triangles, ascii, progress):
         from . import _io
         with listening(progress) as listener:
-            _io.write(os.fspath(path), self._dataset, triangles, bool(ascii), self._comments(), listener)
+            _io.write(os.fsencode(path), self._dataset, triangles, bool(ascii), self._comments(), listener)
 
     def _comments(self):
         """Lines for files that have comments."""
@@ -131,6 +132,4 @@ class Points(Bridges):
 
 def describe_missing(name, names):
     """A sentence about a field that is not there, with the one that was meant."""
-    similar = _core.find_similar(names, name)
-    hint = f" (did you mean {similar!r}?)" if similar else ""
-    return f"There is no field {name!r}{hint}; the fields are {', '.join(names) or 'none'}."
+    return f"There is no field {name!r}{_parameters.propose(names, name)}; the fields are {', '.join(names) or 'none'}."

@@ -53,9 +53,10 @@ class Samples(Drawable, Points):
         if fields is None and _is_table(points):
             points, fields = _columns_of(points, "xyz", None)
         elif fields is None and getattr(dtype, "names", None):
-            dataset = _arrays.take_over(np.asarray(points))
+            records = np.ma.asarray(points) if np.ma.isMaskedArray(points) else np.asarray(points)
+            dataset = _arrays.take_over(records)
             if dataset is None:
-                points, fields = _split(np.asarray(points), ("x", "y", "z"))
+                points, fields = _split(records, ("x", "y", "z"))
         self._begin(dataset or _arrays.make_dataset(points, fields))
         _report.tell(self._dataset.notes)
 
@@ -194,7 +195,7 @@ class Samples(Drawable, Points):
         """
         with listening(progress) as listener:
             dataset, _ = self._dataset.with_outer_layer(
-                str(field), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
+                _parameters.text(field, "field"), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
         return Samples._of(dataset)
 
     def where(self, expression, threads=0, progress=None):
@@ -205,7 +206,7 @@ class Samples(Drawable, Points):
         Samples
         """
         with listening(progress) as listener:
-            dataset, _ = self._dataset.select(str(expression), _parameters.count(threads, "threads"), listener)
+            dataset, _ = self._dataset.select(_parameters.text(expression, "expression"), _parameters.count(threads, "threads"), listener)
         return Samples._of(dataset)
 
     def take(self, indices):
@@ -224,6 +225,7 @@ class Samples(Drawable, Points):
             raise TypeError(f"field is {expression!r}: it must be the name of a field, or an expression.")
         if expression == "":
             return self, ""
+        _parameters.text(expression, "field")
         made = (expression, *sides)
         if made not in self._derived:
             with listening(progress) as listener:
@@ -277,7 +279,7 @@ def _split(records, axes):
     if missing:
         raise ValueError(f"The structured array has no field {missing[0]}: it needs x, y and z.")
     records = records.reshape(-1)
-    points = np.stack([records[axis] for axis in axes], axis=1)
+    points = np.stack([_arrays.as_array(records[axis], f"The field {axis!r}") for axis in axes], axis=1)
     return points, {name: records[name] for name in records.dtype.names if name not in axes}
 
 

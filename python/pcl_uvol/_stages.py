@@ -102,6 +102,7 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     return result
 
 
+@_parameters.with_proposals
 def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, view_point=(0.0, 0.0, 0.0), threads=0,
             progress=None):
     """Estimate normals of a surface given as points (thesis 4.1).
@@ -130,6 +131,7 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
     return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 
+@_parameters.with_proposals
 def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.2, gaussians=False, color="auto",
            threads=0, progress=None):
     """Cover a surface given as points with discs that have fields of normals (thesis 4.2.1).
@@ -206,6 +208,7 @@ class Clusters:
         """
         return self.samples.take(self._find_members(cluster))
 
+    @_parameters.with_proposals
     def surface(self, cluster, kind="membership", *, probability="", smoothing_length="", cells=128, distance=0.0,
                 scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
         """A surface around a cluster (thesis, Figure 2.23).
@@ -285,6 +288,7 @@ class Clusters:
         return f"Clusters: {len(self)} of {len(self.labels)} points, {int((self.labels < 0).sum())} of them noise"
 
 
+@_parameters.with_proposals
 def cluster(points, fields=None, *, attributes=(), labels=None, standardized=True, k=10, min_size=0, cut=0.0, single=False,
             threads=0, progress=None):
     """Find clusters of samples by the density of their attributes (thesis 2.6, HDBSCAN*).
@@ -404,6 +408,7 @@ class Projection:
         return f"Projection of {len(self.places)} points by {', '.join(self.map['names'])}"
 
 
+@_parameters.with_proposals
 def project(points, fields=None, *, attributes, labels=None, standardized=True, method="star", threads=0,
             progress=None):
     """Project points of many attributes into space, so that their clusters lie apart.
@@ -460,6 +465,7 @@ class VoronoiGrid:
         return f"VoronoiGrid of {' x '.join(map(str, self.site.shape))} cells"
 
 
+@_parameters.with_proposals
 def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=None):
     """Find the nearest point to every cell of a grid (thesis 2.1).
 
@@ -484,6 +490,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     return VoronoiGrid(*_run(_core.compute_voronoi, as_samples(points, fields), parameters, threads, progress))
 
 
+@_parameters.with_proposals
 def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
     """What samples hold: bounds, spacings, and the range of every number.
 

@@ -36,6 +36,7 @@ class Surface(Drawable, Points):
         """numpy.ndarray, shape (n, 3): unit vectors to the outside, a view."""
         return _arrays.view_axes(self.records, ("normal_x", "normal_y", "normal_z"))
 
+    @_parameters.with_proposals
     def mesh(self, remesh="even", edge_length=0.0, open=False, drop_pieces=0, threads=0, progress=None):
         """Closed triangle meshes of the same isovalues, from the same samples.
 
@@ -174,6 +175,7 @@ class Extractor:
         self.samples = as_samples(points, fields)
         self._extractor = _core.Extractor()
 
+    @_parameters.with_proposals
     def extract(self, *, iso, field="", scale=None, rotate=None, outside="lower", interpolation="auto",
                 neighbors="kdtree", voronoi_cells=0, criterion="kept", smooth=False, mu=None, level_set=None,
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
@@ -244,6 +246,7 @@ def _extract(extractor, samples, parameters, threads, progress):
     return surface
 
 
+@_parameters.with_proposals
 def isosurface(points, fields=None, **options):
     """Extract isosurfaces of a scalar field given at scattered points.
 

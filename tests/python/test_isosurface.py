@@ -3,6 +3,7 @@
 
 import json
 import pickle
+import re
 import signal
 import threading
 import time
@@ -417,3 +418,48 @@ def test_memory_that_is_not_there_is_a_memoryerror(run_python):
             print(error)
         """)
     assert "3000000 points" in out and "B" in out
+
+
+@pytest.mark.parametrize("call, message", [
+    ("uvol.voronoi(points, cells=1500)", r"A grid of 1500 x \d+ x \d+ cells needs 4\d GB"),
+    ("uvol.empty(10**9, {'a': 'f8'})", "A cloud of 1000000000 points needs 20 GB"),
+    ("uvol.Interpolator(points, {'a': points[:, 0]}).grid((1000, 1000, 1000))", "An array of 1000000000 places needs 24 GB"),
+    ("uvol.Samples(points).render(size=12000)", "a picture of 12000 x 12000 pixels"),
+])
+def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, message):
+    out = run_python(f"""
+        import resource, numpy as np, pcl_uvol as uvol
+        import pcl_uvol._charts
+        points = np.random.default_rng(1).random((1000, 3))
+        resource.setrlimit(resource.RLIMIT_AS, (3_000_000_000,) * 2)
+        try:
+            {call}
+        except MemoryError as error:
+            print(error)
+        """)
+    assert re.search(message, out)
+
+
+@pytest.mark.parametrize("call, message", [
+    (lambda sphere: uvol.isosurface(sphere, iso=1, smoth=True), r"isosurface\(\) has .*'smoth' \(did you mean 'smooth'\?\)"),
+    (lambda sphere: uvol.isosurface(sphere), r"isosurface\(\) needs the keyword 'iso'"),
+    (lambda sphere: uvol.Extractor(sphere).extract(iso=1, feild="r"), r"extract\(\) .*\(did you mean 'field'\?\)"),
+    (lambda sphere: sphere.render(colour="r"), r"render\(\) .*'colour' \(did you mean 'color'\?\)"),
+    (lambda sphere: sphere.orbit(3, colour="r"), r"render\(\) .*\(did you mean 'color'\?\)"),
+    (lambda sphere: uvol.Interpolator(sphere, modle="fit"), r"Interpolator\(\) .*\(did you mean 'model'\?\)"),
+    (lambda sphere: uvol.voronoi(sphere, cell=3), r"voronoi\(\) .*\(did you mean 'cells'\?\)"),
+    (lambda sphere: uvol.cluster(sphere, entirely_else=3), r"cluster\(\) has no keyword 'entirely_else'\.$"),
+])
+def test_unknown_keywords_get_a_proposal(sphere, call, message):
+    with pytest.raises(TypeError, match=message):
+        call(sphere)
+
+
+@pytest.mark.parametrize("options, message", [
+    (dict(max_error=np.nan), "max_error is nan"),
+    (dict(mu=np.float32("nan"), smooth=True), "mu is nan"),
+    (dict(level_set={"tolerance": np.inf}), "tolerance is inf"),
+])
+def test_numbers_that_are_none_get_a_sentence(ball, options, message):
+    with pytest.raises(ValueError, match=message):
+        uvol.isosurface(*ball, field="r", iso=0.3, **options)

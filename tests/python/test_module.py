@@ -33,12 +33,21 @@ def test_importing_is_quick_and_loads_neither_vtk_nor_opengl(run_python):
     assert libraries == "[]"
 
 
+class Finder(doctest.DocTestFinder):
+    """Finds examples of functions in wrappers as well."""
+
+    def _from_module(self, module, object):
+        return super()._from_module(module, inspect.unwrap(object) if inspect.isfunction(object) else object)
+
+
 @pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(uvol.__path__)
                                   if module.name not in ("_core", "_io", "_charts", "_vtk")])
 def test_examples_of_the_documentation_run(name):
     module = importlib.import_module(f"pcl_uvol.{name}")
-    outcome = doctest.testmod(module, extraglobs={"np": np, "uvol": uvol})
-    assert outcome.failed == 0
+    runner = doctest.DocTestRunner()
+    for examples in Finder().find(module, module.__name__, globs={**vars(module), "np": np, "uvol": uvol}):
+        runner.run(examples)
+    assert runner.failures == 0
 
 
 def test_everything_public_is_documented():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of all kinds into samples, and out again."""
 
+import os
 import pickle
 import subprocess
 
@@ -90,7 +91,7 @@ def test_parts_of_records_of_empty_are_copied():
     (3, {"a": ("f4", (2, 2))}, ValueError, "must hold numbers"),
     (3, {"a": "q9"}, TypeError, "not understood"),
     (2**40, {"a": "f8"}, ValueError, "whole number"),
-    (2**31 - 1, {"a": ("f8", 10**6)}, MemoryError, "not enough memory"),
+    (2**31 - 1, {"a": ("f8", 10**6)}, MemoryError, "2147483647 points needs"),
 ])
 def test_records_that_cannot_be_get_a_sentence(count, fields, error, message):
     with pytest.raises(error, match=message):
@@ -354,3 +355,60 @@ def test_names_in_tables():
     samples = uvol.Samples.from_dataframe(frame)
     assert list(samples["hole"]) == ["b", "a"]
     assert list(samples.to_dataframe()["hole"]) == ["b", "a"]
+
+
+def test_masks_of_structured_arrays_are_missing_values():
+    records = np.zeros(3, [("x", "f4"), ("y", "f4"), ("z", "f4"), ("T", "f4"), ("n", "i4"), ("v", "f4", (2,)), ("name", "U2")])
+    records["name"] = ["a", "b", "c"]
+    masked = np.ma.array(records)
+    for name in ("T", "n", "name"):
+        masked[name][1] = np.ma.masked
+    masked["v"][2, 0] = np.ma.masked
+    masked["x"][0] = np.ma.masked
+    samples = uvol.Samples(masked)
+    for name in ("T", "n"):
+        assert np.isnan(samples[name]).tolist() == [False, True, False]
+    assert np.isnan(samples["v"]).tolist() == [[False, False], [False, False], [True, False]]
+    assert samples["name"].tolist() == ["a", "", "c"]
+    assert np.isnan(samples.points[:, 0]).tolist() == [True, False, False]
+
+
+def test_records_of_empty_with_a_mask_are_copied():
+    records = uvol.empty(3, {"T": "f4"})
+    masked = np.ma.array(records, mask=[(False,) * 4, (False, False, False, True), (False,) * 4])
+    assert np.isnan(uvol.Samples(masked)["T"]).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("call", [
+    lambda samples: uvol.Samples(POINTS, {"a\udc80b": [1, 2, 3]}),
+    lambda samples: uvol.Samples(POINTS, {"hole": ["a\udc80", "b", "c"]}),
+    lambda samples: uvol.empty(3, {"\udc80": "f4"}),
+    lambda samples: samples.compute("\udc80"),
+    lambda samples: samples.where("\udc80 > 1"),
+    lambda samples: samples["|\udc80|"],
+    lambda samples: uvol.isosurface(samples, field="\udc80", iso=1),
+    lambda samples: uvol.isosurface(samples, iso=2, outside="\udc80"),
+    lambda samples: uvol.Interpolator(samples, model="\udc80"),
+    lambda samples: uvol.Interpolator(samples).validate(by="\udc80"),
+    lambda samples: samples.render(title="\udc80"),
+    lambda samples: samples.render(color="\udc80"),
+    lambda samples: uvol.read("a.h5", particles="\udc80"),
+    lambda samples: uvol.read("a.csv", xyz=("x", "y", "\udc80")),
+])
+def test_halves_of_characters_get_a_sentence(call):
+    with pytest.raises(ValueError, match="^[^\n]*halves of characters[^\n]*$"):
+        call(uvol.Samples(POINTS, {"T": [1.0, 2.0, 3.0]}))
+
+
+def test_fields_of_halves_of_characters_are_not_there():
+    with pytest.raises(uvol.FieldError, match="There is no field"):
+        uvol.Samples(POINTS)["a\udc80"]
+
+
+@pytest.mark.parametrize("name", ["points\udcff.csv", "points\udcff.ply", "points\udcff.vtp", "points\udcff.npz"])
+def test_names_of_files_may_be_any_bytes(tmp_path, name):
+    uvol.write(tmp_path / name, POINTS, {"T": [1.0, 2.0, 3.0]})
+    assert os.listdir(tmp_path) == [name]
+    assert uvol.read(tmp_path / os.listdir(tmp_path)[0])["T"].tolist() == [1, 2, 3]
+    with pytest.raises(OSError):
+        uvol.read(str(tmp_path / name) + ".csv")
