@@ -20,11 +20,13 @@ MeshOptions::declare(Options& options)
   options.choice("remesh",
                  parameters_.remesh,
                  "with -mesh: even triangles, or those between the cells as they are");
-  options.number("edge-length",
-                 parameters_.edge_length,
-                 0.0,
-                 std::numeric_limits<double>::max(),
-                 "with -mesh: length of edges, about; 0: that of the local spacing");
+  options.number(
+      "edge-length",
+      parameters_.edge_length,
+      0.0,
+      std::numeric_limits<double>::max(),
+      "with -mesh: length of edges, about; 0: that of the local spacing, and edges "
+      "are not made shorter than the spacing of the samples");
   options.flag("open",
                parameters_.open,
                "with -mesh: leave the surface open at the border of the samples "
