@@ -7,6 +7,7 @@ and all fields, meshes, level sets, interpolated values and pictures come out.
 
 from ._arrays import empty
 from ._bridges import from_vtk
+from ._core import __version__
 from ._errors import DivergedError, FieldError, ResultWarning
 from ._files import read, read_mesh, read_volume, write
 from ._interpolation import Answers, Interpolator

@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+__version__: str
+
 Fields = Mapping[str, npt.ArrayLike] | None
 PointsLike = npt.ArrayLike | Any
 SurfaceLike = PointsLike | tuple[PointsLike, npt.ArrayLike]

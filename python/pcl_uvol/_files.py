@@ -15,9 +15,12 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     Parameters
     ----------
     path : str or os.PathLike
-        pcd, ply, csv, txt, xyz, dat, tsv, vtk, vtp, vtu, vts, vtkhdf, npy, npz, las, bgeo, or
-        HDF5 (`file.h5:/group` names a part of it), by the ending, which .gz, .bz2 or .zst may
-        follow; and snapshots of Gadget. "-" is standard input.
+        By the ending: pcd, ply; csv, txt, xyz, dat, tsv; npy, npz; las; of VTK vtk, vtp, vtu,
+        vts, vtkhdf, its lists pvd, vtm, pvtu, pvtp, pvts, its trees vthb and htg; of NetCDF
+        nc, nc4, cdf; of HDF5 h5, hdf5, hdf, he5, h5part (`file.h5:/group` names a part of it);
+        of Exodus ex2, exo, exii, e; case of EnSight, foam of OpenFOAM, p3d of PLOT3D, bgeo and
+        bhclassic of Houdini. .gz, .bz2 or .zst may follow. Snapshots of Gadget may have any
+        name. "-" is standard input.
     xyz : sequence of three str, optional
         Columns of a text file that hold the coordinates, by names or numbers from 0; by
         default they are found by usual names.
@@ -59,10 +62,12 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
     Parameters
     ----------
     path : str or os.PathLike
+        Of points pcd, ply, vtp, vtkhdf, csv or npz, by the ending.
     points, fields
         As those of `Samples`, or something that has `save`.
     triangles : array_like of int, shape (m, 3), optional
-        Of these points: the file is that of a mesh, ply, vtp, obj, off or stl.
+        Of these points: the file is that of a mesh, ply, vtp, vtkhdf, obj, off or
+        stl.
     ascii : bool
         PCD and PLY as text.
     progress : bool or callable, optional
@@ -83,7 +88,7 @@ def read_mesh(path):
     Parameters
     ----------
     path : str or os.PathLike
-        ply, vtp, obj, off or stl, by the ending.
+        ply, vtp, vtkhdf, obj, off or stl, by the ending.
 
     Returns
     -------

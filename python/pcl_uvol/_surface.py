@@ -46,7 +46,8 @@ class Surface(Drawable, Points):
             Even triangles, or those between the cells as they are.
         edge_length : float
             Of even triangles, about, in units of the coordinates; 0: that of the local
-            spacing.
+            spacing. Edges are not made shorter than the spacing of the samples, which is
+            all that they tell.
         open : bool
             Leave the surface open at the border of the samples instead of closing it.
         drop_pieces : int
@@ -223,6 +224,9 @@ class Extractor:
 
     def __reduce__(self):
         return Extractor, (self.samples,)
+
+    def __repr__(self):
+        return f"Extractor of {self.samples!r}"
 
 
 def _validation(folds, by):

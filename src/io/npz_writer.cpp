@@ -22,6 +22,8 @@ constexpr std::size_t block_points = 1u << 14;
 std::string
 numpyType(std::uint8_t datatype)
 {
+  if (datatype == Type::BOOL)
+    return "|b1";
   const std::size_t bytes = datatypeSize(datatype);
   const char kind = datatype == Type::FLOAT32 || datatype == Type::FLOAT64 ? 'f'
                     : datatype == Type::UINT8 || datatype == Type::UINT16 ||

@@ -165,7 +165,7 @@ HeaderParser::takeType(const std::string& name)
                {"u2", Type::UINT16},
                {"u4", Type::UINT32},
                {"u8", Type::UINT64},
-               {"b1", Type::UINT8}};
+               {"b1", Type::BOOL}};
   for (const auto& known : types)
     if (type.size() == 3 && type.compare(1, 2, known.name) == 0)
       return {name, static_cast<std::uint8_t>(known.datatype), 1, type[0] == '>'};

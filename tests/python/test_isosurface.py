@@ -143,6 +143,7 @@ def test_an_extractor_serves_several_isovalues_and_fields(ball):
         options = {"field": "r", **options}
         again = uvol.isosurface(*ball, **options)
         assert extractor.extract(**options).records.tobytes() == again.records.tobytes()
+    assert repr(extractor).startswith("Extractor of Samples of 4000 points: r (float64)")
 
 
 def test_points_of_tables_and_surfaces_are_samples(ball, sphere):
@@ -463,3 +464,11 @@ def test_unknown_keywords_get_a_proposal(sphere, call, message):
 def test_numbers_that_are_none_get_a_sentence(ball, options, message):
     with pytest.raises(ValueError, match=message):
         uvol.isosurface(*ball, field="r", iso=0.3, **options)
+
+
+def test_edges_are_not_shorter_than_the_spacing(sphere):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        usual, short = sphere.mesh(), sphere.mesh(edge_length=1e-3)
+    assert len(short) < 1.5 * len(usual)
+    assert "not made shorter than the spacing of the samples" in " ".join(uvol.Surface.mesh.__doc__.split())

@@ -50,6 +50,10 @@ def test_examples_of_the_documentation_run(name):
     assert runner.failures == 0
 
 
+def test_the_version_is_that_of_the_tools(run_tool):
+    assert run_tool("uvol_isosurface", "--version").split()[-1] == uvol.__version__
+
+
 def test_everything_public_is_documented():
     for name in uvol.__all__:
         thing = getattr(uvol, name)
@@ -87,6 +91,7 @@ def test_types_of_the_stub_have_the_names_of_the_code():
 
     def compare(node, function):
         arguments = node.args
+        assert inspect.ismethod(function) == any(name.arg == "cls" for name in arguments.args)
         listed = [argument.arg for argument in arguments.args + arguments.kwonlyargs]
         keywords = [parameter.name for parameter in inspect.signature(function).parameters.values()
                     if parameter.kind != parameter.VAR_KEYWORD]

@@ -3,6 +3,7 @@
 
 import os
 import pickle
+import re
 import subprocess
 
 import numpy as np
@@ -412,3 +413,23 @@ def test_names_of_files_may_be_any_bytes(tmp_path, name):
     assert uvol.read(tmp_path / os.listdir(tmp_path)[0])["T"].tolist() == [1, 2, 3]
     with pytest.raises(OSError):
         uvol.read(str(tmp_path / name) + ".csv")
+
+
+@pytest.mark.parametrize("ending", ["npz", "ply", "vtp", "vtkhdf", "pcd", "csv"])
+def test_booleans_in_files(tmp_path, ending):
+    np.savez(tmp_path / "made.npz", x=POINTS[:, 0], y=POINTS[:, 1], z=POINTS[:, 2], b=[True, False, True])
+    samples = uvol.read(tmp_path / "made.npz")
+    assert samples["b"].dtype == bool
+    path = tmp_path / f"again.{ending}"
+    samples.save(path)
+    assert uvol.read(path)["b"].tolist() == [1, 0, 1]
+    if ending == "npz":
+        assert np.load(path)["b"].dtype == bool and uvol.read(path)["b"].dtype == bool
+
+
+def test_docstrings_name_all_formats(run_tool):
+    lines = {line.partition(":")[0]: line for line in run_tool("uvol", "--list-formats").splitlines()}
+    for what, function in {"Points, read": uvol.read, "Points, written": uvol.write, "Meshes, read": uvol.read_mesh,
+                           "Meshes, written": uvol.write}.items():
+        for ending in re.findall(r"[.](\w+)", lines[what].partition(", by many")[0]):
+            assert re.search(rf"\b{ending}\b", function.__doc__), ending

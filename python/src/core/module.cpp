@@ -6,6 +6,7 @@
 PYBIND11_MODULE(_core, module)
 {
   using namespace pcl_uvol::python;
+  module.attr("__version__") = PCL_UVOL_VERSION;
   bindErrors(module);
   bindDataset(module);
   bindBoxes(module);
