@@ -466,9 +466,10 @@ def test_numbers_that_are_none_get_a_sentence(ball, options, message):
         uvol.isosurface(*ball, field="r", iso=0.3, **options)
 
 
-def test_edges_are_not_shorter_than_the_spacing(sphere):
+def test_edges_are_not_shorter_than_the_spacing(run_tool, sphere):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         usual, short = sphere.mesh(), sphere.mesh(edge_length=1e-3)
     assert len(short) < 1.5 * len(usual)
-    assert "not made shorter than the spacing of the samples" in " ".join(uvol.Surface.mesh.__doc__.split())
+    for text in (uvol.Surface.mesh.__doc__, run_tool("uvol_isosurface", "-h", "mesh")):
+        assert "not made shorter than the spacing of the samples" in " ".join(text.lower().split())
