@@ -141,7 +141,7 @@ class Lattice:
             lines = _parameters.numbers(contours, "contours") if np.size(contours) else []
             near = [] if samples is None else self._find_samples(field, samples)
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
-                                                 colormap, ends, bounds, bool(log), lines,
+                                                 _parameters.text(colormap, "colormap"), ends, bounds, bool(log), lines,
                                                  near)
         return Picture(pixels, field, limits, self.report)
 

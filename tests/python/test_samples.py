@@ -391,6 +391,7 @@ def test_records_of_empty_with_a_mask_are_copied():
     lambda samples: uvol.isosurface(samples, iso=2, outside="\udc80"),
     lambda samples: uvol.Interpolator(samples, model="\udc80"),
     lambda samples: uvol.Interpolator(samples).validate(by="\udc80"),
+    lambda samples: uvol.Interpolator(samples).slice("z=3", 4).render(colormap="\udc80"),
     lambda samples: samples.render(title="\udc80"),
     lambda samples: samples.render(color="\udc80"),
     lambda samples: uvol.read("a.h5", particles="\udc80"),
