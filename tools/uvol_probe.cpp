@@ -264,7 +264,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   facts.insert(facts.end(), of_scale.begin(), of_scale.end());
   if (parameters.model == InterpolationModel::Auto) {
     const StepTimer timer(report, "choice");
-    const auto choice = chooseModel(view, own, parameters, options.threads(), report);
+    const auto choice = arguments.model.chooseModel(
+        samples, own, parameters, options.threads(), report);
     parameters.model = choice.scores.front().model;
     facts.emplace_back("model", toWord(parameters.model));
     for (const Fact& fact : uvol_tools::describe(choice))

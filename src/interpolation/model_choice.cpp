@@ -2,10 +2,13 @@
 // The model that is nearest to samples left out.
 #include "common/scalar_field.h"
 #include "interpolation/fold_split.h"
+#include "neighbors/sampling.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -116,6 +119,25 @@ relativeSquares(const std::vector<double>& values,
   return squares > 0.0 ? squares / variance : 0.0;
 }
 
+/** Random folds, or blocks where samples lie on lines or sheets. */
+Folds
+makeFolds(const CloudView& cloud,
+          const pcl::Indices& indices,
+          const InterpolationParameters& parameters,
+          unsigned threads,
+          const ProgressCallback& progress)
+{
+  Report own; // models count samples for themselves
+  own.progress = progress;
+  const std::vector<std::uint32_t> use(indices.begin(), indices.end());
+  const auto samples = SampleSet::build(
+      cloud.xyz(0), cloud.stride(), use, toPosition(parameters.scale), threads, own);
+  const SamplingSummary sampling = summarizeSampling(*samples, threads);
+  return sampling.most == LocalDimension::Line || sampling.most == LocalDimension::Sheet
+             ? Folds::byBlocks(cloud, folds_in_all, threads)
+             : Folds::byRandom(cloud.count, folds_in_all);
+}
+
 } // namespace
 
 ModelChoice
@@ -133,18 +155,35 @@ chooseModel(const CloudView& cloud,
         "fits are taken.");
     return {{{InterpolationModel::Fit, 0.0}}, 0};
   }
+  return chooseModel(cloud,
+                     indices,
+                     parameters,
+                     makeFolds(cloud, indices, parameters, threads, report.progress),
+                     threads,
+                     report);
+}
+
+ModelChoice
+chooseModel(const CloudView& cloud,
+            const pcl::Indices& indices,
+            const InterpolationParameters& parameters,
+            const Folds& folds,
+            unsigned threads,
+            Report& report)
+{
+  checkParameters(parameters);
+  detail::checkIndices(indices, cloud.count, "chooseModel");
   InterpolationParameters tested = parameters;
   tested.gradients = tested.errors = false;
   if (tested.fields.empty())
     tested.fields.push_back(ScalarField::defaultName(cloud.fields));
-  const Folds folds = Folds::byRandom(cloud.count, folds_in_all);
 
   Report own; // what models would warn of is no matter of those that are not chosen
   own.progress = report.progress;
   std::vector<Candidate> candidates = listCandidates(parameters.sph);
   pcl::Indices samples;
   std::string error;
-  for (std::size_t fold = 0; fold < folds_tested; ++fold) {
+  for (std::size_t fold = 0; fold < std::min(folds_tested, folds.size()); ++fold) {
     const detail::FoldSplit split(indices, folds, fold, most_of_a_fold);
     if (split.left_out.empty())
       continue;

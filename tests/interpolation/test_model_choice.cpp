@@ -45,6 +45,36 @@ noise(const Vector3d& x)
   return x[0] * 1e6 - std::floor(x[0] * 1e6);
 }
 
+TEST(ModelChoice, SamplesAlongLinesAreLeftOutInBlocks)
+{
+  // Ten straight tracks of 300 samples: within a track local cubics are exact to many
+  // digits, and beside it they are not to be trusted.
+  Places places;
+  for (int track = 0; track < 10; ++track)
+    for (int i = 0; i < 300; ++i)
+      places.push_back({i / 300.0,
+                        0.1 * track + 1e-4 * std::sin(7.0 * i),
+                        0.3 * std::sin(2.0 * track) + 1e-4 * std::cos(5.0 * i)});
+  const auto tracks = sampleFunctions(places, {franke});
+  Report report;
+  const auto by_random = chooseModel(
+      viewOf(tracks), allOf(tracks), {}, Folds::byRandom(places.size(), 10), 0, report);
+  EXPECT_EQ(by_random.scores.front().model, InterpolationModel::Fit);
+  const auto by_blocks = chooseModel(viewOf(tracks),
+                                     allOf(tracks),
+                                     {},
+                                     Folds::byBlocks(viewOf(tracks), 10, 0),
+                                     0,
+                                     report);
+  const ModelChoice choice = choose(tracks);
+  EXPECT_NE(choice.scores.front().model, InterpolationModel::Fit);
+  ASSERT_EQ(choice.scores.size(), by_blocks.scores.size());
+  for (std::size_t i = 0; i < choice.scores.size(); ++i) {
+    EXPECT_EQ(choice.scores[i].model, by_blocks.scores[i].model);
+    EXPECT_EQ(choice.scores[i].error, by_blocks.scores[i].error);
+  }
+}
+
 TEST(ModelChoice, SmoothFieldsGetFitsAndNoiseGetsMeans)
 {
   const auto smooth = sampleFunctions(randomPlaces(3000, 1), {franke});

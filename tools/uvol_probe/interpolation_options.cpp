@@ -192,6 +192,20 @@ InterpolationOptions::makeFolds(const pcl_uvol::Dataset& samples,
   return Folds::byField(view, validate_by_, folds_);
 }
 
+pcl_uvol::ModelChoice
+InterpolationOptions::chooseModel(const pcl_uvol::Dataset& samples,
+                                  const pcl::Indices& indices,
+                                  const InterpolationParameters& parameters,
+                                  unsigned threads,
+                                  pcl_uvol::Report& report) const
+{
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(samples.cloud);
+  if (!hasValidation() || validate_by_ == "random")
+    return pcl_uvol::chooseModel(cloud, indices, parameters, threads, report);
+  return pcl_uvol::chooseModel(
+      cloud, indices, parameters, makeFolds(samples, threads), threads, report);
+}
+
 Facts
 InterpolationOptions::validate(const pcl_uvol::Dataset& samples,
                                const pcl::Indices& indices,

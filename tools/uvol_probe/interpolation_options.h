@@ -57,6 +57,15 @@ public:
     return folds_ > 0;
   }
 
+  /** \brief See pcl_uvol::chooseModel: by the folds of -validate-by, if blocks or a
+   * field make these. */
+  pcl_uvol::ModelChoice
+  chooseModel(const pcl_uvol::Dataset& samples,
+              const pcl::Indices& indices,
+              const pcl_uvol::InterpolationParameters& parameters,
+              unsigned threads,
+              pcl_uvol::Report& report) const;
+
   /** \brief Compare values measured with those from other samples: facts of every
    * field. */
   Facts

@@ -113,8 +113,9 @@ struct ModelChoice {
   std::size_t tested = 0;         ///< samples that all of them were tested at
 };
 
-/** \brief Compare models by cross-validation, on a sample of folds: 3 out of 10 random
- * ones, 2000 points each.
+/** \brief Compare models by cross-validation, on a sample of folds: 3 of 10, 2000
+ * points each. Folds are random; where most samples lie on lines or sheets, blocks:
+ * neighbours on the line would tell nothing of what lies beside it.
  *
  * The models are fit, natural, kriging, shepard and nearest, and sph where the
  * parameters name a field of particles. They are compared where all of them have a
@@ -133,6 +134,17 @@ PCL_UVOL_EXPORTS ModelChoice
 chooseModel(const CloudView& cloud,
             const pcl::Indices& indices,
             const InterpolationParameters& parameters,
+            unsigned threads,
+            Report& report);
+
+/** \brief The same on folds of one's own, such as drill holes: 3 of them.
+ *
+ * \param folds of the points of the cloud */
+PCL_UVOL_EXPORTS ModelChoice
+chooseModel(const CloudView& cloud,
+            const pcl::Indices& indices,
+            const InterpolationParameters& parameters,
+            const Folds& folds,
             unsigned threads,
             Report& report);
 
