@@ -139,7 +139,13 @@ chooseModel(const CloudView& cloud,
 
 /** \brief The same on folds of one's own, such as drill holes: 3 of them.
  *
- * \param folds of the points of the cloud */
+ * \param cloud the samples
+ * \param indices points to take part
+ * \param parameters of the models
+ * \param folds of the points of the cloud
+ * \param threads 0: all cores
+ * \param report as above
+ * \throws InvalidArgument as FieldInterpolation::interpolate */
 PCL_UVOL_EXPORTS ModelChoice
 chooseModel(const CloudView& cloud,
             const pcl::Indices& indices,
