@@ -379,17 +379,15 @@ weldMesh(const std::vector<OppositeFaces>& cut, IsosurfaceResult& result)
   const std::vector<std::int32_t> image_of = findImages(cut, result.surface.cloud);
   copyToImages(image_of, result);
   const JoinedMesh apart{result.triangles, result.surface.cloud.width};
-  const JoinedMesh joined = joinImages(image_of, result.triangles).value_or(apart);
+  JoinedMesh joined = joinImages(image_of, result.triangles).value_or(apart);
   const std::size_t left = countOpenEdges(cut, result, joined);
   if (left > 0)
     result.report.warnings.push_back(
         std::to_string(left) + " of " +
         std::to_string(countOpenEdges(cut, result, apart)) +
         " edges in the faces of the box have no image in the opposite face, so that "
-        "the "
-        "mesh is not closed across it: the surface is tangent to the face there, or "
-        "the "
-        "samples are too sparse or noisy.");
+        "the mesh is not closed across it: the surface is tangent to the face there, "
+        "or the samples are too sparse or noisy.");
   setField(result.surface, "image_of", image_of);
   return joined;
 }

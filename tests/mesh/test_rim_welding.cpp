@@ -14,7 +14,6 @@ namespace {
 
 using namespace pcl_uvol;
 using detail::MatchedRims;
-using detail::OppositeFaces;
 using detail::RimVertex;
 
 /** Strips of triangles that end in the planes x = 0 and x = 4, in rims along y at z = 0
