@@ -360,6 +360,14 @@ TEST_F(UvolViewer, AKeyCutsAwayWhatLiesInFront)
   open.type('+'); // stays cut
   checkCut();
   open.type('-');
+  open.type('m'); // a mesh has all of its vertices
+  EXPECT_GT(open.surface.getTriangles().size(), 1000u);
+  for (const pcl_uvol::Triangle& triangle : open.surface.getTriangles())
+    for (const std::uint32_t vertex : triangle)
+      ASSERT_LT(vertex, open.surface.getCloud()->width);
+  EXPECT_GT(covered(open.shoot()), 1500);
+  open.type('m'); // points are cut again
+  checkCut();
   open.type('k');
   EXPECT_EQ(whole, open.surface.getCloud()->width);
 }

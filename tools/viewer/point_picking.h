@@ -15,8 +15,13 @@ namespace uvol_tools {
 
 /** \brief The point that is seen at a pixel of a window: of those within some pixels of
  * it the one nearest to the eye, and of those about as near the one nearest to the
- * pixel. \param column of the pixel, from the left \param row from below \return none
- * where no point is near */
+ * pixel.
+ *
+ * \param column of the pixel, from the left
+ *
+ * \param row from below
+ *
+ * \return none where no point is near */
 std::optional<std::size_t>
 findPointAt(const pcl::PCLPointCloud2& cloud,
             vtkRenderer& renderer,

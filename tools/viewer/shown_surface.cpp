@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/shown_surface.h"
 
-#include "common/records.h"
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/isosurface/iso_edges.h>
 
 #include <Eigen/Geometry>
 
@@ -153,7 +153,7 @@ void
 ShownSurface::applyCut()
 {
   cloud_ = whole_;
-  if (!plane_ || !whole_)
+  if (!plane_ || !whole_ || !triangles_.empty())
     return;
   const pcl_uvol::CloudView whole = pcl_uvol::viewOf(*whole_);
   std::vector<std::uint32_t> kept;
@@ -164,11 +164,10 @@ ShownSurface::applyCut()
   cloud_.reset();
   if (kept.empty())
     return;
-  const auto part =
-      pcl::make_shared<Cloud>(pcl_uvol::makeRecords(whole_->fields, kept.size()));
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    std::copy_n(
-        whole.point(kept[i]), part->point_step, &part->data[i * part->point_step]);
+  const auto part = pcl::make_shared<Cloud>();
+  part->height = 1;
+  part->width = static_cast<pcl::uindex_t>(kept.size());
+  pcl_uvol::copyFields(*whole_, kept, *part);
   cloud_ = part;
 }
 

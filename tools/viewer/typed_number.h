@@ -23,7 +23,10 @@ public:
     return text_;
   }
 
-  /** \brief Take a key. \return the number that the return key has ended
+  /** \brief Take a key.
+   *
+   * \return the number that the return key has ended
+   *
    * \throws InvalidArgument if that is none */
   std::optional<double>
   press(char key);

@@ -13,7 +13,9 @@
 namespace uvol_tools {
 
 /** \brief Bars over a scale, whose heights are the square roots of their numbers, so
- * that rare values are seen. \param values those that are not finite do not count
+ * that rare values are seen.
+ *
+ * \param values those that are not finite do not count
  * \param corners left, bottom, right and top in the viewport, in [0, 1] */
 vtkSmartPointer<vtkActor2D>
 drawHistogram(const std::vector<double>& values,

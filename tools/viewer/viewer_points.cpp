@@ -46,6 +46,7 @@ ViewerWindow::switchCut()
   }
   showSurface();
   show(!surface_.isCut()     ? ""
+       : surface_.isMeshed() ? "points are cut, a mesh stays whole"
        : surface_.getCloud() ? "cut at the centre of turning"
                              : "all of it is cut away");
 }

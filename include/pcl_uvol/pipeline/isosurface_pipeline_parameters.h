@@ -184,8 +184,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
  * number; a hold-out test of one fold, or in a box that repeats; sides of such a box
  * that are negative or not finite; welding without such a box or a mesh; a mesh with a
  * bound of the error, without bridged points, with other normals than those of the
- * fits, and as checkParameters(SurfaceMeshParameters) \param parameters to be checked
- * before samples are there */
+ * fits, and as checkParameters(SurfaceMeshParameters)
+ *
+ * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
 checkParameters(const IsosurfacePipelineParameters& parameters);
 
