@@ -369,6 +369,8 @@ def test_a_file_names_the_box_that_it_repeats_in(tmp_path, ball):
     named = uvol.isosurface(samples, field="Density", iso=0, periodic="header")
     given = uvol.isosurface(samples, field="Density", iso=0, periodic=(1, 1, 1))
     assert named.records.tobytes() == given.records.tobytes()
+    for again in (pickle.loads(pickle.dumps(samples)), samples.take([0, 1, 2]), uvol.normals(samples, k=5)):
+        assert again.box.tolist() == [1, 1, 1]
     for periodic, message in (("header", "names no box"), ("box", "or 'header'"), ((1, 1), "2 sides")):
         with pytest.raises(ValueError, match=message):
             uvol.isosurface(*ball, field="r", iso=0.3, periodic=periodic)
@@ -446,7 +448,7 @@ def test_memory_that_is_not_there_is_told_with_what_it_is_for(run_python, call, 
     (lambda sphere: uvol.isosurface(sphere), r"isosurface\(\) needs the keyword 'iso'"),
     (lambda sphere: uvol.Extractor(sphere).extract(iso=1, feild="r"), r"extract\(\) .*\(did you mean 'field'\?\)"),
     (lambda sphere: sphere.render(colour="r"), r"render\(\) .*'colour' \(did you mean 'color'\?\)"),
-    (lambda sphere: sphere.orbit(3, colour="r"), r"render\(\) .*\(did you mean 'color'\?\)"),
+    (lambda sphere: sphere.orbit(3, colour="r"), r"orbit\(\) .*\(did you mean 'color'\?\)"),
     (lambda sphere: uvol.Interpolator(sphere, modle="fit"), r"Interpolator\(\) .*\(did you mean 'model'\?\)"),
     (lambda sphere: uvol.voronoi(sphere, cell=3), r"voronoi\(\) .*\(did you mean 'cells'\?\)"),
     (lambda sphere: uvol.cluster(sphere, entirely_else=3), r"cluster\(\) has no keyword 'entirely_else'\.$"),

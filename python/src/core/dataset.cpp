@@ -286,7 +286,8 @@ getState(const Dataset& dataset)
       dataset.double_coordinates,
       dataset.has_coordinates,
       dataset.notes,
-      listLabels(dataset, [](const std::string& name) { return py::bytes(name); }));
+      listLabels(dataset, [](const std::string& name) { return py::bytes(name); }),
+      dataset.box);
 }
 
 DatasetPtr
@@ -315,6 +316,7 @@ setState(const py::tuple& state)
   dataset.has_coordinates = state[6].cast<bool>();
   dataset.notes = state[7].cast<std::vector<std::string>>();
   dataset.labels = state[8].cast<LabelNames>();
+  dataset.box = state[9].cast<std::array<double, 3>>();
   return share(std::move(dataset));
 }
 
