@@ -44,6 +44,7 @@ class Answers:
     gradients: np.ndarray | None
     support: np.ndarray
     report: dict[str, Any]
+    parameters: dict[str, Any]
 
 class Clusters:
     labels: np.ndarray
@@ -51,6 +52,7 @@ class Clusters:
     tree: dict[str, np.ndarray]
     samples: Samples
     report: dict[str, Any]
+    parameters: dict[str, Any]
     def __len__(self) -> int: ...
     def take(self, cluster: int) -> Samples: ...
     def surface(self, cluster: int, kind: str = ..., *, probability: str = ..., smoothing_length: str = ..., cells: int = ..., distance: float = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., threads: int = ..., progress: Progress = ...) -> Samples | tuple[Samples, np.ndarray]: ...
@@ -75,6 +77,7 @@ class DivergedError(ArithmeticError):
 
 class Extractor:
     samples: Samples
+    parameters: dict[str, Any]
     def __init__(self, points: PointsLike, fields: Fields = ...) -> None: ...
     def extract(self, *, iso: float | Sequence[float], field: str = ..., scale: npt.ArrayLike | str | None = ..., rotate: Sequence[float] | None = ..., outside: str = ..., interpolation: str = ..., neighbors: str = ..., voronoi_cells: int = ..., criterion: str = ..., smooth: bool = ..., mu: float | None = ..., level_set: dict[str, Any] | None = ..., normals: str = ..., normal_neighbors: int = ..., max_error: float | None = ..., drop_bridged: bool = ..., fill_gaps: bool = ..., validate: int = ..., validate_by: str = ..., mesh: bool | dict[str, Any] = ..., periodic: Sequence[float] | str | None = ..., periodic_mesh: str = ..., threads: int = ..., progress: Progress = ...) -> Surface: ...
 
@@ -112,6 +115,7 @@ class Lattice:
     shape: tuple[int, ...]
     points: np.ndarray
     report: dict[str, Any]
+    parameters: dict[str, Any]
     def keys(self) -> list[str]: ...
     def to_xarray(self) -> Any: ...
     def save(self, path: str | os.PathLike[str]) -> None: ...
@@ -125,6 +129,7 @@ class Measures(PieceFigures):
     vertex_areas: np.ndarray
     piece_of: np.ndarray
     report: dict[str, Any]
+    parameters: dict[str, Any]
 
 class Mesh(Surface):
     triangles: np.ndarray
@@ -137,6 +142,7 @@ class Picture:
     field: str
     range: tuple[float, float]
     report: dict[str, Any]
+    parameters: dict[str, Any]
     def save(self, path: str | os.PathLike[str]) -> None: ...
 
 class PieceFigures:
@@ -164,6 +170,7 @@ class Projection:
     labels: np.ndarray
     map: dict[str, Any]
     report: dict[str, Any]
+    parameters: dict[str, Any]
     def render(self, view: str = ..., size: int | tuple[int, int] = ...) -> Picture: ...
 
 class ResultWarning(UserWarning):
@@ -171,10 +178,9 @@ class ResultWarning(UserWarning):
 
 class Samples(_Drawable, _Points):
     report: dict[str, Any]
+    parameters: dict[str, Any]
     snapshots: list[tuple[int, Samples]]
     def __init__(self, points: PointsLike, fields: Fields = ...) -> None: ...
-    @classmethod
-    def _of(cls, dataset: Any) -> Any: ...
     @classmethod
     def from_dataframe(cls, frame: Any, points: Sequence[str] = ..., fields: Sequence[str] | None = ...) -> Samples: ...
     def compute(self, expression: str, threads: int = ..., progress: Progress = ...) -> Samples: ...
@@ -197,6 +203,7 @@ class VoronoiGrid:
     origin: np.ndarray
     spacing: np.ndarray
     report: dict[str, Any]
+    parameters: dict[str, Any]
 
 def cluster(points: PointsLike, fields: Fields = ..., *, attributes: Sequence[str] = ..., labels: npt.ArrayLike | None = ..., standardized: bool = ..., k: int = ..., min_size: int = ..., cut: float = ..., single: bool = ..., threads: int = ..., progress: Progress = ...) -> Clusters: ...
 
@@ -210,7 +217,7 @@ def info(points: PointsLike, fields: Fields = ..., *, scale: npt.ArrayLike | str
 
 def isosurface(points: PointsLike, fields: Fields = ..., *, iso: float | Sequence[float], field: str = ..., scale: npt.ArrayLike | str | None = ..., rotate: Sequence[float] | None = ..., outside: str = ..., interpolation: str = ..., neighbors: str = ..., voronoi_cells: int = ..., criterion: str = ..., smooth: bool = ..., mu: float | None = ..., level_set: dict[str, Any] | None = ..., normals: str = ..., normal_neighbors: int = ..., max_error: float | None = ..., drop_bridged: bool = ..., fill_gaps: bool = ..., validate: int = ..., validate_by: str = ..., mesh: bool | dict[str, Any] = ..., periodic: Sequence[float] | str | None = ..., periodic_mesh: str = ..., threads: int = ..., progress: Progress = ...) -> Surface: ...
 
-def level_set(points: PointsLike, fields: Fields = ..., *, iso: float, field: str = ..., mu: float | None = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., start: Any = ..., outside: str = ..., snapshots: int = ..., periodic: Sequence[float] | str | None = ..., threads: int = ..., progress: Progress = ..., **parameters: Any) -> Samples: ...
+def level_set(points: PointsLike, fields: Fields = ..., *, iso: float, field: str = ..., mu: float | None = ..., scale: npt.ArrayLike | str = ..., rotate: Sequence[float] | None = ..., start: Any = ..., outside: str = ..., snapshots: int = ..., periodic: Sequence[float] | str | None = ..., scheme: str = ..., flow: str = ..., bound: str = ..., integration: str = ..., reinitialization: str = ..., k: int = ..., max_steps: int = ..., tolerance: float = ..., band_width: float = ..., threads: int = ..., progress: Progress = ...) -> Samples: ...
 
 def measure(surface: SurfaceLike, *, samples: PointsLike | None = ..., curved: bool = ..., find_intersections: bool = ..., threads: int = ..., progress: Progress = ...) -> Measures: ...
 

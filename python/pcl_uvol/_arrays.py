@@ -97,6 +97,7 @@ def as_triangles(values, count):
     return np.ascontiguousarray(array, np.uint32)
 
 
+@_parameters.with_proposals
 def empty(count, fields=None):
     """Records in the library's memory, to be filled in: `Samples` takes them without a
     copy.

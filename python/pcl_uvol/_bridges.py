@@ -3,12 +3,27 @@
 
 import numpy as np
 
+from . import _parameters
+
 
 class Bridges:
     """Mixed into points; a mesh has `triangles` as well."""
 
     def to_vtk(self):
-        """A vtkPolyData with all fields: a copy. Points are vertices, a mesh polygons."""
+        """A vtkPolyData of python3-vtk with all fields: a copy. Points are vertices, a
+        mesh has polygons.
+
+        Returns
+        -------
+        vtkmodules.vtkCommonDataModel.vtkPolyData
+            Coordinates in the type of `points`, booleans as bytes, names as texts.
+
+        Examples
+        --------
+        >>> data = uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]}).to_vtk()
+        >>> data.GetNumberOfPoints(), data.GetPointData().GetArrayName(0)
+        (3, 'rho')
+        """
         from vtkmodules.util.numpy_support import numpy_to_vtk
         from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
         from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -43,12 +58,33 @@ class Bridges:
         return data
 
     def to_pyvista(self):
-        """A pyvista.PolyData with all fields."""
+        """A pyvista.PolyData with all fields: that of `to_vtk`.
+
+        Returns
+        -------
+        pyvista.PolyData
+
+        Examples
+        --------
+        >>> uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]}).to_pyvista().plot()  # doctest: +SKIP
+        """
         import pyvista
         return pyvista.wrap(self.to_vtk())
 
     def to_open3d(self):
-        """An open3d.geometry.TriangleMesh of a mesh, else a PointCloud, with normals."""
+        """A geometry of Open3D in double, with normals where there are some; it has no
+        other fields.
+
+        Returns
+        -------
+        open3d.geometry.TriangleMesh or open3d.geometry.PointCloud
+            Of a mesh, or of points.
+
+        Examples
+        --------
+        >>> import open3d  # doctest: +SKIP
+        >>> open3d.visualization.draw([surface.mesh().to_open3d()])  # doctest: +SKIP
+        """
         import open3d
         points = open3d.utility.Vector3dVector(np.asarray(self.points, np.float64))
         if hasattr(self, "triangles"):
@@ -63,7 +99,18 @@ class Bridges:
         return geometry
 
     def to_trimesh(self):
-        """A trimesh.Trimesh of a mesh, with all fields, else a trimesh.PointCloud."""
+        """A trimesh.Trimesh of a mesh, with all fields as attributes of the vertices, else a
+        trimesh.PointCloud.
+
+        Returns
+        -------
+        trimesh.Trimesh or trimesh.PointCloud
+
+        Examples
+        --------
+        >>> surface.mesh().to_trimesh().is_watertight  # doctest: +SKIP
+        True
+        """
         import trimesh
         if not hasattr(self, "triangles"):
             return trimesh.PointCloud(np.array(self.points))
@@ -73,8 +120,22 @@ class Bridges:
                                process=False)
 
     def to_dataframe(self):
-        """All fields as a pandas.DataFrame: x, y, z in double where they have an origin,
-        numbers of one field as `vel_0`, `vel_1`, ..., names as categories."""
+        """All fields as a pandas.DataFrame.
+
+        Returns
+        -------
+        pandas.DataFrame
+            x, y, z in double where they have an origin, numbers of one field as `vel_0`,
+            `vel_1`, ..., names as categories.
+
+        Examples
+        --------
+        >>> uvol.Samples(np.eye(3), {"hole": ["a", "b", "a"]}).to_dataframe()
+             x    y    z hole
+        0  1.0  0.0  0.0    a
+        1  0.0  1.0  0.0    b
+        2  0.0  0.0  1.0    a
+        """
         import pandas
         columns = {axis: self.points[:, place] for place, axis in enumerate("xyz")}
         for name in self.keys():
@@ -107,6 +168,7 @@ def _to_cells(corners):
     return cells
 
 
+@_parameters.with_proposals
 def from_vtk(dataset):
     """Samples of a vtkDataSet: its points and their data. Data of cells are left out.
 
@@ -118,6 +180,19 @@ def from_vtk(dataset):
     Returns
     -------
     Samples
+
+    Raises
+    ------
+    TypeError
+        For what is no vtkDataSet.
+
+    Examples
+    --------
+    >>> from vtkmodules.vtkCommonDataModel import vtkImageData
+    >>> grid = vtkImageData()
+    >>> grid.SetDimensions(2, 3, 4)
+    >>> uvol.from_vtk(grid)
+    Samples of 24 points: no fields
     """
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from ._samples import Samples

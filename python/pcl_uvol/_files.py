@@ -41,6 +41,16 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     ------
     OSError
         With the file and, for text, the line.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = tempfile.mkdtemp() + "/points.csv"
+    >>> with open(path, "w") as file:
+    ...     _ = file.write("lon,lat,depth,T\\n1,2,-3,15.5\\n4,5,-6,12.5\\n")
+    >>> samples = uvol.read(path, xyz=("lon", "lat", "depth"))
+    >>> samples.points.tolist(), samples["T"].tolist()
+    ([[1.0, 2.0, -3.0], [4.0, 5.0, -6.0]], [15.5, 12.5])
     """
     from . import _io
     if isinstance(xyz, str) or not hasattr(xyz, "__iter__"):
@@ -72,6 +82,14 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
         PCD and PLY as text.
     progress : bool or callable, optional
         See `isosurface`; told where points are written as text.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = tempfile.mkdtemp() + "/points.ply"
+    >>> uvol.write(path, np.eye(3), {"rho": np.array([1, 2, 3], np.int16)})
+    >>> uvol.read(path)
+    Samples of 3 points: rho (int16)
     """
     if triangles is not None:
         vertices = as_samples(points, fields)
@@ -82,6 +100,7 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
     points.save(path, ascii=ascii, progress=progress)
 
 
+@_parameters.with_proposals
 def read_mesh(path):
     """Read a mesh with all fields of its vertices, as `save` writes it.
 
@@ -111,6 +130,7 @@ def read_mesh(path):
     return Samples._of(dataset), triangles
 
 
+@_parameters.with_proposals
 def read_volume(path):
     """Read a scalar volume: nrrd, nhdr, mha, mhd, vti, or structured points in vtk.
 
@@ -122,7 +142,20 @@ def read_volume(path):
     -------
     values : numpy.ndarray of float32, shape (nz, ny, nx)
     origin, spacing : tuple of float
+        Of x, y and z: the place of the first value, and the distances of values.
     name : str
+        Of the values; "" where the file has none.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> path = tempfile.mkdtemp() + "/grid.nrrd"
+    >>> points = np.random.default_rng(1).random((2000, 3))
+    >>> model = uvol.Interpolator(points, {"rho": points[:, 0]}, gradients=False, errors=False)
+    >>> model.grid((3, 4, 5), box=([0.2] * 3, [0.8] * 3)).save(path)
+    >>> values, origin, spacing, name = uvol.read_volume(path)
+    >>> values.shape, [round(step, 3) for step in spacing]
+    ((5, 4, 3), [0.3, 0.2, 0.15])
     """
     from . import _io
     values, origin, spacing, name = _io.read_volume(os.fsencode(path))

@@ -29,9 +29,21 @@ class Answers:
         4 outside of the data, 5 samples that do not determine the model, 6 no place.
     report : dict
         Counts, milliseconds and warnings.
+    parameters : dict
+        Those of the interpolator.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((2000, 3))
+    >>> fields = {"rho": points[:, 0], "T": points[:, 1]}
+    >>> answers = uvol.Interpolator(points, fields, field=["rho", "T"]).evaluate(np.full((5, 7, 3), 0.5))
+    >>> answers.values.shape, answers.gradients.shape, answers.support.shape
+    ((2, 5, 7), (2, 5, 7, 3), (5, 7))
+    >>> bool(np.allclose(answers.values, 0.5, atol=1e-5))
+    True
     """
 
-    def __init__(self, found, shape, is_single):
+    def __init__(self, found, shape, is_single, parameters):
         def shaped(array, *more):
             if array is None:
                 return None
@@ -42,6 +54,7 @@ class Answers:
         self.gradients = shaped(found.get("gradients"), 3)
         self.support = found["support"].reshape(shape)
         self.report = found["report"]
+        self.parameters = parameters
 
     def __repr__(self):
         return f"Answers to {self.support.size} queries, {int(np.isnan(self.values).sum())} of the values missing"
@@ -77,10 +90,13 @@ class Interpolator:
 
     Attributes
     ----------
+    samples : Samples
     fields : list of str
         In the order of the answers.
     parameters : dict
-        With the model that was chosen.
+        With the model that was chosen; print() has a line for each.
+    variograms : dict
+        Of kriging.
 
     Examples
     --------
@@ -136,7 +152,15 @@ class Interpolator:
 
     @property
     def parameters(self):
-        """dict: the library's parameters, with the model that was chosen."""
+        """dict: the library's parameters, with the model that was chosen.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> model = uvol.Interpolator(points, {"rho": points[:, 0]}, model="shepard", shepard={"k": 5})
+        >>> model.parameters["model"], model.parameters["shepard"]["k"]
+        ('shepard', 5)
+        """
         return _parameters.from_json(self._core.parameters)
 
     @property
@@ -155,6 +179,7 @@ class Interpolator:
         """
         return self._core.variograms
 
+    @_parameters.with_proposals
     def evaluate(self, queries, threads=None, progress=None):
         """Answer queries.
 
@@ -162,10 +187,21 @@ class Interpolator:
         ----------
         queries : array_like, shape (..., 3)
             Places in the coordinates of the samples.
+        threads : int, optional
+            By default those of the interpolator.
+        progress : bool or callable, optional
+            See `isosurface`.
 
         Returns
         -------
         Answers
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> answers = uvol.Interpolator(points, {"rho": 2 * points[:, 0]}).evaluate([[0.5, 0.5, 0.5], [9, 9, 9]])
+        >>> answers.values.round(4), answers.gradients[0].round(3) + 0.0, answers.support
+        (array([ 1., nan]), array([2., 0., 0.]), array([1, 4], dtype=uint8))
         """
         places = _arrays.as_array(queries, "queries")
         if places.ndim == 0 or places.shape[-1] != 3:
@@ -173,30 +209,61 @@ class Interpolator:
         with listening(progress) as listener:
             found = self._core.answer(places.reshape(-1, 3), self._threads_of(threads), listener)
         _report.tell(found["report"]["warnings"])
-        return Answers(found, places.shape[:-1], self._is_single)
+        return Answers(found, places.shape[:-1], self._is_single, self.parameters)
 
+    @_parameters.with_proposals
     def __call__(self, queries, threads=None, progress=None):
-        """Values and standard errors at queries: those of `evaluate`."""
+        """Values and standard errors at queries: those of `evaluate`.
+
+        Parameters
+        ----------
+        queries, threads, progress
+            As those of `evaluate`.
+
+        Returns
+        -------
+        values : numpy.ndarray
+        errors : numpy.ndarray or None
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> values, errors = uvol.Interpolator(points, {"rho": points[:, 0]})([0.5, 0.5, 0.5])
+        >>> round(float(values), 4), bool(errors < 1e-3)
+        (0.5, True)
+        """
         answers = self.evaluate(queries, threads, progress)
         return answers.values, answers.errors
 
+    @_parameters.with_proposals
     def probe(self, points, threads=None, progress=None):
         """Points with the interpolated fields behind their own, as uvol_probe has them.
 
         Parameters
         ----------
         points : Samples, Surface or array_like, shape (n, 3)
+        threads, progress
+            As those of `evaluate`.
 
         Returns
         -------
         Samples
+            With their own fields, and for each field of the model `rho`, `rho_error`,
+            `rho_gradient` and `support`; `rho_2` where they have a `rho`.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> uvol.Interpolator(points, {"rho": points[:, 0]}).probe([[0.5, 0.5, 0.5]]).keys()
+        ['rho', 'rho_error', 'rho_gradient', 'support']
         """
         points = as_samples(points, None)
         with listening(progress) as listener:
             dataset, report = self._core.probe(points._dataset, self._threads_of(threads), listener)
         _report.tell(report["warnings"])
-        return Samples._of(dataset)
+        return Samples._of(dataset, report, self.parameters)
 
+    @_parameters.with_proposals
     def validate(self, folds=10, by="random", threads=None, progress=None):
         """Leave samples out, one part after the other, and tell how far values from the
         others are off.
@@ -208,6 +275,8 @@ class Interpolator:
         by : str
             Parts are "random", or compact "blocks", or share a value of the field of
             that name, as drill holes do.
+        threads, progress
+            As those of `evaluate`.
 
         Returns
         -------
@@ -228,22 +297,35 @@ class Interpolator:
         _report.tell(report["warnings"])
         return scores
 
+    @_parameters.with_proposals
     def line(self, start, end, n=500, threads=None, progress=None):
         """The fields at places from one point to another.
 
         Parameters
         ----------
         start, end : array_like, shape (3,)
+            In the coordinates of the samples.
         n : int
             Places, both ends among them.
+        threads, progress
+            As those of `evaluate`.
 
         Returns
         -------
         Lattice
+            Of shape (n,).
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> line = uvol.Interpolator(points, {"rho": points[:, 0]}).line([0.2, 0.5, 0.5], [0.8, 0.5, 0.5], n=4)
+        >>> line["rho"].round(3).tolist()
+        [0.2, 0.4, 0.6, 0.8]
         """
         return self._fill(*_core.line(_place(start, "start"), _place(end, "end"), _parameters.count(n, "n")),
                           threads, progress)
 
+    @_parameters.with_proposals
     def slice(self, plane, size=512, box=None, threads=None, progress=None):
         """The fields in a plane.
 
@@ -255,10 +337,23 @@ class Interpolator:
             Places along the longer side, or a bound for each.
         box : pair of array_like, optional
             Low and high corner; by default that of the samples.
+        threads, progress
+            As those of `evaluate`.
 
         Returns
         -------
         Lattice
+            Of shape (n, m), upwards and across.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> interpolator = uvol.Interpolator(points, {"rho": points[:, 0]})
+        >>> interpolator.slice("z=0.5", 32, box=([0, 0, 0], [1, 0.5, 1])).shape
+        (16, 32)
+        >>> oblique = interpolator.slice(([0.5, 0.5, 0.5], [1, 1, 0]), 32)
+        >>> bool(np.allclose(oblique.points @ [1, 1, 0], 1))
+        True
         """
         point, normal = _plane(plane)
         sides = [size, size] if np.ndim(size) == 0 else list(size)
@@ -268,6 +363,7 @@ class Interpolator:
         lattice, _, _ = _core.slice(point, normal, *self._box(box), counts)
         return self._fill(*lattice, threads, progress)
 
+    @_parameters.with_proposals
     def grid(self, n=128, box=None, threads=None, progress=None):
         """The fields in a grid.
 
@@ -277,10 +373,13 @@ class Interpolator:
             Cubes, so many places along the longest side; or as many along x, y and z.
         box : pair of array_like, optional
             Low and high corner; by default that of the samples.
+        threads, progress
+            As those of `evaluate`.
 
         Returns
         -------
         Lattice
+            Of shape (nz, ny, nx).
 
         Examples
         --------
@@ -316,7 +415,7 @@ class Interpolator:
                 columns[name + "_gradient"] = found["gradients"][number]
         columns["support"] = found["support"]
         short = [name for name in self.fields if self._core.is_short(name)]
-        return Lattice(places, counts, steps, columns, found["report"], short, self._find_ranges(),
+        return Lattice(places, counts, steps, columns, found["report"], self.parameters, short, self._find_ranges(),
                        self._placed)
 
     def _find_ranges(self):

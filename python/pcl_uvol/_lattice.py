@@ -19,12 +19,25 @@ class Lattice:
 
     Attributes
     ----------
+    shape : tuple of int
     points : numpy.ndarray, shape (..., 3)
+        The places.
     report : dict
         Counts, milliseconds and warnings.
+    parameters : dict
+        Those of the interpolator.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> grid = uvol.Interpolator(points, {"rho": points[:, 0]}).grid((3, 4, 5), box=([0.2] * 3, [0.8] * 3))
+    >>> grid
+    Lattice of 5 x 4 x 3 places: rho, rho_error, rho_gradient, support
+    >>> grid["rho"].shape, grid["rho_gradient"].shape, grid.points.shape
+    ((5, 4, 3), (5, 4, 3, 3), (5, 4, 3, 3))
     """
 
-    def __init__(self, places, counts, steps, columns, report, short, ranges, samples):
+    def __init__(self, places, counts, steps, columns, report, parameters, short, ranges, samples):
         self.shape = tuple(count for count in reversed(counts) if count > 1) or (1,)
         self._file_form = (places[0].tolist(), steps, counts)
         self._short = short  # fields that are float32 in files
@@ -32,6 +45,7 @@ class Lattice:
         self._samples = samples
         self.points = places.reshape(*self.shape, 3)
         self.report = report
+        self.parameters = parameters
         self._steps = [step for step, count in zip(steps, counts) if count > 1][::-1]
         self._columns = {name: values.reshape(self.shape + values.shape[1:]) for name, values in columns.items()}
 
@@ -41,6 +55,13 @@ class Lattice:
         Returns
         -------
         list of str
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> model = uvol.Interpolator(points, {"rho": points[:, 0]}, gradients=False)
+        >>> model.line([0.2] * 3, [0.8] * 3).keys()
+        ['rho', 'rho_error', 'support']
         """
         return list(self._columns)
 
@@ -48,13 +69,50 @@ class Lattice:
         return iter(self._columns)
 
     def __getitem__(self, name):
+        """The values of a field, in the shape of the lattice; of a gradient with an axis of
+        three behind.
+
+        Parameters
+        ----------
+        name : str
+
+        Returns
+        -------
+        numpy.ndarray
+
+        Raises
+        ------
+        FieldError
+            For a name that is not among `keys()`.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> line = uvol.Interpolator(points, {"rho": points[:, 0]}).line([0.2] * 3, [0.8] * 3, n=3)
+        >>> line["rho"].round(3).tolist(), line["support"].tolist()
+        ([0.2, 0.5, 0.8], [1, 1, 1])
+        """
         if name not in self._columns:
             raise FieldError(describe_missing(str(name), self.keys()))
         return self._columns[name]
 
     def to_xarray(self):
-        """An xarray.Dataset: dimensions are x, y and z along the axes, else i, j and k
-        with the places beside them."""
+        """The fields as an xarray.Dataset.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions are x, y and z along the axes, else i, j and k with the places
+            beside them; gradients have a dimension "axis" behind.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> grid = uvol.Interpolator(points, {"rho": points[:, 0]}).grid((3, 4, 5), box=([0.2] * 3, [0.8] * 3))
+        >>> data = grid.to_xarray()
+        >>> data["rho"].dims, data.sizes["y"]
+        (('z', 'y', 'x'), 4)
+        """
         import xarray
         axes = [self._axis_of(step) for step in self._steps]
         if None in axes:
@@ -71,6 +129,7 @@ class Lattice:
         return xarray.Dataset({name: (dims + ["axis"] * (values.ndim - len(dims)), values)
                                for name, values in self._columns.items()}, coords)
 
+    @_parameters.with_proposals
     def save(self, path):
         """Write a file as uvol_probe does: vti, vts, nrrd or mha, by the ending of its
         name. Of the last two, which hold one array, others are in further files beside
@@ -80,6 +139,13 @@ class Lattice:
         ----------
         path : str or os.PathLike
             Values get the type of the samples, errors and gradients float32.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> grid = uvol.Interpolator(points, {"rho": points[:, 0]}).grid(8)
+        >>> grid.save(tempfile.mkdtemp() + "/grid.vti")
         """
         from . import _io
         path = os.fsdecode(path)
@@ -130,6 +196,8 @@ class Lattice:
         if len(self.shape) > 2 or values.ndim > len(self.shape):
             raise ValueError("A picture shows one number per place, along a line or in a slice.")
         title = _parameters.text(label, "label") or field
+        parameters = dict(field=field, contours=list(np.ravel(contours)), colormap=colormap, range=range, log=bool(log),
+                          samples=samples, label=title, unit=unit)
         if len(self.shape) == 1:
             errors = self._columns.get(field + "_error", np.empty(0))
             distances = np.arange(self.shape[0]) * np.linalg.norm(self._steps[0] if self._steps else 0.0)
@@ -143,7 +211,7 @@ class Lattice:
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
                                                  _parameters.text(colormap, "colormap"), ends, bounds, bool(log), lines,
                                                  near)
-        return Picture(pixels, field, limits, self.report)
+        return Picture(pixels, field, limits, self.report, parameters)
 
     def _find_samples(self, field, distance):
         """Places across and up, and values, of samples that are near to a slice."""

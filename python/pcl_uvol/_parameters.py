@@ -6,6 +6,7 @@ import inspect
 import json
 import math
 import operator
+import re
 import reprlib
 from collections.abc import Iterable, Mapping
 
@@ -69,30 +70,36 @@ def propose(names, name):
     return f" (did you mean {similar!r}?)" if similar else ""
 
 
+def check_keywords(name, known, options):
+    """Tell of an unknown keyword the one that was meant."""
+    for option in options:
+        if option not in known:
+            raise TypeError(f"{name}() has no keyword {option!r}{propose(known, option)}.")
+
+
 def with_proposals(function):
     """The function, which tells of an unknown keyword the one that was meant."""
     @functools.wraps(function)
     def call(*values, **options):
-        known, needed = _keywords_of(call)
-        for option in options:
-            if option not in known:
-                raise TypeError(f"{name}() has no keyword {option!r}{propose(known, option)}.")
+        known, needed = keywords_of(call)
+        check_keywords(name, known, options)
         for keyword in needed:
             if keyword not in options:
                 raise TypeError(f"{name}() needs the keyword {keyword!r}.")
         return function(*values, **options)
 
-    name = function.__qualname__.replace(".__init__", "").rpartition(".")[2]
+    name = re.sub(r"\.__(init|call)__$", "", function.__qualname__).rpartition(".")[2]
     return call
 
 
 @functools.cache
-def _keywords_of(function):
+def keywords_of(function):
     """Names of all parameters, and of those that must be given by name."""
-    parameters = list(inspect.signature(function).parameters.values())
+    parameters = [parameter for parameter in inspect.signature(function).parameters.values()
+                  if parameter.name not in ("self", "cls") and parameter.kind != parameter.VAR_KEYWORD]
     needed = [parameter.name for parameter in parameters
               if parameter.kind == parameter.KEYWORD_ONLY and parameter.default is parameter.empty]
-    return [parameter.name for parameter in parameters if parameter.name != "self"], needed
+    return [parameter.name for parameter in parameters], needed
 
 
 def names(values, what, of):
@@ -152,6 +159,26 @@ def count(value, what):
     return number
 
 
+class Parameters(dict):
+    """Parameters of a stage by the library's names, with the defaults of those that were not given; None stands for
+    what the stage chooses. Printed it has a line for each."""
+
+    def __str__(self):
+        return "\n".join(self._lines(""))
+
+    def _lines(self, prefix):
+        for name, value in self.items():
+            if isinstance(value, dict):
+                yield from Parameters(value)._lines(f"{prefix}{name}.")
+            else:
+                yield f"{prefix}{name} = {value!r}"
+
+
 def from_json(text):
-    """The dictionary of the library's parameters; what is not given is None."""
-    return json.loads(text)
+    """The library's parameters; what is not given is None."""
+    return Parameters(json.loads(text))
+
+
+def take(report):
+    """The parameters that the library took, which come with its report, and leave it."""
+    return from_json(report.pop("parameters"))

@@ -26,19 +26,42 @@ class Picture:
         The values at the ends of the colours.
     report : dict
         Counts, milliseconds and warnings.
+    parameters : dict
+        All that it was drawn with.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> picture = uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5).render(size=(120, 80), color="none")
+    >>> picture, np.asarray(picture).shape, picture.parameters["fov"]
+    (Picture of 120 x 80 pixels, (80, 120, 4), 30.0)
     """
 
-    def __init__(self, pixels, field, limits, report):
+    def __init__(self, pixels, field, limits, report, parameters):
         self.pixels = pixels
         self.field = field
         self.range = tuple(limits)
         self.report = report
+        self.parameters = _parameters.Parameters(parameters)
 
     def __array__(self, dtype=None):
         return self.pixels if dtype is None else self.pixels.astype(dtype)
 
+    @_parameters.with_proposals
     def save(self, path):
-        """Write a PNG file at a path, as the tools do."""
+        """Write a PNG file, as the tools do.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> picture = uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5).render(size=64)
+        >>> picture.save(tempfile.mkdtemp() + "/surface.png")
+        """
         from . import _io
         _io.write_png(os.fsencode(path), self.pixels)
 
@@ -166,6 +189,8 @@ class Drawable:
             What few change: fill, occluded, layers, shading, smoothing ("none", "box",
             "gaussian", "alleviated"), smoothings, silhouette_threshold,
             feature_threshold, antialias, antialias_threshold.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -211,13 +236,20 @@ class Drawable:
         index : float
             Refractive index of the inside.
         splats : dict, optional
-            Parameters of `splats`.
+            Parameters of `splats`, by the library's names: delta, delta_is_length, lambda.
 
         The others are those of `render`.
 
         Returns
         -------
         Picture
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> surface = uvol.isosurface(points, {"r": np.linalg.norm(points - 0.5, axis=1)}, iso=0.3)
+        >>> surface.raytrace(size=(80, 60), color="none", reflect=0.3, occlusion=4)
+        Picture of 80 x 60 pixels
         """
         look = look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
@@ -233,6 +265,7 @@ class Drawable:
         Parameters
         ----------
         frames : int
+            At least 1.
         raytraced : bool
             By `raytrace`, else by `render`.
         **options
@@ -250,9 +283,12 @@ class Drawable:
         >>> len(frames), bool(np.array_equal(frames[0], frames[2]))
         (4, False)
         """
+        draw = Drawable.raytrace if raytraced else Drawable.render
+        known = _parameters.keywords_of(Drawable.orbit)[0] + _parameters.keywords_of(draw)[0]
+        _parameters.check_keywords("orbit", known, options)
         turning = copy.copy(self)
         turning._frames = _parameters.count(frames, "frames")
-        return turning.raytrace(**options) if raytraced else turning.render(**options)
+        return draw(turning, **options)
 
     def _colors(self, color, colormap, range, log, bar, surface_color, exaggerate, lights, material):
         """What points with fields are asked for with."""
@@ -278,11 +314,21 @@ class Drawable:
             Ends in .html.
         color, colormap, range, log, bar, view, eye, at, up, fov, parallel, zoom, background, surface_color, exaggerate, lights, material
             As those of `render`.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
         dict
-            The report.
+            The report: counts, milliseconds and warnings.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> surface = uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5)
+        >>> surface.save_page(tempfile.mkdtemp() + "/surface.html", color="none")["warnings"]
+        []
         """
         from . import _charts
         path = os.fsdecode(path)
@@ -319,14 +365,10 @@ class Drawable:
 def _draw_frame(painter, frame, progress):
     with listening(progress) as listener:
         pixels, field, limits, report = painter.draw(frame, listener)
-    return finish(pixels, field, limits, report)
-
-
-def finish(pixels, field, limits, report):
-    """A picture, whose warnings are told."""
-    picture = Picture(pixels, field, limits, report)
+    parameters = _parameters.take(report)
+    parameters.update(_parameters.from_json(report.pop("ray_parameters", "{}")))
     _report.tell(report["warnings"])
-    return picture
+    return Picture(pixels, field, limits, report, parameters)
 
 
 @_parameters.with_proposals
@@ -348,10 +390,24 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
     size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
         As those of `Surface.raytrace`, instead of what the scene says; the camera is
         that of the scene unless `view` or `eye` is given.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     Picture
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> folder = tempfile.mkdtemp()
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5).save(os.path.join(folder, "plane.ply"))
+    >>> path = os.path.join(folder, "plane.scene")
+    >>> with open(path, "w") as file:
+    ...     _ = file.write("background 0.2 0.3 0.4\\ncloud plane.ply\\n")
+    >>> uvol.raytrace(path, size=(80, 60), view="front")
+    Picture of 80 x 60 pixels
     """
     from . import _charts
     asked = dict(size=size, view=view, eye=eye, fov=fov, background=background, lights=lights, supersample=supersample)
@@ -362,8 +418,9 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
                    "white" if background is None else background, supersample or 0)
     look["lights"] = _lights(lights)
     with listening(progress) as listener:
-        pixels, report = _charts.trace_scene(
+        pixels, report, parameters = _charts.trace_scene(
             os.fsencode(scene), os.fsencode(folder), _parameters.to_json(look),
             _parameters.to_json({name: value for name, value in rays.items() if name in given}), given,
             _parameters.number(turn, "turn"), _parameters.count(threads, "threads"), listener)
-    return finish(pixels, "", (0.0, 1.0), report)
+    _report.tell(report["warnings"])
+    return Picture(pixels, "", (0.0, 1.0), report, parameters)

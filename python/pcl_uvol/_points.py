@@ -31,6 +31,12 @@ class Points(Bridges):
         """numpy.ndarray, shape (n,): all fields as a structured array, without a copy.
 
         x, y, z are float32, relative to `origin`.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]})
+        >>> samples.records.dtype.names, np.shares_memory(samples.records, samples["rho"])
+        (('x', 'y', 'z', 'rho'), True)
         """
         if self._records is None:
             records = _arrays.view_records(self._dataset)
@@ -40,13 +46,27 @@ class Points(Bridges):
 
     @property
     def origin(self):
-        """numpy.ndarray, shape (3,): what is added to x, y, z of the records."""
+        """numpy.ndarray, shape (3,): what is added to x, y, z of the records, in units of
+        the coordinates.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3) * 1e-3 + [5e6, 0, 0])
+        >>> bool(abs(samples.origin[0] - 5e6) < 1e-3), bool(samples.points[0, 0] == 5000000.001)
+        (True, True)
+        """
         return np.array(self._dataset.origin)
 
     @property
     def box(self):
         """numpy.ndarray, shape (3,): sides of the box that a file names, which samples
-        may repeat in (`periodic`); 0 for none."""
+        may repeat in (`periodic`); 0 for none.
+
+        Examples
+        --------
+        >>> uvol.Samples(np.eye(3)).box.tolist()  # of arrays: there is no file
+        [0.0, 0.0, 0.0]
+        """
         return np.array(self._dataset.box)
 
     @property
@@ -54,6 +74,14 @@ class Points(Bridges):
         """numpy.ndarray, shape (n, 3): the coordinates.
 
         A view in float32 without an origin; else computed in double, once.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3, dtype=np.float32))
+        >>> samples.points.dtype, np.shares_memory(samples.points, samples.records)
+        (dtype('float32'), True)
+        >>> uvol.Samples(np.eye(3)).points.dtype
+        dtype('float64')
         """
         if self._points is None:
             points = _arrays.view_axes(self.records, "xyz")
@@ -66,7 +94,14 @@ class Points(Bridges):
     @property
     def labels(self):
         """dict of str to list of str: the names that the numbers of columns of names stand
-        for, by column, in alphabetical order; -1 stands for none."""
+        for, by column, in alphabetical order; -1 stands for none.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"hole": ["B", "", "A"]})
+        >>> samples.labels, samples.records["hole"].tolist()
+        ({'hole': ['A', 'B']}, [1, -1, 0])
+        """
         return {name: names for name, names in self._dataset.labels.items() if name in self.keys()}
 
     def keys(self):
@@ -75,6 +110,11 @@ class Points(Bridges):
         Returns
         -------
         list of str
+
+        Examples
+        --------
+        >>> uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]}).keys()
+        ['rho']
         """
         return [name for name in self.records.dtype.names if name not in ("x", "y", "z")]
 
@@ -85,10 +125,29 @@ class Points(Bridges):
         return name in self.keys()
 
     def __getitem__(self, name):
-        """The values of a field, shape (n,) or (n, k): a view.
+        """The values of a field.
 
-        `vel[1]`, `|vel|` and `|vx,vy,vz|` are computed. Of a column of names an array of
-        texts, "" for none; its numbers are in `records`, its names in `labels`.
+        Parameters
+        ----------
+        name : str
+            A field, or what is computed of one: `vel[1]`, `|vel|`, `|vx,vy,vz|`.
+
+        Returns
+        -------
+        numpy.ndarray, shape (n,) or (n, k)
+            A view in the type of the field. Of a column of names an array of texts, ""
+            for none; its numbers are in `records`, its names in `labels`.
+
+        Raises
+        ------
+        FieldError
+            For a field that is not there.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"vel": np.eye(3, dtype=np.float32) * 2})
+        >>> samples["vel"].shape, samples["vel[1]"].tolist(), samples["|vel|"].tolist()
+        ((3, 3), [0.0, 2.0, 0.0], [2.0, 2.0, 2.0])
         """
         if not isinstance(name, str):
             raise TypeError(f"Fields are asked for by their names, not by {name!r}.")
@@ -102,6 +161,7 @@ class Points(Bridges):
             return self._dataset.read_scalar(name)
         raise FieldError(describe_missing(name, self.keys()))
 
+    @_parameters.with_proposals
     def save(self, path, ascii=False, progress=None):
         """Write a file as the tools do: pcd, ply, vtp, vtkhdf, csv or npz, by the ending of its name.
 
@@ -112,6 +172,19 @@ class Points(Bridges):
             PCD and PLY as text.
         progress : bool or callable, optional
             See `isosurface`; told where points are written as text.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written; there is none then.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> path = tempfile.mkdtemp() + "/points.pcd"
+        >>> uvol.Samples(np.eye(3), {"rho": [1.0, 2.0, 3.0]}).save(path)
+        >>> uvol.read(path)
+        Samples of 3 points: rho (float64)
         """
         self._save(path, np.empty((0, 3), np.uint32), ascii, progress)
 

@@ -29,7 +29,7 @@ class Samples(Drawable, Points):
 
     Attributes
     ----------
-    report : dict
+    report, parameters : dict
         Of the stage that made them, else empty.
     snapshots : list of tuple
         Of a level set that keeps some, else empty.
@@ -47,6 +47,7 @@ class Samples(Drawable, Points):
     (2, {'hole': ['A-1', 'A-2']})
     """
 
+    @_parameters.with_proposals
     def __init__(self, points, fields=None):
         dtype = getattr(points, "dtype", None)
         dataset = None
@@ -61,18 +62,22 @@ class Samples(Drawable, Points):
         _report.tell(self._dataset.notes)
 
     @classmethod
-    def _of(cls, dataset):
+    def _of(cls, dataset, report=None, parameters=None):
         samples = cls.__new__(cls)
         samples._begin(dataset)
+        samples.report = {} if report is None else report
+        samples.parameters = _parameters.Parameters(parameters or {})
         return samples
 
     def _begin(self, dataset):
         Points.__init__(self, dataset)
         self.report = {}
+        self.parameters = _parameters.Parameters()
         self.snapshots = []
         self._derived = {}
 
     @classmethod
+    @_parameters.with_proposals
     def from_dataframe(cls, frame, points=("x", "y", "z"), fields=None):
         """Samples from the columns of a pandas.DataFrame or an xarray.Dataset.
 
@@ -101,6 +106,7 @@ class Samples(Drawable, Points):
             raise TypeError(f"{reprlib.repr(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
         return cls(*_columns_of(frame, points, fields))
 
+    @_parameters.with_proposals
     def compute(self, expression, threads=0, progress=None):
         """Samples that have a field more: that of an expression.
 
@@ -108,6 +114,8 @@ class Samples(Drawable, Points):
         ----------
         expression : str
             As in the tools: `log10(rho)`, `|vel|`, `Q(vel)`, `|grad(rho)|`.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -122,14 +130,17 @@ class Samples(Drawable, Points):
         """
         return self._with_field(expression, threads, progress)[0]
 
+    @_parameters.with_proposals
     def density(self, length=0.0, threads=0, progress=None):
         """Samples with the density of particles that have none.
 
         Parameters
         ----------
         length : float
-            One smoothing length h for all, whose kernel ends at 2 h; 0: that of the
-            field with a usual name, else by 48 neighbours.
+            One smoothing length h for all, in units of the coordinates, whose kernel ends
+            at 2 h; 0: that of the field with a usual name, else by 48 neighbours.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -145,11 +156,14 @@ class Samples(Drawable, Points):
         >>> bool(np.allclose(samples["sph_density"][inside], 2.0, rtol=0.02))
         True
         """
+        parameters = {"length": _parameters.number(length, "length")}
         with listening(progress) as listener:
-            dataset, report = self._dataset.with_density(_parameters.number(length, "length"), _parameters.count(threads, "threads"), listener)
+            dataset, report = self._dataset.with_density(parameters["length"], _parameters.count(threads, "threads"),
+                                                         listener)
         _report.tell(report["warnings"])
-        return Samples._of(dataset)
+        return Samples._of(dataset, report, parameters)
 
+    @_parameters.with_proposals
     def sampling(self, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, progress=None):
         """Samples with what the sampling is like around each, as `uvol_info -out` writes
         them.
@@ -158,6 +172,8 @@ class Samples(Drawable, Points):
         ----------
         scale, rotate
             As those of `isosurface`; "auto" is "spacing".
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -172,11 +188,13 @@ class Samples(Drawable, Points):
         'line'
         """
         stretch = _parameters.Stretch(scale, rotate)
+        parameters = {"scale": stretch.resolve(self._dataset), "rotation": stretch.rotation}
         with listening(progress) as listener:
-            dataset = _core.with_sampling(self._dataset, stretch.resolve(self._dataset), stretch.rotation,
-                                          _parameters.count(threads, "threads"), listener)
-        return Samples._of(dataset)
+            dataset = _core.with_sampling(self._dataset, *parameters.values(), _parameters.count(threads, "threads"),
+                                          listener)
+        return Samples._of(dataset, None, parameters)
 
+    @_parameters.with_proposals
     def outer_layer(self, value, field="", threads=0, progress=None):
         """Samples with further ones around them, about a spacing outside, where a field
         is known to have a value: a surface is closed there.
@@ -187,34 +205,77 @@ class Samples(Drawable, Points):
             Of the field; other fields are those of the nearest sample.
         field : str
             By default `intensity`, else the only candidate.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
         Samples
             With the further ones behind the others.
-        """
-        with listening(progress) as listener:
-            dataset, _ = self._dataset.with_outer_layer(
-                _parameters.text(field, "field"), _parameters.number(value, "value"), _parameters.count(threads, "threads"), listener)
-        return Samples._of(dataset)
 
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> closed = uvol.Samples(points, {"rho": np.ones(2000)}).outer_layer(0.0)
+        >>> outer = closed.points[2000:]
+        >>> closed["rho"][2000:].max(), bool((np.abs(outer - 0.5).max(axis=1) > 0.4).all())
+        (0.0, True)
+        """
+        parameters = {"field": _parameters.text(field, "field"), "value": _parameters.number(value, "value")}
+        with listening(progress) as listener:
+            dataset, report = self._dataset.with_outer_layer(*parameters.values(), _parameters.count(threads, "threads"),
+                                                             listener)
+        return Samples._of(dataset, report, parameters)
+
+    @_parameters.with_proposals
     def where(self, expression, threads=0, progress=None):
-        """The samples for which an expression holds, as `T > 4 && depth < 100`.
+        """The samples for which an expression holds.
+
+        Parameters
+        ----------
+        expression : str
+            As in the tools: `T > 4 && depth < 100`, `hole = A-2`. Where a value is
+            missing it does not hold.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
         Samples
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"T": [3.0, 5.0, np.nan]})
+        >>> samples.where("T > 4")["T"]
+        array([5.])
         """
         with listening(progress) as listener:
             dataset, _ = self._dataset.select(_parameters.text(expression, "expression"), _parameters.count(threads, "threads"), listener)
         return Samples._of(dataset)
 
+    @_parameters.with_proposals
     def take(self, indices):
         """The samples of some indices, or of a mask.
+
+        Parameters
+        ----------
+        indices : array_like of int or bool, or slice
+            Whatever chooses rows of an array.
 
         Returns
         -------
         Samples
+
+        Raises
+        ------
+        IndexError
+            For rows that are not there.
+
+        Examples
+        --------
+        >>> samples = uvol.Samples(np.eye(3), {"T": [3.0, 5.0, 7.0]})
+        >>> samples.take([2, 0])["T"].tolist(), samples.take(samples["T"] > 4)["T"].tolist()
+        ([7.0, 3.0], [5.0, 7.0])
         """
         return Samples._of(self._dataset.take(np.arange(len(self))[indices]))
 

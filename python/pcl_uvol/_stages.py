@@ -10,22 +10,19 @@ from ._samples import Samples, as_samples
 
 
 def _run(function, samples, parameters, threads, progress, *more):
-    """Run a stage; its last result is the report, whose warnings are told."""
+    """Run a stage; its last results are the report, whose warnings are told, and all parameters."""
     with listening(progress) as listener:
         results = function(samples._dataset, *more, _parameters.to_json(parameters),
                            _parameters.count(threads, "threads"), listener)
     _report.tell(results[-1]["warnings"])
-    return results
+    return *results, _parameters.take(results[-1])
 
 
-def _with_report(dataset, report):
-    samples = Samples._of(dataset)
-    samples.report = report
-    return samples
-
-
+@_parameters.with_proposals
 def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1.0), rotate=None, start=None,
-              outside="lower", snapshots=0, periodic=None, threads=0, progress=None, **parameters):
+              outside="lower", snapshots=0, periodic=None, scheme="quadratic", flow="relative", bound="stencil",
+              integration="asynchronous", reinitialization="distance", k=26, max_steps=400, tolerance=0.002,
+              band_width=5.0, threads=0, progress=None):
     """Smooth a noisy or unevenly sampled field about an isosurface (thesis, chapter 3).
 
     Parameters
@@ -50,16 +47,40 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
         Keep the surface every so many steps, as `snapshots` of the result; 0: never.
     periodic : sequence of 3 floats, or "header", optional
         As that of `isosurface`; without `rotate`.
-    **parameters
-        Further ones of the library: scheme, flow, bound, integration, reinitialization,
-        k, max_steps, tolerance, band_width.
+    scheme : {"quadratic", "linear"}
+        Of the fits that derivatives come from.
+    flow : {"relative", "mean"}
+        What smooths: the mean curvature less its mean over the surroundings, which keeps
+        radii, or the mean curvature (thesis 3.7).
+    bound : {"stencil", "cfl"}
+        Of time steps: by the weights of the neighbours, or by the nearest one (3.5.1).
+    integration : {"asynchronous", "synchronous"}
+        Samples take steps of their own (3.5.2), or all the smallest one.
+    reinitialization : {"distance", "eikonal", "diffusion", "none"}
+        What makes `phi` a distance again (3.4).
+    k : int
+        Nearest neighbours of a fit: at least 3, of quadratic ones 9.
+    max_steps : int
+        A run that ends there warns.
+    tolerance : float
+        The evolution ends when the surface moves by less, in spacings per unit of time.
+    band_width : float
+        Only samples so near to the surface, in spacings, are advanced: at least 3; 0: all.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     Samples
-        With the field `phi`, about the distance to the surface, positive where values
-        are higher; `report` tells mu, noise, spacing, and every step; `snapshots` is a
-        list of steps and points of the surface after these, as samples.
+        With the field `phi`, about the distance to the surface in units of length,
+        positive where values are higher; `report` tells mu, noise, spacing, and every
+        step; `snapshots` is a list of steps and points of the surface after these, as
+        samples.
+
+    Raises
+    ------
+    DivergedError
+        Where an evolution grows beyond bounds.
 
     Examples
     --------
@@ -69,6 +90,8 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     >>> noisy = np.linalg.norm(points - 0.5, axis=1) + 0.02 * random.standard_normal(4000)
     >>> smooth = uvol.level_set(points, {"r": noisy}, iso=0.3, mu=0.5)
     >>> surface = uvol.isosurface(smooth, field="phi", iso=0.0)
+    >>> smooth.report["mu"], smooth.parameters["k"]
+    (0.5, 26)
     """
     isovalues = _parameters.numbers(iso, "iso")
     if len(isovalues) != 1:
@@ -91,13 +114,15 @@ def level_set(points, fields=None, *, iso, field="", mu=None, scale=(1.0, 1.0, 1
     if any(sides):
         imaged = samples._with_images(sides, factors, threads, progress)
         samples = Samples._of(imaged.samples)
-    parameters = dict(parameters, field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside,
-                      scale=factors, rotation=stretch.rotation)
-    dataset, found, report = _run(_core.evolve_level_set, samples, parameters, threads, progress,
-                                  _parameters.count(snapshots, "snapshots"), sides)
+    parameters = dict(field=name, isovalue=isovalues[0], mu=mu, initial=initial, outside=outside, scale=factors,
+                      rotation=stretch.rotation, scheme=scheme, flow=flow, bound=bound, integration=integration,
+                      reinitialization=reinitialization, k=k, max_steps=max_steps, tolerance=tolerance,
+                      band_width=band_width)
+    dataset, found, report, taken = _run(_core.evolve_level_set, samples, parameters, threads, progress,
+                                         _parameters.count(snapshots, "snapshots"), sides)
     if imaged is not None:
         dataset = imaged.drop_images(dataset)
-    result = _with_report(dataset, report)
+    result = Samples._of(dataset, report, dict(taken, field=report["field"], snapshots=snapshots, periodic=sides))
     result.snapshots = [(steps, Samples._of(surface)) for steps, surface in found]
     return result
 
@@ -116,19 +141,31 @@ def normals(points, fields=None, *, k=30, scale=(1.0, 1.0, 1.0), rotate=None, vi
         Nearest neighbours besides the point, at least 2.
     scale, rotate
         As those of `isosurface`; "auto" is "spacing".
-    view_point : array_like
-        Where points without a normal of their own are seen from.
+    view_point : array_like, shape (3,)
+        Where points without a normal of their own are seen from: normals point there.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     Samples
-        With normals and `curvature`, and a `report`.
+        With unit normals (fields normal_x, normal_y, normal_z) and `curvature`, the share
+        of the smallest principal component, from 0 to 1/3; and a `report`.
+
+    Examples
+    --------
+    >>> directions = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> ball = uvol.Samples(directions / np.linalg.norm(directions, axis=1)[:, None])
+    >>> found = uvol.normals(ball, k=12)
+    >>> normals = np.stack([found[f"normal_{axis}"] for axis in "xyz"], axis=1)
+    >>> bool((np.sum(normals * ball.points, axis=1) < -0.95).all())  # to the middle, the view point
+    True
     """
     samples = as_samples(points, fields)
     stretch = _parameters.Stretch(scale, rotate)
     parameters = {"k": k, "scale": stretch.resolve(samples._dataset), "rotation": stretch.rotation,
                   "view_point": _parameters.numbers(view_point, "view_point")}
-    return _with_report(*_run(_core.estimate_normals, samples, parameters, threads, progress))
+    return Samples._of(*_run(_core.estimate_normals, samples, parameters, threads, progress))
 
 
 @_parameters.with_proposals
@@ -143,28 +180,36 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     delta : float
         Largest distance of points to their splat, in parts of the longest side of their
         box, or with `delta_is_length` a length.
+    delta_is_length : bool
     overlap : float
-        The thesis's lambda: part of a splat's radius in which no other one starts.
+        The thesis's lambda: part of a splat's radius in which no other one starts, from 0
+        to 1.
     gaussians : bool
         Give what viewers of 3D Gaussian splats show, lit, once it is saved as ply.
     color : str
         Of these: a field, "rgb", "none", or "auto": rgb if there, else isovalue if there
         are several.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     Samples
-        The splats, with a `report`.
+        The splats: centres with normals, the fields of the points that they begin at,
+        and a `report`.
 
     Examples
     --------
     >>> points = np.random.default_rng(1).random((5000, 3))
     >>> surface = uvol.isosurface(points, {"r": np.linalg.norm(points - 0.5, axis=1)}, iso=0.3)
+    >>> discs = uvol.splats(surface, delta=0.001)
+    >>> 0 < len(discs) < len(surface), "radius" in discs.keys()
+    (True, True)
     >>> uvol.splats(surface, gaussians=True).keys()[:4]
     ['nx', 'ny', 'nz', 'f_dc_0']
     """
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
-    found, report = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
+    found, report, taken = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
     if gaussians:
         if any(found.origin):
             message = ("Gaussians have coordinates in float: they start at an origin, "
@@ -172,7 +217,7 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
             report["warnings"].append(message)
             _report.tell([message])
         found = _core.make_gaussians(found, _parameters.text(color, "color"))
-    return _with_report(found, report)
+    return Samples._of(found, report, dict(taken, gaussians=bool(gaussians), color=color))
 
 
 class Clusters:
@@ -189,22 +234,52 @@ class Clusters:
         size, stability, label; empty where labels were given.
     samples : Samples
         With the fields `label` and `probability`; as they were where labels were given.
-    report : dict
+    report, parameters : dict
+        Counts, milliseconds and warnings; what the clusters were found with, empty where
+        labels were given.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((200, 3))
+    >>> halves = uvol.cluster(points, labels=(points[:, 0] > 0.5).astype(int))
+    >>> halves
+    Clusters: 2 of 200 points, 0 of them noise
+    >>> len(halves), halves.labels.shape
+    (2, (200,))
     """
 
-    def __init__(self, labels, probabilities, tree, samples, report):
+    def __init__(self, labels, probabilities, tree, samples, report, parameters):
         self.labels = labels
         self.probabilities = probabilities
         self.tree = tree
         self.samples = samples
         self.report = report
+        self.parameters = parameters
 
+    @_parameters.with_proposals
     def take(self, cluster):
-        """The samples of a cluster; -1 of noise.
+        """The samples of a cluster.
+
+        Parameters
+        ----------
+        cluster : int
+            From 0; -1: noise.
 
         Returns
         -------
         Samples
+
+        Raises
+        ------
+        ValueError
+            For a cluster that is not there.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((200, 3))
+        >>> halves = uvol.cluster(points, labels=(points[:, 0] > 0.5).astype(int))
+        >>> bool(halves.take(1).points[:, 0].min() > 0.5)
+        True
         """
         return self.samples.take(self._find_members(cluster))
 
@@ -216,6 +291,7 @@ class Clusters:
         Parameters
         ----------
         cluster : int
+            From 0.
         kind : {"membership", "distance", "hull", "hull-distance"}
             Between its samples and the others; at a distance from its points; through
             its outer points; at a distance from those.
@@ -230,6 +306,8 @@ class Clusters:
             minimum spanning tree.
         scale, rotate
             As those of `isosurface`; "auto" is "spacing".
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -256,7 +334,8 @@ class Clusters:
                 surface, report = _core.separate_cluster(dataset, self.labels, factors, stretch.rotation,
                                                          _parameters.to_json(how), count, listener)
             _report.tell(report["warnings"])
-            return _with_report(surface, report)
+            space = {"scale": factors, "rotation": stretch.rotation}
+            return Samples._of(surface, report, {"kind": kind, **_parameters.take(report), **space})
         if kind not in ("distance", "hull", "hull-distance"):
             raise ValueError(f"kind is {kind!r}: it must be one of membership, distance, hull, hull-distance.")
         try:
@@ -267,11 +346,10 @@ class Clusters:
         how = dict(kind=kind, cells=cells, distance=distance, scale=factors, rotation=stretch.rotation)
         members = self._find_members(cluster)
         with listening(progress) as listener:
-            vertices, triangles, used, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
-                                                                     listener)
-        report["distance"] = used
+            vertices, triangles, report = _vtk.enclose_cluster(dataset, members, _parameters.to_json(how), count,
+                                                               listener)
         _report.tell(report["warnings"])
-        return _with_report(vertices, report), triangles
+        return Samples._of(vertices, report, _parameters.take(report)), triangles
 
     def _find_members(self, cluster):
         """Indices of the samples of a cluster, of which there must be some."""
@@ -312,6 +390,8 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
         Choose the clusters at that distance of attributes; 0: by persistence.
     single : bool
         All points may be one cluster.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
@@ -319,7 +399,15 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
 
     Examples
     --------
-    >>> points = np.random.default_rng(1).random((200, 3))
+    >>> random = np.random.default_rng(1)
+    >>> a = np.repeat([0.0, 5.0], 150) + random.standard_normal(300)
+    >>> found = uvol.cluster(random.random((300, 3)), {"a": a, "b": 2 * a}, attributes=["a", "b"])
+    >>> len(found), found.parameters["neighbors"]
+    (2, 10)
+
+    Clusters that are known have surfaces as well:
+
+    >>> points = random.random((200, 3))
     >>> halves = uvol.cluster(points, labels=(points[:, 0] > 0.5).astype(int))
     >>> vertices, triangles = halves.surface(1, "hull")
     >>> bool(vertices.points[:, 0].min() > 0.5)
@@ -330,18 +418,18 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
         if len(attributes):
             raise ValueError("Clusters are known by labels, or found by attributes: give one of them.")
         known = _labels(labels, len(samples))
-        return Clusters(known, (known >= 0).astype(np.float32), {}, samples, {"warnings": []})
+        return Clusters(known, (known >= 0).astype(np.float32), {}, samples, {"warnings": []}, _parameters.Parameters())
     samples, names = _with_attributes(samples, attributes, threads, progress)
     parameters = {"attributes": names, "is_standardized": standardized, "neighbors": k, "min_cluster_size": min_size,
                   "cut_distance": cut, "allow_single_cluster": single}
-    found, probabilities, tree, labelled, report = _run(_core.find_clusters, samples, parameters, threads, progress)
-    return Clusters(found, probabilities, tree, Samples._of(labelled), report)
+    found, probabilities, tree, labelled, *told = _run(_core.find_clusters, samples, parameters, threads, progress)
+    return Clusters(found, probabilities, tree, Samples._of(labelled), *told)
 
 
 def _labels(labels, count):
     """Numbers of clusters, one for each point."""
     array = _arrays.as_array(labels, "labels")
-    if array.ndim != 1 or array.dtype.kind not in "iu" and len(array):
+    if array.ndim != 1 or array.dtype.kind not in "iub" and len(array):
         raise ValueError("labels are whole numbers, one for each point.")
     if len(array) != count:
         raise ValueError(f"labels has {len(array)} numbers for {count} points.")
@@ -364,24 +452,39 @@ class Projection:
     map : dict
         names, mean, offsets and units of the attributes, and the rows of the map;
         smallest_ratio: the smallest Fisher ratio of two clusters.
-    report : dict
+    report, parameters : dict
+        Counts, milliseconds and warnings; what the map was found with.
+
+    Examples
+    --------
+    >>> random = np.random.default_rng(1)
+    >>> samples = uvol.Samples(random.random((300, 3)), {name: random.random(300) for name in "abcd"})
+    >>> halves = samples["a"] > 0.5
+    >>> found = uvol.project(samples, attributes=["a", "b", "c", "d"], labels=halves, method="pca")
+    >>> found
+    Projection of 300 points by a, b, c, d
+    >>> found.places.shape, found.map["names"]
+    ((300, 3), ['a', 'b', 'c', 'd'])
     """
 
-    def __init__(self, places, sources, labels, projection, report):
+    def __init__(self, places, sources, labels, projection, report, parameters):
         self.places = places
         self.sources = sources
         self.labels = labels
         self.map = projection
         self.report = report
+        self.parameters = parameters
 
+    @_parameters.with_proposals
     def render(self, view="top", size=(640, 512)):
         """A picture of the points, by cluster, and of the axes of the attributes, as
         uvol_project draws it.
 
         Parameters
         ----------
-        view, size
-            As those of `Surface.render`.
+        view : {"top", "iso", "front", "back", "left", "right", "bottom"}
+        size : int or pair of int
+            Pixels, width and height.
 
         Returns
         -------
@@ -391,15 +494,16 @@ class Projection:
         --------
         >>> random = np.random.default_rng(1)
         >>> samples = uvol.Samples(random.random((300, 3)), {name: random.random(300) for name in "abc"})
-        >>> uvol.project(samples, attributes=["a", "b", "c"], method="pca").render(size=200)
+        >>> halves = samples["a"] > 0.5
+        >>> uvol.project(samples, attributes=["a", "b", "c"], labels=halves, method="pca").render(size=200)
         Picture of 200 x 200 pixels
         """
         from . import _charts
         rows = np.array(self.map["rows"])
         axes = [(name, rows[:, place].tolist()) for place, name in enumerate(self.map["names"])]
-        pixels = _charts.draw_scatter(self.places, self.labels, axes, _parameters.text(view, "view"),
-                                      *pixel_sides(size).values())
-        return Picture(pixels, "", (0.0, 1.0), self.report)
+        parameters = {"view": _parameters.text(view, "view"), **pixel_sides(size)}
+        pixels = _charts.draw_scatter(self.places, self.labels, axes, *parameters.values())
+        return Picture(pixels, "", (0.0, 1.0), self.report, parameters)
 
     def _repr_png_(self):
         return self.render()._repr_png_()
@@ -421,10 +525,22 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
         Clusters, negative for noise; by default they are found.
     method : {"star", "pca"}
         Keep the clusters apart as well as can be; or principal components.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     Projection
+
+    Examples
+    --------
+    >>> random = np.random.default_rng(1)
+    >>> groups = np.repeat([0, 1], 150)
+    >>> fields = {name: 4 * groups * (name != "c") + random.standard_normal(300) for name in "abc"}
+    >>> found = uvol.project(random.random((300, 3)), fields, attributes=["a", "b", "c"], labels=groups)
+    >>> middles = [found.places[found.labels == group].mean(axis=0) for group in (0, 1)]
+    >>> bool(np.linalg.norm(middles[0] - middles[1]) > 2)
+    True
     """
     samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
     given = [] if labels is None else _labels(labels, len(samples))
@@ -448,18 +564,27 @@ class VoronoiGrid:
     site : numpy.ndarray of uint32, shape (nz, ny, nx)
         A point in the nearest cell that holds any.
     distance : numpy.ndarray of float32, shape (nz, ny, nx)
-        Between the centres of the cells.
+        Between the centres of the cells, in units of the coordinates.
     origin, spacing : numpy.ndarray, shape (3,)
         Lower corner of the first cell, sides of the cells.
-    report : dict
+    report, parameters : dict
+
+    Examples
+    --------
+    >>> diagram = uvol.voronoi([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], cells=(4, 1, 1))
+    >>> diagram
+    VoronoiGrid of 1 x 1 x 4 cells
+    >>> diagram.site[0, 0], diagram.spacing.shape
+    (array([0, 0, 1, 1], dtype=uint32), (3,))
     """
 
-    def __init__(self, site, distance, origin, spacing, report):
+    def __init__(self, site, distance, origin, spacing, report, parameters):
         self.site = site
         self.distance = distance
         self.origin = np.array(origin)
         self.spacing = np.array(spacing)
         self.report = report
+        self.parameters = parameters
 
     def __repr__(self):
         return f"VoronoiGrid of {' x '.join(map(str, self.site.shape))} cells"
@@ -477,11 +602,20 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
         Cubes, so many along the longest side of the points' box; or as many boxes along
         x, y and z.
     margin : int
-        More cubes on each side.
+        More cells on each side.
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------
     VoronoiGrid
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((50, 3))
+    >>> diagram = uvol.voronoi(points, cells=32)
+    >>> max(diagram.site.shape), bool((diagram.distance >= 0).all()), len(np.unique(diagram.site)) <= 50
+    (32, True, True)
     """
     counts = [cells, 0, 0] if np.ndim(cells) == 0 else list(cells)
     if len(counts) != 3:
@@ -501,6 +635,8 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, 
     scale, rotate
         As those of `isosurface`, of the space that spacings are measured in; "auto" is
         "spacing".
+    threads, progress
+        As those of `isosurface`.
 
     Returns
     -------

@@ -22,7 +22,17 @@ class Surface(Drawable, Points):
         Counts, milliseconds and warnings, the field, isovalues, isopoints of each,
         scale, error, sampling, and what level sets, validation and meshes tell.
     parameters : dict
-        What it was extracted with, by the library's names.
+        All that it was extracted with, by the library's names; print() has a line for each.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> r = np.linalg.norm(points - 0.5, axis=1)
+    >>> surface = uvol.isosurface(points, {"r": r, "vel": points}, field="r", iso=0.3, outside="higher")
+    >>> surface["vel"].shape == surface.points.shape, surface.parameters["normals"]
+    (True, 'auto')
+    >>> bool(surface.report["error"]["median"] < 1e-3)
+    True
     """
 
     def __init__(self, dataset, report, parameters, samples):
@@ -33,7 +43,15 @@ class Surface(Drawable, Points):
 
     @property
     def normals(self):
-        """numpy.ndarray, shape (n, 3): unit vectors to the outside, a view."""
+        """numpy.ndarray of float32, shape (n, 3): unit vectors to the outside, a view.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> surface = uvol.isosurface(points, {"a": points[:, 0]}, iso=0.5, outside="higher")
+        >>> bool(np.median(surface.normals[:, 0]) > 0.999), np.shares_memory(surface.normals, surface.records)
+        (True, True)
+        """
         return _arrays.view_axes(self.records, ("normal_x", "normal_y", "normal_z"))
 
     @_parameters.with_proposals
@@ -52,10 +70,25 @@ class Surface(Drawable, Points):
             Leave the surface open at the border of the samples instead of closing it.
         drop_pieces : int
             Leave out pieces of fewer triangles.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
         Mesh
+
+        Raises
+        ------
+        ValueError
+            For a surface without its samples, as pickled ones are.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> r = np.linalg.norm(points - 0.5, axis=1)
+        >>> mesh = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher").mesh()
+        >>> len(mesh.vertices) - 3 * len(mesh.triangles) // 2 + len(mesh.triangles)  # of Euler
+        2
         """
         if self._samples is None:
             raise ValueError("This surface has lost its samples, as pickled ones do: extract it with mesh=True.")
@@ -64,6 +97,7 @@ class Surface(Drawable, Points):
                           validation={"folds": 0})
         return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
 
+    @_parameters.with_proposals
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
         """Area, volume, axes, genus and integrals of fields, each with its error: those
         of `mesh()` with its usual parameters. `pcl_uvol.measure` measures the points.
@@ -74,6 +108,8 @@ class Surface(Drawable, Points):
             Bend triangles as the normals of their vertices tell.
         find_intersections : bool
             Look for triangles that go through one another.
+        threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
@@ -127,8 +163,21 @@ class Surface(Drawable, Points):
 class Mesh(Surface):
     """A triangle mesh of one or several isosurfaces; its vertices are isopoints.
 
-    `piece` tells the connected piece of each vertex, `cap` is 1 where a vertex closes
-    the samples' box, `report["pieces"]` tells triangles, rims and genus of each.
+    The field `piece` tells the connected piece of each vertex, `cap` is 1 where a vertex
+    closes the samples' box, `report["pieces"]` tells triangles, rims and genus of each.
+
+    Attributes
+    ----------
+    triangles : numpy.ndarray of uint32, shape (m, 3)
+        Indices of vertices, counter-clockwise as seen from outside.
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((5000, 3))
+    >>> r = np.linalg.norm(points - 0.5, axis=1)
+    >>> mesh = uvol.isosurface(points, {"r": r}, iso=[0.2, 0.4], outside="higher", mesh=True)
+    >>> mesh.triangles.dtype, [piece["genus"] for piece in mesh.report["pieces"]]
+    (dtype('uint32'), [0, 0])
     """
 
     def __init__(self, dataset, triangles, report, parameters, samples):
@@ -138,17 +187,65 @@ class Mesh(Surface):
 
     @property
     def vertices(self):
-        """numpy.ndarray, shape (n, 3): the points."""
+        """numpy.ndarray, shape (n, 3): the points.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> r = np.linalg.norm(points - 0.5, axis=1)
+        >>> mesh = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher", mesh=True)
+        >>> mesh.vertices is mesh.points, mesh.vertices[mesh.triangles].shape == (len(mesh.triangles), 3, 3)
+        (True, True)
+        """
         return self.points
 
+    @_parameters.with_proposals
     def measure(self, curved=True, find_intersections=False, threads=0, progress=None):
-        """Figures of this mesh, `curved` and `find_intersections` as in `Surface.measure`."""
+        """Area, volume, axes, genus and integrals of fields, each with its error.
+
+        Parameters
+        ----------
+        curved, find_intersections, threads, progress
+            As those of `Surface.measure`.
+
+        Returns
+        -------
+        Measures
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((20000, 3))
+        >>> r = np.linalg.norm(points - 0.5, axis=1)
+        >>> mesh = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher", mesh=True)
+        >>> bool(abs(mesh.measure().area.value - 4 * np.pi * 0.3**2) < 1e-3)
+        True
+        """
         return _measures.measure(self, curved=curved, find_intersections=find_intersections, threads=threads,
                                  progress=progress)
 
+    @_parameters.with_proposals
     def save(self, path, ascii=False, progress=None):
-        """Write a mesh as ply, vtp, vtkhdf, obj, off or stl, by the ending of the name: `path` and
-        `ascii` are as those of `Surface.save`."""
+        """Write a mesh as ply, vtp, vtkhdf, obj, off or stl, by the ending of the name.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+        ascii : bool
+            PLY as text.
+        progress : bool or callable, optional
+            See `isosurface`; files of meshes tell none.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> path = tempfile.mkdtemp() + "/sphere.obj"
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> r = np.linalg.norm(points - 0.5, axis=1)
+        >>> mesh = uvol.isosurface(points, {"r": r}, iso=0.3, outside="higher", mesh=True)
+        >>> mesh.save(path)
+        >>> bool((uvol.read_mesh(path)[1] == mesh.triangles).all())
+        True
+        """
         self._save(path, self.triangles, ascii, progress)
 
     def _describe(self):
@@ -163,6 +260,12 @@ class Extractor:
     points, fields
         As those of `Samples`, or samples.
 
+    Attributes
+    ----------
+    samples : Samples
+    parameters : dict
+        Of the latest extraction, at first the library's defaults.
+
     Examples
     --------
     >>> import numpy as np, pcl_uvol as uvol
@@ -170,10 +273,16 @@ class Extractor:
     >>> extractor = uvol.Extractor(points, {"r": np.linalg.norm(points - 0.5, axis=1)})
     >>> for iso in (0.2, 0.3, 0.4):
     ...     surface = extractor.extract(iso=iso, outside="higher")
+    >>> print(extractor.parameters)  # doctest: +ELLIPSIS
+    isosurface.field = 'r'
+    isosurface.isovalues = [0.4]
+    ...
     """
 
+    @_parameters.with_proposals
     def __init__(self, points, fields=None):
         self.samples = as_samples(points, fields)
+        self.parameters = _parameters.from_json(_core.Extractor.default_parameters)
         self._extractor = _core.Extractor()
 
     @_parameters.with_proposals
@@ -182,12 +291,24 @@ class Extractor:
                 normals="auto", normal_neighbors=30, max_error=None, drop_bridged=False, fill_gaps=False,
                 validate=0, validate_by="random", mesh=False, periodic=None, periodic_mesh="cut", threads=0,
                 progress=None):
-        """Extract the isosurfaces of a field: see `isosurface`.
+        """Extract the isosurfaces of a field.
+
+        Parameters
+        ----------
+        iso, field, scale, rotate, outside, interpolation, neighbors, voronoi_cells, criterion, smooth, mu, level_set, normals, normal_neighbors, max_error, drop_bridged, fill_gaps, validate, validate_by, mesh, periodic, periodic_mesh, threads, progress
+            As those of `isosurface`.
 
         Returns
         -------
         Surface
             With `mesh` a Mesh.
+
+        Examples
+        --------
+        >>> points = np.random.default_rng(1).random((5000, 3))
+        >>> extractor = uvol.Extractor(points, {"r": np.linalg.norm(points - 0.5, axis=1), "a": points[:, 0]})
+        >>> extractor.extract(iso=0.3, field="r").report["field"], extractor.extract(iso=0.5, field="a").report["field"]
+        ('r', 'a')
         """
         sides = self.samples._find_box(periodic)
         samples, field = self.samples._with_field(field, threads, progress, sides)
@@ -220,7 +341,9 @@ class Extractor:
             "periodic": sides,
             "periodic_mesh": periodic_mesh,
         }
-        return _extract(self._extractor, samples, parameters, threads, progress)
+        surface = _extract(self._extractor, samples, parameters, threads, progress)
+        self.parameters = surface.parameters
+        return surface
 
     def __reduce__(self):
         return Extractor, (self.samples,)
@@ -241,11 +364,12 @@ def _extract(extractor, samples, parameters, threads, progress):
         dataset, triangles, report = extractor.extract(samples._dataset, _parameters.to_json(parameters),
                                                        _parameters.count(threads, "threads"), listener)
     report["isovalues"] = parameters["isosurface"]["isovalues"]
-    parameters = dict(parameters, isosurface=dict(parameters["isosurface"], field=report["field"]))
-    if parameters["mesh"] is None:
-        surface = Surface(dataset, report, parameters, samples)
+    taken = _parameters.take(report)
+    taken["isosurface"]["field"] = report["field"]
+    if taken["mesh"] is None:
+        surface = Surface(dataset, report, taken, samples)
     else:
-        surface = Mesh(dataset, triangles, report, parameters, samples)
+        surface = Mesh(dataset, triangles, report, taken, samples)
     _report.tell(report["warnings"])
     return surface
 

@@ -5,7 +5,9 @@ import ast
 import doctest
 import importlib
 import inspect
+import json
 import pathlib
+import pickle
 import pkgutil
 import re
 import warnings
@@ -54,13 +56,18 @@ def test_the_version_is_that_of_the_tools(run_tool):
     assert run_tool("uvol_isosurface", "--version").split()[-1] == uvol.__version__
 
 
-def test_everything_public_is_documented():
+def test_everything_public_is_documented_with_an_example():
     for name in uvol.__all__:
         thing = getattr(uvol, name)
-        assert inspect.getdoc(thing), name
+        assert ">>>" in inspect.getdoc(thing), name
         for member, value in inspect.getmembers(thing):
-            if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
-                assert inspect.getdoc(value), f"{name}.{member}"
+            if is_shown(member) and member in thing.__dict__ and (inspect.isroutine(value) or isinstance(value, property)):
+                assert ">>>" in inspect.getdoc(value), f"{name}.{member}"
+
+
+def is_shown(member):
+    """Whether a name belongs to what users see."""
+    return not member.startswith("_") or member in ("__call__", "__getitem__")
 
 
 def list_functions():
@@ -69,18 +76,105 @@ def list_functions():
         thing = getattr(uvol, name)
         if inspect.isfunction(thing):
             yield name, thing
-        for member, value in inspect.getmembers(thing, inspect.isfunction) if inspect.isclass(thing) else []:
-            if not member.startswith("_"):
+        for member, value in inspect.getmembers(thing, inspect.isroutine) if inspect.isclass(thing) else []:
+            if is_shown(member) and not issubclass(thing, (BaseException, tuple)):
                 yield f"{name}.{member}", value
 
 
 def test_every_parameter_is_documented():
-    elsewhere = {"extract": uvol.isosurface, "raytrace": uvol.Surface.render}  # "see" and "the others are those of"
-    usual = {"self", "points", "fields", "threads", "progress"}
+    elsewhere = {"raytrace": uvol.Surface.render, "orbit": uvol.Surface.render}  # "the others are those of"
     for name, function in list_functions():
         text = inspect.getdoc(function) + (inspect.getdoc(elsewhere.get(function.__name__)) or "")
-        for parameter in set(inspect.signature(function).parameters) - usual:
+        for parameter in set(inspect.signature(function).parameters) - {"self"}:
             assert re.search(rf"\b{parameter}\b", text), f"{name} says nothing of {parameter}"
+
+
+def test_unknown_keywords_of_everything_get_a_proposal():
+    classes = [(name, getattr(uvol, name).__init__) for name in ("Samples", "Extractor", "Interpolator")]
+    checked = 0
+    for name, function in [*classes, *list_functions()]:
+        parameters = inspect.signature(function).parameters.values()
+        values = [None for parameter in parameters
+                  if parameter.kind == parameter.POSITIONAL_OR_KEYWORD and parameter.default is parameter.empty]
+        for parameter in parameters:
+            if parameter.name == "self" or parameter.kind == parameter.VAR_KEYWORD or function.__name__ == "__getitem__":
+                continue
+            wrong = parameter.name + parameter.name[-1]
+            told = rf"has no keyword {wrong!r} \(did you mean '{parameter.name}s?'\?\)\.$"  # field or fields
+            with pytest.raises(TypeError, match=told):
+                function(*values, **{wrong: 1})
+            checked += 1
+    assert checked > 300
+
+
+def make_one_of_each():
+    """Something of every class that has attributes."""
+    points = np.random.default_rng(1).random((2000, 3))
+    samples = uvol.Samples(points, {"r": np.linalg.norm(points - 0.5, axis=1), "a": points[:, 0], "b": points[:, 1]})
+    extractor = uvol.Extractor(samples)
+    surface = extractor.extract(field="r", iso=0.3, outside="higher")
+    mesh = surface.mesh()
+    measures = mesh.measure()
+    comparison = uvol.compare(mesh, mesh)
+    interpolator = uvol.Interpolator(samples, field="r")
+    return [samples, extractor, surface, mesh, measures, measures.pieces[0], comparison, comparison.forth, interpolator,
+            interpolator.evaluate([[0.5, 0.5, 0.5]]), interpolator.line([0.2] * 3, [0.8] * 3, 5), surface.render(size=32),
+            uvol.cluster(samples, labels=np.zeros(2000, int)), uvol.voronoi(samples, cells=4),
+            uvol.project(samples, attributes=["r", "a", "b"], labels=points[:, 0] > 0.5, method="pca")]
+
+
+def test_parameters_of_results_are_printable_with_all_defaults(tmp_path):
+    points = np.random.default_rng(1).random((2000, 3))
+    samples = uvol.Samples(points, {"r": np.linalg.norm(points - 0.5, axis=1), "a": points[:, 0], "b": points[:, 1]})
+    surface = uvol.isosurface(samples, field="r", iso=0.3)
+    surface.save(tmp_path / "sphere.ply")
+    (tmp_path / "test.scene").write_text("size 40 30\ncloud sphere.ply\n")
+    interpolator = uvol.Interpolator(samples, field="r", model="shepard")
+    projection = uvol.project(samples, attributes=["r", "a", "b"], labels=points[:, 0] > 0.5, method="pca")
+    halves = uvol.cluster(samples, labels=points[:, 0] > 0.5)
+    results = {
+        uvol.isosurface: surface,
+        uvol.Surface.mesh: surface.mesh(),
+        uvol.level_set: uvol.level_set(samples, field="r", iso=0.3, max_steps=2),
+        uvol.normals: uvol.normals(surface),
+        uvol.splats: uvol.splats(surface),
+        uvol.cluster: uvol.cluster(samples, attributes=["a", "b"], single=True),
+        uvol.Clusters.surface: halves.surface(0),
+        uvol.project: projection,
+        uvol.voronoi: uvol.voronoi(samples, cells=4),
+        uvol.measure: surface.measure(),
+        uvol.Interpolator: interpolator,
+        uvol.Interpolator.evaluate: interpolator.evaluate([[0.5, 0.5, 0.5]]),
+        uvol.Interpolator.probe: interpolator.probe([[0.5, 0.5, 0.5]]),
+        uvol.Interpolator.slice: interpolator.slice("z=0.5", 8),
+        uvol.Lattice.render: interpolator.slice("z=0.5", 8).render(),
+        uvol.Projection.render: projection.render(size=64),
+        uvol.Surface.render: surface.render(size=32),
+        uvol.Surface.raytrace: surface.raytrace(size=32),
+        uvol.raytrace: uvol.raytrace(tmp_path / "test.scene"),
+        uvol.Samples.density: samples.density(),
+        uvol.Samples.sampling: samples.sampling(),
+        uvol.Samples.outer_layer: samples.outer_layer(0.0, "r"),
+        uvol.Extractor: uvol.Extractor(samples),
+    }
+    given = {"iso", "field", "size", "max_steps", "method", "single", "model", "attributes", "cells", "mesh",
+             "label"}
+    for function, result in results.items():
+        parameters = result.parameters
+        assert parameters and len(str(parameters).splitlines()) >= len(parameters), function
+        assert all(" = " in line for line in str(parameters).splitlines()), function
+        assert json.loads(json.dumps(parameters)) == parameters, function
+        for keyword in inspect.signature(function).parameters.values():
+            if keyword.name in parameters and keyword.name not in given and keyword.default not in (None, keyword.empty):
+                expected = np.asarray(keyword.default)
+                found = parameters[keyword.name]
+                if np.ndim(found) == np.ndim(expected) and not isinstance(found, dict):
+                    assert np.all(found == expected), (function, keyword.name)
+    assert pickle.loads(pickle.dumps(surface)).parameters == surface.parameters
+    assert uvol.raytrace(tmp_path / "test.scene").parameters["width"] == 40
+    assert samples.parameters == {} and halves.parameters == {}
+    again = uvol.isosurface(samples, field="r", iso=0.3, level_set=surface.parameters["level_set"])
+    assert again.records.tobytes() == surface.records.tobytes() and again.parameters == surface.parameters
 
 
 def test_types_of_the_stub_have_the_names_of_the_code():
@@ -97,6 +191,15 @@ def test_types_of_the_stub_have_the_names_of_the_code():
                     if parameter.kind != parameter.VAR_KEYWORD]
         owners = ("self", "cls")
         assert [name for name in listed if name not in owners] == [name for name in keywords if name not in owners]
+
+    def list_attributes(node):
+        """Names that a class and those above it have in the stub."""
+        above = [list_attributes(classes[base.id]) for base in node.bases if base.id in classes]
+        return {item.target.id for item in node.body if isinstance(item, ast.AnnAssign)}.union(*above)
+
+    for thing in make_one_of_each():
+        held = {name for name in dir(thing) if not name.startswith("_") and not callable(getattr(thing, name))}
+        assert held == list_attributes(classes[type(thing).__name__]), type(thing).__name__
 
     for name, node in functions.items():
         compare(node, getattr(uvol, name))

@@ -91,10 +91,21 @@ public:
     return py::make_tuple(toArray(std::move(picture.color), {height, width, 4}),
                           toText(field_),
                           range_,
-                          toDict(report));
+                          describe(report));
   }
 
 private:
+  /** The report, and in it the parameters as JSON. */
+  py::dict
+  describe(const Report& report) const
+  {
+    py::dict told = toDict(report);
+    told["parameters"] = toText(writeJson(look_));
+    if (rays_)
+      told["ray_parameters"] = toText(writeJson(*rays_));
+    return told;
+  }
+
   /** The picture without what explains it. */
   Image
   drawPoints(int frame, const ProgressCallback& callback, Report& report)

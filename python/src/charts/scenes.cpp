@@ -68,9 +68,41 @@ findCamera(const PictureParameters& look,
   return zoomed(camera, look.zoom);
 }
 
+std::array<double, 3>
+toNumbers(const Eigen::Vector3d& place)
+{
+  return {place.x(), place.y(), place.z()};
+}
+
+/** What was taken, from the file or instead of it, by the names of Python's keywords.
+ * \param origin what was subtracted from the coordinates */
+py::dict
+describe(const Camera& camera,
+         const std::array<double, 3>& origin,
+         const PictureParameters& look,
+         int supersample,
+         const RayTracingSettings& rays)
+{
+  const Eigen::Vector3d shift(origin.data());
+  py::dict dict;
+  dict["width"] = look.width;
+  dict["height"] = look.height;
+  dict["eye"] = toNumbers(camera.eye + shift);
+  dict["at"] = toNumbers(camera.at + shift);
+  dict["up"] = toNumbers(camera.up);
+  dict["fov"] = camera.vertical_fov;
+  dict["supersample"] = supersample;
+  dict["depth"] = rays.depth;
+  dict["shadows"] = rays.shadows;
+  dict["light_samples"] = rays.light_samples;
+  dict["occlusion"] = rays.occlusion_samples;
+  dict["occlusion_distance"] = rays.occlusion_distance;
+  return dict;
+}
+
 /** A scene of a file, seen as the file says unless parameters say otherwise.
  * \param turn degrees that the camera goes around
- * \return pixels and the report */
+ * \return pixels, the report, and the parameters that were taken */
 py::tuple
 traceScene(const std::string& path,
            const std::string& folder,
@@ -85,6 +117,10 @@ traceScene(const std::string& path,
   const auto rays = readJson<RayParameters>(ray_json);
   Image image;
   Report report;
+  Camera camera;
+  std::array<double, 3> origin{};
+  RayTracingSettings settings;
+  int supersample = 0;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
     SceneFile file = loadScene(path, folder, threads, report);
@@ -98,21 +134,26 @@ traceScene(const std::string& path,
     applyRays(rays, given, tracer.settings());
     tracer.setNumberOfThreads(threads);
     tracer.setProgressCallback(callback);
-    tracer.setSupersampling(has(given, "supersample") ? std::max(look.supersample, 1)
-                                                      : file.supersampling);
+    supersample =
+        has(given, "supersample") ? std::max(look.supersample, 1) : file.supersampling;
+    tracer.setSupersampling(supersample);
     if (file.size && !has(given, "size")) {
       look.width = (*file.size)[0];
       look.height = (*file.size)[1];
     }
     tracer.setSize(look.width, look.height);
-    tracer.setCamera(findCamera(look, given, file, tracer).orbited(turn));
+    camera = findCamera(look, given, file, tracer).orbited(turn);
+    tracer.setCamera(camera);
     tracer.render(image);
+    settings = tracer.settings();
+    origin = file.origin;
     report.merge(tracer.getReport());
   });
   const auto height = static_cast<py::ssize_t>(image.height);
   const auto width = static_cast<py::ssize_t>(image.width);
   return py::make_tuple(toArray(std::move(image.color), {height, width, 4}),
-                        toDict(report));
+                        toDict(report),
+                        describe(camera, origin, look, supersample, settings));
 }
 
 } // namespace

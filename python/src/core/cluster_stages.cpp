@@ -132,7 +132,9 @@ separateCluster(const DatasetPtr& dataset,
         threads,
         report);
   });
-  return py::make_tuple(share(std::move(surface)), toDict(report));
+  py::dict told = toDict(report);
+  told["parameters"] = toText(how.toJson());
+  return py::make_tuple(share(std::move(surface)), told);
 }
 
 } // namespace

@@ -136,7 +136,7 @@ describe(const IsosurfaceResult& result)
 class Extractor {
 public:
   /** \param parameters JSON of IsosurfacePipelineParameters
-   * \return points, triangles and report */
+   * \return points, triangles and report, in it "parameters" as JSON */
   py::tuple
   extract(const DatasetPtr& samples,
           const std::string& parameters,
@@ -144,11 +144,13 @@ public:
           const py::object& progress)
   {
     IsosurfaceResult result;
+    const auto taken = IsosurfacePipelineParameters::fromJson(parameters);
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       const std::lock_guard<std::mutex> lock(mutex_);
-      result = run(samples, parameters, threads, callback);
+      result = run(samples, taken, threads, callback);
     });
-    const py::dict report = describe(result);
+    py::dict report = describe(result);
+    report["parameters"] = toText(taken.toJson());
     return py::make_tuple(share(std::move(result.surface)),
                           toIndices(std::move(result.triangles)),
                           report);
@@ -157,14 +159,14 @@ public:
 private:
   IsosurfaceResult
   run(const DatasetPtr& samples,
-      const std::string& parameters,
+      const IsosurfacePipelineParameters& parameters,
       unsigned threads,
       const ProgressCallback& progress)
   {
     if (samples != samples_)
       pipeline_.setInput(samples);
     samples_ = samples;
-    pipeline_.setParameters(IsosurfacePipelineParameters::fromJson(parameters));
+    pipeline_.setParameters(parameters);
     pipeline_.setNumberOfThreads(threads);
     pipeline_.setProgressCallback(progress);
     checkParameters(pipeline_.getParameters());
@@ -199,7 +201,10 @@ bindIsosurface(py::module_& module)
 {
   py::class_<Extractor>(module, "Extractor")
       .def(py::init<>())
-      .def("extract", &Extractor::extract);
+      .def("extract", &Extractor::extract)
+      .def_property_readonly_static("default_parameters", [](const py::object&) {
+        return toText(IsosurfacePipelineParameters().toJson());
+      });
 }
 
 } // namespace pcl_uvol::python

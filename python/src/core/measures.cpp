@@ -97,6 +97,7 @@ measure(const DatasetPtr& vertices,
   });
   py::dict report = toDict(measures.getReport());
   report["intersections"] = figures.intersections.size();
+  report["parameters"] = toText(measures.getParameters().toJson());
   const auto count = static_cast<py::ssize_t>(figures.vertex_areas.size());
   return py::make_tuple(toList(figures.isovalues),
                         toList(figures.pieces),

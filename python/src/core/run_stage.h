@@ -3,6 +3,7 @@
 // parameters in JSON.
 #pragma once
 
+#include "common/records.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 
@@ -17,17 +18,14 @@ using Cloud = pcl::PCLPointCloud2;
 inline DatasetPtr
 withCloud(const Dataset& dataset, Cloud&& cloud)
 {
-  auto result = std::make_shared<Dataset>();
-  result->origin = dataset.origin;
-  result->double_coordinates = dataset.double_coordinates;
-  result->labels = dataset.labels;
+  auto result = std::make_shared<Dataset>(withoutCloud(dataset));
   result->cloud = std::move(cloud);
   return result;
 }
 
 /** \brief Set a stage up and run it.
  * \param work runs the stage and takes its result, without the lock of the interpreter
- * \return the stage's report */
+ * \return the stage's report, and in it "parameters": those that it took, as JSON */
 template <typename StageT, typename WorkT>
 pybind11::dict
 runStage(StageT& stage,
@@ -38,13 +36,16 @@ runStage(StageT& stage,
          const WorkT& work)
 {
   stage.setParameters(StageT::Parameters::fromJson(parameters));
+  const std::string taken = stage.getParameters().toJson();
   stage.setNumberOfThreads(threads);
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     stage.setInputCloud(Cloud::ConstPtr(dataset, &dataset->cloud));
     stage.setProgressCallback(callback);
     work();
   });
-  return toDict(stage.getReport());
+  pybind11::dict report = toDict(stage.getReport());
+  report["parameters"] = toText(taken);
+  return report;
 }
 
 } // namespace pcl_uvol::python

@@ -20,7 +20,7 @@ namespace {
 /** Vertices of hulls carry the fields of their points.
  * \param members indices of points
  * \param parameters JSON of ClusterSurfaceParameters
- * \return vertices, triangles, the distance that was taken, and the report */
+ * \return vertices, triangles, and the report with the distance that was taken */
 py::tuple
 encloseCluster(const DatasetPtr& dataset,
                const std::vector<int>& members,
@@ -42,10 +42,11 @@ encloseCluster(const DatasetPtr& dataset,
     if (!surface.points.empty())
       copyFields(dataset->cloud, surface.points, vertices.cloud);
   });
-  return py::make_tuple(share(std::move(vertices)),
-                        toIndices(std::move(surface.mesh.triangles)),
-                        surface.distance,
-                        toDict(report));
+  py::dict told = toDict(report);
+  told["distance"] = surface.distance;
+  told["parameters"] = toText(how.toJson());
+  return py::make_tuple(
+      share(std::move(vertices)), toIndices(std::move(surface.mesh.triangles)), told);
 }
 
 } // namespace
