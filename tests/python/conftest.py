@@ -4,6 +4,7 @@ are those of the module."""
 
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import textwrap
@@ -16,6 +17,17 @@ import pcl_uvol as uvol
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "long: takes more than some seconds")
+
+
+def pixels_of(path):
+    """Size and packed pixels of a PNG file, without what else it tells."""
+    data, place, kept = path.read_bytes(), 8, []
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        if kind in (b"IHDR", b"IDAT"):
+            kept.append(data[place + 8:place + 8 + length])
+        place += length + 12
+    return kept
 
 
 @pytest.fixture

@@ -2,23 +2,12 @@
 """Pictures: those of the tools, pixel for pixel."""
 
 import concurrent.futures
-import struct
 
 import numpy as np
 import pytest
+from conftest import pixels_of
 
 import pcl_uvol as uvol
-
-
-def pixels_of(path):
-    """Size and packed pixels of a PNG file, without what else it tells."""
-    data, place, kept = path.read_bytes(), 8, []
-    while place < len(data):
-        length, kind = struct.unpack(">I4s", data[place:place + 8])
-        if kind in (b"IHDR", b"IDAT"):
-            kept.append(data[place + 8:place + 8 + length])
-        place += length + 12
-    return kept
 
 
 @pytest.mark.parametrize("options, arguments", [
