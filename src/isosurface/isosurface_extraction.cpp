@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/cloud_fingerprint.h"
+#include "common/number_range.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
 #include "isosurface/isopoints.h"
@@ -9,6 +10,7 @@
 
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pcl_uvol {
@@ -31,10 +33,15 @@ checkParameters(const IsosurfaceParameters& parameters)
   if (parameters.isovalues.empty())
     throw InvalidArgument(
         "IsosurfaceExtraction has no isovalue: call setIsoValue or setIsoValues.");
-  for (const double isovalue : parameters.isovalues)
+  for (const double isovalue : parameters.isovalues) {
     if (!std::isfinite(isovalue))
       throw InvalidArgument("The isovalue " + std::to_string(isovalue) +
                             " is not a finite number.");
+    if (std::count(parameters.isovalues.begin(), parameters.isovalues.end(), isovalue) >
+        1)
+      throw InvalidArgument("The isovalue " + describeNumbers({isovalue}).front() +
+                            " is given more than once.");
+  }
   for (const float factor : parameters.scale)
     if (!std::isfinite(factor) || factor <= 0.0f)
       throw InvalidArgument("The scale " + std::to_string(factor) +

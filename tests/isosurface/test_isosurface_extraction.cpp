@@ -465,6 +465,7 @@ TEST(IsosurfaceExtraction, BadInputThrowsAndLeavesTheOutputAlone)
   expectThrow(good, [](Extraction& e) { e.setScalarField("density"); });
   expectThrow(good, [](Extraction& e) { e.setIsoValues({}); });
   expectThrow(good, [](Extraction& e) { e.setIsoValue(nan_value); });
+  expectThrow(good, [](Extraction& e) { e.setIsoValues({8.0, 6.0, 8.0}); });
   expectThrow(good, [](Extraction& e) { e.setScale({1.0f, 0.0f, 1.0f}); });
   expectThrow(good, [](Extraction& e) { e.setScale({1.0f, nan_value, 1.0f}); });
   Cloud::Ptr no_value(new Cloud(*good));
