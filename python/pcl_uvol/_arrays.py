@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From what users have, arrays of any kind, to the records of a dataset."""
 
+import reprlib
+
 import numpy as np
 
 from . import _core, _parameters
@@ -43,8 +45,12 @@ def as_array(values, what):
         array = np.ma.asarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
     except ValueError as error:
         raise ValueError(f"{what} is not an array of numbers: its rows have different lengths.") from error
+    if array.ndim == 0 and array.dtype.kind in "OSU":
+        raise ValueError(f"{what} is {reprlib.repr(values)}: it must be an array of numbers.")
     if array.dtype.kind == "O":
         raise ValueError(f"{what} holds Python objects, not numbers: convert it first, say by .astype(float).")
+    if array.dtype.kind in "mM":
+        raise ValueError(f"{what} holds times: it must hold numbers, say (t - t.min()) / numpy.timedelta64(1, 's').")
     if array.dtype.kind not in _LETTERS:
         raise ValueError(f"{what} has the type {array.dtype}: it must hold numbers or booleans.")
     if np.ma.isMaskedArray(array):
@@ -55,14 +61,14 @@ def as_array(values, what):
 
 
 def _from_pandas(values):
-    """A column or table of pandas: its own missing values are NaN."""
-    dtypes = getattr(values, "dtypes", None)
-    kinds = [dtypes] if not hasattr(dtypes, "__iter__") else list(dtypes)
-    if any(hasattr(kind, "na_value") and not isinstance(kind, np.dtype) for kind in kinds):
+    """A column, array or table of pandas: missing values of its own types of numbers are NaN."""
+    dtypes = getattr(values, "dtypes", getattr(values, "dtype", None))
+    kinds = list(dtypes) if hasattr(dtypes, "__iter__") else [dtypes]
+    if any(hasattr(kind, "numpy_dtype") for kind in kinds):
         try:
-            has_missing = bool(np.any(values.isna()))
-            return values.to_numpy(dtype=np.float64, na_value=np.nan) if has_missing else np.asarray(
-                values.to_numpy(dtype=getattr(kinds[0], "numpy_dtype", np.float64)))
+            if len(set(kinds)) > 1 or np.any(values.isna()):
+                return values.to_numpy(dtype=np.float64, na_value=np.nan)
+            return values.to_numpy(dtype=kinds[0].numpy_dtype)
         except (TypeError, ValueError):
             pass  # texts and the like, which are refused by their type
     return values.to_numpy()
@@ -77,12 +83,21 @@ def _number_type(dtype):
     return "?" if dtype.kind == "b" else f"{_LETTERS[dtype.kind]}{size}"
 
 
-def coordinates(points, what="points"):
+def coordinates(points):
     """Points as an array of shape (n, 3); columns of zeros are not made up."""
-    array = as_array(points, what)
+    array = as_array(points, "points")
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{what} has the shape {array.shape}: it must be (n, 3), a row for each point.")
+        raise ValueError(f"points has the shape {array.shape}: it must be (n, 3), a row for each point.")
     return array
+
+
+def stack_axes(table, axes, what):
+    """Columns of a table, or fields of a structured array, as coordinates."""
+    columns = [as_array(table[axis], f"The {what} {axis!r}") for axis in axes]
+    for axis, column in zip(axes, columns):
+        if column.ndim != 1:
+            raise ValueError(f"The {what} {axis!r} has the shape {column.shape}: it must be (n,), a number for each point.")
+    return np.stack(columns, axis=1)
 
 
 def as_triangles(values, count):

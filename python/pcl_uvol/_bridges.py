@@ -208,9 +208,12 @@ def from_vtk(dataset):
     if dataset.GetNumberOfPoints() > 0:
         points = vtk_to_numpy(dataset.GetPoints().GetData())
     data = dataset.GetPointData()
-    arrays = [data.GetArray(place) for place in range(data.GetNumberOfArrays())]
     fields = {}
-    for number, array in enumerate(arrays):
-        if array is not None:  # texts
-            fields[array.GetName() or f"array_{number}"] = vtk_to_numpy(array)
+    for number in range(data.GetNumberOfArrays()):
+        array = data.GetAbstractArray(number)
+        if array.IsA("vtkStringArray"):
+            values = [array.GetValue(place) for place in range(array.GetNumberOfValues())]
+        else:
+            values = vtk_to_numpy(array)
+        fields[array.GetName() or f"array_{number}"] = values
     return Samples(points, fields)

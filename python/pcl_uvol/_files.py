@@ -59,7 +59,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")
     with listening(progress) as listener:
-        dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), bool(cells),
+        dataset = _io.read(os.fsencode(path), columns, _parameters.text(str(particles), "particles"), _parameters.flag(cells, "cells"),
                            listener)
     _report.tell(dataset.notes)
     return Samples._of(dataset)
@@ -95,7 +95,7 @@ def write(path, points, fields=None, triangles=None, ascii=False, progress=None)
         vertices = as_samples(points, fields)
         vertices._save(path, _arrays.as_triangles(triangles, len(vertices)), ascii, progress)
         return
-    if not hasattr(points, "save"):
+    if fields is not None or not hasattr(points, "save"):
         points = Samples(points, fields)
     points.save(path, ascii=ascii, progress=progress)
 

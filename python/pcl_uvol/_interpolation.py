@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _arrays, _core, _parameters, _report
 from ._lattice import Lattice
+from ._points import Points
 from ._progress import listening
 from ._samples import Samples, as_samples
 
@@ -185,7 +186,7 @@ class Interpolator:
 
         Parameters
         ----------
-        queries : array_like, shape (..., 3)
+        queries : array_like, shape (..., 3), Samples or Surface
             Places in the coordinates of the samples.
         threads : int, optional
             By default those of the interpolator.
@@ -203,7 +204,7 @@ class Interpolator:
         >>> answers.values.round(4), answers.gradients[0].round(3) + 0.0, answers.support
         (array([ 1., nan]), array([2., 0., 0.]), array([1, 4], dtype=uint8))
         """
-        places = _arrays.as_array(queries, "queries")
+        places = _arrays.as_array(queries.points if isinstance(queries, Points) else queries, "queries")
         if places.ndim == 0 or places.shape[-1] != 3:
             raise ValueError(f"queries has the shape {places.shape}: it must be (..., 3), a row for each place.")
         with listening(progress) as listener:
@@ -462,7 +463,7 @@ def _plane(plane):
     axis, _, value = plane.partition("=")
     try:
         place = "xyz".index(axis.strip() or "-")
-        number = float(value)
+        number = _parameters.number(float(value), "plane")
     except ValueError:
         raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, "
                          "or a point and a normal.") from None

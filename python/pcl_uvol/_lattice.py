@@ -191,12 +191,12 @@ class Lattice:
         """
         from . import _charts
         field = field or next(iter(self._columns))
-        unit = _parameters.text(unit, "unit")
+        unit, log = _parameters.text(unit, "unit"), _parameters.flag(log, "log")
         values = self[field]
         if len(self.shape) > 2 or values.ndim > len(self.shape):
             raise ValueError("A picture shows one number per place, along a line or in a slice.")
         title = _parameters.text(label, "label") or field
-        parameters = dict(field=field, contours=list(np.ravel(contours)), colormap=colormap, range=range, log=bool(log),
+        parameters = dict(field=field, contours=list(np.ravel(contours)), colormap=colormap, range=range, log=log,
                           samples=samples, label=title, unit=unit)
         if len(self.shape) == 1:
             errors = self._columns.get(field + "_error", np.empty(0))
@@ -209,7 +209,7 @@ class Lattice:
             lines = _parameters.numbers(contours, "contours") if np.size(contours) else []
             near = [] if samples is None else self._find_samples(field, samples)
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
-                                                 _parameters.text(colormap, "colormap"), ends, bounds, bool(log), lines,
+                                                 _parameters.text(colormap, "colormap"), ends, bounds, log, lines,
                                                  near)
         return Picture(pixels, field, limits, self.report, parameters)
 

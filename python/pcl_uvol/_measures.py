@@ -182,10 +182,13 @@ def measure(surface, *, samples=None, curved=True, find_intersections=False, thr
         samples = getattr(surface, "_samples", None) if len(triangles) else None
     else:
         samples = as_samples(samples, None)
-    parameters = {"curved": bool(curved), "find_intersections": bool(find_intersections)}
+    parameters = {"curved": _parameters.flag(curved, "curved"),
+                  "find_intersections": _parameters.flag(find_intersections, "find_intersections")}
     with listening(progress) as listener:
         figures = _core.measure(vertices._dataset, triangles, None if samples is None else samples._dataset,
                                 _parameters.to_json(parameters), _parameters.count(threads, "threads"), listener)
+    if not figures[0]:
+        raise ValueError("None of the triangles has three different corners: there is nothing to measure.")
     _report.tell(figures[-1]["warnings"])
     known = {np.float32(value): value for value in getattr(surface, "report", {}).get("isovalues", [])}
     for figure in figures[0] + figures[1]:  # vertices have them in single precision

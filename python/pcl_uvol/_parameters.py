@@ -37,12 +37,16 @@ def to_json(parameters):
     return json.dumps(plain(parameters))
 
 
-def numbers(values, what):
-    """One number or several as a list of finite ones."""
-    array = np.atleast_1d(np.asarray(values))
-    if array.dtype.kind not in "iufb" or array.ndim != 1 or array.size == 0 or not np.isfinite(array).all():
-        raise ValueError(f"{what} is {values!r}: it must be a finite number, or several.")
-    return [float(value) for value in array]
+def numbers(values, what, dimensions=1):
+    """One number or several as a list of finite ones, of rows one after the other."""
+    try:
+        array = np.ma.asarray(values)
+    except ValueError:  # rows of different lengths
+        array = np.ma.array([])
+    if (array.dtype.kind not in "iufb" or array.ndim > dimensions or array.size == 0 or np.ma.is_masked(array)
+            or not np.isfinite(array.data).all()):
+        raise ValueError(f"{what} is {reprlib.repr(values)}: it must be a finite number, or several.")
+    return [float(value) for value in array.data.ravel()]
 
 
 def number(value, what):
@@ -51,6 +55,13 @@ def number(value, what):
     if len(found) != 1:
         raise ValueError(f"{what} is {value!r}: it must be one number.")
     return found[0]
+
+
+def flag(value, what):
+    """True or False, of Python or numpy."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be True or False.")
+    return bool(value)
 
 
 def text(value, what):
@@ -132,7 +143,7 @@ class Stretch:
             if self.word not in ("auto", "spacing"):
                 raise ValueError(f"scale is {scale!r}: it must be three factors, a matrix, 'auto' or 'spacing'.")
             return
-        self.factors = numbers(np.ravel(scale), "scale")
+        self.factors = numbers(scale, "scale", dimensions=2)
         if len(self.factors) == 9 and rotate is None:
             self.factors, self.rotation = _core.split_map(self.factors)
         elif len(self.factors) != 3:

@@ -80,37 +80,39 @@ class Picture:
 
 def pixel_sides(size):
     """Width and height."""
-    sides = [size, size] if not isinstance(size, (tuple, list)) else list(size)
+    sides = list(size) if np.ndim(size) == 1 else [size, size]
     if len(sides) != 2:
         raise ValueError(f"size is {size!r}: it must be a number of pixels, or width and height.")
     width, height = (_parameters.count(side, "size") for side in sides)
     return {"width": width, "height": height}
 
 
-def _place(value):
-    return None if value is None else _parameters.numbers(value, "A place or direction")
+def _place(value, what):
+    return None if value is None else _parameters.numbers(value, what)
 
 
 def look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample):
     """What all pictures are asked for with, scenes as well."""
-    look = dict(view=view, eye=_place(eye), at=_place(at), up=_place(up), fov=fov, parallel=bool(parallel), zoom=zoom,
+    look = dict(view=view, eye=_place(eye, "eye"), at=_place(at, "at"), up=_place(up, "up"), fov=fov,
+                parallel=_parameters.flag(parallel, "parallel"), zoom=zoom,
                 supersample=_parameters.count(supersample, "supersample"), **pixel_sides(size))
     if isinstance(background, str):
         look["background"] = background
     else:
-        look["background_color"] = _place(background)
+        look["background_color"] = _place(background, "background")
     return look
 
 
 def _lights(directions):
     """Rows of three numbers."""
     rows = np.asarray([] if directions is None else directions, dtype=object)
-    return [_place(row) for row in np.atleast_2d(rows).tolist() if len(row)]
+    return [_place(row, "lights") for row in np.atleast_2d(rows).tolist() if len(row)]
 
 
 def _figure(ticks, box, triad, scale_bar, unit, title, views):
     """What explains a picture."""
-    return dict(ticks=bool(ticks), box=bool(box), triad=bool(triad), scale_bar=bool(scale_bar),
+    shown = dict(ticks=ticks, box=box, triad=triad, scale_bar=scale_bar)
+    return dict({name: _parameters.flag(value, name) for name, value in shown.items()},
                 unit=_parameters.text(unit, "unit"), title=_parameters.text(title, "title"),
                 views=_parameters.names(views, "views", "sides"))
 
@@ -207,7 +209,7 @@ class Drawable:
         look = look_of(size, view, eye, at, up, fov, parallel, zoom, background, supersample)
         look.update(self._colors(color, colormap, range, log, bar, surface_color, exaggerate, lights, material),
                     culling=culling, footprints=footprints, silhouettes=silhouettes, features=features,
-                    thickness=thickness, line_color=_place(line_color), passes=_parameters.mapping(passes, "passes"),
+                    thickness=thickness, line_color=_place(line_color, "line_color"), passes=_parameters.mapping(passes, "passes"),
                     opacity=[] if opacity is None else _parameters.numbers(opacity, "opacity"),
                     **_figure(ticks, box, triad, scale_bar, unit, title, views))
         return self._draw(look, None, threads, progress)
@@ -297,9 +299,10 @@ class Drawable:
         _parameters.text(color, "color")
         if color in self.keys() and self.records.dtype[color].shape:
             color = f"|{color}|"
-        return dict(color=color or "none", colormap=colormap, log=bool(log), bar=bool(bar),
+        return dict(color=color or "none", colormap=colormap, log=_parameters.flag(log, "log"), bar=_parameters.flag(bar, "bar"),
                     range=None if range is None else _parameters.numbers(range, "range"),
-                    exaggerate=_place(exaggerate), surface_color=_place(surface_color), lights=_lights(lights), material=_parameters.mapping(material, "material"))
+                    exaggerate=_place(exaggerate, "exaggerate"), surface_color=_place(surface_color, "surface_color"),
+                    lights=_lights(lights), material=_parameters.mapping(material, "material"))
 
     @_parameters.with_proposals
     def save_page(self, path, *, color="auto", colormap="auto", range=None, log=False, bar=True, view="iso", eye=None,

@@ -191,7 +191,7 @@ class Points(Bridges):
     def _save(self, path, triangles, ascii, progress):
         from . import _io
         with listening(progress) as listener:
-            _io.write(os.fsencode(path), self._dataset, triangles, bool(ascii), self._comments(), listener)
+            _io.write(os.fsencode(path), self._dataset, triangles, _parameters.flag(ascii, "ascii"), self._comments(), listener)
 
     def _comments(self):
         """Lines for files that have comments."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scattered samples: what everything starts from."""
 
+import os
 import reprlib
 
 import numpy as np
@@ -20,8 +21,8 @@ class Samples(Drawable, Points):
     points : array_like, shape (n, 3)
         Coordinates, float32 or float64. Doubles keep their digits: they are held
         relative to an origin. A structured array with x, y, z brings its other fields,
-        as a table of pandas or xarray does (`from_dataframe`); records of `empty` are
-        taken as they are, all others are copied once.
+        as a table of pandas or xarray does (`from_dataframe`); records of `empty` and
+        samples are taken as they are, all others are copied once.
     fields : mapping of str to array_like, optional
         Values, shape (n,) or (n, k), of any type of numbers, which is kept. NaN, masked
         values and pandas' missing ones are missing values. Columns of names, as texts or
@@ -49,15 +50,22 @@ class Samples(Drawable, Points):
 
     @_parameters.with_proposals
     def __init__(self, points, fields=None):
-        dtype = getattr(points, "dtype", None)
+        if isinstance(points, (str, bytes, os.PathLike)):
+            raise TypeError(f"points is {reprlib.repr(points)}: it must be an array; read() makes samples of files.")
+        is_structured = bool(getattr(getattr(points, "dtype", None), "names", None))
+        if fields is not None and (is_structured or isinstance(points, Points)):
+            raise TypeError("Samples and structured arrays have their fields: give fields with an array of points.")
+        if isinstance(points, Points):
+            self._begin(points._dataset)
+            return
         dataset = None
-        if fields is None and _is_table(points):
-            points, fields = _columns_of(points, "xyz", None)
-        elif fields is None and getattr(dtype, "names", None):
+        if is_structured:
             records = np.ma.asarray(points) if np.ma.isMaskedArray(points) else np.asarray(points)
             dataset = _arrays.take_over(records)
             if dataset is None:
                 points, fields = _split(records, ("x", "y", "z"))
+        elif fields is None and _is_table(points):
+            points, fields = _columns_of(points, "xyz", None)
         self._begin(dataset or _arrays.make_dataset(points, fields))
         _report.tell(self._dataset.notes)
 
@@ -260,7 +268,7 @@ class Samples(Drawable, Points):
         Parameters
         ----------
         indices : array_like of int or bool, or slice
-            Whatever chooses rows of an array.
+            Whatever chooses rows of an array; what is masked chooses none.
 
         Returns
         -------
@@ -277,6 +285,10 @@ class Samples(Drawable, Points):
         >>> samples.take([2, 0])["T"].tolist(), samples.take(samples["T"] > 4)["T"].tolist()
         ([7.0, 3.0], [5.0, 7.0])
         """
+        if indices is None or isinstance(indices, (str, tuple)):
+            raise TypeError(f"indices is {reprlib.repr(indices)}: it must be an array of indices, a mask, or a slice.")
+        if np.ma.isMaskedArray(indices):
+            indices = indices.filled(False) if indices.dtype.kind == "b" else indices.compressed()
         return Samples._of(self._dataset.take(np.arange(len(self))[indices]))
 
     def _with_field(self, expression, threads, progress, sides=(0.0, 0.0, 0.0)):
@@ -340,8 +352,7 @@ def _split(records, axes):
     if missing:
         raise ValueError(f"The structured array has no field {missing[0]}: it needs x, y and z.")
     records = records.reshape(-1)
-    points = np.stack([_arrays.as_array(records[axis], f"The field {axis!r}") for axis in axes], axis=1)
-    return points, {name: records[name] for name in records.dtype.names if name not in axes}
+    return _arrays.stack_axes(records, axes, "field"), {name: records[name] for name in records.dtype.names if name not in axes}
 
 
 def _is_field(column):
@@ -369,14 +380,18 @@ def _columns_of(table, axes, fields):
     axes, names = list(axes), _names_of(table)
     if len(axes) != 3:
         raise ValueError(f"points names {len(axes)} columns: there must be three.")
+    if isinstance(fields, str):
+        raise TypeError(f"fields is {fields!r}: it must be a sequence of columns.")
+    for number, name in enumerate(names):
+        if name in names[:number]:
+            raise ValueError(f"The table has several columns {name!r}: give them different names.")
     for name in axes + list(fields or []):
         if name not in names:
             raise FieldError(describe_missing(str(name), [str(known) for known in names]))
     columns = _Grid(table, axes) if hasattr(table, "variables") else table
     if fields is None:
         fields = [name for name in columns if name not in axes and _is_field(columns[name])]
-    xyz = np.stack([_arrays.as_array(columns[axis], f"The column {axis!r}") for axis in axes], axis=1)
-    return xyz, {str(name): columns[name] for name in fields}
+    return _arrays.stack_axes(columns, axes, "column"), {str(name): columns[name] for name in fields}
 
 
 class _Grid:
@@ -405,10 +420,4 @@ class _Grid:
 
 def as_samples(points, fields):
     """Samples as they are, or made of arrays, or of a table."""
-    if isinstance(points, Samples):
-        if fields is not None:
-            raise TypeError("Samples have their fields: give fields with an array of points.")
-        return points
-    if isinstance(points, Points):
-        return Samples._of(points._dataset)
-    return Samples(points, fields)
+    return points if isinstance(points, Samples) and fields is None else Samples(points, fields)

@@ -208,6 +208,7 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     >>> uvol.splats(surface, gaussians=True).keys()[:4]
     ['nx', 'ny', 'nz', 'f_dc_0']
     """
+    gaussians = _parameters.flag(gaussians, "gaussians")
     parameters = {"delta": delta, "delta_is_length": delta_is_length, "lambda": overlap}
     found, report, taken = _run(_core.generate_splats, as_samples(points, fields), parameters, threads, progress)
     if gaussians:
@@ -217,7 +218,7 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
             report["warnings"].append(message)
             _report.tell([message])
         found = _core.make_gaussians(found, _parameters.text(color, "color"))
-    return Samples._of(found, report, dict(taken, gaussians=bool(gaussians), color=color))
+    return Samples._of(found, report, dict(taken, gaussians=gaussians, color=color))
 
 
 class Clusters:
@@ -543,9 +544,9 @@ def project(points, fields=None, *, attributes, labels=None, standardized=True, 
     True
     """
     samples, names = _with_attributes(as_samples(points, fields), attributes, threads, progress)
-    given = [] if labels is None else _labels(labels, len(samples))
+    given = np.empty(0, np.int32) if labels is None else _labels(labels, len(samples))
     parameters = {"attributes": names, "is_standardized": standardized, "method": method}
-    return Projection(*_run(_core.project_points, samples, parameters, threads, progress, list(given)))
+    return Projection(*_run(_core.project_points, samples, parameters, threads, progress, given))
 
 
 def _with_attributes(samples, attributes, threads, progress):
@@ -642,8 +643,8 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, 
     -------
     dict
         lower, upper, spacing (min, median, max), sampling, non_finite, duplicates,
-        warnings, and per number of `fields` min, max, mean, finite, missing, histogram
-        and isovalues worth a look.
+        warnings, per number of `fields` min, max, mean, finite, missing, histogram and
+        isovalues worth a look, and `names`, how many different ones columns of names have.
 
     Examples
     --------
@@ -659,7 +660,8 @@ def info(points, fields=None, *, scale=(1.0, 1.0, 1.0), rotate=None, threads=0, 
                                       _parameters.count(threads, "threads"), listener)
     facts["points"] = len(samples)
     facts["fields"] = {}
-    for name in samples.keys():
+    facts["names"] = {name: len(names) for name, names in samples.labels.items()}
+    for name in [name for name in samples.keys() if name not in facts["names"]]:
         components = samples.records.dtype[name].shape
         names = [f"{name}[{place}]" for place in range(components[0])] if components else [name]
         facts["fields"].update((each, _core.describe_field(samples._dataset, each)) for each in names)

@@ -6,6 +6,8 @@ import html
 import inspect
 import os
 
+import numpy as np
+
 from . import _arrays, _core, _measures, _parameters, _report
 from ._pictures import Drawable
 from ._points import Points
@@ -337,7 +339,7 @@ class Extractor:
             "drop_bridged": drop_bridged,
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
-            "mesh": None if mesh is False else _parameters.mapping({} if mesh is True else mesh, "mesh"),
+            "mesh": _meshing(mesh),
             "periodic": sides,
             "periodic_mesh": periodic_mesh,
         }
@@ -350,6 +352,13 @@ class Extractor:
 
     def __repr__(self):
         return f"Extractor of {self.samples!r}"
+
+
+def _meshing(mesh):
+    """Parameters of meshes; None: there is to be none."""
+    if mesh is None or isinstance(mesh, (bool, np.bool_)):
+        return {} if mesh else None
+    return _parameters.mapping(mesh, "mesh")
 
 
 def _validation(folds, by):

@@ -27,6 +27,13 @@ def test_vtk(sphere):
     assert np.array_equal(again.points, mesh.points) and np.array_equal(again["error"], mesh["error"], equal_nan=True)
 
 
+def test_names_come_back_from_vtk():
+    pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    samples = uvol.Samples(np.eye(3), {"hole": ["b", "", "a"], "n": [1, 2, 3]})
+    again = uvol.from_vtk(samples.to_vtk())
+    assert again["hole"].tolist() == ["b", "", "a"] and again["n"].tolist() == [1, 2, 3]
+
+
 def test_grids_of_vtk():
     pytest.importorskip("vtkmodules.vtkCommonDataModel")
     from vtkmodules.util.numpy_support import numpy_to_vtk

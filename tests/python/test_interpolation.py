@@ -40,6 +40,10 @@ def test_shapes_follow_queries_and_fields(linear):
     values, errors = uvol.Interpolator(linear, field="f")(queries[0, 0])
     assert values.shape == errors.shape == ()
     assert uvol.Interpolator(linear, field="f")(np.empty((0, 3)))[0].shape == (0,)
+    none = uvol.Interpolator(linear, field="f", errors=False, gradients=False).evaluate(np.empty((0, 3)))
+    assert none.errors is None and none.gradients is None
+    model = uvol.Interpolator(linear, field="f")
+    assert np.array_equal(model(linear)[0], model(linear.points)[0], equal_nan=True)
 
 
 def test_the_tool_writes_the_same_answers(tmp_path, run_tool, linear):
@@ -275,6 +279,7 @@ def test_mistakes_get_a_sentence(linear, options, message):
     (lambda i: i([["a", "b", "c"]]), "numbers"),
     (lambda i: i.slice("w=1"), "must be x="),
     (lambda i: i.slice("z=deep"), "must be x="),
+    (lambda i: i.slice("z=nan"), "must be x="),
     (lambda i: i.slice("z=99"), "box|plane"),
     (lambda i: i.grid(1), "2"),
     (lambda i: i.grid((3, 3)), "must be one, or three"),

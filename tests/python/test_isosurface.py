@@ -123,6 +123,11 @@ def test_nothing_of_a_surface_is_copied(ball):
     assert not mesh.triangles.flags.owndata and not mesh.triangles.flags.writeable
 
 
+def test_meshes_are_asked_for_with_booleans_of_any_kind(ball):
+    for mesh, kind in ((None, uvol.Surface), (np.False_, uvol.Surface), (np.True_, uvol.Mesh), ({}, uvol.Mesh)):
+        assert type(uvol.isosurface(*ball, field="r", iso=0.3, mesh=mesh)) is kind
+
+
 def test_a_mesh_is_closed(sphere):
     mesh = sphere.mesh()
     edges = np.concatenate([mesh.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
@@ -192,6 +197,11 @@ def test_warnings_name_the_line_of_the_caller(ball):
     (dict(field="r", iso=[]), ValueError, r"iso is \[\]: it must be"),
     (dict(field="r", iso=np.nan), ValueError, "iso is nan"),
     (dict(field="r", iso="0.3"), ValueError, "iso is '0.3'"),
+    (dict(field="r", iso=np.ma.masked), ValueError, "iso is masked"),
+    (dict(field="r", iso=np.ma.array([0.2, 0.3], mask=[False, True])), ValueError, "iso is"),
+    (dict(field="r", iso=[0.3, 0.2, 0.3]), ValueError, "isovalue 0.3 is given more than once"),
+    (dict(field="r", iso=1, scale=[[1, 2], [3]]), ValueError, r"scale is \[\[1, 2\], \[3\]\]"),
+    (dict(field="r", iso=1, mesh="even"), TypeError, "mesh is 'even'"),
     (dict(field="r", iso=1, izo=2), TypeError, "izo"),
     (dict(field="r", iso=1, outside="up"), ValueError, "lower, higher"),
     (dict(field="r", iso=1, scale=(1, 1)), ValueError, "scale has 2"),
@@ -374,6 +384,13 @@ def test_a_file_names_the_box_that_it_repeats_in(tmp_path, ball):
     for periodic, message in (("header", "names no box"), ("box", "or 'header'"), ((1, 1), "2 sides")):
         with pytest.raises(ValueError, match=message):
             uvol.isosurface(*ball, field="r", iso=0.3, periodic=periodic)
+
+
+def test_triangles_without_an_area_are_not_measured():
+    with pytest.raises(ValueError, match="three different corners"):
+        uvol.measure((np.eye(3), [[0, 0, 0]]))
+    with pytest.raises(TypeError, match="curved is 'no': it must be True or False"):
+        uvol.measure((np.eye(3), [[0, 1, 2]]), curved="no")
 
 
 def test_nothing_is_not_measured():

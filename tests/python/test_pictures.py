@@ -186,6 +186,10 @@ def test_a_bar_tells_what_colours_stand_for(sphere):
     assert (with_bar[:, -66:, :3].max(axis=(0, 1)) > 200).all()  # letters are white on black
 
 
+def test_sizes_may_be_arrays(sphere):
+    assert sphere.render(size=np.array([20, 30])).pixels.shape == (30, 20, 4)
+
+
 def test_a_picture_is_an_array(sphere):
     picture = sphere.render(size=(50, 40), color="vel[0]")
     assert np.asarray(picture).shape == (40, 50, 4) and picture.pixels.dtype == np.uint8
@@ -232,6 +236,9 @@ def test_a_picture_is_an_array(sphere):
     (dict(views=["iso", "top"], eye=[1, 2, 3]), "where the camera is"),
     (dict(size=20, views=["iso", "top"]), "too small"),
     (dict(scale_bar=True, exaggerate=[1, 1, 2]), "one scale"),
+    (dict(surface_color="red"), "surface_color is 'red'"),
+    (dict(log="no"), "log is 'no': it must be True or False"),
+    (dict(ticks=1), "ticks is 1"),
 ])
 def test_mistakes_get_a_sentence(sphere, options, message):
     with pytest.raises((ValueError, KeyError, TypeError), match=message):

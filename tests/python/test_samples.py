@@ -138,6 +138,63 @@ def test_dataframes():
         uvol.Samples.from_dataframe(frame, fields=["T", "nane"])
 
 
+@pytest.mark.parametrize("values, kind, expected", [
+    (("array", [1, 2, 2**60 + 1], "Int64"), "i8", [1, 2, 2**60 + 1]),
+    (("Series", [1, 2, 3], "UInt8"), "u1", [1, 2, 3]),
+    (("array", [1, None, 3], "Int32"), "f8", [1, np.nan, 3]),
+    (("array", [True, False, True], "boolean"), "?", [True, False, True]),
+    (("array", [True, None, False], "boolean"), "f8", [1, np.nan, 0]),
+    (("array", [1.5, None, 2], "Float32"), "f8", [1.5, np.nan, 2]),
+    (("Series", [3, 1, 3], "category"), "i8", [3, 1, 3]),
+    (("Series", [3.5, None, 3], "category"), "f8", [3.5, np.nan, 3]),
+    (("Series", [0, 0, 7], "Sparse[int]"), "i8", [0, 0, 7]),
+    (("Index", [1, 2, 3], "int16"), None, [1, 2, 3]),
+])
+def test_columns_of_pandas_keep_their_type(values, kind, expected):
+    pandas = pytest.importorskip("pandas")
+    make, items, dtype = values
+    found = uvol.Samples(POINTS, {"a": getattr(pandas, make)(items, dtype=dtype)})["a"]
+    assert kind is None or found.dtype == np.dtype(kind)
+    assert np.array_equal(found, expected, equal_nan=found.dtype.kind == "f")
+
+
+def test_tables_that_would_lose_something_get_a_sentence():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(POINTS, columns=list("xyz")).assign(t=pandas.to_datetime(["2020"] * 3))
+    for zone in (None, "UTC"):
+        with pytest.raises(ValueError, match="times|objects"):
+            uvol.Samples(POINTS, {"t": frame["t"].dt.tz_localize(zone)})
+    with pytest.raises(ValueError, match="holds times"):
+        uvol.Samples(POINTS, {"t": frame["t"].astype("category")})
+    assert uvol.Samples(frame).keys() == []  # others than numbers and names are passed over
+    for name in "ax":
+        twice = pandas.DataFrame(np.ones((2, 5)), columns=["x", "y", "z", "a", name])
+        with pytest.raises(ValueError, match=f"several columns '{name}'"):
+            uvol.Samples(twice)
+    with pytest.raises(TypeError, match="sequence of columns"):
+        uvol.Samples.from_dataframe(frame, fields="t")
+
+
+def test_samples_are_made_of_samples_and_of_no_names_of_files(tmp_path):
+    samples = uvol.Samples(POINTS, {"a": [1, 2, 3]})
+    assert np.shares_memory(uvol.Samples(samples)["a"], samples["a"])
+    for path in ("points.ply", b"points.ply", tmp_path / "points.ply"):
+        with pytest.raises(TypeError, match=r"read\(\) makes samples of files"):
+            uvol.Samples(path)
+    for points in (samples, samples.records):
+        with pytest.raises(TypeError, match="have their fields"):
+            uvol.write(tmp_path / "a.ply", points, {"b": [1, 2, 3]})
+
+
+def test_what_is_masked_is_not_taken():
+    samples = uvol.Samples(POINTS)
+    assert len(samples.take(np.ma.array([True, True, False], mask=[True, False, True]))) == 1
+    assert np.array_equal(samples.take(np.ma.array([2, 0], mask=[False, True])).points, POINTS[2:])
+    for indices in (None, "a", (0, 1)):
+        with pytest.raises(TypeError, match="array of indices, a mask, or a slice"):
+            samples.take(indices)
+
+
 def test_grids_of_xarray():
     xarray = pytest.importorskip("xarray")
     data = xarray.Dataset({name: ("n", POINTS[:, axis]) for axis, name in enumerate("xyz")} | {"T": ("n", [1, 2, 3])})
@@ -207,11 +264,16 @@ def test_files_give_back_what_they_got(tmp_path, ending):
     (np.array([["a", "b", "c"]]), None, "must hold numbers"),
     (np.zeros((2, 3), complex), None, "must hold numbers"),
     (np.zeros((2, 3), object), None, "Python objects"),
+    (None, None, "points is None: it must be an array"),
+    ({"x": [1], "y": [2], "z": [3]}, None, "points is {'x'.*: it must be an array"),
+    (POINTS, {"a": "abc"}, "The field 'a' is 'abc': it must be an array"),
     (POINTS, {"a": [1, 2]}, "2 values for 3 points"),
     (POINTS, {"a": np.zeros((3, 2, 2))}, r"shape \(3, 2, 2\)"),
     (POINTS, {"a": np.zeros((3, 0))}, r"shape \(3, 0\)"),
     (POINTS, {"a": np.array([b"x", b"y", b"z"])}, "must hold numbers"),
-    (POINTS, {"a": np.array(["2020-01-01"] * 3, "M8[D]")}, "must hold numbers"),
+    (POINTS, {"a": np.array(["2020-01-01"] * 3, "M8[D]")}, "holds times: it must hold numbers"),
+    (POINTS, {"a": np.array([1, 2, 3], "m8[s]")}, "holds times"),
+    (np.zeros(3, [("x", "f4", (2,)), ("y", "f4"), ("z", "f4")]), None, r"field 'x' has the shape \(3, 2\)"),
     (POINTS, {"x": [1, 2, 3]}, "is a coordinate"),
     (POINTS, {"": [1, 2, 3]}, "names are texts"),
     (POINTS, {5: [1, 2, 3]}, "names are texts"),

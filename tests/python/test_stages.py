@@ -223,6 +223,8 @@ def test_info(ball):
     assert facts["fields"]["vel[2]"]["missing"] == 0
     assert facts["fields"]["gap"]["missing"] == np.sum(fields["r"] > 0.4)
     assert 0.01 < facts["spacing"]["median"] < 0.1
+    named = uvol.info(points[:3], {"hole": ["a", "b", "a"], "n": [1, 2, 3]})
+    assert named["names"] == {"hole": 2} and list(named["fields"]) == ["n"]
     assert "min" not in uvol.info(points[:2], {"n": [np.nan, np.nan]})["fields"]["n"]
 
 

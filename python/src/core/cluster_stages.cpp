@@ -73,13 +73,13 @@ findClusters(const DatasetPtr& dataset,
 /** \param labels one per point; none: clusters are found */
 py::tuple
 projectPoints(const DatasetPtr& dataset,
-              const std::vector<int>& labels,
+              const Numbers& labels,
               const std::string& parameters,
               unsigned threads,
               const py::object& progress)
 {
   StarCoordinates<Cloud> star;
-  star.setLabels(labels);
+  star.setLabels(toWholeNumbers(labels));
   pcl::PointCloud<pcl::PointXYZ> points;
   const py::dict report = runStage(
       star, dataset, parameters, threads, progress, [&] { star.compute(points); });
@@ -103,11 +103,11 @@ projectPoints(const DatasetPtr& dataset,
 }
 
 /** The surface between the samples of a cluster and the others.
- * \param labels one per point
+ * \param numbers of the clusters, one per point
  * \param parameters JSON of MembershipParameters */
 py::tuple
 separateCluster(const DatasetPtr& dataset,
-                const std::vector<int>& labels,
+                const Numbers& numbers,
                 const std::array<float, 3>& scale,
                 const std::array<double, 3>& rotation,
                 const std::string& parameters,
@@ -115,6 +115,7 @@ separateCluster(const DatasetPtr& dataset,
                 const py::object& progress)
 {
   const auto how = MembershipParameters::fromJson(parameters);
+  const std::vector<int> labels = toWholeNumbers(numbers);
   Dataset surface;
   Report report;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {

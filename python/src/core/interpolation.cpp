@@ -82,23 +82,27 @@ public:
   {
     const auto size = static_cast<std::size_t>(queries.shape(0));
     checkPlaces(size, countNumbers());
-    std::vector<Place> places(size);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        places[i][axis] = queries.data()[3 * i + axis] - samples_->origin[axis];
-      places[i] = box_.toBox(places[i]);
-    }
+    const double* const numbers = queries.data();
     InterpolatedFields answers;
+    std::vector<std::uint8_t> support;
     Report report;
     report.counts = report_.counts;
     runInterruptibly(progress, [&](const ProgressCallback& callback) {
       report.progress = callback;
+      std::vector<Place> places(size);
+      for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          places[i][axis] = numbers[3 * i + axis] - samples_->origin[axis];
+        places[i] = box_.toBox(places[i]);
+      }
       answers = interpolator_->interpolate(places, threads, report);
+      for (const FieldSupport kind : answers.support)
+        support.push_back(static_cast<std::uint8_t>(kind));
       AnswerSummary summary(view_, own_, interpolator_->getNames());
       summary.add(answers);
       summary.warn(report);
     });
-    return toAnswers(std::move(answers), report);
+    return toAnswers(std::move(answers), std::move(support), report);
   }
 
   /** Copies of points with the answers at their places, as uvol_probe writes them. */
@@ -227,20 +231,18 @@ private:
     return Folds::byField(view_, by, folds);
   }
 
-  static py::dict
-  toAnswers(InterpolatedFields&& answers, const Report& report)
+  py::dict
+  toAnswers(InterpolatedFields&& answers,
+            std::vector<std::uint8_t>&& support,
+            const Report& report) const
   {
     const auto fields = static_cast<py::ssize_t>(answers.names.size());
     const auto size = static_cast<py::ssize_t>(answers.size);
-    std::vector<std::uint8_t> support;
-    support.reserve(answers.support.size());
-    for (const FieldSupport kind : answers.support)
-      support.push_back(static_cast<std::uint8_t>(kind));
     py::dict dict;
     dict["values"] = toArray(std::move(answers.values), {fields, size});
-    if (!answers.errors.empty() || size == 0)
+    if (!answers.errors.empty() || (size == 0 && parameters_.errors))
       dict["errors"] = toArray(std::move(answers.errors), {fields, size});
-    if (!answers.gradients.empty() || size == 0)
+    if (!answers.gradients.empty() || (size == 0 && parameters_.gradients))
       dict["gradients"] = toArray(std::move(answers.gradients), {fields, size, 3});
     dict["support"] = toArray(std::move(support), {size});
     dict["report"] = toDict(report);

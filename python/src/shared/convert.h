@@ -54,6 +54,16 @@ toTriangles(const pybind11::array_t<std::uint32_t,
                                     pybind11::array::c_style |
                                         pybind11::array::forcecast>& indices);
 
+/** \brief An array of whole numbers, which are copied at once. */
+using Numbers =
+    pybind11::array_t<int, pybind11::array::c_style | pybind11::array::forcecast>;
+
+inline std::vector<int>
+toWholeNumbers(const Numbers& numbers)
+{
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
 /** \brief Text of a file or a user as Python's; bytes that are no UTF-8 become marks.
  */
 pybind11::str

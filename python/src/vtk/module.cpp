@@ -18,17 +18,18 @@ namespace pcl_uvol::python {
 namespace {
 
 /** Vertices of hulls carry the fields of their points.
- * \param members indices of points
+ * \param numbers indices of points
  * \param parameters JSON of ClusterSurfaceParameters
  * \return vertices, triangles, and the report with the distance that was taken */
 py::tuple
 encloseCluster(const DatasetPtr& dataset,
-               const std::vector<int>& members,
+               const Numbers& numbers,
                const std::string& parameters,
                unsigned threads,
                const py::object& progress)
 {
   const auto how = ClusterSurfaceParameters::fromJson(parameters);
+  const std::vector<int> members = toWholeNumbers(numbers);
   ClusterSurface surface;
   Dataset vertices;
   Report report;
