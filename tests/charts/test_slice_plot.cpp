@@ -98,6 +98,28 @@ TEST(SlicePlot, FewValuesBecomeSquares)
   EXPECT_NEAR(pixelAt(image, left + 511, top + 128)[0], 191, 1);
 }
 
+TEST(SlicePlot, ThinSlicesAreStretchedUntilTheirNumbersFit)
+{
+  SlicePlot plot = makeRamp();
+  const auto draw = [&](std::size_t height) {
+    plot.height = height;
+    plot.values.assign(plot.width * height, 0.0f);
+    std::fill_n(plot.values.end() - 600, 600, 1.0f); // the highest row
+    return drawSlicePlot(plot);
+  };
+  const auto isWhite = [](const Image& image, int row) {
+    return pixelAt(image, left + 40, row)[0] == 255;
+  };
+  // Five letters of 13 pixels are 65; four rows of 17 are the least multiple beyond.
+  const Image thin = draw(4), other = draw(70);
+  EXPECT_EQ(thin.height, top + 4u * 17u - 1u + 65u);
+  EXPECT_TRUE(isWhite(thin, top + 16));
+  EXPECT_FALSE(isWhite(thin, top + 17));
+  EXPECT_FALSE(isWhite(thin, top + 67));
+  EXPECT_EQ(other.height, top + 70u - 1u + 65u);
+  EXPECT_FALSE(isWhite(other, top + 1));
+}
+
 TEST(SlicePlot, ContoursLieWhereTheValueIs)
 {
   SlicePlot plot = makeRamp();
@@ -135,6 +157,16 @@ TEST(SlicePlot, SamplesLieAtTheirPlaces)
   ASSERT_FALSE(columns.empty());
   EXPECT_NEAR(0.5 * (*columns.begin() + *columns.rbegin()), left + 0.25 * 599.0, 1.0);
   EXPECT_EQ(pixelAt(drawSlicePlot(plot), left + 150, top + 256)[0], 255);
+}
+
+TEST(SlicePlot, RimsHideNoSample)
+{
+  SlicePlot plot = makeRamp();
+  for (int i = 0; i < 40; ++i) // half a pixel apart
+    plot.samples.push_back({12.5 + 0.008 * i, 0.0, 1.0});
+  const Image image = drawSlicePlot(plot);
+  for (int column = 150; column < 169; ++column)
+    EXPECT_EQ(pixelAt(image, left + column, top + 256)[0], 255);
 }
 
 TEST(SlicePlot, ColoursRangeOverTheValuesWithinThoseOfTheSamples)

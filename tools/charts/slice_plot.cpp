@@ -15,6 +15,8 @@ using pcl_uvol::Image;
 namespace {
 
 constexpr std::size_t least_side = 512; ///< pixels along the longer side of the slice
+/** Of a slice, in heights of letters: less has no room for the numbers beside it. */
+constexpr int least_height = 5, least_width = 16;
 constexpr Ink black{0, 0, 0}, white{255, 255, 255}, ground{232, 232, 232};
 constexpr double middle_gray = 128.0;
 
@@ -55,17 +57,20 @@ private:
 
 /** Sizes of a figure, in pixels. */
 struct Layout {
-  int square, font, margin;
+  int column, row; ///< of a value: a square, but for slices that are too thin
+  int font, margin;
   PlotArea area;
   std::uint32_t width, height;
 
   explicit Layout(const SlicePlot& plot)
   {
     const std::size_t longer = std::max(plot.width, plot.height);
-    square = static_cast<int>((least_side + longer - 1) / longer);
-    const int across = square * static_cast<int>(plot.width),
-              up = square * static_cast<int>(plot.height);
-    font = std::max(13, std::max(across, up) / 45);
+    const int square = static_cast<int>((least_side + longer - 1) / longer);
+    font = std::max(13, square * static_cast<int>(longer) / 45);
+    column = widen(square, plot.width, least_width * font);
+    row = widen(square, plot.height, least_height * font);
+    const int across = column * static_cast<int>(plot.width),
+              up = row * static_cast<int>(plot.height);
     margin = font / 2;
     area.left = 8 * font;
     area.right = area.left + across - 1;
@@ -79,8 +84,19 @@ struct Layout {
   PlotArea
   centers() const
   {
-    const int half = square / 2;
-    return {area.left + half, area.right - half, area.top + half, area.bottom - half};
+    return {area.left + column / 2,
+            area.right - column / 2,
+            area.top + row / 2,
+            area.bottom - row / 2};
+  }
+
+private:
+  /** The side of a value, or a multiple by which so many take the least length. */
+  static int
+  widen(int side, std::size_t values, int least)
+  {
+    const int length = side * static_cast<int>(values);
+    return length < least ? side * ((least + length - 1) / length) : side;
   }
 };
 
@@ -94,11 +110,10 @@ drawValues(const SlicePlot& plot,
     for (std::size_t column = 0; column < plot.width; ++column) {
       const Ink ink =
           colors.colorOf(static_cast<double>(plot.values[row * plot.width + column]));
-      const int left = layout.area.left + layout.square * static_cast<int>(column);
-      const int top =
-          layout.area.bottom + 1 - layout.square * static_cast<int>(row + 1);
-      for (int y = 0; y < layout.square; ++y)
-        for (int x = 0; x < layout.square; ++x)
+      const int left = layout.area.left + layout.column * static_cast<int>(column);
+      const int top = layout.area.bottom + 1 - layout.row * static_cast<int>(row + 1);
+      for (int y = 0; y < layout.row; ++y)
+        for (int x = 0; x < layout.column; ++x)
           blend(image, left + x, top + y, ink, 1.0);
     }
 }
@@ -144,8 +159,7 @@ private:
   pixelOf(double row, double column) const
   {
     const PlotArea centers = layout_.centers();
-    return {centers.left + layout_.square * column,
-            centers.bottom - layout_.square * row};
+    return {centers.left + layout_.column * column, centers.bottom - layout_.row * row};
   }
 
   /** The line through a square, or two where corners across are on the same side: these
@@ -202,7 +216,8 @@ private:
   std::vector<float> cover_;
 };
 
-/** Dots in the colours of the samples, with a rim that tells them from the slice. */
+/** Dots in the colours of the samples, with rims that tell them from the slice: all
+ * rims first, so that none hides a dot beside it. */
 void
 drawSamples(const SlicePlot& plot,
             const Palette& colors,
@@ -211,23 +226,24 @@ drawSamples(const SlicePlot& plot,
 {
   const PlotArea centers = layout.centers();
   const double radius = layout.font / 4.0, rim = layout.font / 12.0;
-  for (const SliceSample& sample : plot.samples) {
-    const double column = centers.left + plot.across.placeOf(sample.across) *
-                                             (centers.right - centers.left);
-    const double row =
-        centers.bottom - plot.up.placeOf(sample.up) * (centers.bottom - centers.top);
-    if (column < layout.area.left || column > layout.area.right ||
-        row < layout.area.top || row > layout.area.bottom)
-      continue;
-    drawLine(image, column, row, column, row, 2.0 * radius, black);
-    drawLine(image,
-             column,
-             row,
-             column,
-             row,
-             2.0 * (radius - rim),
-             colors.colorOf(sample.value));
-  }
+  for (const bool is_rim : {true, false})
+    for (const SliceSample& sample : plot.samples) {
+      const double column = centers.left + plot.across.placeOf(sample.across) *
+                                               (centers.right - centers.left);
+      const double row =
+          centers.bottom - plot.up.placeOf(sample.up) * (centers.bottom - centers.top);
+      if (column < layout.area.left || column > layout.area.right ||
+          row < layout.area.top || row > layout.area.bottom)
+        continue;
+      const double width = 2.0 * (is_rim ? radius : radius - rim);
+      drawLine(image,
+               column,
+               row,
+               column,
+               row,
+               width,
+               is_rim ? black : colors.colorOf(sample.value));
+    }
 }
 
 void
@@ -301,13 +317,13 @@ drawSlicePlot(const SlicePlot& plot)
   drawSamples(plot, colors, layout, image);
   drawAxisBelow(image,
                 layout.centers(),
-                layout.margin + layout.square / 2,
+                layout.margin + layout.row / 2,
                 plot.across,
                 plot.across_label,
                 layout.font);
   drawAxisLeft(image,
                layout.centers(),
-               layout.margin + layout.square / 2,
+               layout.margin + layout.column / 2,
                plot.up,
                plot.up_label,
                layout.font);

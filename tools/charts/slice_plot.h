@@ -42,8 +42,9 @@ findColorScale(const std::vector<float>& values,
                bool is_logarithmic);
 
 /** \brief Draw a figure, a pixel or a square of pixels for each value: about 512 pixels
- * along the longer side at least, and what axes and bar need around. Where there is no
- * value the figure is light grey. */
+ * along the longer side at least, and what axes and bar need around. A slice that is
+ * too thin for the numbers beside it is stretched. Where there is no value the figure
+ * is light grey. */
 pcl_uvol::Image
 drawSlicePlot(const SlicePlot& plot);
 
