@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """From what users have, arrays of any kind, to the records of a dataset."""
 
-import reprlib
-
 import numpy as np
 
 from . import _core, _parameters
@@ -46,7 +44,7 @@ def as_array(values, what):
     except ValueError as error:
         raise ValueError(f"{what} is not an array of numbers: its rows have different lengths.") from error
     if array.ndim == 0 and array.dtype.kind in "OSU":
-        raise ValueError(f"{what} is {reprlib.repr(values)}: it must be an array of numbers.")
+        raise ValueError(f"{what} is {_parameters.shown(values)}: it must be an array of numbers.")
     if array.dtype.kind == "O":
         raise ValueError(f"{what} holds Python objects, not numbers: convert it first, say by .astype(float).")
     if array.dtype.kind in "mM":
@@ -173,7 +171,7 @@ def take_over(records):
 
 def _check_name(name):
     if not isinstance(name, str) or not name:
-        raise ValueError(f"A field is called {name!r}: names are texts of at least a letter.")
+        raise ValueError(f"A field is called {_parameters.shown(name)}: names are texts of at least a letter.")
     _parameters.text(name, "The name of a field")
     if name in ("x", "y", "z"):
         raise ValueError(f"The field {name!r} is a coordinate: it belongs to the points.")

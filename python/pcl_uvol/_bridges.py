@@ -197,7 +197,7 @@ def from_vtk(dataset):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from ._samples import Samples
     if not hasattr(dataset, "GetPointData"):
-        raise TypeError(f"{dataset!r} is no vtkDataSet.")
+        raise TypeError(f"{_parameters.shown(dataset)} is no vtkDataSet.")
     if not hasattr(dataset, "GetPoints"):  # a regular grid, whose points are not stored
         from vtkmodules.vtkFiltersCore import vtkAppendFilter
         append = vtkAppendFilter()

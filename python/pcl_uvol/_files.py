@@ -54,7 +54,7 @@ def read(path, xyz=("", "", ""), particles="", cells=False, progress=None):
     """
     from . import _io
     if isinstance(xyz, str) or not hasattr(xyz, "__iter__"):
-        raise TypeError(f"xyz is {xyz!r}: it must be a sequence of three columns.")
+        raise TypeError(f"xyz is {_parameters.shown(xyz)}: it must be a sequence of three columns.")
     columns = [_parameters.text(str(column), "A column") for column in xyz]
     if len(columns) != 3:
         raise ValueError(f"xyz names {len(columns)} columns: there must be three.")

@@ -357,7 +357,7 @@ class Interpolator:
         True
         """
         point, normal = _plane(plane)
-        sides = [size, size] if np.ndim(size) == 0 else list(size)
+        sides = _parameters.several(size) or [size, size]
         if len(sides) != 2:
             raise ValueError(f"size has {len(sides)} numbers: it must be one, or two.")
         counts = [_parameters.count(side, "size") for side in sides]
@@ -389,9 +389,10 @@ class Interpolator:
         >>> grid["rho"].shape
         (5, 4, 3)
         """
-        if np.ndim(n) == 0:
+        sides = _parameters.several(n)
+        if sides is None:
             return self._fill(*_core.cubic_grid(*self._box(box), _parameters.count(n, "n")), threads, progress)
-        counts = [_parameters.count(side, "n") for side in n]
+        counts = [_parameters.count(side, "n") for side in sides]
         if len(counts) != 3:
             raise ValueError(f"n has {len(counts)} numbers: it must be one, or three.")
         return self._fill(*_core.grid(*self._box(box), counts), threads, progress)
@@ -399,9 +400,10 @@ class Interpolator:
     def _box(self, box):
         if box is None:
             return _core.bounds(self._placed._dataset, self._sides)
-        if np.ndim(box) == 0 or len(box) != 2:
+        corners = _parameters.several(box) or []
+        if len(corners) != 2:
             raise ValueError("box is a pair: its low and its high corner.")
-        return _place(box[0], "box"), _place(box[1], "box")
+        return _place(corners[0], "box"), _place(corners[1], "box")
 
     def _fill(self, places, counts, steps, threads, progress):
         with listening(progress) as listener:
@@ -442,7 +444,7 @@ class Interpolator:
 def _names(field):
     """Several fields."""
     if not isinstance(field, Iterable) or not list(field):
-        raise TypeError(f"field is {field!r}: it must be the name of a field, or a sequence of names.")
+        raise TypeError(f"field is {_parameters.shown(field)}: it must be the name of a field, or a sequence of names.")
     return list(field)
 
 
@@ -456,16 +458,17 @@ def _place(values, what):
 def _plane(plane):
     """A point and a normal; those of "z=0.5" as well."""
     if not isinstance(plane, str):
-        if not isinstance(plane, Iterable) or len(plane) != 2:
-            raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, or a point and a normal.")
-        point, normal = plane
+        place = _parameters.several(plane) or []
+        if len(place) != 2:
+            raise ValueError(f"plane is {_parameters.shown(plane)}: it must be x=, y= or z= and a number, or a point and a normal.")
+        point, normal = place
         return _place(point, "plane"), _place(normal, "plane")
     axis, _, value = plane.partition("=")
     try:
         place = "xyz".index(axis.strip() or "-")
         number = _parameters.number(float(value), "plane")
     except ValueError:
-        raise ValueError(f"plane is {plane!r}: it must be x=, y= or z= and a number, "
+        raise ValueError(f"plane is {_parameters.shown(plane)}: it must be x=, y= or z= and a number, "
                          "or a point and a normal.") from None
     point, normal = [0.0] * 3, [0.0] * 3
     point[place], normal[place] = number, 1.0

@@ -92,6 +92,8 @@ class Lattice:
         >>> line["rho"].round(3).tolist(), line["support"].tolist()
         ([0.2, 0.5, 0.8], [1, 1, 1])
         """
+        if not isinstance(name, str):
+            raise TypeError(f"Fields are asked for by their names, not by {_parameters.shown(name)}.")
         if name not in self._columns:
             raise FieldError(describe_missing(str(name), self.keys()))
         return self._columns[name]
@@ -190,13 +192,14 @@ class Lattice:
         (4, 'rho')
         """
         from . import _charts
-        field = field or next(iter(self._columns))
+        field = _parameters.text(field, "field") or next(iter(self._columns))
         unit, log = _parameters.text(unit, "unit"), _parameters.flag(log, "log")
         values = self[field]
         if len(self.shape) > 2 or values.ndim > len(self.shape):
             raise ValueError("A picture shows one number per place, along a line or in a slice.")
         title = _parameters.text(label, "label") or field
-        parameters = dict(field=field, contours=list(np.ravel(contours)), colormap=colormap, range=range, log=log,
+        lines = [] if _parameters.several(contours) == [] else _parameters.numbers(contours, "contours")
+        parameters = dict(field=field, contours=lines, colormap=colormap, range=range, log=log,
                           samples=samples, label=title, unit=unit)
         if len(self.shape) == 1:
             errors = self._columns.get(field + "_error", np.empty(0))
@@ -206,7 +209,6 @@ class Lattice:
         else:
             ends = None if range is None else _ends(range, log)
             bounds = self._ranges.get(field, (-np.inf, np.inf))
-            lines = _parameters.numbers(contours, "contours") if np.size(contours) else []
             near = [] if samples is None else self._find_samples(field, samples)
             pixels, *limits = _charts.draw_slice(values, self._picture_axis(1, unit), self._picture_axis(0, unit), title,
                                                  _parameters.text(colormap, "colormap"), ends, bounds, log, lines,

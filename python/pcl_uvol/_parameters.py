@@ -15,6 +15,17 @@ import numpy as np
 from . import _core
 
 
+def shown(value):
+    """What a sentence says of a value of any kind: not much, in one line."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def several(value):
+    """The items of a list, a tuple or an array with an axis; else None."""
+    is_list = isinstance(value, (list, tuple, range)) or getattr(value, "ndim", 0) > 0
+    return list(value) if is_list else None
+
+
 def plain(value, what="A parameter"):
     """The value as Python's own numbers, texts, lists and dictionaries."""
     if isinstance(value, dict):
@@ -24,12 +35,12 @@ def plain(value, what="A parameter"):
     if isinstance(value, (list, tuple, range, set, frozenset)):
         return [plain(item, what) for item in value]
     if isinstance(value, float) and not math.isfinite(value):
-        raise ValueError(f"{what} is {value!r}: it must be a finite number.")
+        raise ValueError(f"{what} is {shown(value)}: it must be a finite number.")
     if isinstance(value, str):
         return text(value, what)
     if isinstance(value, (bool, int, float)) or value is None:
         return value
-    raise ValueError(f"{what} is {value!r}: the parameter must be a number, a text, or a list of these.")
+    raise ValueError(f"{what} is {shown(value)}: the parameter must be a number, a text, or a list of these.")
 
 
 def to_json(parameters):
@@ -45,7 +56,7 @@ def numbers(values, what, dimensions=1):
         array = np.ma.array([])
     if (array.dtype.kind not in "iufb" or array.ndim > dimensions or array.size == 0 or np.ma.is_masked(array)
             or not np.isfinite(array.data).all()):
-        raise ValueError(f"{what} is {reprlib.repr(values)}: it must be a finite number, or several.")
+        raise ValueError(f"{what} is {shown(values)}: it must be a finite number, or several.")
     return [float(value) for value in array.data.ravel()]
 
 
@@ -53,25 +64,25 @@ def number(value, what):
     """One finite number."""
     found = numbers(value, what)
     if len(found) != 1:
-        raise ValueError(f"{what} is {value!r}: it must be one number.")
+        raise ValueError(f"{what} is {shown(value)}: it must be one number.")
     return found[0]
 
 
 def flag(value, what):
     """True or False, of Python or numpy."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be True or False.")
+        raise TypeError(f"{what} is {shown(value)}: it must be True or False.")
     return bool(value)
 
 
 def text(value, what):
     """A text that the library can be given, in UTF-8."""
     if not isinstance(value, str):
-        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be a text.")
+        raise TypeError(f"{what} is {shown(value)}: it must be a text.")
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{what} is {reprlib.repr(value)}: it holds halves of characters, which are no text.") from None
+        raise ValueError(f"{what} is {shown(value)}: it holds halves of characters, which are no text.") from None
     return value
 
 
@@ -116,7 +127,7 @@ def keywords_of(function):
 def names(values, what, of):
     """Several texts."""
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise TypeError(f"{what} is {reprlib.repr(values)}: it must be a sequence of {of}.")
+        raise TypeError(f"{what} is {shown(values)}: it must be a sequence of {of}.")
     return [text(value, f"An item of {what}") for value in values]
 
 
@@ -125,7 +136,7 @@ def mapping(value, what, of="parameters"):
     if value is None:
         return {}
     if not isinstance(value, Mapping) and not hasattr(value, "keys"):
-        raise TypeError(f"{what} is {reprlib.repr(value)}: it must be a dictionary, of names to {of}.")
+        raise TypeError(f"{what} is {shown(value)}: it must be a dictionary, of names to {of}.")
     return {name: value[name] for name in value.keys()}
 
 
@@ -164,9 +175,9 @@ def count(value, what):
     try:
         number = operator.index(value)
     except TypeError:
-        raise TypeError(f"{what} is {value!r}: it must be a whole number from 0.") from None
+        raise TypeError(f"{what} is {shown(value)}: it must be a whole number from 0.") from None
     if not 0 <= number < 2**31:
-        raise ValueError(f"{what} is {value!r}: it must be a whole number from 0.")
+        raise ValueError(f"{what} is {shown(value)}: it must be a whole number from 0.")
     return number
 
 

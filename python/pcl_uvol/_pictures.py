@@ -80,9 +80,9 @@ class Picture:
 
 def pixel_sides(size):
     """Width and height."""
-    sides = list(size) if np.ndim(size) == 1 else [size, size]
+    sides = _parameters.several(size) or [size, size]
     if len(sides) != 2:
-        raise ValueError(f"size is {size!r}: it must be a number of pixels, or width and height.")
+        raise ValueError(f"size is {_parameters.shown(size)}: it must be a number of pixels, or width and height.")
     width, height = (_parameters.count(side, "size") for side in sides)
     return {"width": width, "height": height}
 
@@ -295,7 +295,7 @@ class Drawable:
     def _colors(self, color, colormap, range, log, bar, surface_color, exaggerate, lights, material):
         """What points with fields are asked for with."""
         if not isinstance(color, str):
-            raise TypeError(f"color is {color!r}: it must be the name of a field, or an expression.")
+            raise TypeError(f"color is {_parameters.shown(color)}: it must be the name of a field, or an expression.")
         _parameters.text(color, "color")
         if color in self.keys() and self.records.dtype[color].shape:
             color = f"|{color}|"

@@ -150,7 +150,7 @@ class Points(Bridges):
         ((3, 3), [0.0, 2.0, 0.0], [2.0, 2.0, 2.0])
         """
         if not isinstance(name, str):
-            raise TypeError(f"Fields are asked for by their names, not by {name!r}.")
+            raise TypeError(f"Fields are asked for by their names, not by {_parameters.shown(name)}.")
         if name in self.labels:
             names = np.array(self.labels[name] + [""], dtype=object)
             return names[np.clip(self.records[name], -1, len(names) - 1)]

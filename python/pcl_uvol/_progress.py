@@ -3,6 +3,8 @@
 
 import sys
 
+from . import _parameters
+
 
 class Bar:
     """Shows step and share on the last line of the terminal, or by tqdm if it is there."""
@@ -52,7 +54,7 @@ class listening:
             self._listener = progress
         else:
             raise TypeError(f"progress is True or a function of a step's name and the share that is done, "
-                            f"not {progress!r}.")
+                            f"not {_parameters.shown(progress)}.")
 
     def __enter__(self):
         return self._listener

@@ -2,8 +2,6 @@
 """Scattered samples: what everything starts from."""
 
 import os
-import reprlib
-
 import numpy as np
 
 from . import _arrays, _core, _parameters, _report
@@ -51,7 +49,7 @@ class Samples(Drawable, Points):
     @_parameters.with_proposals
     def __init__(self, points, fields=None):
         if isinstance(points, (str, bytes, os.PathLike)):
-            raise TypeError(f"points is {reprlib.repr(points)}: it must be an array; read() makes samples of files.")
+            raise TypeError(f"points is {_parameters.shown(points)}: it must be an array; read() makes samples of files.")
         is_structured = bool(getattr(getattr(points, "dtype", None), "names", None))
         if fields is not None and (is_structured or isinstance(points, Points)):
             raise TypeError("Samples and structured arrays have their fields: give fields with an array of points.")
@@ -111,7 +109,7 @@ class Samples(Drawable, Points):
         Samples of 2 points: T (int64)
         """
         if _names_of(frame) is None:
-            raise TypeError(f"{reprlib.repr(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
+            raise TypeError(f"{_parameters.shown(frame)} is no table: it must be a pandas.DataFrame or an xarray.Dataset.")
         return cls(*_columns_of(frame, points, fields))
 
     @_parameters.with_proposals
@@ -286,16 +284,21 @@ class Samples(Drawable, Points):
         ([7.0, 3.0], [5.0, 7.0])
         """
         if indices is None or isinstance(indices, (str, tuple)):
-            raise TypeError(f"indices is {reprlib.repr(indices)}: it must be an array of indices, a mask, or a slice.")
+            raise TypeError(f"indices is {_parameters.shown(indices)}: it must be an array of indices, a mask, or a slice.")
         if np.ma.isMaskedArray(indices):
             indices = indices.filled(False) if indices.dtype.kind == "b" else indices.compressed()
-        return Samples._of(self._dataset.take(np.arange(len(self))[indices]))
+        try:
+            rows = np.arange(len(self))[indices]
+        except ValueError:  # lists of different lengths
+            raise IndexError(f"indices is {_parameters.shown(indices)}: it must be an array of indices, a mask, or a "
+                             "slice.") from None
+        return Samples._of(self._dataset.take(rows))
 
     def _with_field(self, expression, threads, progress, sides=(0.0, 0.0, 0.0)):
         """Samples that have the field, and its name. Made once: a tree built for them
         serves again. Derivatives see across the faces of a box of such sides."""
         if not isinstance(expression, str):
-            raise TypeError(f"field is {expression!r}: it must be the name of a field, or an expression.")
+            raise TypeError(f"field is {_parameters.shown(expression)}: it must be the name of a field, or an expression.")
         if expression == "":
             return self, ""
         _parameters.text(expression, "field")

@@ -329,7 +329,7 @@ class Clusters:
         stretch = _parameters.Stretch(scale, rotate)
         factors = stretch.resolve(dataset)
         count = _parameters.count(threads, "threads")
-        if kind == "membership":
+        if _parameters.text(kind, "kind") == "membership":
             how = dict(cluster=cluster, probability=probability, smoothing_length=smoothing_length)
             with listening(progress) as listener:
                 surface, report = _core.separate_cluster(dataset, self.labels, factors, stretch.rotation,
@@ -338,7 +338,7 @@ class Clusters:
             space = {"scale": factors, "rotation": stretch.rotation}
             return Samples._of(surface, report, {"kind": kind, **_parameters.take(report), **space})
         if kind not in ("distance", "hull", "hull-distance"):
-            raise ValueError(f"kind is {kind!r}: it must be one of membership, distance, hull, hull-distance.")
+            raise ValueError(f"kind is {_parameters.shown(kind)}: it must be one of membership, distance, hull, hull-distance.")
         try:
             from . import _vtk
         except ImportError as error:
@@ -357,7 +357,7 @@ class Clusters:
         members = np.flatnonzero(self.labels == cluster) if isinstance(cluster, (int, np.integer)) else []
         if len(members) == 0:
             known = f"they are numbered from 0 to {len(self) - 1}" if len(self) else "none was found"
-            raise ValueError(f"There is no cluster {cluster!r}: {known}.")
+            raise ValueError(f"There is no cluster {_parameters.shown(cluster)}: {known}.")
         return members
 
     def __len__(self):
@@ -415,8 +415,9 @@ def cluster(points, fields=None, *, attributes=(), labels=None, standardized=Tru
     True
     """
     samples = as_samples(points, fields)
+    attributes = _parameters.names(attributes, "attributes", "fields or expressions")
     if labels is not None:
-        if len(attributes):
+        if attributes:
             raise ValueError("Clusters are known by labels, or found by attributes: give one of them.")
         known = _labels(labels, len(samples))
         return Clusters(known, (known >= 0).astype(np.float32), {}, samples, {"warnings": []}, _parameters.Parameters())
@@ -603,7 +604,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
         Cubes, so many along the longest side of the points' box; or as many boxes along
         x, y and z.
     margin : int
-        More cells on each side.
+        More cubes on each side; with one number of cells only.
     threads, progress
         As those of `isosurface`.
 
@@ -618,7 +619,7 @@ def voronoi(points, fields=None, *, cells=128, margin=0, threads=0, progress=Non
     >>> max(diagram.site.shape), bool((diagram.distance >= 0).all()), len(np.unique(diagram.site)) <= 50
     (32, True, True)
     """
-    counts = [cells, 0, 0] if np.ndim(cells) == 0 else list(cells)
+    counts = _parameters.several(cells) or [cells, 0, 0]
     if len(counts) != 3:
         raise ValueError(f"cells has {len(counts)} numbers: it must be one, or three.")
     parameters = dict(zip(("cells_x", "cells_y", "cells_z"), counts), margin=margin)

@@ -314,6 +314,7 @@ class Extractor:
         """
         sides = self.samples._find_box(periodic)
         samples, field = self.samples._with_field(field, threads, progress, sides)
+        fill_gaps = _parameters.flag(fill_gaps, "fill_gaps")
         if scale is None:
             scale = "auto" if fill_gaps else (1.0, 1.0, 1.0)
         stretch = _parameters.Stretch(scale, rotate)
@@ -362,7 +363,7 @@ def _meshing(mesh):
 
 
 def _validation(folds, by):
-    if by in ("random", "blocks"):
+    if _parameters.text(by, "validate_by") in ("random", "blocks"):
         return {"folds": folds, "by": by}
     return {"folds": folds, "by": "field", "field": by}
 

@@ -5,8 +5,10 @@ import json
 import pickle
 import re
 import signal
+import sys
 import threading
 import time
+import types
 import warnings
 
 import numpy as np
@@ -251,9 +253,30 @@ def test_progress_is_told_and_may_end_the_work(ball):
     assert len(extractor.extract(iso=0.5)) > 100
 
 
-def test_a_bar_shows_progress(ball, capsys):
+def test_a_bar_shows_progress(ball, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)  # as if it were not installed
     uvol.isosurface(*ball, field="r", iso=0.3, smooth=True, progress=True)
-    assert capsys.readouterr().err
+    assert re.search(r"\r\w+ .* \d+ %", capsys.readouterr().err)
+
+
+def test_a_bar_is_that_of_tqdm_where_it_is_installed(ball, monkeypatch):
+    bars = []
+
+    class Bar:
+        def __init__(self, total, desc, **options):
+            self.total, self.desc, self.n, self.ended = total, desc, 0, False
+            bars.append(self)
+
+        def refresh(self):
+            assert 0 <= self.n <= self.total and not self.ended
+
+        def close(self):
+            self.ended = True
+
+    monkeypatch.setitem(sys.modules, "tqdm", types.SimpleNamespace())
+    monkeypatch.setitem(sys.modules, "tqdm.auto", types.SimpleNamespace(tqdm=Bar))
+    uvol.isosurface(*ball, field="r", iso=0.3, smooth=True, progress=True)
+    assert bars and all(bar.ended and bar.desc for bar in bars)
 
 
 def test_ctrl_c_ends_a_long_step_and_leaves_the_object_usable(ball):

@@ -299,3 +299,69 @@ def test_random_arrays_never_crash(tmp_path):
             except (ValueError, TypeError, KeyError, IndexError, uvol.DivergedError) as error:
                 assert str(error)
     assert calls > 100
+
+
+@pytest.mark.long
+def test_random_keywords_get_a_sentence_or_a_result(tmp_path):
+    random = np.random.default_rng(2025)
+    points = random.random((300, 3))
+    fields = {"r": np.linalg.norm(points - 0.5, axis=1), "a": points[:, 0], "v": points, "n": ["x", "y", "z"] * 100}
+    samples = uvol.Samples(points, fields)
+    surface = uvol.isosurface(samples, field="r", iso=0.3)
+    model = uvol.Interpolator(samples, field="a")
+    halves = points[:, 0] > 0.5
+    projection = uvol.project(samples, attributes=["r", "a", "v[1]"], labels=halves)
+    samples.save(tmp_path / "a.ply")
+    calls = [
+        (uvol.isosurface, (samples,), dict(field="r", iso=0.3)),
+        (uvol.Interpolator, (samples,), dict(field="a")),
+        (model.evaluate, (points[:4],), {}),
+        (model.line, ([0.1] * 3, [0.9] * 3), dict(n=4)),
+        (model.slice, ("z=0.5",), dict(size=6)),
+        (model.grid, (), dict(n=4)),
+        (model.validate, (), dict(folds=2)),
+        (model.slice("z=0.5", 6).render, (), {}),
+        (uvol.level_set, (samples,), dict(field="r", iso=0.3, max_steps=2, mu=0.5)),
+        (uvol.normals, (samples,), dict(k=5)),
+        (uvol.splats, (surface,), {}),
+        (uvol.cluster, (samples,), dict(attributes=["r", "a"])),
+        (uvol.cluster(samples, labels=halves).surface, (0,), {}),
+        (uvol.project, (samples,), dict(attributes=["r", "a"])),
+        (projection.render, (), dict(size=64)),
+        (uvol.voronoi, (samples,), dict(cells=6)),
+        (uvol.info, (samples,), {}),
+        (uvol.measure, (surface.mesh(),), {}),
+        (surface.mesh, (), {}),
+        (surface.render, (), dict(size=24)),
+        (surface.raytrace, (), dict(size=16)),
+        (surface.save_page, (tmp_path / "a.html",), {}),
+        (samples.density, (), {}),
+        (samples.sampling, (), {}),
+        (samples.outer_layer, (0.0, "r"), {}),
+        (samples.where, ("a > 0.5",), {}),
+        (samples.compute, ("log10(a)",), {}),
+        (samples.take, ([0, 1],), {}),
+        (samples.save, (tmp_path / "b.ply",), {}),
+        (uvol.read, (tmp_path / "a.ply",), {}),
+    ]
+    values = [None, True, np.True_, 0, 1, 2, -1, 0.5, -0.5, np.nan, np.inf, 1e300, 2**31, 2**63, -2**70, "", "a", "v", "n",
+              "auto", "|v|", "grad(a)", "a" * 5000, "a\0b", "\udc80", [], [0], [1, 2], [1, 2, 3], [np.nan] * 3, [1e30] * 3,
+              ["a", "b"], [[1, 2], [3]], np.eye(3), np.zeros((0, 3)), np.array(3), np.array([1, 2, 3], object),
+              np.ma.masked, {}, {"k": 3}, {1: 2}, {"mu": None}, object(), b"a", 1j, range(3), set(), np.float32(0.3),
+              slice(None), int]
+    of_others = ("inhomogeneous", "ambiguous", "incompatible function", "NoneType", "no len", "unsized", "unhashable",
+                 "not subscriptable", "unsupported operand", "has no attribute")
+    for _ in range(20000):
+        function, needed, options = calls[random.integers(len(calls))]
+        keywords = [name for name in inspect.signature(function).parameters
+                    if name not in ("points", "fields", "path", "progress", "threads")][len(needed):]
+        if not keywords:
+            continue
+        options = dict(options, **{str(random.choice(keywords)): values[random.integers(len(values))] for _ in range(2)})
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                function(*needed, **options)
+            except (ValueError, TypeError, KeyError, IndexError, MemoryError, uvol.DivergedError) as error:
+                told = str(error)
+                assert told and not any(phrase in told for phrase in of_others), (function, options)

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The stages beside isosurfaces: what the tools write."""
 
+import concurrent.futures
+import json
+import warnings
+
 import numpy as np
 import pytest
 
@@ -213,6 +217,73 @@ def test_voronoi_finds_the_nearest():
             <= distances.min(-1) + diagonal).all()
     assert (np.abs(diagram.distance - distances.min(-1)) <= diagonal).all()
     assert uvol.voronoi(points, cells=(3, 4, 5)).site.shape == (5, 4, 3)
+
+
+@pytest.mark.parametrize("arguments, options", [
+    (["-grid", "20"], dict(cells=20)),
+    (["-grid", "9", "-margin", "2"], dict(cells=9, margin=2)),
+    (["-grid", "5x6x7"], dict(cells=(5, 6, 7))),
+])
+def test_voronoi_grids_are_those_of_the_tool(tmp_path, run_tool, arguments, options):
+    pytest.importorskip("vtkmodules.vtkIOXML")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+    uvol.Samples(np.random.default_rng(9).random((50, 3)) + [100, 0, 0]).save(tmp_path / "in.ply")
+    run_tool("uvol_voronoi", "in.ply", "tool.vti", *arguments)
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(str(tmp_path / "tool.vti"))
+    reader.Update()
+    data = reader.GetOutput()
+    found = uvol.voronoi(uvol.read(tmp_path / "in.ply"), **options)
+    for name in ("site", "distance"):
+        expected = vtk_to_numpy((data.GetCellData().GetArray(name) or data.GetPointData().GetArray(name)))
+        assert np.array_equal(getattr(found, name).ravel(), expected)
+    assert np.allclose(found.spacing, data.GetSpacing())
+
+
+def test_points_are_chosen_as_the_tool_does(tmp_path, run_tool, ball):
+    uvol.Samples(*ball).save(tmp_path / "in.ply")
+    expression = "r < 0.3 && vel_0 > 0"
+    run_tool("uvol_convert", "in.ply", "tool.ply", "-where", expression)
+    uvol.read(tmp_path / "in.ply").where(expression).save(tmp_path / "module.ply")
+    assert (tmp_path / "module.ply").read_bytes() == (tmp_path / "tool.ply").read_bytes()
+
+
+def test_info_is_that_of_the_tool(tmp_path, run_tool, ball):
+    uvol.Samples(*ball).save(tmp_path / "in.ply")
+    told = json.loads(run_tool("uvol_info", "in.ply", "-json", "-scale", "1,2,1"))
+    facts = uvol.info(uvol.read(tmp_path / "in.ply"), scale=(1, 2, 1))
+    assert told["lower_corner"] == facts["lower"] and told["upper_corner"] == facts["upper"]
+    assert told["spacing"] == facts["spacing"] and told["counts"]["duplicates"] == facts["duplicates"]
+    for name, expected in told["ranges"].items():
+        assert {key: facts["fields"][name][key] for key in expected} == expected
+
+
+def test_eight_threads_run_all_stages_at_once(ball):
+    samples = uvol.Samples(*ball)
+    surface = uvol.isosurface(samples, field="r", iso=0.3, outside="higher")
+    model = uvol.Interpolator(samples, field="r", threads=1)
+    work = [
+        lambda: uvol.isosurface(samples, field="|vel|*2", iso=0.5, threads=1).records,
+        lambda: uvol.level_set(samples, field="r", iso=0.3, mu=0.5, max_steps=3, threads=1)["phi"],
+        lambda: model.grid(6)["r"],
+        lambda: surface.render(size=64, color="r", ticks=True, threads=1).pixels,
+        lambda: surface.mesh(threads=1).triangles,
+        lambda: uvol.normals(surface, threads=1)["normal_x"],
+        lambda: uvol.splats(surface, threads=1).records,
+        lambda: samples.compute("|grad(r)|", threads=1).where("r < 0.3", threads=1).records,
+    ]
+
+    def run(number):
+        return [work[(number + step) % 8]().tobytes() for step in range(8)]
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        expected = [stage().tobytes() for stage in work]
+        with concurrent.futures.ThreadPoolExecutor(8) as pool:
+            found = list(pool.map(run, range(8)))
+    for number, results in enumerate(found):
+        assert results == [expected[(number + step) % 8] for step in range(8)]
 
 
 def test_info(ball):
