@@ -48,5 +48,15 @@ print("a million samples from float64 points:", spent(lambda: uvol.Samples(point
 print("a million samples from records of empty():", spent(lambda: uvol.Samples(uvol.empty(10**6, {"r": "f8"}))))
 samples = uvol.Samples(singles, {"r": noisy})
 extractor = uvol.Extractor(samples)
-extractor.extract(iso=0.3)
+surface = extractor.extract(iso=0.3)
 print("an isosurface of a million samples:", spent(lambda: extractor.extract(iso=0.3)))
+print("a picture of it:", spent(lambda: surface.render(size=500)))
+print("splats of it:", spent(lambda: uvol.splats(surface), 3))
+print("two steps of a level set of a million samples:", spent(lambda: uvol.level_set(samples, iso=0.3, mu=0.5, max_steps=2), 3))
+print("a Voronoi grid of 100 cells of a million samples:", spent(lambda: uvol.voronoi(samples, cells=100), 3))
+print("samples chosen among a million:", spent(lambda: samples.where("r > 0.3"), 3))
+nearest = uvol.Interpolator(samples, model="nearest", errors=False, gradients=False)
+print("a million answers:", spent(lambda: nearest(points), 3))
+halves = noisy > 0.3
+print("a projection of a million samples:",
+      spent(lambda: uvol.project(samples, attributes=["r", "x", "y", "z"], labels=halves, method="pca"), 3))

@@ -244,6 +244,43 @@ def test_ten_thousand_calls_leave_memory_where_it_was():
 
 
 @pytest.mark.long
+def test_a_thousand_calls_of_other_stages_leave_memory_where_it_was(tmp_path):
+    points = np.random.default_rng(1).random((300, 3))
+    fields = {"r": np.linalg.norm(points - 0.5, axis=1), "a": points[:, 0], "n": ["x", "y", "z"] * 100}
+    samples = uvol.Samples(points, fields)
+    surface = uvol.isosurface(samples, field="r", iso=0.3)
+    mesh, model = surface.mesh(), uvol.Interpolator(samples, field="a")
+    stages = [
+        lambda: uvol.Samples(points, fields)["n"],
+        lambda: pickle.loads(pickle.dumps(samples)).points,
+        lambda: uvol.Interpolator(samples, field="a", model="shepard")(points[:5]),
+        lambda: model.grid(4)["a"],
+        lambda: surface.render(size=24).pixels,
+        lambda: surface.raytrace(size=12).pixels,
+        lambda: uvol.normals(samples, k=5)["normal_x"],
+        lambda: uvol.splats(surface).points,
+        lambda: mesh.measure().area,
+        lambda: uvol.cluster(samples, attributes=["r", "a"], single=True).tree,
+        lambda: uvol.voronoi(samples, cells=6).site,
+        lambda: uvol.level_set(samples, field="r", iso=0.3, max_steps=2, mu=0.5, snapshots=1)["phi"],
+        lambda: uvol.Samples(points, fields).compute("log10(a)").where("a > 0.5"),
+        lambda: uvol.info(samples),
+        lambda: samples.save(tmp_path / "a.ply"),
+        lambda: uvol.read(tmp_path / "a.ply"),
+    ]
+    samples.save(tmp_path / "a.ply")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for stage in stages:
+            for _ in range(200):
+                stage()
+            before = resident()
+            for _ in range(1000):
+                stage()
+            assert resident() - before < 3e6
+
+
+@pytest.mark.long
 def test_random_arrays_never_crash(tmp_path):
     random = np.random.default_rng(2024)
     kinds = ["f2", "f4", "f8", "i1", "u2", "i8", "?", "c8", "O", "S3", "M8[s]", ">f8"]
