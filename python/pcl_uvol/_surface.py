@@ -4,7 +4,6 @@
 import base64
 import html
 import inspect
-import os
 
 import numpy as np
 
@@ -436,7 +435,7 @@ def isosurface(points, fields=None, **options):
     validate : int
         Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
         or the name of a field.
-    mesh : bool or dict
+    mesh : bool or dict, optional
         Make closed triangle meshes; parameters as those of `Surface.mesh`.
     periodic : sequence of 3 floats, or "header", optional
         Sides of the box that the samples repeat in, 0 along an axis for none, or those
