@@ -28,12 +28,16 @@ struct PCL_UVOL_EXPORTS CloudView {
   std::shared_ptr<const std::vector<std::uint8_t>>
       copy; ///< that data refers to, or null
 
+  /** \brief The bytes of a point.
+   * \param index below count */
   const std::uint8_t*
   point(std::size_t index) const
   {
     return data + index * point_step;
   }
 
+  /** \brief The three coordinates of a point.
+   * \param index below count */
   const float*
   xyz(std::size_t index) const
   {

@@ -15,18 +15,21 @@ namespace pcl_uvol {
  * what() are the bare sentence, without the place that PCL puts in front. */
 class PCL_UVOL_EXPORTS Exception : public pcl::PCLException {
 public:
+  /** \param message one sentence */
   explicit Exception(const std::string& message)
       : pcl::PCLException(message)
       , message_(message)
   {
   }
 
+  /** \return The sentence. */
   const char*
   what() const noexcept override
   {
     return message_.c_str();
   }
 
+  /** \return The sentence. */
   const std::string&
   message() const noexcept
   {

@@ -59,6 +59,7 @@ struct Member {
   T Parameters::*pointer;
 };
 
+/** \brief Member{name, pointer} finds its types by itself. */
 template <typename Parameters, typename T>
 Member(const char*, T Parameters::*) -> Member<Parameters, T>;
 

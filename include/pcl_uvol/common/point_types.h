@@ -109,11 +109,14 @@ struct EIGEN_ALIGN16 PointSplat {
     tangent_x = tangent_y = tangent_z = radius = 0.0f;
   }
 
+  /** \return tangent_x, tangent_y and tangent_z, to be read and written. */
   Eigen::Map<Eigen::Vector3f>
   getTangentVector3fMap()
   {
     return Eigen::Map<Eigen::Vector3f>(data_t);
   }
+
+  /** \return tangent_x, tangent_y and tangent_z. */
   Eigen::Map<const Eigen::Vector3f>
   getTangentVector3fMap() const
   {

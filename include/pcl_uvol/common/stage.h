@@ -16,6 +16,8 @@ public:
   {
     threads_ = threads;
   }
+
+  /** \return The number of threads that was set; 0: all cores. */
   unsigned
   getNumberOfThreads() const
   {
@@ -68,6 +70,8 @@ public:
   {
     parameters_ = parameters;
   }
+
+  /** \return The parameters that the next run will have. */
   const Parameters&
   getParameters() const
   {

@@ -17,6 +17,7 @@ enum class FitScheme {
             ///< order, with second derivatives (default)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<FitScheme>, 2>
 listWords(FitScheme)
 {

@@ -30,6 +30,7 @@ struct PCL_UVOL_EXPORTS GradientParameters {
    * 3, with the quadratic scheme 9; 26 as in the thesis. */
   std::size_t k = 26;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -39,6 +40,7 @@ struct PCL_UVOL_EXPORTS GradientParameters {
                            Member{"k", &Own::k});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -91,6 +93,8 @@ public:
   {
     parameters_.field = field;
   }
+
+  /** \return The field whose derivatives are estimated. */
   const std::string&
   getScalarField() const
   {
@@ -104,6 +108,8 @@ public:
   {
     parameters_.k = k;
   }
+
+  /** \return The number of nearest neighbours of a fit. */
   std::size_t
   getKSearch() const
   {
@@ -116,6 +122,8 @@ public:
   {
     parameters_.scheme = scheme;
   }
+
+  /** \return The degree of the fits. */
   FitScheme
   getScheme() const
   {
@@ -130,6 +138,8 @@ public:
   {
     search_ = search;
   }
+
+  /** \return What finds neighbours; null: FLANN's exact search. */
   const pcl::search::Search<pcl::PointXYZ>::Ptr&
   getSearchMethod() const
   {

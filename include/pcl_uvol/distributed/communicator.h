@@ -26,6 +26,7 @@ public:
   operator=(const Communicator&) = delete;
   virtual ~Communicator();
 
+  /** \brief The number of processes, at least 1. */
   virtual std::size_t
   size() const = 0;
 

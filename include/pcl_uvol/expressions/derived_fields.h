@@ -25,6 +25,7 @@ public:
                   const std::string& expression,
                   std::size_t place);
 
+  /** \return What is wrong and what helps, without the marked lines. */
   const std::string&
   getSentence() const
   {

@@ -32,19 +32,33 @@ struct PointArrays;
 class PCL_UVOL_EXPORTS vtkUvolFilter : public vtkPolyDataAlgorithm {
 public:
   vtkAbstractTypeMacro(vtkUvolFilter, vtkPolyDataAlgorithm);
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
-  /** \brief 0 (default) = all cores. */
+  /** \brief 0 (default) = all cores. @{ */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
+  /** @} */
 
 protected:
   vtkUvolFilter() = default;
   ~vtkUvolFilter() override = default;
 
+  /** \brief Tell VTK which data the inputs take.
+   * \param port of the input
+   * \param info gets the type
+   * \return 1 */
   int
   FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /** \brief Execute, as VTK's pipeline asks for.
+   * \param request what the pipeline asks for
+   * \param inputs of the ports
+   * \param outputs gets the result
+   * \return 1, and 0 after an error */
   int
   RequestData(vtkInformation* request,
               vtkInformationVector** inputs,

@@ -28,46 +28,64 @@
 class PCL_UVOL_EXPORTS vtkUvolIsosurface : public vtkUvolFilter {
 public:
   vtkTypeMacro(vtkUvolIsosurface, vtkUvolFilter);
+  /** \return A new object, to be held by a vtkNew or vtkSmartPointer. */
   static vtkUvolIsosurface*
   New();
+
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
   /** \brief Isovalues in units of the array, as those of vtkContourFilter. Default:
    * one, 0.
-   * \param i index of the isovalue, below GetNumberOfContours()
-   * \param value in units of the array @{ */
+   * \param i index of the isovalue; the list grows to hold it
+   * \param value in units of the array */
   void
   SetValue(int i, double value)
   {
     this->Values->SetValue(i, value);
   }
+
+  /** \brief An isovalue, in units of the array.
+   * \param i index of the isovalue, below GetNumberOfContours() */
   double
   GetValue(int i)
   {
     return this->Values->GetValue(i);
   }
+
+  /** \brief Cut or lengthen the list of isovalues.
+   * \param number of isovalues that it then has */
   void
   SetNumberOfContours(int number)
   {
     this->Values->SetNumberOfContours(number);
   }
+
+  /** \return The number of isovalues. */
   int
   GetNumberOfContours()
   {
     return this->Values->GetNumberOfContours();
   }
+
+  /** \brief Isovalues at even distances.
+   * \param number of isovalues
+   * \param first in units of the array
+   * \param last in units of the array */
   void
   GenerateValues(int number, double first, double last)
   {
     this->Values->GenerateValues(number, first, last);
   }
-  /** @} */
 
   /** \brief The component of an array of several components, from 0; -1: their length.
-   * Default 0. */
+   * Default 0. @{ */
   vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
   vtkGetMacro(ArrayComponent, int);
+  /** @} */
 
   enum OutsideSide { OUTSIDE_LOWER, OUTSIDE_HIGHER };
   /** \brief The side that normals point to. Default: where values are lower. @{ */
@@ -114,6 +132,7 @@ public:
   vtkBooleanMacro(FillGaps, bool);
   /** @} */
 
+  /** \return The time of the last change, of the isovalues as well. */
   vtkMTimeType
   GetMTime() override;
 

@@ -24,19 +24,26 @@ struct LevelSetParameters;
 class PCL_UVOL_EXPORTS vtkUvolLevelSet : public vtkUvolFilter {
 public:
   vtkTypeMacro(vtkUvolLevelSet, vtkUvolFilter);
+  /** \return A new object, to be held by a vtkNew or vtkSmartPointer. */
   static vtkUvolLevelSet*
   New();
+
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
-  /** \brief In units of the array. Default 0. */
+  /** \brief In units of the array. Default 0. @{ */
   vtkSetMacro(Isovalue, double);
   vtkGetMacro(Isovalue, double);
+  /** @} */
 
   /** \brief The component of an array of several components, from 0; -1: their length.
-   * Default 0. */
+   * Default 0. @{ */
   vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
   vtkGetMacro(ArrayComponent, int);
+  /** @} */
 
   /** \brief Weight of the data against smoothness, 1 follows the data, 0 only smooths;
    * automatic (default): by the noise of the data. @{ */
@@ -85,23 +92,27 @@ public:
   vtkGetMacro(Reinitialization, int);
   /** @} */
 
-  /** \brief Nearest neighbours of a stencil: at least 3, quadratic 9. Default 26. */
+  /** \brief Nearest neighbours of a stencil: at least 3, quadratic 9. Default 26. @{ */
   vtkSetClampMacro(NumberOfNeighbors, int, 3, VTK_INT_MAX);
   vtkGetMacro(NumberOfNeighbors, int);
+  /** @} */
 
-  /** \brief Default 400. A run that ends there warns of it. */
+  /** \brief Default 400. A run that ends there warns of it. @{ */
   vtkSetClampMacro(MaximumNumberOfSteps, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfSteps, int);
+  /** @} */
 
   /** \brief The evolution ends when the surface moves by less, in spacings per unit of
-   * time, > 0. Default 0.002. */
+   * time, > 0. Default 0.002. @{ */
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
+  /** @} */
 
   /** \brief Only samples so near to the surface, in spacings, are advanced: at least 3;
-   * 0: all are. Default 5. */
+   * 0: all are. Default 5. @{ */
   vtkSetMacro(BandWidth, double);
   vtkGetMacro(BandWidth, double);
+  /** @} */
 
   /** \brief Factors per axis of the space that distances are measured in: finite and
    * positive. Default 1, 1, 1. @{ */

@@ -39,24 +39,31 @@ struct Report;
 class PCL_UVOL_EXPORTS vtkUvolProbe : public vtkDataSetAlgorithm {
 public:
   vtkTypeMacro(vtkUvolProbe, vtkDataSetAlgorithm);
+  /** \return A new object, to be held by a vtkNew or vtkSmartPointer. */
   static vtkUvolProbe*
   New();
+
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
   /** \brief The samples: any vtkPointSet, image or rectilinear grid.
-   * \param output of the filter or reader that gives the samples @{ */
+   * \param output of the filter or reader that gives the samples */
   void
   SetSourceConnection(vtkAlgorithmOutput* output)
   {
     this->SetInputConnection(1, output);
   }
+
+  /** \brief The samples, without a pipeline in front of them.
+   * \param source any vtkPointSet, image or rectilinear grid */
   void
   SetSourceData(vtkDataObject* source)
   {
     this->SetInputDataObject(1, source);
   }
-  /** @} */
 
   /** \brief A field of the samples: an array of one component, or as tools write it,
    * `vel[1]`, `|vel|`. Empty (default): every number of every array. @{ */
@@ -111,12 +118,29 @@ protected:
   vtkUvolProbe();
   ~vtkUvolProbe() override;
 
+  /** \brief Tell VTK which data the inputs take.
+   * \param port of the input
+   * \param info gets the type
+   * \return 1 */
   int
   FillInputPortInformation(int port, vtkInformation* info) override;
+
+  /** \brief Ask for the whole of the samples, and for the piece of the input that the
+   * output is asked for.
+   * \param request what the pipeline asks for
+   * \param inputs of the ports
+   * \param outputs of the port
+   * \return 1 */
   int
   RequestUpdateExtent(vtkInformation* request,
                       vtkInformationVector** inputs,
                       vtkInformationVector* outputs) override;
+
+  /** \brief Execute, as VTK's pipeline asks for.
+   * \param request what the pipeline asks for
+   * \param inputs of the ports
+   * \param outputs gets the result
+   * \return 1, and 0 after an error */
   int
   RequestData(vtkInformation* request,
               vtkInformationVector** inputs,

@@ -14,8 +14,13 @@
 class PCL_UVOL_EXPORTS vtkUvolSplats : public vtkUvolFilter {
 public:
   vtkTypeMacro(vtkUvolSplats, vtkUvolFilter);
+  /** \return A new object, to be held by a vtkNew or vtkSmartPointer. */
   static vtkUvolSplats*
   New();
+
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
@@ -28,9 +33,11 @@ public:
   vtkBooleanMacro(DeltaIsLength, bool);
   /** @} */
 
-  /** \brief Part of a disc's radius within which no other one starts. Default 0.2. */
+  /** \brief Part of a disc's radius within which no other one starts. Default 0.2.
+   * @{ */
   vtkSetClampMacro(Lambda, double, 0.0, 1.0);
   vtkGetMacro(Lambda, double);
+  /** @} */
 
 protected:
   vtkUvolSplats() = default;

@@ -73,6 +73,7 @@ public:
   isHardware() const;
 
 protected:
+  /** \param name what getName() tells */
   explicit GlContext(std::string name);
 
   /** \brief Ask the current context for its version and renderer.

@@ -131,6 +131,8 @@ public:
   {
     parameters_.fields = fields;
   }
+
+  /** \return The fields that are interpolated; none: ScalarField::defaultName. */
   const std::vector<std::string>&
   getFields() const
   {
@@ -143,6 +145,8 @@ public:
   {
     parameters_.model = model;
   }
+
+  /** \return The model that values come from. */
   InterpolationModel
   getModel() const
   {
@@ -155,6 +159,8 @@ public:
   {
     parameters_.extrapolate = extrapolate;
   }
+
+  /** \return Whether there are values outside of the data. */
   bool
   getExtrapolate() const
   {

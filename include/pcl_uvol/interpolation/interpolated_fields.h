@@ -39,18 +39,29 @@ struct PCL_UVOL_EXPORTS InterpolatedFields {
                                   ///< not asked for
   std::vector<FieldSupport> support; ///< [query]
 
+  /** \brief A value, in units of the field; NaN: none.
+   * \param field index into names
+   * \param query below size */
   double
   getValue(std::size_t field, std::size_t query) const
   {
     return values[field * size + query];
   }
 
+  /** \brief A standard error, in units of the field; NaN where the model
+   * tells none. Errors must have been asked for.
+   * \param field index into names
+   * \param query below size */
   double
   getError(std::size_t field, std::size_t query) const
   {
     return errors[field * size + query];
   }
 
+  /** \brief A gradient, in units of the field per length. Gradients must
+   * have been asked for.
+   * \param field index into names
+   * \param query below size */
   std::array<double, 3>
   getGradient(std::size_t field, std::size_t query) const
   {

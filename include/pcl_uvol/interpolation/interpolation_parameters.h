@@ -46,6 +46,7 @@ enum class InterpolationModel {
   Auto
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<InterpolationModel>, 9>
 listWords(InterpolationModel)
 {
@@ -69,6 +70,7 @@ enum class VariogramKind {
   Matern52     ///< smoothness 5/2: differentiable twice
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<VariogramKind>, 6>
 listWords(VariogramKind)
 {
@@ -103,6 +105,7 @@ struct PCL_UVOL_EXPORTS KrigingParameters {
   /** Degree of the polynomial that the mean is: 0 (ordinary kriging), 1 or 2. */
   int trend = 0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -126,6 +129,7 @@ struct PCL_UVOL_EXPORTS ShepardParameters {
   /** The power of the inverse distance; greater than 0. */
   double power = 3.0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -145,6 +149,7 @@ enum class SphKernel {
   WendlandC6
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<SphKernel>, 6>
 listWords(SphKernel)
 {
@@ -172,6 +177,7 @@ struct PCL_UVOL_EXPORTS SphParameters {
   /** See length_field; at least 1. */
   std::size_t k = 48;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -211,6 +217,7 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
   KrigingParameters kriging;
   SphParameters sph;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -227,6 +234,7 @@ struct PCL_UVOL_EXPORTS InterpolationParameters {
                            Member{"sph", &Own::sph});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

@@ -36,6 +36,8 @@ public:
   {
     parameters_.field = field;
   }
+
+  /** \return The field that has the isovalues. */
   const std::string&
   getScalarField() const
   {
@@ -55,6 +57,8 @@ public:
   {
     parameters_.isovalues = isovalues;
   }
+
+  /** \return The isovalues, in units of the field; empty before one is set. */
   const std::vector<double>&
   getIsoValues() const
   {
@@ -67,6 +71,8 @@ public:
   {
     parameters_.outside = outside;
   }
+
+  /** \return The side that normals point to. */
   Outside
   getOutside() const
   {
@@ -79,6 +85,8 @@ public:
   {
     parameters_.interpolation = interpolation;
   }
+
+  /** \return How isopoints are found on edges. */
   Interpolation
   getInterpolation() const
   {
@@ -91,6 +99,8 @@ public:
   {
     parameters_.criterion = criterion;
   }
+
+  /** \return Which closer candidates remove a farther one. */
   AngleCriterion
   getAngleCriterion() const
   {
@@ -106,6 +116,8 @@ public:
     parameters_.neighbors = source;
     parameters_.voronoi_cells = voronoi_cells;
   }
+
+  /** \return Where neighbours are looked for. */
   NeighborSource
   getNeighborSource() const
   {
@@ -119,6 +131,8 @@ public:
   {
     parameters_.scale = scale;
   }
+
+  /** \return The factors of the stretched space. */
   const Eigen::Array3f&
   getScale() const
   {

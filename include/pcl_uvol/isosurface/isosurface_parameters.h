@@ -22,6 +22,7 @@ enum class Outside {
   Higher ///< where values are higher: the thesis's v = (f(x) - f(y)) (x - y)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<Outside>, 2>
 listWords(Outside)
 {
@@ -35,6 +36,7 @@ enum class Interpolation {
   Auto ///< IsosurfacePipeline decides for each isopoint, its default; as Fit elsewhere
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<Interpolation>, 4>
 listWords(Interpolation)
 {
@@ -65,6 +67,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceParameters {
    * space, isopoints lie in the original one. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -79,6 +82,7 @@ struct PCL_UVOL_EXPORTS IsosurfaceParameters {
                            Member{"scale", &Own::scale});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

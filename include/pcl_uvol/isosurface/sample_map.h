@@ -37,6 +37,7 @@ struct PCL_UVOL_EXPORTS SampleMapParameters {
    * the bound, or fewer, are left. 0: that of so many cubes in the samples' box. */
   double cube = 0.0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -46,6 +47,7 @@ struct PCL_UVOL_EXPORTS SampleMapParameters {
                            Member{"cube", &Own::cube});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -109,6 +111,7 @@ public:
     checkParameters(parameters);
   }
 
+  /** \return The parameters that the map was made with. */
   SampleMapParameters
   getParameters() const
   {
@@ -155,6 +158,7 @@ public:
     dropOld(stamp);
   }
 
+  /** \return The number of samples that the map holds. */
   std::size_t
   size() const
   {

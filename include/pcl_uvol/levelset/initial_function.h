@@ -22,6 +22,7 @@ enum class InitialKind {
   Plane
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<InitialKind>, 5>
 listWords(InitialKind)
 {
@@ -66,6 +67,7 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   static InitialFunction
   field(const std::string& name);
 
+  /** \return Whether it is a shape in space, not made of values of the cloud. */
   bool
   isShape() const
   {
@@ -85,6 +87,7 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   void
   check() const;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {

@@ -87,6 +87,8 @@ public:
   {
     parameters_.field = field;
   }
+
+  /** \return The field that is smoothed. */
   const std::string&
   getScalarField() const
   {
@@ -99,6 +101,8 @@ public:
   {
     parameters_.isovalue = isovalue;
   }
+
+  /** \return The isovalue, in units of the field; NaN before it is set. */
   double
   getIsoValue() const
   {
@@ -133,6 +137,8 @@ public:
   {
     parameters_.scheme = scheme;
   }
+
+  /** \return The degree of the fits. */
   FitScheme
   getScheme() const
   {
@@ -145,6 +151,8 @@ public:
   {
     parameters_.flow = flow;
   }
+
+  /** \return The smoothing term. */
   CurvatureFlow
   getCurvatureFlow() const
   {
@@ -157,6 +165,8 @@ public:
   {
     parameters_.bound = bound;
   }
+
+  /** \return What bounds the time step. */
   StepBound
   getStepBound() const
   {
@@ -169,6 +179,8 @@ public:
   {
     parameters_.integration = integration;
   }
+
+  /** \return Whose time step is taken. */
   Integration
   getIntegration() const
   {
@@ -181,6 +193,8 @@ public:
   {
     parameters_.reinitialization = reinitialization;
   }
+
+  /** \return What makes phi a distance again. */
   Reinitialization
   getReinitialization() const
   {
@@ -193,6 +207,8 @@ public:
   {
     parameters_.initial = initial;
   }
+
+  /** \return The function that the evolution starts from. */
   const InitialFunction&
   getInitialFunction() const
   {
@@ -205,6 +221,8 @@ public:
   {
     parameters_.outside = outside;
   }
+
+  /** \return The outside of the shapes of the initial function. */
   Outside
   getOutside() const
   {
@@ -218,6 +236,8 @@ public:
   {
     parameters_.scale = scale;
   }
+
+  /** \return The factors of the stretched space. */
   const Eigen::Array3f&
   getScale() const
   {
@@ -231,6 +251,8 @@ public:
   {
     parameters_.k = k;
   }
+
+  /** \return The number of nearest neighbours of a stencil. */
   std::size_t
   getKSearch() const
   {
@@ -243,6 +265,8 @@ public:
   {
     parameters_.max_steps = steps;
   }
+
+  /** \return The number of steps that a run ends at. */
   std::size_t
   getMaximumSteps() const
   {
@@ -256,6 +280,8 @@ public:
   {
     parameters_.tolerance = tolerance;
   }
+
+  /** \return The motion, in spacings per unit of time, below which a run ends. */
   double
   getTolerance() const
   {
@@ -270,6 +296,8 @@ public:
   {
     parameters_.band_width = spacings;
   }
+
+  /** \return The width of the band, in spacings; 0: all samples are in it. */
   double
   getBandWidth() const
   {

@@ -29,6 +29,7 @@ enum class CurvatureFlow {
            ///< radius (default)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<CurvatureFlow>, 2>
 listWords(CurvatureFlow)
 {
@@ -41,6 +42,7 @@ enum class StepBound {
   Stencil ///< by the stencil's own weights: sharper on random samples (default)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<StepBound>, 2>
 listWords(StepBound)
 {
@@ -54,6 +56,7 @@ enum class Integration {
                ///< two; neighbours are interpolated linearly in time (default)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<Integration>, 2>
 listWords(Integration)
 {
@@ -72,6 +75,7 @@ enum class Reinitialization {
             ///< moves the surface, and is unstable where the slope is below 1
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<Reinitialization>, 4>
 listWords(Reinitialization)
 {
@@ -151,6 +155,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
    * follows it (Rosenthal, Molchanov, Linsen 2010). At least 3; 0: all samples are. */
   double band_width = 5.0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -173,6 +178,7 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
                            Member{"band_width", &Own::band_width});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

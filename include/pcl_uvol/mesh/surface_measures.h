@@ -33,6 +33,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
    * common; takes about as long as all the rest. */
   bool find_intersections = false;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -41,6 +42,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeasuresParameters {
                            Member{"find_intersections", &Own::find_intersections});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -153,6 +155,9 @@ public:
   using Ptr = std::shared_ptr<SurfaceMeasures>;
   using ConstPtr = std::shared_ptr<const SurfaceMeasures>;
 
+  /** \brief The surface; no default.
+   * \param vertices points, with the fields that the class names
+   * \param triangles of the vertices; empty: the surface is one of points */
   void
   setInputSurface(const std::shared_ptr<const Dataset>& vertices,
                   const std::vector<Triangle>& triangles)

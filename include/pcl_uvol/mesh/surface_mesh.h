@@ -30,6 +30,7 @@ enum class Remeshing {
   None  ///< they stay as the cells make them: many, and of any angle
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<Remeshing>, 2>
 listWords(Remeshing)
 {
@@ -49,6 +50,7 @@ struct PCL_UVOL_EXPORTS MeshingParameters {
   /** Leave out connected pieces of fewer triangles. */
   std::size_t drop_pieces = 0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -67,6 +69,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
   IsosurfaceParameters isosurface;
   MeshingParameters meshing;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -75,6 +78,7 @@ struct PCL_UVOL_EXPORTS SurfaceMeshParameters {
                            Member{"meshing", &Own::meshing});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

@@ -25,6 +25,7 @@ struct PCL_UVOL_EXPORTS MembershipParameters {
    * the kernel of smoothed particle hydrodynamics. Empty: it is not. */
   std::string smoothing_length;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -34,6 +35,7 @@ struct PCL_UVOL_EXPORTS MembershipParameters {
                            Member{"smoothing_length", &Own::smoothing_length});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -94,6 +96,8 @@ public:
   {
     labels_ = labels;
   }
+
+  /** \return The cluster of every point, negative for noise. */
   const std::vector<int>&
   getLabels() const
   {
@@ -106,6 +110,8 @@ public:
   {
     parameters_.cluster = cluster;
   }
+
+  /** \return The label of the cluster whose membership is computed. */
   int
   getCluster() const
   {

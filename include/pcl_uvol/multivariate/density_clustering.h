@@ -36,6 +36,7 @@ struct PCL_UVOL_EXPORTS ClusteringParameters {
    * clusters are chosen by persistence. */
   double cut_distance = 0.0;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -48,6 +49,7 @@ struct PCL_UVOL_EXPORTS ClusteringParameters {
                            Member{"cut_distance", &Own::cut_distance});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -125,6 +127,8 @@ public:
   {
     parameters_.attributes = names;
   }
+
+  /** \return The fields that span the space. */
   const std::vector<std::string>&
   getAttributes() const
   {
@@ -138,6 +142,8 @@ public:
   {
     parameters_.is_standardized = is_standardized;
   }
+
+  /** \return Whether attributes are divided by their standard deviations. */
   bool
   isStandardized() const
   {
@@ -152,6 +158,8 @@ public:
   {
     parameters_.neighbors = neighbors;
   }
+
+  /** \return The neighbour whose distance tells the density; 0: plain distances. */
   std::size_t
   getKSearch() const
   {
@@ -165,6 +173,8 @@ public:
   {
     parameters_.min_cluster_size = size;
   }
+
+  /** \return The least number of points of a cluster; 0: chosen by their number. */
   std::size_t
   getMinClusterSize() const
   {
@@ -178,6 +188,8 @@ public:
   {
     parameters_.allow_single_cluster = allow_single_cluster;
   }
+
+  /** \return Whether all points together may be one cluster. */
   bool
   getAllowSingleCluster() const
   {
@@ -192,6 +204,8 @@ public:
   {
     parameters_.cut_distance = distance;
   }
+
+  /** \return The distance that clusters are cut at; 0: persistence decides. */
   double
   getCutDistance() const
   {

@@ -46,6 +46,7 @@ enum class ProjectionMethod {
   PrincipalAxes ///< the directions of largest variance
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<ProjectionMethod>, 2>
 listWords(ProjectionMethod)
 {
@@ -67,6 +68,7 @@ struct PCL_UVOL_EXPORTS StarCoordinateParameters {
   /** Steps per start and sharpness of the soft minimum; 0: the best start as it is. */
   unsigned steps = 40;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -78,6 +80,7 @@ struct PCL_UVOL_EXPORTS StarCoordinateParameters {
                            Member{"steps", &Own::steps});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -147,6 +150,8 @@ public:
   {
     parameters_.attributes = names;
   }
+
+  /** \return The fields that are projected. */
   const std::vector<std::string>&
   getAttributes() const
   {
@@ -159,6 +164,8 @@ public:
   {
     parameters_.method = method;
   }
+
+  /** \return How they are projected. */
   ProjectionMethod
   getMethod() const
   {
@@ -173,6 +180,8 @@ public:
   {
     labels_ = labels;
   }
+
+  /** \return The clusters that were set; empty: they are found. */
   const std::vector<int>&
   getLabels() const
   {

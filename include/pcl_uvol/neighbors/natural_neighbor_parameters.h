@@ -20,6 +20,7 @@ enum class NeighborSource {
            ///< random samples; some 25 microseconds each
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<NeighborSource>, 3>
 listWords(NeighborSource)
 {
@@ -36,6 +37,7 @@ enum class AngleCriterion {
   None  ///< none can: all candidates are neighbours
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<AngleCriterion>, 3>
 listWords(AngleCriterion)
 {
@@ -51,6 +53,7 @@ struct PCL_UVOL_EXPORTS NaturalNeighborParameters {
   std::uint32_t voronoi_cells = 0;
   AngleCriterion criterion = AngleCriterion::Kept;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -60,6 +63,7 @@ struct PCL_UVOL_EXPORTS NaturalNeighborParameters {
                            Member{"criterion", &Own::criterion});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

@@ -38,6 +38,8 @@ public:
   {
     parameters_.criterion = criterion;
   }
+
+  /** \return Which closer candidates remove a farther one. */
   AngleCriterion
   getAngleCriterion() const
   {
@@ -53,6 +55,8 @@ public:
     parameters_.source = source;
     parameters_.voronoi_cells = voronoi_cells;
   }
+
+  /** \return Where candidates come from. */
   NeighborSource
   getNeighborSource() const
   {

@@ -21,16 +21,21 @@ struct PCL_UVOL_EXPORTS NeighborGraph {
     const std::uint32_t* first;
     const std::uint32_t* last;
 
+    /** \return The first neighbour. */
     const std::uint32_t*
     begin() const
     {
       return first;
     }
+
+    /** \return One behind the last neighbour. */
     const std::uint32_t*
     end() const
     {
       return last;
     }
+
+    /** \return The number of neighbours. */
     std::size_t
     size() const
     {
@@ -38,12 +43,15 @@ struct PCL_UVOL_EXPORTS NeighborGraph {
     }
   };
 
+  /** \return The number of samples. */
   std::size_t
   size() const
   {
     return offsets.empty() ? 0 : offsets.size() - 1;
   }
 
+  /** \brief The neighbours of a sample.
+   * \param sample below size() */
   Row
   operator[](std::size_t sample) const
   {

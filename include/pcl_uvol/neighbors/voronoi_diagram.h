@@ -23,6 +23,7 @@ struct PCL_UVOL_EXPORTS VoronoiParameters {
   std::uint32_t cells_x = 128, cells_y = 0, cells_z = 0;
   std::uint32_t margin = 0; ///< more cubes on each side of the box
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -33,6 +34,7 @@ struct PCL_UVOL_EXPORTS VoronoiParameters {
                            Member{"margin", &Own::margin});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -95,6 +97,8 @@ public:
   {
     parameters_.margin = cells;
   }
+
+  /** \return The number of cubes beyond each side of the box. */
   std::uint32_t
   getMargin() const
   {
@@ -107,6 +111,8 @@ public:
   {
     way_ = way;
   }
+
+  /** \return What finds the nearest sites; null: FeatureTransform. */
   const std::shared_ptr<NearestSites>&
   getNearestSites() const
   {

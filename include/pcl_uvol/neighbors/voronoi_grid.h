@@ -58,6 +58,8 @@ struct PCL_UVOL_EXPORTS GridShape {
     return std::uint64_t{cells[0]} * cells[1] * cells[2];
   }
 
+  /** \brief The number of a cell.
+   * \param cell along each axis, below cells */
   std::uint64_t
   indexOf(const GridCell& cell) const
   {
@@ -172,6 +174,7 @@ public:
               unsigned threads,
               Report& report);
 
+  /** \return Numbers, sides and place of the cells. */
   const GridShape&
   getShape() const
   {

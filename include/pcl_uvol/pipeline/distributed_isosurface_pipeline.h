@@ -53,6 +53,8 @@ public:
   {
     is_gathered_ = is_gathered;
   }
+
+  /** \return Whether the first process gets the whole surface. */
   bool
   isGathered() const
   {

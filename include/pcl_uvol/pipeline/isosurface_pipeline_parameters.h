@@ -43,6 +43,7 @@ enum class IsoOrientation : std::uint8_t {
   Kriging = 5   ///< by the slope of the kriged field, see GapFilling
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<NormalMethod>, 4>
 listWords(NormalMethod)
 {
@@ -59,6 +60,7 @@ enum class ValidateBy {
   Field   ///< samples of one value of a field stay together
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<ValidateBy>, 3>
 listWords(ValidateBy)
 {
@@ -74,6 +76,7 @@ enum class PeriodicMesh {
        ///< join
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<PeriodicMesh>, 2>
 listWords(PeriodicMesh)
 {
@@ -89,6 +92,7 @@ struct PCL_UVOL_EXPORTS ValidationParameters {
   /** With ValidateBy::Field: a drill hole, a dive, a flight. */
   std::string field;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -148,6 +152,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
    * vertex. */
   PeriodicMesh periodic_mesh = PeriodicMesh::Cut;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -168,6 +173,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"periodic_mesh", &Own::periodic_mesh});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 

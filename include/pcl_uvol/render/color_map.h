@@ -36,6 +36,7 @@ public:
    * \throws InvalidArgument for another name */
   explicit ColorMap(const std::string& name = "viridis");
 
+  /** \return The names of all maps, without "_r". */
   static const std::vector<std::string>&
   names();
 

@@ -20,6 +20,7 @@ struct Image {
   std::vector<float> normal;       ///< x, y, z; background 0
   std::vector<std::uint32_t> id;   ///< index of the point in the input cloud
 
+  /** \return The number of pixels. */
   std::size_t
   pixels() const
   {

@@ -41,16 +41,21 @@ public:
     supersampling_ = factor;
   }
 
+  /** \return The width of the picture in pixels. */
   int
   getWidth() const
   {
     return width_;
   }
+
+  /** \return The height of the picture in pixels. */
   int
   getHeight() const
   {
     return height_;
   }
+
+  /** \return How many times finer each direction is sampled. */
   int
   getSupersampling() const
   {

@@ -28,6 +28,7 @@ struct PCL_UVOL_EXPORTS SplatParameters {
   /** Part of a splat's radius within which no other one starts, in [0, 1]. */
   double lambda = 0.2;
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -37,6 +38,7 @@ struct PCL_UVOL_EXPORTS SplatParameters {
                            Member{"lambda", &Own::lambda});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -149,6 +151,7 @@ public:
     parameters_.delta_is_length = true;
   }
 
+  /** \return The largest distance of points to their disc, see isDeltaLength(). */
   double
   getDelta() const
   {
@@ -168,6 +171,8 @@ public:
   {
     parameters_.lambda = lambda;
   }
+
+  /** \return The part of a splat's radius within which no other one starts. */
   double
   getLambda() const
   {

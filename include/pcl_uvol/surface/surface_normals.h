@@ -42,6 +42,7 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   /** Where points without a normal of their own are seen from. */
   Eigen::Array3f view_point{0.0f, 0.0f, 0.0f};
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -52,6 +53,7 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
                            Member{"view_point", &Own::view_point});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -120,6 +122,8 @@ public:
   {
     parameters_.k = k;
   }
+
+  /** \return The number of nearest neighbours besides the point. */
   std::size_t
   getKSearch() const
   {
@@ -134,6 +138,8 @@ public:
   {
     search_ = search;
   }
+
+  /** \return What finds neighbours; null: FLANN's exact search. */
   const pcl::search::Search<pcl::PointXYZ>::Ptr&
   getSearchMethod() const
   {
@@ -147,6 +153,8 @@ public:
   {
     parameters_.scale = scale;
   }
+
+  /** \return The factors of the stretched space. */
   const Eigen::Array3f&
   getScale() const
   {
@@ -162,6 +170,8 @@ public:
   {
     parameters_.view_point = {x, y, z};
   }
+
+  /** \return Where points without a normal are seen from. */
   const Eigen::Array3f&
   getViewPoint() const
   {

@@ -27,6 +27,7 @@ enum class ClusterSurfaceKind {
   HullDistance ///< all places at one distance from its hull (Figure 2.23 d)
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<ClusterSurfaceKind>, 3>
 listWords(ClusterSurfaceKind)
 {
@@ -49,6 +50,7 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
    */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
 
+  /** \return The members under the names that JSON has for them. */
   static auto
   listMembers()
   {
@@ -60,6 +62,7 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
                            Member{"rotation", &Own::rotation});
   }
 
+  /** \return All parameters as an object of JSON. */
   std::string
   toJson() const;
 
@@ -116,6 +119,8 @@ public:
   {
     parameters_.kind = kind;
   }
+
+  /** \return What kind of surface is made. */
   ClusterSurfaceKind
   getKind() const
   {
@@ -129,6 +134,8 @@ public:
   {
     parameters_.distance = distance;
   }
+
+  /** \return The distance, in units of the coordinates; 0: it is chosen. */
   double
   getDistance() const
   {

@@ -32,6 +32,7 @@ enum class WindowBackend {
   Cpu     ///< plain C++; OpenGL only shows its picture
 };
 
+/** \return The words for its values in JSON and options. */
 constexpr std::array<EnumWord<WindowBackend>, 3>
 listWords(WindowBackend)
 {
@@ -58,8 +59,13 @@ listWords(WindowBackend)
 class PCL_UVOL_EXPORTS ImageSpaceProp : public vtkProp3D {
 public:
   vtkTypeMacro(ImageSpaceProp, vtkProp3D);
+  /** \return A new object, to be held by a vtkNew or vtkSmartPointer. */
   static ImageSpaceProp*
   New();
+
+  /** \brief Write the settings, as VTK's classes do.
+   * \param out where to
+   * \param indent in front of each line */
   void
   PrintSelf(std::ostream& out, vtkIndent indent) override;
 
@@ -96,9 +102,13 @@ public:
   double*
   GetBounds() override;
 
+  /** \brief Draw into a window, as VTK's renderer asks for.
+   * \param viewport the renderer
+   * \return 1 where something was drawn, else 0 */
   int
   RenderOpaqueGeometry(vtkViewport* viewport) override;
 
+  /** \return 0: the surface is drawn with what is opaque. */
   vtkTypeBool
   HasTranslucentPolygonalGeometry() override
   {

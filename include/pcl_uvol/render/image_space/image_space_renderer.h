@@ -119,15 +119,27 @@ protected:
   ImageSpaceRendererBase();
   ~ImageSpaceRendererBase();
 
+  /** \brief ImageSpaceRenderer::render() of any cloud.
+   * \param cloud what is drawn
+   * \param indices of its points
+   * \param image gets the pixels */
   void
   renderFrom(const CloudView& cloud, const pcl::IndicesConstPtr& indices, Image& image);
 
+  /** \brief ImageSpaceRenderer::draw() of any cloud.
+   * \param cloud what is drawn
+   * \param indices of its points
+   * \param view made for findBounds()
+   * \param painter called once, with the prepared frame */
   void
   drawFrom(const CloudView& cloud,
            const pcl::IndicesConstPtr& indices,
            const View& view,
            const Painter& painter);
 
+  /** \brief ImageSpaceRenderer::getBounds() of any cloud.
+   * \param cloud what is drawn
+   * \param indices of its points */
   BoundingSphere
   findBounds(const CloudView& cloud, const pcl::IndicesConstPtr& indices);
 

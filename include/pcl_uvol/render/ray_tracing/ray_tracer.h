@@ -64,6 +64,7 @@ public:
     has_normals_ = has_normals;
   }
 
+  /** \return What rays do; checked by render(). */
   RayTracingSettings&
   settings()
   {
