@@ -32,7 +32,7 @@ struct Line {
     options.group("Fine points", true);
     options.number("zoom", zoom, 0.0, 9.0, "enlarge");
     options.group("Input");
-    options.text("other", "name", field, "another field");
+    options.text("other", "name", field, "another field").rare();
   }
 
   bool
@@ -48,6 +48,16 @@ struct Line {
     testing::internal::CaptureStdout();
     EXPECT_FALSE(parse(words));
     return testing::internal::GetCapturedStdout();
+  }
+};
+
+/** Its help does not fit on a screen. */
+struct LongLine : Line {
+  LongLine()
+  {
+    options.group("Many");
+    for (int i = 0; i < 60; ++i)
+      options.text("many" + std::to_string(i), "name", field, "one of many");
   }
 };
 
@@ -93,16 +103,26 @@ TEST(Options, MeanTheOptionThatBeginsSo)
   }
 }
 
-TEST(Options, HelpNamesRareOptionsAndExplainsThemWhereAsked)
+TEST(Options, HelpCountsRareOptionsAndExplainsThemWhereAsked)
 {
-  const std::string help = Line().help({"-h"});
+  const std::string help = LongLine().help({"-h"});
   EXPECT_THAT(help, Not(HasSubstr("enlarge")));
-  EXPECT_THAT(help, HasSubstr("  Fine points                 -zoom\n"));
-  const std::string all = Line().help({"--help", "all"});
+  EXPECT_THAT(help, Not(HasSubstr("another field")));
+  EXPECT_THAT(help, HasSubstr("\nInput (1 more: -h input):\n  -field name "));
+  EXPECT_THAT(help, HasSubstr("below a heading; further headings:\n"));
+  EXPECT_THAT(help, HasSubstr("   Fine points\n"));
+  const std::string all = LongLine().help({"--help", "all"});
   EXPECT_THAT(all, HasSubstr("\nFine points:\n  -zoom number                enlarge"));
-  EXPECT_THAT(all, Not(HasSubstr("Further options")));
+  EXPECT_THAT(all, HasSubstr("\nInput:\n  -field name "));
+  EXPECT_THAT(all, HasSubstr("\n  -other name                 another field\n"));
+  EXPECT_THAT(all, Not(HasSubstr("further headings")));
   EXPECT_EQ("\nFine points:\n  -zoom number                enlarge (default 1)\n",
-            Line().help({"-h", "fine points"}));
+            LongLine().help({"-h", "fine points"}));
+}
+
+TEST(Options, HelpThatFitsOnAScreenExplainsAll)
+{
+  EXPECT_EQ(Line().help({"-h", "all"}), Line().help({"-h"}));
 }
 
 TEST(Options, HelpRefusesHeadingsThatAreNotThereAndListsThose)

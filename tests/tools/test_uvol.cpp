@@ -2,6 +2,7 @@
 // uvol in front of the tools, completion of their command lines in bash, manual pages.
 #include "support/environment.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -60,6 +61,16 @@ TEST(Uvol, ToolsExplainEveryOptionBelowAHeading)
     if (const std::string name = entry.path().filename(); name.rfind("uvol_", 0) == 0) {
       const std::string help = runCommand(entry.path().string() + " -h all").out;
       EXPECT_THAT(help, Not(HasSubstr("\nOptions:\n"))) << name;
+    }
+}
+
+TEST(Uvol, ToolsExplainWhatIsUsedMostOnAScreen)
+{
+  constexpr int longest = 60;
+  for (const auto& entry : std::filesystem::directory_iterator(tool_folder))
+    if (const std::string name = entry.path().filename(); name.rfind("uvol_", 0) == 0) {
+      const std::string help = runCommand(entry.path().string() + " -h").out;
+      EXPECT_LE(std::count(help.begin(), help.end(), '\n'), longest) << name;
     }
 }
 

@@ -17,16 +17,20 @@ namespace uvol_tools {
 void
 DensityOptions::declare(Options& options)
 {
-  options.flag("density",
-               is_asked_for_,
-               "add the field sph_density, of particles with a mass and a smoothing "
-               "length (fields with usual names; else all masses are 1, and lengths by "
-               "48 neighbours)");
-  options.number("density-length",
-                 length_,
-                 std::numeric_limits<double>::min(),
-                 std::numeric_limits<double>::max(),
-                 "one smoothing length h for -density, whose kernel ends at 2 h");
+  options
+      .flag("density",
+            is_asked_for_,
+            "add the field sph_density, of particles with a mass and a smoothing "
+            "length (fields with usual names; else all masses are 1, and lengths by "
+            "48 neighbours)")
+      .rare();
+  options
+      .number("density-length",
+              length_,
+              std::numeric_limits<double>::min(),
+              std::numeric_limits<double>::max(),
+              "one smoothing length h for -density, whose kernel ends at 2 h")
+      .rare();
 }
 
 pcl_uvol::MemoryNeed

@@ -8,7 +8,7 @@ namespace uvol_tools {
 void
 FigureOptions::declare(Options& options)
 {
-  options.group("Figure");
+  options.group("Figure", true);
   options.flag("ticks", figure_.has_ticks, "axes with values, and grid lines behind");
   options.flag("box", figure_.has_box, "the box around the surface");
   options.flag("triad", figure_.has_triad, "the directions of x, y and z");

@@ -47,15 +47,18 @@ void
 IsosurfaceOptions::declareMethod(Options& options)
 {
   options.group("Surface");
-  options.choice(
-      "criterion",
-      parameters.isosurface.criterion,
-      "angle criterion against kept, against all or against no closer candidates");
-  options.choice(
-      "interpolation",
-      parameters.isosurface.interpolation,
-      "isopoints on local polynomial fits, or along the edges; auto: along the "
-      "edges where samples lie on lines or leave gaps");
+  options
+      .choice(
+          "criterion",
+          parameters.isosurface.criterion,
+          "angle criterion against kept, against all or against no closer candidates")
+      .rare();
+  options
+      .choice("interpolation",
+              parameters.isosurface.interpolation,
+              "isopoints on local polynomial fits, or along the edges; auto: along the "
+              "edges where samples lie on lines or leave gaps")
+      .rare();
 }
 
 void

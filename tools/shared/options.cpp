@@ -129,11 +129,13 @@ Options::group(const std::string& title, bool is_rare)
     groups_.push_back({title, is_rare});
 }
 
-void
+Options&
 Options::add(Option option)
 {
   option.group = current_group_;
+  option.is_rare = groups_[current_group_].is_rare;
   options_.push_back(std::move(option));
+  return *this;
 }
 
 void
@@ -148,27 +150,27 @@ Options::files(const std::string& name, std::vector<std::string>& targets)
   positionals_.push_back({name, nullptr, true, &targets});
 }
 
-void
+Options&
 Options::flag(const std::string& name,
               bool& target,
               const std::string& help,
               bool value)
 {
-  add({name, "", help, {}, &target, value});
+  return add({name, "", help, {}, &target, value});
 }
 
-void
+Options&
 Options::text(const std::string& name,
               const std::string& placeholder,
               std::string& target,
               const std::string& help)
 {
-  add({name, placeholder, help, [&target](const std::string& value) {
-         target = value;
-       }});
+  return add({name, placeholder, help, [&target](const std::string& value) {
+                target = value;
+              }});
 }
 
-void
+Options&
 Options::output(const std::string& name,
                 const std::string& placeholder,
                 std::string& target,
@@ -176,20 +178,21 @@ Options::output(const std::string& name,
 {
   text(name, placeholder, target, help);
   options_.back().written = &target;
+  return *this;
 }
 
-void
+Options&
 Options::choice(const std::string& name,
                 const std::vector<std::string>& words,
                 std::string& target,
                 const std::string& help)
 {
-  choice(name, words, words, target, help, [&target](const std::string& word) {
+  return choice(name, words, words, target, help, [&target](const std::string& word) {
     target = word;
   });
 }
 
-void
+Options&
 Options::choice(const std::string& name,
                 const std::vector<std::string>& shown,
                 const std::vector<std::string>& allowed,
@@ -203,13 +206,13 @@ Options::choice(const std::string& name,
                        "'.");
     assign(value);
   };
-  add({name,
-       joined(shown, "|"),
-       default_word.empty() ? help : help + " (default " + default_word + ")",
-       check});
+  return add({name,
+              joined(shown, "|"),
+              default_word.empty() ? help : help + " (default " + default_word + ")",
+              check});
 }
 
-void
+Options&
 Options::number(const std::string& name,
                 double& target,
                 double minimum,
@@ -223,15 +226,15 @@ Options::number(const std::string& name,
                        shortest(maximum) + ", not " + value + ".");
     target = number;
   };
-  add({name,
-       "number",
-       target >= minimum && std::isfinite(target)
-           ? help + " (default " + shortest(target) + ")"
-           : help,
-       assign});
+  return add({name,
+              "number",
+              target >= minimum && std::isfinite(target)
+                  ? help + " (default " + shortest(target) + ")"
+                  : help,
+              assign});
 }
 
-void
+Options&
 Options::integer(const std::string& name,
                  std::uint64_t& target,
                  std::uint64_t minimum,
@@ -241,13 +244,14 @@ Options::integer(const std::string& name,
   const auto assign = [name, minimum, maximum, &target](const std::string& value) {
     target = parseWholeIn(name, value, minimum, maximum);
   };
-  add({name,
+  return add(
+      {name,
        "n",
        target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
        assign});
 }
 
-void
+Options&
 Options::integer(const std::string& name,
                  int& target,
                  int minimum,
@@ -260,13 +264,14 @@ Options::integer(const std::string& name,
                                            static_cast<std::uint64_t>(minimum),
                                            static_cast<std::uint64_t>(maximum)));
   };
-  add({name,
+  return add(
+      {name,
        "n",
        target >= minimum ? help + " (default " + std::to_string(target) + ")" : help,
        assign});
 }
 
-void
+Options&
 Options::numbers(const std::string& name,
                  const std::string& placeholder,
                  std::size_t count,
@@ -276,7 +281,7 @@ Options::numbers(const std::string& name,
   const auto assign = [name, count, &target](const std::string& value) {
     target = parseNumbers(name, value, count);
   };
-  add({name, placeholder, help, assign});
+  return add({name, placeholder, help, assign});
 }
 
 bool
@@ -287,7 +292,7 @@ Options::given(const std::string& name) const
   });
 }
 
-void
+Options&
 Options::series(const std::string& name,
                 const std::string& placeholder,
                 const std::string& help)
@@ -297,6 +302,7 @@ Options::series(const std::string& name,
   option.placeholder = placeholder;
   option.help = help;
   options_.push_back(option);
+  return *this;
 }
 
 Options::Option&

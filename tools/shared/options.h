@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ public:
 
   /** \brief What is declared from here on stands below that heading in -h; headings of
    * the same title are one.
-   * \param is_rare -h only names these options, -h all explains them */
+   * \param is_rare its options all are, see rare() */
   void
   group(const std::string& title, bool is_rare = false);
 
@@ -46,25 +47,25 @@ public:
   files(const std::string& name, std::vector<std::string>& targets);
 
   /** \param value that the target gets where the option is given */
-  void
+  Options&
   flag(const std::string& name,
        bool& target,
        const std::string& help,
        bool value = true);
-  void
+  Options&
   text(const std::string& name,
        const std::string& placeholder,
        std::string& target,
        const std::string& help);
   /** \brief A file to be written. */
-  void
+  Options&
   output(const std::string& name,
          const std::string& placeholder,
          std::string& target,
          const std::string& help);
   /** \brief An option of series, see runSeries(), which takes it from the command line.
    */
-  void
+  Options&
   series(const std::string& name,
          const std::string& placeholder,
          const std::string& help);
@@ -76,14 +77,14 @@ public:
     shares_outputs_ = true;
   }
   /** \brief One of several words. */
-  void
+  Options&
   choice(const std::string& name,
          const std::vector<std::string>& words,
          std::string& target,
          const std::string& help);
   /** \brief One of the words of an enumeration, see EnumWord. */
   template <typename Enum>
-  void
+  Options&
   choice(const std::string& name, Enum& target, const std::string& help)
   {
     std::vector<std::string> shown, all;
@@ -92,26 +93,27 @@ public:
       if (word == std::string(toWord(value)))
         shown.emplace_back(word);
     }
-    choice(name, shown, all, toWord(target), help, [&target](const std::string& word) {
-      fromWord(word, target);
-    });
+    return choice(
+        name, shown, all, toWord(target), help, [&target](const std::string& word) {
+          fromWord(word, target);
+        });
   }
   /** \brief A finite number in [minimum, maximum]; a default that cannot be
    * given is not shown. */
-  void
+  Options&
   number(const std::string& name,
          double& target,
          double minimum,
          double maximum,
          const std::string& help);
-  void
+  Options&
   integer(const std::string& name,
           std::uint64_t& target,
           std::uint64_t minimum,
           std::uint64_t maximum,
           const std::string& help);
   /** \brief The same for numbers from 0 that are of type int. */
-  void
+  Options&
   integer(const std::string& name,
           int& target,
           int minimum,
@@ -119,12 +121,22 @@ public:
           const std::string& help);
   /** \brief Finite numbers joined by commas; count 0 takes one or more, and ranges, see
    * parseNumbers. */
-  void
+  Options&
   numbers(const std::string& name,
           const std::string& placeholder,
           std::size_t count,
           std::vector<double>& target,
           const std::string& help);
+
+  /** \brief What was declared last is seldom used: where all options take more than a
+   * screen, -h only counts it below its heading; -h all and -h with the heading explain
+   * it. */
+  Options&
+  rare()
+  {
+    options_.back().is_rare = true;
+    return *this;
+  }
 
   /** \brief Parse; -h and -version print and return false (the tool then returns 0).
    * Two dashes are as good as one, and --name=value is --name value.
@@ -174,6 +186,7 @@ private:
     bool given = false;
     const std::string* written = nullptr; // the target that names a file to be written
     std::size_t group = 0;
+    bool is_rare = false;
   };
   struct Group {
     std::string title;
@@ -188,7 +201,7 @@ private:
 
   /** \param shown words in the help
    * \param allowed those and other words for the same */
-  void
+  Options&
   choice(const std::string& name,
          const std::vector<std::string>& shown,
          const std::vector<std::string>& allowed,
@@ -196,7 +209,7 @@ private:
          const std::string& help,
          const std::function<void(const std::string&)>& assign);
 
-  void
+  Options&
   add(Option option);
 
   Option&
@@ -218,17 +231,21 @@ private:
   printHelp(const std::string& topic) const;
 
   void
-  printGroup(std::size_t group) const;
+  printGroup(std::size_t group, bool with_rare, std::ostream& out) const;
 
-  bool
-  hasOptions(std::size_t group) const;
+  std::size_t
+  countOptions(std::size_t group, bool with_rare) const;
 
   /** Titles of the groups that have options, each behind a comma. */
   std::string
   listHeadings() const;
 
-  void
-  nameRareOptions() const;
+  std::string
+  writeHelp(bool with_rare) const;
+
+  /** What -h stands for, with the headings of which this help has no option. */
+  std::string
+  explainHelp(bool with_rare) const;
 
   std::string tool_, synopsis_, purpose_;
   std::vector<Option> options_;

@@ -11,11 +11,13 @@ namespace uvol_tools {
 void
 PeriodicOption::declare(Options& options)
 {
-  options.text("periodic",
-               "x,y,z|header",
-               text_,
-               "sides of the box that the samples repeat in, 0 along an axis for none, "
-               "or those that the file names: neighbours are seen across its faces");
+  options
+      .text("periodic",
+            "x,y,z|header",
+            text_,
+            "sides of the box that the samples repeat in, 0 along an axis for none, "
+            "or those that the file names: neighbours are seen across its faces")
+      .rare();
 }
 
 void

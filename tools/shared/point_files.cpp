@@ -43,16 +43,19 @@ InputOptions::declare(Options& options)
                xyz_,
                "columns of a text file that hold the coordinates, by names or numbers "
                "from 0 (default: by usual names)");
-  options.text("particles",
-               "kind",
-               particles_,
-               "of a snapshot: gas, dm, disk, bulge, stars, bh, or a number (default: "
-               "gas, else the first kind there is)");
-  options.flag(
-      "cells",
-      cells_,
-      "of a file of VTK, Exodus, EnSight or OpenFOAM: take the centres of cells "
-      "with their data instead of points");
+  options
+      .text("particles",
+            "kind",
+            particles_,
+            "of a snapshot: gas, dm, disk, bulge, stars, bh, or a number (default: "
+            "gas, else the first kind there is)")
+      .rare();
+  options
+      .flag("cells",
+            cells_,
+            "of a file of VTK, Exodus, EnSight or OpenFOAM: take the centres of cells "
+            "with their data instead of points")
+      .rare();
 }
 
 pcl_uvol::LoadOptions

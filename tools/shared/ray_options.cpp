@@ -16,21 +16,25 @@ RayOptions::declareRays(Options& options)
   options.integer(
       "depth", settings_.depth, 0, 10000, "reflections and refractions in a row");
   options.flag("no-shadows", shadows_, "light goes through everything", false);
-  options.integer("light-samples",
-                  settings_.light_samples,
-                  1,
-                  4096,
-                  "shadow rays to a light that has a radius");
+  options
+      .integer("light-samples",
+               settings_.light_samples,
+               1,
+               4096,
+               "shadow rays to a light that has a radius")
+      .rare();
   options.integer("occlusion",
                   settings_.occlusion_samples,
                   0,
                   4096,
                   "rays that find how much ambient light reaches a place; 0: all");
-  options.number("occlusion-distance",
-                 settings_.occlusion_distance,
-                 0.0,
-                 1e30,
-                 "what is farther does not count; 0: a fifth of the scene's radius");
+  options
+      .number("occlusion-distance",
+              settings_.occlusion_distance,
+              0.0,
+              1e30,
+              "what is farther does not count; 0: a fifth of the scene's radius")
+      .rare();
 }
 
 void
@@ -38,8 +42,9 @@ RayOptions::declareSurface(Options& options)
 {
   options.number("reflect", reflectivity_, 0.0, 1.0, "part of the light mirrored");
   options.number("transparent", transparency_, 0.0, 1.0, "part let through");
-  options.number(
-      "index", refractive_index_, 0.01, 100.0, "refractive index of the inside");
+  options
+      .number("index", refractive_index_, 0.01, 100.0, "refractive index of the inside")
+      .rare();
   splats_.declare(options);
 }
 

@@ -44,10 +44,12 @@ RenderOptions::declareView(Options& options)
 {
   declareScene(options);
   declareSupersampling(options);
-  options.choice("backend",
-                 {"auto", "cpu", "osmesa", "egl"},
-                 backend_,
-                 "what draws; auto: OpenGL on a GPU where there is one, else the CPU");
+  options
+      .choice("backend",
+              {"auto", "cpu", "osmesa", "egl"},
+              backend_,
+              "what draws; auto: OpenGL on a GPU where there is one, else the CPU")
+      .rare();
 }
 
 void
@@ -87,7 +89,7 @@ RenderOptions::declarePasses(Options& options)
   options.integer(
       "smoothings", s.smoothing_iterations, 0, 6, "times that it is applied");
   options.group("Picture");
-  options.flag("silhouettes", s.silhouettes, "draw silhouettes");
+  options.flag("silhouettes", s.silhouettes, "draw silhouettes").rare();
   options.group("Lines", true);
   options.number("silhouette-threshold",
                  s.silhouette_threshold,
@@ -100,7 +102,7 @@ RenderOptions::declarePasses(Options& options)
                   7,
                   "of silhouettes: t for 2 t - 1 pixels");
   options.group("Picture");
-  options.flag("features", s.feature_lines, "draw feature lines");
+  options.flag("features", s.feature_lines, "draw feature lines").rare();
   options.group("Lines", true);
   options.number("feature-threshold",
                  s.feature_threshold,

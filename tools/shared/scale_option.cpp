@@ -34,13 +34,15 @@ ScaleOption::declare(Options& options,
                scale_,
                help);
   if (is_found)
-    options.numbers("rotate",
-                    "strike,dip,plunge",
-                    3,
-                    angles_,
-                    "degrees that turn the axes of -scale: the second one is a line "
-                    "that plunges in a plane that dips, the third one the plane's "
-                    "normal");
+    options
+        .numbers("rotate",
+                 "strike,dip,plunge",
+                 3,
+                 angles_,
+                 "degrees that turn the axes of -scale: the second one is a line "
+                 "that plunges in a plane that dips, the third one the plane's "
+                 "normal")
+        .rare();
 }
 
 void

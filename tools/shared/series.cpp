@@ -349,12 +349,14 @@ NumberedName::findNumbers() const
 void
 declareSeries(Options& options)
 {
-  options.series(
-      "snapshots",
-      "first:last:step",
-      "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp; "
-      "{t} is the time that a snapshot names (default: all files there are)");
-  options.series("keep-going", "", "pass over files that fail");
+  options
+      .series(
+          "snapshots",
+          "first:last:step",
+          "of names with a place for a number, as in snap_{:04d}.h5 out_{:04d}.vtp; "
+          "{t} is the time that a snapshot names (default: all files there are)")
+      .rare();
+  options.series("keep-going", "", "pass over files that fail").rare();
 }
 
 int

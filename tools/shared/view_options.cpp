@@ -66,23 +66,29 @@ ViewOptions::declareScene(Options& options)
 {
   options.group("Picture");
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
-  options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view");
-  options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)");
-  options.numbers("up",
-                  "x,y,z",
-                  3,
-                  up_,
-                  "direction that is upwards, to which -view turns (default 0,0,1)");
-  options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees");
-  options.flag(
-      "parallel", is_parallel_, "no perspective: parallel lines stay parallel");
-  options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture");
+  options.numbers("eye", "x,y,z", 3, eye_, "place of the camera, instead of -view")
+      .rare();
+  options.numbers("at", "x,y,z", 3, at_, "place that it looks at (default the centre)")
+      .rare();
+  options
+      .numbers("up",
+               "x,y,z",
+               3,
+               up_,
+               "direction that is upwards, to which -view turns (default 0,0,1)")
+      .rare();
+  options.number("fov", fov_, 0.01, 179.0, "vertical field of view in degrees").rare();
+  options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
+      .rare();
+  options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
   options.text("size", "WxH", size_text_, "pixels of the picture (default 1024x1024)");
-  options.text("background",
-               "r,g,b|name",
-               background_text_,
-               "white, black, gradient, transparent, or a colour from 0 to 1 (default "
-               "white)");
+  options
+      .text("background",
+            "r,g,b|name",
+            background_text_,
+            "white, black, gradient, transparent, or a colour from 0 to 1 (default "
+            "white)")
+      .rare();
   options.text(
       "color",
       "field",
@@ -90,20 +96,24 @@ ViewOptions::declareScene(Options& options)
       "colour by a scalar field or an expression, log10(rho) or |grad(rho)|, by "
       "rgb or by none (default: rgb if there, else isovalue if there are several)");
   colors_.declare(options);
-  options.flag("no-bar", has_bar_, "no colour bar in the picture", false);
-  options.numbers(
-      "surface-color", "r,g,b", 3, surface_color_, "of points without a colour");
+  options.flag("no-bar", has_bar_, "no colour bar in the picture", false).rare();
+  options
+      .numbers(
+          "surface-color", "r,g,b", 3, surface_color_, "of points without a colour")
+      .rare();
 }
 
 void
 ViewOptions::declareExaggeration(Options& options)
 {
-  options.numbers("exaggerate",
-                  "x,y,z",
-                  3,
-                  exaggeration_,
-                  "stretch the picture along the axes, as 1,1,100; -eye and -at are "
-                  "places in the data");
+  options
+      .numbers("exaggerate",
+               "x,y,z",
+               3,
+               exaggeration_,
+               "stretch the picture along the axes, as 1,1,100; -eye and -at are "
+               "places in the data")
+      .rare();
 }
 
 void
@@ -116,11 +126,13 @@ void
 ViewOptions::declareSupersampling(Options& options)
 {
   options.group("Picture");
-  options.integer("supersample",
-                  supersampling_,
-                  1,
-                  8,
-                  "samples per pixel in each direction (default 2, with rays 1)");
+  options
+      .integer("supersample",
+               supersampling_,
+               1,
+               8,
+               "samples per pixel in each direction (default 2, with rays 1)")
+      .rare();
 }
 
 void

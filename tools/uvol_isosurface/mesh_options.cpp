@@ -17,40 +17,51 @@ MeshOptions::declare(Options& options)
                is_asked_for_,
                "make a closed triangle mesh whose vertices are isopoints; .obj, .off "
                "and .stl imply it, .ply, .vtp and .vtkhdf hold one as well");
-  options.choice("remesh",
-                 parameters_.remesh,
-                 "with -mesh: even triangles, or those between the cells as they are");
-  options.number(
-      "edge-length",
-      parameters_.edge_length,
-      0.0,
-      std::numeric_limits<double>::max(),
-      "with -mesh: length of edges, about; 0: that of the local spacing, and edges "
-      "are not made shorter than the spacing of the samples");
-  options.flag("open",
-               parameters_.open,
-               "with -mesh: leave the surface open at the border of the samples "
-               "instead of closing it by caps");
-  options.integer("drop-pieces",
-                  drop_pieces_,
-                  0,
-                  std::numeric_limits<std::int32_t>::max(),
-                  "with -mesh: leave out pieces of fewer triangles");
-  options.choice(
-      "periodic-mesh",
-      periodic_mesh_,
-      "with -mesh and -periodic: cut it at the faces of the box, or weld it: "
-      "rims in opposite faces get the same vertices, and a field image_of "
-      "names those that are one");
+  options
+      .choice("remesh",
+              parameters_.remesh,
+              "with -mesh: even triangles, or those between the cells as they are")
+      .rare();
+  options
+      .number(
+          "edge-length",
+          parameters_.edge_length,
+          0.0,
+          std::numeric_limits<double>::max(),
+          "with -mesh: length of edges, about; 0: that of the local spacing, and edges "
+          "are not made shorter than the spacing of the samples")
+      .rare();
+  options
+      .flag("open",
+            parameters_.open,
+            "with -mesh: leave the surface open at the border of the samples "
+            "instead of closing it by caps")
+      .rare();
+  options
+      .integer("drop-pieces",
+               drop_pieces_,
+               0,
+               std::numeric_limits<std::int32_t>::max(),
+               "with -mesh: leave out pieces of fewer triangles")
+      .rare();
+  options
+      .choice("periodic-mesh",
+              periodic_mesh_,
+              "with -mesh and -periodic: cut it at the faces of the box, or weld it: "
+              "rims in opposite faces get the same vertices, and a field image_of "
+              "names those that are one")
+      .rare();
   options.flag(
       "measure",
       is_measured_,
       "tell area, volume and integrals of fields, with -mesh also of the samples "
       "inside, as uvol_measure does; points get their share of the area and the number "
       "of their piece as fields");
-  options.flag("check",
-               is_checked_,
-               "with -mesh: look for triangles that go through one another");
+  options
+      .flag("check",
+            is_checked_,
+            "with -mesh: look for triangles that go through one another")
+      .rare();
 }
 
 std::optional<pcl_uvol::MeshingParameters>

@@ -30,47 +30,60 @@ PipelineOptions::declare(Options& options)
   options.file("in", input);
   options.file("out", output);
   declareSamples(options);
-  options.choice(
-      "neighbors",
-      parameters.isosurface.neighbors,
-      "candidates from touching cells of the tree, from adjacent regions of a "
-      "discrete Voronoi diagram, or from exact Voronoi cells: slower, much slower");
-  options.integer(
-      "grid",
-      grid_,
-      1,
-      pcl_uvol::GridShape::largest_side,
-      "cells of -neighbors voronoi along the longest side (default: 4 samples "
-      "to a cell)");
+  options
+      .choice(
+          "neighbors",
+          parameters.isosurface.neighbors,
+          "candidates from touching cells of the tree, from adjacent regions of a "
+          "discrete Voronoi diagram, or from exact Voronoi cells: slower, much slower")
+      .rare();
+  options
+      .integer("grid",
+               grid_,
+               1,
+               pcl_uvol::GridShape::largest_side,
+               "cells of -neighbors voronoi along the longest side (default: 4 samples "
+               "to a cell)")
+      .rare();
   declareMethod(options);
   options.flag("smooth",
                parameters.smooth,
                "smooth noisy or uneven samples by a level set first");
-  options.text("mu",
-               "m|auto",
-               mu_,
-               "with -smooth: weight of the data against smoothness, 0 to 1; auto: "
-               "smooth as far as the expected deviation falls");
-  options.integer("steps", steps_, 1, 1000000, "with -smooth: time steps at most");
-  options.choice("normals",
-                 parameters.normals,
-                 "of the fits, by principal components of the isopoints, or along the "
-                 "edges where no fit serves; auto: by what the samples carry, pca with "
-                 "linear interpolation");
-  options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to");
-  options.number("max-error",
-                 max_error_,
-                 0.0,
-                 std::numeric_limits<double>::max(),
-                 "leave out isopoints of a larger estimated error, in units of length");
+  options
+      .text("mu",
+            "m|auto",
+            mu_,
+            "with -smooth: weight of the data against smoothness, 0 to 1; auto: "
+            "smooth as far as the expected deviation falls")
+      .rare();
+  options.integer("steps", steps_, 1, 1000000, "with -smooth: time steps at most")
+      .rare();
+  options
+      .choice("normals",
+              parameters.normals,
+              "of the fits, by principal components of the isopoints, or along the "
+              "edges where no fit serves; auto: by what the samples carry, pca with "
+              "linear interpolation")
+      .rare();
+  options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to")
+      .rare();
+  options
+      .number("max-error",
+              max_error_,
+              0.0,
+              std::numeric_limits<double>::max(),
+              "leave out isopoints of a larger estimated error, in units of length")
+      .rare();
   options.flag("drop-bridged",
                parameters.drop_bridged,
                "leave out isopoints in gaps of the sampling");
-  options.flag("fill-gaps",
-               parameters.fill_gaps,
-               "predict samples between lines or sheets of samples by kriging, up to "
-               "the range of the variogram, and extract from both; with -scale auto "
-               "unless it is given");
+  options
+      .flag("fill-gaps",
+            parameters.fill_gaps,
+            "predict samples between lines or sheets of samples by kriging, up to "
+            "the range of the variogram, and extract from both; with -scale auto "
+            "unless it is given")
+      .rare();
   options.integer(
       "validate",
       parameters.validation.folds,
@@ -79,32 +92,40 @@ PipelineOptions::declare(Options& options)
       "hold-out test: leave out each of n parts of the samples, extract from "
       "the others, and ask on which side those left out lie (n + 1 times "
       "the work)");
-  options.text("validate-by",
-               "random|blocks|FIELD",
-               validate_by_,
-               "with -validate: samples in one part are random, lie in compact blocks, "
-               "or share a value of a field, as those of a dive do (default random)");
+  options
+      .text("validate-by",
+            "random|blocks|FIELD",
+            validate_by_,
+            "with -validate: samples in one part are random, lie in compact blocks, "
+            "or share a value of a field, as those of a dive do (default random)")
+      .rare();
   options.group("Run");
-  options.text("max-memory",
-               "bytes",
-               max_memory_,
-               "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
-               "ply and text that are not compressed");
-  options.text("scratch",
-               "folder",
-               scratch_,
-               "with -max-memory: where they wait, 24 bytes each (default: beside the "
-               "output)");
+  options
+      .text("max-memory",
+            "bytes",
+            max_memory_,
+            "take no more memory, as in 1500M or 2G: samples wait on disk; for pcd, "
+            "ply and text that are not compressed")
+      .rare();
+  options
+      .text("scratch",
+            "folder",
+            scratch_,
+            "with -max-memory: where they wait, 24 bytes each (default: beside the "
+            "output)")
+      .rare();
   options.group("Input");
   density.declare(options);
   periodic.declare(options);
-  options.number("outside-value",
-                 outside_value,
-                 std::numeric_limits<double>::lowest(),
-                 std::numeric_limits<double>::max(),
-                 "add samples of that value one spacing outside of the data, where the "
-                 "field is known to end; isopoints lie on their edges then, as by "
-                 "-interpolation linear");
+  options
+      .number("outside-value",
+              outside_value,
+              std::numeric_limits<double>::lowest(),
+              std::numeric_limits<double>::max(),
+              "add samples of that value one spacing outside of the data, where the "
+              "field is known to end; isopoints lie on their edges then, as by "
+              "-interpolation linear")
+      .rare();
   mesh_.declare(options);
   options.group("Output");
   options.flag("ascii", ascii, "write PCD and PLY as text");

@@ -20,7 +20,7 @@ SurfacePicture::declare(Options& options)
 {
   options.group("Picture");
   options.output("png", "out.png", path_, "draw the isosurface as well");
-  options.flag("raytrace", is_ray_traced_, "by ray tracing of splats");
+  options.flag("raytrace", is_ray_traced_, "by ray tracing of splats").rare();
   look_.declareView(options);
   look_.declareExaggeration(options);
   look_.declareFigure(options);

@@ -39,38 +39,53 @@ InterpolationOptions::declare(Options& options)
                parameters_.extrapolate,
                "give values outside of the data as well, where they are nan else");
   options.flag("gradients", parameters_.gradients, "write gradients as well");
-  options.integer(
-      "k",
-      k_,
-      1,
-      512,
-      "nearest samples that kriging (default 32) or shepard (16) take; with "
-      "sph the one at which a kernel ends (48)");
-  options.text("variogram",
-               "kind[,nugget,sill,range]",
-               variogram_,
-               "of kriging: spherical, exponential, gaussian, matern32 or matern52 "
-               "(default spherical, fitted to the samples)");
-  options.integer("trend",
-                  parameters_.kriging.trend,
-                  0,
-                  2,
-                  "of kriging: degree of the polynomial that the mean is");
-  options.flag("octants",
-               parameters_.kriging.octants,
-               "with kriging: an eighth of the samples from each octant");
-  options.number("power",
-                 parameters_.shepard.power,
-                 std::numeric_limits<double>::min(),
-                 most,
-                 "of the inverse distance, with shepard");
-  options.choice("kernel", parameters_.sph.kernel, "of sph");
-  options.text("smoothing-length",
-               "field",
-               parameters_.sph.length_field,
-               "with sph: the field h of the particles");
-  options.text(
-      "mass", "field", parameters_.sph.mass_field, "with sph: masses (default: equal)");
+  options
+      .integer("k",
+               k_,
+               1,
+               512,
+               "nearest samples that kriging (default 32) or shepard (16) take; with "
+               "sph the one at which a kernel ends (48)")
+      .rare();
+  options
+      .text("variogram",
+            "kind[,nugget,sill,range]",
+            variogram_,
+            "of kriging: spherical, exponential, gaussian, matern32 or matern52 "
+            "(default spherical, fitted to the samples)")
+      .rare();
+  options
+      .integer("trend",
+               parameters_.kriging.trend,
+               0,
+               2,
+               "of kriging: degree of the polynomial that the mean is")
+      .rare();
+  options
+      .flag("octants",
+            parameters_.kriging.octants,
+            "with kriging: an eighth of the samples from each octant")
+      .rare();
+  options
+      .number("power",
+              parameters_.shepard.power,
+              std::numeric_limits<double>::min(),
+              most,
+              "of the inverse distance, with shepard")
+      .rare();
+  options.choice("kernel", parameters_.sph.kernel, "of sph").rare();
+  options
+      .text("smoothing-length",
+            "field",
+            parameters_.sph.length_field,
+            "with sph: the field h of the particles")
+      .rare();
+  options
+      .text("mass",
+            "field",
+            parameters_.sph.mass_field,
+            "with sph: masses (default: equal)")
+      .rare();
   scale_.declare(options, "distances", AutomaticScale::Field);
   options.integer("validate",
                   folds_,
@@ -78,11 +93,13 @@ InterpolationOptions::declare(Options& options)
                   1000,
                   "leave out one of so many parts of the samples after the other, and "
                   "tell how far values from the others are off");
-  options.text("validate-by",
-               "random|blocks|FIELD",
-               validate_by_,
-               "parts of random samples, of compact blocks, or of equal values of a "
-               "field, as drill holes (default random)");
+  options
+      .text("validate-by",
+            "random|blocks|FIELD",
+            validate_by_,
+            "parts of random samples, of compact blocks, or of equal values of a "
+            "field, as drill holes (default random)")
+      .rare();
 }
 
 void

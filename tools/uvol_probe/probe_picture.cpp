@@ -74,13 +74,16 @@ ProbePicture::declare(Options& options)
                  "are for the picture");
   options.numbers("contours", "v,...", 0, contours_, "draw lines of these values");
   colors_.declare(options);
-  options.number("samples",
-                 near_,
-                 0.0,
-                 std::numeric_limits<double>::max(),
-                 "draw the samples that are so near to the plane, in their colours");
-  options.text("label", "text", label_, "beside the values (default: the field)");
-  options.text("unit", "text", unit_, "of the coordinates, such as km");
+  options
+      .number("samples",
+              near_,
+              0.0,
+              std::numeric_limits<double>::max(),
+              "draw the samples that are so near to the plane, in their colours")
+      .rare();
+  options.text("label", "text", label_, "beside the values (default: the field)")
+      .rare();
+  options.text("unit", "text", unit_, "of the coordinates, such as km").rare();
 }
 
 void

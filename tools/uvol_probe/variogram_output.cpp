@@ -91,14 +91,16 @@ describe(const Variogram& model)
 void
 VariogramOutput::declare(Options& options)
 {
-  options.output(
-      "variogram-csv",
-      "out.csv",
-      table_,
-      "with kriging: write the variogram of the first field, of all pairs of "
-      "samples and of those along an axis, and its model");
-  options.output(
-      "variogram-png", "out.png", picture_, "with kriging: draw that variogram");
+  options
+      .output("variogram-csv",
+              "out.csv",
+              table_,
+              "with kriging: write the variogram of the first field, of all pairs of "
+              "samples and of those along an axis, and its model")
+      .rare();
+  options
+      .output("variogram-png", "out.png", picture_, "with kriging: draw that variogram")
+      .rare();
 }
 
 void
