@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file of samples or a volume holds, before work is done with it.
+// What files of samples and volumes hold, before work is done with them.
 #include "common/number_range.h"
 #include "common/printable.h"
 #include "common/records.h"
@@ -15,6 +15,7 @@
 #include <pcl_uvol/io/volume.h>
 
 #include <algorithm>
+#include <iostream>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -30,7 +31,8 @@ using uvol_tools::toNumbers;
 
 struct Arguments {
   uvol_tools::ScaleOption scale;
-  std::string input, field, where, output;
+  std::vector<std::string> inputs;
+  std::string field, where, output;
   uvol_tools::InputOptions reading;
 };
 
@@ -256,30 +258,34 @@ addPositions(const std::string& path,
 
 /** Write the points with what the sampling is like around each. */
 void
-saveSampling(const Arguments& arguments,
+saveSampling(const std::string& input,
+             const std::string& output,
              const pcl_uvol::detail::Stretch& stretch,
              unsigned threads,
              pcl_uvol::Dataset& dataset,
              Report& report)
 {
   if (!dataset.has_coordinates)
-    throw pcl_uvol::InvalidArgument("The sampling of " + arguments.input +
+    throw pcl_uvol::InvalidArgument("The sampling of " + input +
                                     " is that of its coordinates, and it names none: "
                                     "-xyz chooses them.");
   {
     const pcl_uvol::StepTimer timer(report, "sampling");
     pcl_uvol::addSamplingFields(dataset, stretch, threads, report.progress);
   }
-  uvol_tools::savePoints(arguments.output, dataset, {}, report);
+  uvol_tools::savePoints(output, dataset, {}, report);
 }
 
 Facts
-describeCloud(const Options& options, const Arguments& arguments, Report& report)
+describeCloud(const Options& options,
+              const Arguments& arguments,
+              const std::string& input,
+              Report& report)
 {
   const unsigned threads = options.threads();
   pcl_uvol::LoadOptions load = arguments.reading.makeLoadOptions();
   load.needs_coordinates = false;
-  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(arguments.input, load);
+  pcl_uvol::Dataset dataset = pcl_uvol::loadDataset(input, load);
   report.warnings = dataset.notes;
   if (!arguments.where.empty())
     report.count("removed_by_where",
@@ -287,11 +293,11 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
   auto fields = dataset.cloud.fields;
   if (!dataset.has_coordinates) // x, y and z stand in front of those of the file
     fields.erase(fields.begin(), fields.begin() + 3);
-  Facts facts{{"file", arguments.input}, {"fields", listFields(fields)}};
+  Facts facts{{"file", input}, {"fields", listFields(fields)}};
   report.count("points", dataset.cloud.width);
   std::string chosen = chosenField(arguments, dataset);
   if (dataset.cloud.width == 0) {
-    report.warnings.push_back(arguments.input + " has no points.");
+    report.warnings.push_back(input + " has no points.");
     return facts;
   }
   pcl_uvol::detail::Stretch stretch;
@@ -299,10 +305,10 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     Facts facts_of_scale;
     stretch = arguments.scale.resolve(
         pcl_uvol::viewOf(dataset.cloud), "", threads, report, facts_of_scale);
-    addPositions(arguments.input, dataset, stretch, threads, facts, report);
+    addPositions(input, dataset, stretch, threads, facts, report);
   }
   else
-    report.warnings.push_back(arguments.input +
+    report.warnings.push_back(input +
                               " names no columns of coordinates: -xyz chooses them.");
   addRanges(dataset, facts);
   addNames(dataset, facts);
@@ -315,8 +321,46 @@ describeCloud(const Options& options, const Arguments& arguments, Report& report
     addHistogram(statistics, facts);
   }
   if (!arguments.output.empty())
-    saveSampling(arguments, stretch, threads, dataset, report);
+    saveSampling(input, arguments.output, stretch, threads, dataset, report);
   return facts;
+}
+
+void
+checkOutput(const Arguments& arguments)
+{
+  if (arguments.output.empty())
+    return;
+  if (arguments.inputs.size() > 1)
+    throw uvol_tools::UsageError("-out is for one file, and there are " +
+                                 std::to_string(arguments.inputs.size()) + ".");
+  if (pcl_uvol::isVolumeFile(arguments.inputs[0]))
+    throw uvol_tools::UsageError("-out is for samples, and " + arguments.inputs[0] +
+                                 " is a volume.");
+  pcl_uvol::checkSavePath(arguments.output);
+}
+
+/** Tell of each file, of those behind one that fails as well.
+ * \return the exit code of the first one that fails */
+int
+tellAll(const Options& options, const Arguments& arguments)
+{
+  int exit_code = 0;
+  const char* before = "";
+  for (const std::string& input : arguments.inputs) {
+    uvol_tools::nameFile(input);
+    const int outcome = uvol_tools::runTool("uvol_info", [&] {
+      Report report;
+      const Facts facts = pcl_uvol::isVolumeFile(input)
+                              ? describeVolume(input, report)
+                              : describeCloud(options, arguments, input, report);
+      std::cout << before;
+      uvol_tools::printReport(options, report, facts);
+      before = options.json() ? "" : "\n";
+      return 0;
+    });
+    exit_code = exit_code == 0 ? outcome : exit_code;
+  }
+  return exit_code;
 }
 
 int
@@ -324,11 +368,11 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
 {
   Arguments arguments;
   Options options("uvol_info",
-                  "in.pcd [options]",
-                  "Tells what a file of samples (pcd ply csv txt vtk vtp "
-                  "vtu vts h5, Gadget) or a volume (nrrd "
-                  "nhdr vti mha mhd) holds.");
-  options.file("in", arguments.input);
+                  "in.pcd [more.pcd...] [options]",
+                  "Tells what files of samples (pcd ply csv txt vtk vtp "
+                  "vtu vts h5, Gadget) or volumes (nrrd "
+                  "nhdr vti mha mhd) hold.");
+  options.files("in", arguments.inputs);
   options.group("Input");
   options.text(
       "field",
@@ -349,17 +393,8 @@ run(int argc, char** argv, uvol_tools::SeriesStep* /*step*/)
   if (!options.parse(argc, argv))
     return 0;
   arguments.scale.finish(options);
-  const bool is_volume = pcl_uvol::isVolumeFile(arguments.input);
-  if (!arguments.output.empty() && is_volume)
-    throw uvol_tools::UsageError("-out is for samples, and " + arguments.input +
-                                 " is a volume.");
-  if (!arguments.output.empty())
-    pcl_uvol::checkSavePath(arguments.output);
-  Report report;
-  const Facts facts = is_volume ? describeVolume(arguments.input, report)
-                                : describeCloud(options, arguments, report);
-  uvol_tools::printReport(options, report, facts);
-  return 0;
+  checkOutput(arguments);
+  return tellAll(options, arguments);
 }
 
 } // namespace

@@ -16,7 +16,7 @@ import tempfile
 FURTHER = """
 uvol_isosurface noisy.pcd validated.ply -iso 0.3 -validate 3
 uvol_isosurface noisy.pcd both.ply -iso 0.2,0.3 -smooth -mu 0.5 -steps 5 -validate 2
-uvol_info probe_grid.nrrd
+uvol_info probe_grid.nrrd star.pcd
 uvol_isosurface star.pcd filled.ply -field star -iso 0.01 -fill-gaps
 uvol_isosurface gyroid.ply repeated.ply -iso 0 -periodic 2,2,2
 uvol_generate holes.csv -n 3000 -field gyroid -samples holes
@@ -25,13 +25,19 @@ uvol_info holes.csv -out sampling.csv
 
 
 def run(command, bin_folder, folder):
+    """The reports of a command: one of each file that it tells of."""
     tool, *words = command.split()
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     result = subprocess.run([bin_folder / tool, *words, "-json"], cwd=folder, env=environment, capture_output=True,
                             text=True)
     if result.returncode != 0:
         sys.exit(f"{command} failed: {result.stderr}")
-    return json.loads(result.stdout)
+    reports, rest = [], result.stdout.strip()
+    while rest:
+        report, end = json.JSONDecoder().raw_decode(rest)
+        reports.append(report)
+        rest = rest[end:].strip()
+    return reports
 
 
 def main():
@@ -53,13 +59,13 @@ def main():
         for command in commands:
             if not (bin_folder / command.split()[0]).exists():
                 continue  # a tool that is not built
-            report = run(command, bin_folder, folder)
-            seen.update(report)
-            for error in validator.iter_errors(report):
-                place = ".".join(str(part) for part in error.path)
-                failures.append(f"{command}: {place or 'the report'}: {error.message[:300]}")
-            if not list(validator.iter_errors(dict(report, unknown=1))):
-                failures.append(f"{command}: the schema takes keys that nobody knows.")
+            for report in run(command, bin_folder, folder):
+                seen.update(report)
+                for error in validator.iter_errors(report):
+                    place = ".".join(str(part) for part in error.path)
+                    failures.append(f"{command}: {place or 'the report'}: {error.message[:300]}")
+                if not list(validator.iter_errors(dict(report, unknown=1))):
+                    failures.append(f"{command}: the schema takes keys that nobody knows.")
     unseen = set(schema["properties"]) - seen - {"files", "further_numbers_per_point"}
     failures += [f"No command here prints the key {key} of the schema." for key in sorted(unseen)]
     sys.exit("\n".join(failures) or 0)

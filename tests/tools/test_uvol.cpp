@@ -40,7 +40,7 @@ TEST(Uvol, ListsTheToolsWithWhatTheyDo)
         EXPECT_THAT(result.out, HasSubstr("\n  " + name.substr(5) + " ")) << name;
       }
     }
-  EXPECT_THAT(result.out, HasSubstr("Tells what a file of samples"));
+  EXPECT_THAT(result.out, HasSubstr("Tells what files of samples"));
   EXPECT_EQ("", result.err);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace {
 
@@ -106,6 +107,58 @@ TEST_F(UvolInfo, JsonIsOneObject)
   EXPECT_TRUE(nlohmann::json::parse(unknown.out)["ranges"]["f"]["min"].is_null());
 }
 
+TEST_F(UvolInfo, TellsOfSeveralFilesBelowTheirNames)
+{
+  const std::string a = folder_ / "a.csv", b = folder_ / "b.csv";
+  uvol_test::writeFile(a, cloud);
+  uvol_test::writeFile(b, "x,y,z,t\n0,0,0,7\n1,0,0,8\n");
+  const auto alone = runCommand("uvol_info '" + a + "'");
+  const auto other = runCommand("uvol_info '" + b + "'");
+  const auto both = runCommand("uvol_info '" + a + "' '" + b + "'");
+  EXPECT_EQ(0, both.exit_code) << both.err;
+  EXPECT_EQ(0u, both.out.find("file: " + a));
+  EXPECT_EQ(alone.out + "\n" + other.out, both.out);
+}
+
+TEST_F(UvolInfo, JsonOfSeveralFilesIsAnObjectForEach)
+{
+  const std::string a = folder_ / "a.csv", b = folder_ / "b.csv";
+  uvol_test::writeFile(a, cloud);
+  uvol_test::writeFile(b, cloud);
+  std::istringstream out(runCommand("uvol_info '" + a + "' '" + b + "' -json").out);
+  for (const std::string& file : {a, b}) {
+    nlohmann::json report;
+    out >> report;
+    EXPECT_EQ(file, report["file"]);
+    EXPECT_EQ(5, report["counts"]["points"]);
+  }
+}
+
+TEST_F(UvolInfo, FilesBehindOneThatFailsAreToldOf)
+{
+  const std::string good = folder_ / "good.csv", field = folder_ / "other.csv";
+  uvol_test::writeFile(good, cloud);
+  uvol_test::writeFile(field, "x,y,z,t\n0,0,0,7\n1,0,0,8\n");
+  const std::string none = folder_ / "none.csv";
+  const auto result =
+      runCommand("uvol_info '" + none + "' '" + field + "' '" + good + "' -field rho");
+  EXPECT_EQ(1, result.exit_code);
+  EXPECT_EQ(runCommand("uvol_info '" + good + "' -field rho").out, result.out);
+  EXPECT_EQ(2, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find(none)) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find(field)) << result.err;
+}
+
+TEST_F(UvolInfo, WritesTheSamplingOfOneFileOnly)
+{
+  const std::string file = folder_ / "a.csv", out = folder_ / "out.csv";
+  uvol_test::writeFile(file, cloud);
+  const auto result =
+      runCommand("uvol_info '" + file + "' '" + file + "' -out '" + out + "'");
+  EXPECT_EQ(2, result.exit_code);
+  EXPECT_NE(std::string::npos, result.err.find("-out is for one file")) << result.err;
+}
+
 TEST_F(UvolInfo, NamesNeedNotBeUtf8)
 {
   const std::string latin1 = "x,y,z,T \xb0\n0,0,0,1\n1,0,0,2\n0,1,0,3\n";
@@ -133,8 +186,7 @@ TEST_F(UvolInfo, RefusesWhatIsWrong)
       {"-xyz 0,1", 2, "-xyz"},
       {"-xyz 0,1,1.5", 1, "column"},
       {"-xyz 0,1,9", 1, "column"},
-      {"-bins 3", 2, "-bins"},
-      {"leftover", 2, "leftover"}};
+      {"-bins 3", 2, "-bins"}};
   for (const auto& [options, exit_code, text] : cases) {
     const auto result = runOn(cloud, options);
     EXPECT_EQ(exit_code, result.exit_code) << options;

@@ -434,6 +434,12 @@ namedFile()
 }
 
 void
+nameFile(const std::string& path)
+{
+  named_file = path;
+}
+
+void
 expectOutputs(const std::vector<std::string>& names)
 {
   expected_outputs = names;

@@ -294,6 +294,10 @@ printReport(const Options& options,
 const std::string&
 namedFile();
 
+/** \brief From now on namedFile() is that one of several. */
+void
+nameFile(const std::string& path);
+
 /** \brief From now on a command line may write these files only: those of a series,
  * whose names differ. */
 void
