@@ -106,6 +106,7 @@ TEST(Completion, OffersToolsOptionsAndWords)
   EXPECT_EQ("--color --colormap\n", complete("uvol_isosurface --colo"));
   EXPECT_EQ("inferno\n", complete("uvol_isosurface -colormap in"));
   EXPECT_EQ("linear\n", complete("uvol_isosurface --interpolation l"));
+  EXPECT_EQ("input\n", complete("uvol isosurface -h in"));
 }
 
 TEST(Completion, OffersFieldsOfTheFile)

@@ -41,6 +41,11 @@ _uvol()
     -*) before=${before#-} ;;
   esac
   case $before in
+    -h | -help) # all, and headings of one word
+      words=$("$tool" -h all 2>/dev/null | sed -En 's/^([A-Z][a-z]*):$/\L\1/p')
+      mapfile -t COMPREPLY < <(compgen -W "all $words" -- "$word")
+      return
+      ;;
     -field | -color | -attributes | -label | -where | -validate-by)
       words=$([ -n "$file" ] && _uvol_fields "$file")
       mapfile -t COMPREPLY < <(IFS=$'\n' compgen -W "$words" -- "${word##*,}")
