@@ -120,6 +120,9 @@ TEST(Completion, OffersFieldsOfTheFile)
             complete("uvol cluster " + csv + " out.ply -attributes rho,ra"));
   EXPECT_EQ("rho\n", complete("uvol_isosurface " + pcd + " -color r"));
   EXPECT_EQ("\n", complete("uvol_isosurface none.csv -field r"));
+  const std::string npz = folder / "in.npz";
+  EXPECT_EQ(0, runCommand("uvol_convert '" + csv + "' '" + npz + "'").exit_code);
+  EXPECT_EQ("rho rate\n", complete("uvol_isosurface " + npz + " -field r"));
 }
 
 TEST(Manual, ExplainsEveryOption)

@@ -7,16 +7,20 @@ _uvol_options()
   "$1" -h all 2>/dev/null | sed -En 's/^  (-[a-z0-9-]+)( ([^ ]+))?.*/\1 \3/p'
 }
 
-# Names of fields in the head of a file, however long the file is.
+# Names of fields in the head of a file, however long the file is; uvol_info beside the tool knows other formats, and
+# has two seconds for them.
+# usage: _uvol_fields TOOL FILE
 _uvol_fields()
 {
-  case $1 in
-    *.csv | *.txt | *.xyz | *.dat | *.tsv) head -n 1 -- "$1" | tr -d '#"\r' | tr ',;\t ' '\n' ;;
-    *.pcd) head -c 4096 -- "$1" | tr -d '\0' | sed -n 's/^FIELDS //p' | tr ' ' '\n' ;;
-    *.ply) head -c 16384 -- "$1" | tr -d '\0' |
+  local info=${1%uvol_*}uvol_info file=$2
+  case $file in
+    *.csv | *.txt | *.xyz | *.dat | *.tsv) head -n 1 -- "$file" | tr -d '#"\r' | tr ',;\t ' '\n' ;;
+    *.pcd) head -c 4096 -- "$file" | tr -d '\0' | sed -n 's/^FIELDS //p' | tr ' ' '\n' ;;
+    *.ply) head -c 16384 -- "$file" | tr -d '\0' |
       awk '/^element/ { vertex = $2 == "vertex" } /^property/ && vertex { print $NF } /^end_header/ { exit }' ;;
-    *.vtp | *.vtu | *.vts) head -c 8388608 -- "$1" | tr -d '\0' |
+    *.vtp | *.vtu | *.vts) head -c 8388608 -- "$file" | tr -d '\0' |
       grep -aoE '<DataArray[^>]*' | sed -En 's/.* Name="([^"]*)".*/\1/p' | sort -u ;;
+    *) timeout 2 "$info" "$file" | sed -n 's/^fields: //p' | sed 's/ ([^)]*)//g; s/ and [0-9]* more$//; s/, /\n/g' ;;
   esac 2>/dev/null
 }
 
@@ -47,7 +51,7 @@ _uvol()
       return
       ;;
     -field | -color | -attributes | -label | -where | -validate-by)
-      words=$([ -n "$file" ] && _uvol_fields "$file")
+      words=$([ -n "$file" ] && _uvol_fields "$tool" "$file")
       mapfile -t COMPREPLY < <(IFS=$'\n' compgen -W "$words" -- "${word##*,}")
       [[ $word == *,* ]] && COMPREPLY=("${COMPREPLY[@]/#/${word%,*},}")
       return
