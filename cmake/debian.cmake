@@ -53,13 +53,9 @@ pcl_uvol_debian(core libpcl-uvol-core${soversion} libs "surfaces from scattered 
 pcl_uvol_debian(libraries libpcl-uvol${soversion} libs "surfaces from scattered samples: files, VTK, OpenGL"
   "${purpose}\n This package has file formats, expressions, OpenGL and filters of VTK."
   "libpcl-uvol-core${soversion} ${same}")
-set(development_needed ${libraries_needed})
-if(PCL_UVOL_BUILD_MPI) # whose target is among those of the package of CMake
-  list(APPEND development_needed "libpcl-uvol-mpi${soversion} ${same}")
-endif()
 pcl_uvol_debian(development libpcl-uvol-dev libdevel "surfaces from scattered samples: headers"
   "${purpose}\n This package has the headers and the package of CMake."
-  ${development_needed} libpcl-dev libflann-dev liblz4-dev nlohmann-json3-dev)
+  ${libraries_needed} libpcl-dev libflann-dev liblz4-dev nlohmann-json3-dev)
 if(PCL_UVOL_BUILD_TOOLS)
   pcl_uvol_debian(tools pcl-uvol-tools science "surfaces from scattered samples: command line"
     "${purpose}\n This package has the tools, their manual pages and completion in bash." ${libraries_needed})
@@ -77,6 +73,9 @@ if(PCL_UVOL_BUILD_MPI)
   pcl_uvol_debian(mpi libpcl-uvol-mpi${soversion} libs "surfaces from scattered samples: MPI"
     "${purpose}\n This package has the library for many processes."
     "libpcl-uvol-core${soversion} ${same}")
+  pcl_uvol_debian(mpi_development libpcl-uvol-mpi-dev libdevel "surfaces from scattered samples: headers for MPI"
+    "${purpose}\n This package has the header for many processes, and CMake's component for it."
+    "libpcl-uvol-dev ${same}" "libpcl-uvol-mpi${soversion} ${same}" libvtk9-dev)
   if(TARGET uvol_isosurface_mpi)
     pcl_uvol_debian(uvol_isosurface_mpi pcl-uvol-mpi science "surfaces from scattered samples: tool for MPI"
       "${purpose}\n This package has the tool for many processes."

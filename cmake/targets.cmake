@@ -23,9 +23,12 @@ list(TRANSFORM pcl_uvol_simd_levels REPLACE "(.+)" "$<TARGET_OBJECTS:pcl_uvol_ke
   OUTPUT_VARIABLE pcl_uvol_kernel_objects)
 
 # The part of the installation, a Debian package of its own, that a library belongs to: core needs no VTK, mpi
-# is apart from the others, which need VTK.
+# is apart from the others, which need VTK. What is needed to compile with mpi, its targets for CMake among it, is
+# apart as well: others need no MPI.
 set(pcl_uvol_component_of_core core)
 set(pcl_uvol_component_of_mpi mpi)
+set(pcl_uvol_development_of_mpi mpi_development)
+set(pcl_uvol_targets_of_mpi pcl_uvol_mpi_targets)
 
 # A library target pcl_uvol::<name> from the sources of some modules.
 function(pcl_uvol_add_library name)
@@ -50,10 +53,14 @@ function(pcl_uvol_add_library name)
   set_property(GLOBAL APPEND PROPERTY pcl_uvol_components ${name})
   if(PCL_UVOL_INSTALL)
     set(component libraries)
-    if(DEFINED pcl_uvol_component_of_${name})
-      set(component ${pcl_uvol_component_of_${name}})
-    endif()
-    install(TARGETS pcl_uvol_${name} EXPORT pcl_uvol_targets
-      LIBRARY COMPONENT ${component} NAMELINK_COMPONENT development)
+    set(development development)
+    set(targets pcl_uvol_targets)
+    foreach(part component development targets)
+      if(DEFINED pcl_uvol_${part}_of_${name})
+        set(${part} ${pcl_uvol_${part}_of_${name}})
+      endif()
+    endforeach()
+    install(TARGETS pcl_uvol_${name} EXPORT ${targets}
+      LIBRARY COMPONENT ${component} NAMELINK_COMPONENT ${development})
   endif()
 endfunction()

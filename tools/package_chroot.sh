@@ -85,4 +85,6 @@ install pcl-uvol-viewer "" "uvol_viewer -version"
 install pcl-uvol-mpi "" "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -np 2 \
   uvol_isosurface_mpi samples.csv surface.ply -field rho -iso 0.4 >/dev/null"
 install libpcl-uvol-dev "g++ cmake ninja-build" "cmake -S consumer -B build -G Ninja >/dev/null && cmake --build build && build/consumer"
+install libpcl-uvol-mpi-dev "g++ cmake ninja-build" "cmake -S consumer -B build -G Ninja >/dev/null && cmake --build build &&
+  test \"\$(build/ranks_consumer)\" = 'rank 0 of 1'"
 install pcl-uvol-doc "" "test -s /usr/share/doc/pcl-uvol-doc/html/index.html && test -s /usr/share/doc/pcl-uvol-doc/html/api/index.html"

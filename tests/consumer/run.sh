@@ -11,6 +11,9 @@ cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
 test "$("$folder/build/window_consumer")" = "bounds from 3"
+if [ -e "$folder/prefix/include/pcl_uvol/mpi" ]; then
+  test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
+fi
 "$folder/prefix/bin/uvol_isosurface" -version
 "$folder/prefix/bin/uvol" viewer -version
 test -s "$folder/prefix/share/man/man1/uvol_isosurface.1"

@@ -32,7 +32,7 @@ refuses() {
   tr -s ' \n' ' ' <"$folder/log" | grep -F "$sentence"
   rm -r "$folder/refused"
 }
-refuses "This pcl_uvol was built without vtk; it has core." "$here" "${options[@]}" -DCOMPONENTS=vtk
+refuses "This pcl_uvol has no vtk; it has core." "$here" "${options[@]}" -DCOMPONENTS=vtk
 refuses "PCL_UVOL_BUILD_TOOLS needs PCL_UVOL_BUILD_IO:" "$here/../.." -G Ninja \
   -DPCL_UVOL_BUILD_IO=OFF -DPCL_UVOL_BUILD_TOOLS=ON
 refuses "PCL_UVOL_BUILD_VTK needs PCL_UVOL_BUILD_GL:" "$here/../.." -G Ninja \
