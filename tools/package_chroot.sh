@@ -34,7 +34,7 @@ for package in "$packages"/*.deb; do
   case $name in
     pcl-uvol-viewer | *-mpi*) continue ;;
   esac
-  if dpkg-deb -f "$package" Depends | tr ',' '\n' | grep -E 'qt[0-9]|openmpi|mpich|libx11' | grep -v 'libpcl-uvol'; then
+  if dpkg-deb -f "$package" Depends | tr ',' '\n' | grep -E 'qt[0-9]|openmpi|mpich|libx11|uvol-mpi'; then
     echo "package_chroot.sh: $name depends on Qt, X11 or MPI itself." >&2
     exit 1
   fi
