@@ -29,5 +29,5 @@ main()
   std::cout << triangles.size() << " triangles, area " << sphere.area.value << " +- "
             << sphere.area.error << " (sphere " << M_PI << "), volume "
             << sphere.volume.value << " +- " << sphere.volume.error << " (sphere "
-            << M_PI / 6.0 << "), genus " << sphere.genus << '\n';
+            << M_PI / 6.0 << "), genus " << sphere.genus.value() << '\n';
 }
