@@ -355,6 +355,16 @@ readSplats(const CloudView& cloud, Report& report)
 
 namespace {
 
+float
+findDotRadius(const CloudView& cloud)
+{
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i)); place.allFinite())
+      box.extend(place);
+  return dot_radius * box.diagonal().norm();
+}
+
 /** A disc that a picture shows as a point. \param radius of it */
 PointSplat
 makeDot(const CloudView& cloud,
@@ -391,16 +401,35 @@ coverForPicture(const CloudView& cloud,
     return splats;
   Report own; // the points are counted with the others
   const OrientedPoints points = orientPoints(cloud, dots, threads, own);
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < cloud.count; ++i)
-    if (const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i)); place.allFinite())
-      box.extend(place);
+  const float radius = findDotRadius(cloud);
   for (std::size_t i = 0; i < points.normals.size(); ++i) {
-    splats.cloud.push_back(
-        makeDot(cloud, points, i, dot_radius * box.diagonal().norm()));
+    splats.cloud.push_back(makeDot(cloud, points, i, radius));
     splats.sources.push_back(points.samples->getInputIndex(i));
   }
   report.count("bridged", dots.size());
+  return splats;
+}
+
+/** Splats of a cloud to be drawn: those of isopoints in gaps become dots, as without
+ * splats. */
+Splats
+readForPicture(const CloudView& cloud, Report& report)
+{
+  Splats splats = readSplats(cloud, report);
+  const std::vector<std::uint8_t> bridged = findBridged(cloud);
+  if (bridged.empty())
+    return splats;
+  const float radius = findDotRadius(cloud);
+  std::size_t dots = 0;
+  for (std::size_t i = 0; i < splats.cloud.size(); ++i) {
+    if (!bridged[splats.sources[i]])
+      continue;
+    PointSplat& splat = splats.cloud[i];
+    splat.radius = radius;
+    splat.error = splat.tilt_u = splat.tilt_v = splat.slope_u = splat.slope_v = 0.0f;
+    ++dots;
+  }
+  report.count("bridged", dots);
   return splats;
 }
 
@@ -418,7 +447,7 @@ findSplats(const CloudView& cloud,
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "
                               "delta and lambda are not used.");
-  return readSplats(cloud, report);
+  return readForPicture(cloud, report);
 }
 
 std::string

@@ -50,7 +50,8 @@ makeSurface()
   return dataset;
 }
 
-class BridgedPoints : public testing::TestWithParam<const char*> {
+class BridgedPoints
+    : public testing::TestWithParam<std::pair<const char*, const char*>> {
 protected:
   BridgedPoints()
   {
@@ -90,8 +91,12 @@ findDots(const Image& image)
 
 TEST_P(BridgedPoints, AreSinglePalePixels)
 {
-  const std::string command = std::string(GetParam()) + " '" + (folder_ / "s.ply") +
-                              "' '" + (folder_ / "s.png") +
+  const auto [tool, drawn] = GetParam();
+  const CommandResult covered =
+      runCommand("uvol_splats " + (folder_ / "s.ply") + " " + (folder_ / "splats.ply"));
+  ASSERT_EQ(0, covered.exit_code) << covered.err;
+  const std::string command = std::string(tool) + " '" + (folder_ / drawn) + "' '" +
+                              (folder_ / "s.png") +
                               "' -size 200x200 -view top -surface-color 0.2,0.2,0.2 ";
   const CommandResult result = runCommand(command + "-json");
   ASSERT_EQ(0, result.exit_code) << result.err;
@@ -105,8 +110,10 @@ TEST_P(BridgedPoints, AreSinglePalePixels)
   EXPECT_GT(dots.darkest, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(,
-                         BridgedPoints,
-                         testing::Values("uvol_render -backend cpu",
-                                         "uvol_render -backend osmesa",
-                                         "uvol_raytrace -no-shadows"));
+INSTANTIATE_TEST_SUITE_P(
+    ,
+    BridgedPoints,
+    testing::Values(std::pair("uvol_render -backend cpu", "s.ply"),
+                    std::pair("uvol_render -backend osmesa", "s.ply"),
+                    std::pair("uvol_raytrace -no-shadows", "s.ply"),
+                    std::pair("uvol_raytrace -no-shadows", "splats.ply")));
