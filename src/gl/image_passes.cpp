@@ -2,6 +2,7 @@
 #include "gl/image_passes.h"
 
 #include <cstring>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -76,6 +77,7 @@ ImagePasses::ImagePasses(const GlFunctions& gl)
     , programs_(gl)
     , points_(gl, programs_)
     , fills_(gl, programs_)
+    , occlusion_(gl, programs_)
     , painter_(gl)
     , full_screen_array_(makeVertexArray(gl))
 {
@@ -99,9 +101,10 @@ ImagePasses::draw(const Frame& frame, Report& report)
     const PassTimer timer(gl_, report, "blend");
     points_.blend(frame, visible, canvas_->states[state_], *canvas_);
   }
+  const bool is_occluded = occlude(frame, report);
   {
     const PassTimer timer(gl_, report, "shade");
-    shade(frame);
+    shade(frame, is_occluded);
   }
   if (smooths(settings)) {
     const PassTimer timer(gl_, report, "smooth");
@@ -145,7 +148,7 @@ ImagePasses::prepareState() const
   gl_.DepthFunc(GL_LESS);
   gl_.DepthRange(0.0, 1.0);
   gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  constexpr GLuint most_units = 5; // of all passes
+  constexpr GLuint most_units = 6; // of all passes
   for (GLuint unit = 0; unit < most_units; ++unit)
     gl_.BindSampler(unit, 0);
   gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -222,33 +225,40 @@ ImagePasses::uploadLights(const Frame& frame)
     numbers.push_back(light.kind == Light::Kind::Point ? 1.0f : 0.0f);
     numbers.insert(numbers.end(), {light.color.r, light.color.g, light.color.b, 0.0f});
   }
-  numbers.resize(std::max<std::size_t>(numbers.size(), 4)); // none may be empty
-  lights_ = makeBuffer(gl_);
-  gl_.BindBuffer(GL_TEXTURE_BUFFER, lights_.get());
-  gl_.BufferData(GL_TEXTURE_BUFFER,
-                 static_cast<GLsizeiptr>(numbers.size() * sizeof(float)),
-                 numbers.data(),
-                 GL_STREAM_DRAW);
-  lights_texture_ = makeBufferTexture(gl_, GL_RGBA32F, lights_);
+  lights_ = NumberTable(gl_, std::move(numbers));
+}
+
+bool
+ImagePasses::occlude(const Frame& frame, Report& report)
+{
+  const OcclusionGrid grid(frame);
+  if (grid.isEmpty())
+    return false;
+  const PassTimer timer(gl_, report, "occlusion");
+  occlusion_.run(frame, grid, canvas_->states[state_], points_.getLooks());
+  return true;
 }
 
 void
-ImagePasses::shade(const Frame& frame)
+ImagePasses::shade(const Frame& frame, bool is_occluded)
 {
   const ImageSpaceSettings& settings = frame.settings;
   uploadLights(frame);
   const Program& program = programs_.use(shaders::shade,
                                          defineIf(settings.shading, "LIT") +
                                              defineIf(with_normals_, "WITH_NORMALS") +
-                                             defineIf(with_discs_, "WITH_DISCS"));
+                                             defineIf(with_discs_, "WITH_DISCS") +
+                                             defineIf(is_occluded, "WITH_OCCLUSION"));
   setView(program, frame.view);
   program.setTexture("state", 0, canvas_->states[state_]);
   program.setTexture("looks", 1, points_.getLooks(), GL_TEXTURE_BUFFER);
-  program.setTexture("lights", 2, lights_texture_, GL_TEXTURE_BUFFER);
+  program.setTexture("lights", 2, lights_.getTexture(), GL_TEXTURE_BUFFER);
   if (with_discs_) {
     program.setTexture("blended_normals", 3, canvas_->blended_normals);
     program.setTexture("blended_colors", 4, canvas_->blended_colors);
   }
+  if (is_occluded)
+    occlusion_.bindTo(program, 5);
   program.set("light_count", static_cast<int>(settings.lights.size()));
   program.set("is_two_sided", !frame.culls());
   program.set("ambient", settings.material.ambient);

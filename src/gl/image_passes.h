@@ -4,6 +4,7 @@
 
 #include "gl/fill_pass.h"
 #include "gl/gl_backend.h"
+#include "gl/occlusion_pass.h"
 #include "gl/point_pass.h"
 
 #include <memory>
@@ -49,8 +50,12 @@ private:
   void
   fill(const Frame& frame, Report& report);
 
+  /** True if the frame wants light to be occluded. */
+  bool
+  occlude(const Frame& frame, Report& report);
+
   void
-  shade(const Frame& frame);
+  shade(const Frame& frame, bool is_occluded);
 
   void
   uploadLights(const Frame& frame);
@@ -82,9 +87,10 @@ private:
   Programs programs_;
   PointPass points_;
   FillPass fills_;
+  OcclusionPass occlusion_;
   TilePainter painter_;
   GlName full_screen_array_; // without attributes
-  GlName lights_, lights_texture_;
+  NumberTable lights_;
   std::unique_ptr<Canvas> canvas_;
   // of the frame
   TileSet surface_; // tiles with a surface, and those beside them

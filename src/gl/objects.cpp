@@ -126,6 +126,18 @@ makeBufferTexture(const GlFunctions& gl, GLenum format, const GlName& buffer)
   return texture;
 }
 
+NumberTable::NumberTable(const GlFunctions& gl, std::vector<float> numbers)
+    : buffer_(makeBuffer(gl))
+{
+  numbers.resize(std::max<std::size_t>(numbers.size(), 4)); // none may be empty
+  gl.BindBuffer(GL_TEXTURE_BUFFER, buffer_.get());
+  gl.BufferData(GL_TEXTURE_BUFFER,
+                static_cast<GLsizeiptr>(numbers.size() * sizeof(float)),
+                numbers.data(),
+                GL_STREAM_DRAW);
+  texture_ = makeBufferTexture(gl, GL_RGBA32F, buffer_);
+}
+
 GlName
 makeFramebuffer(const GlFunctions& gl,
                 std::initializer_list<const GlName*> colors,

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -83,6 +84,24 @@ makeTexture(const GlFunctions& gl,
 /** \brief A texture over the bytes of a buffer. */
 GlName
 makeBufferTexture(const GlFunctions& gl, GLenum format, const GlName& buffer);
+
+/** \brief Numbers that a shader reads four by four from a texture. */
+class NumberTable {
+public:
+  NumberTable() = default;
+
+  /** \param numbers a multiple of four, or none */
+  NumberTable(const GlFunctions& gl, std::vector<float> numbers);
+
+  const GlName&
+  getTexture() const
+  {
+    return texture_;
+  }
+
+private:
+  GlName buffer_, texture_;
+};
 
 /** \param colors attached in this order
  * \param depth may be empty

@@ -44,8 +44,13 @@ extern const Pass row_changes;
 extern const Pass tile_changes;
 
 // shading_shaders.cpp. Colour, opacity; WITH_NORMALS: normal, depth as well. LIT,
-// WITH_DISCS.
+// WITH_DISCS, WITH_OCCLUSION.
 extern const Pass shade;
+
+// occlusion_shaders.cpp. By cells: position and depth, normal; openness and depth.
+extern const Pass place_cells;
+extern const Pass open_cells;
+extern const char* const occlusion_constants;
 
 // filter_shaders.cpp
 extern const Pass smooth; ///< WITH_NORMALS

@@ -44,6 +44,37 @@ vec3 light(vec3 surface, vec3 position, vec3 normal, vec3 to_eye)
   return clamp(sum, 0.0, 1.0);
 }
 
+#ifdef WITH_OCCLUSION
+uniform sampler2DRect cells; // openness, depth
+uniform vec2 cell_count;
+uniform float half_cell;
+uniform float per_cell;
+uniform float tolerance; // in parts of a depth
+uniform float strength;
+
+// Light that arrives, from the cells around that show the same surface.
+float lightThere(float depth)
+{
+  vec2 place = (floor(gl_FragCoord.xy) - margin - half_cell) * per_cell;
+  vec2 before = floor(place);
+  vec2 part = place - before;
+  float sum = open_weight, weights = open_weight;
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x) {
+      vec2 cell = before + vec2(x, y) + 0.5;
+      bool is_inside =
+          all(greaterThan(cell, vec2(0.0))) && all(lessThan(cell, cell_count));
+      vec2 there = is_inside ? texture(cells, cell).xy : vec2(1.0, no_depth);
+      float likeness = max(1.0 - abs(there.y - depth) / (tolerance * depth), 0.0);
+      float weight = (y == 1 ? part.y : 1.0 - part.y) *
+                     (x == 1 ? part.x : 1.0 - part.x) * likeness;
+      sum += weight * there.x;
+      weights += weight;
+    }
+  return 1.0 - strength * (1.0 - sum / weights);
+}
+#endif
+
 void main()
 {
   uvec2 point = texture(state, gl_FragCoord.xy).xy;
@@ -68,6 +99,9 @@ void main()
 #else
   vec3 lit = vec3(1.0);
 #endif
+#ifdef WITH_OCCLUSION
+  lit *= lightThere(depth);
+#endif
   color = is_surface ? vec4(lit, 1.0) : vec4(0.0);
 #ifdef WITH_NORMALS
   normal_depth = vec4(is_surface ? normal : vec3(0.0), depth);
@@ -77,6 +111,6 @@ void main()
 
 } // namespace
 
-extern const Pass shade{{tiles}, {shade_fragment}};
+extern const Pass shade{{tiles}, {occlusion_constants, shade_fragment}};
 
 } // namespace pcl_uvol::shaders

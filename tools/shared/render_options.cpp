@@ -82,6 +82,11 @@ RenderOptions::declarePasses(Options& options)
   options.number(
       "layers", s.layer_distance, 1e-9, 1.0, "least distance of two layers in depth");
   options.flag("no-shading", s.shading, "a white surface, for lines alone", false);
+  options.number("occlusion",
+                 s.ambient_occlusion,
+                 0.0,
+                 1.0,
+                 "darken pits and creases: what walls around take of the light");
   options.choice("smoothing",
                  {"none", "box", "gaussian", "alleviated"},
                  smoothing_,

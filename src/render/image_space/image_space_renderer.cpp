@@ -45,6 +45,10 @@ checkParameters(const ImageSpaceSettings& settings)
   checkThreshold("threshold of silhouettes", settings.silhouette_threshold);
   checkThreshold("threshold of feature lines", settings.feature_threshold);
   checkThreshold("threshold of anti-aliasing", settings.anti_aliasing_threshold);
+  if (!(settings.ambient_occlusion >= 0.0 && settings.ambient_occlusion <= 1.0))
+    throw InvalidArgument("The strength of ambient occlusion is a number from 0 to 1, "
+                          "not " +
+                          std::to_string(settings.ambient_occlusion) + ".");
   checkMaterial(settings.material);
   checkColor("lines", settings.line_color);
   checkBackground(settings.background);

@@ -3,6 +3,7 @@
 
 #include "common/dispatch.h"
 #include "common/parallel.h"
+#include "render/image_space/occlusion_map.h"
 #include "render/image_space/shading_setup.h"
 #include "render/lighting.h"
 
@@ -81,12 +82,14 @@ public:
   TileFinisher(const Frame& frame,
                PixelBuffer& buffer,
                const Shading& shading,
+               const OcclusionMap& occlusion,
                Image& image,
                PassClock& clock,
                TileScratch& scratch)
       : frame_(frame)
       , buffer_(buffer)
       , shading_(shading)
+      , occlusion_(occlusion)
       , image_(image)
       , clock_(clock)
       , planes_(scratch.planes)
@@ -217,6 +220,11 @@ private:
              count_,
              isInBuffer(row) ? blendedAt(seen) : BlendSums{},
              rowOf(stage_, row));
+      if (isInBuffer(row))
+        occlusion_.darken(first_column_ + View::guard - side,
+                          first_row_ + View::guard + row,
+                          count_,
+                          rowOf(stage_, row));
     }
   }
 
@@ -348,6 +356,7 @@ private:
   const Frame& frame_;
   PixelBuffer& buffer_;
   const Shading& shading_;
+  const OcclusionMap& occlusion_;
   Image& image_;
   PassClock& clock_;
   std::array<std::vector<float>, plane_count>* planes_; // of two stages
@@ -373,11 +382,13 @@ finishTiles(const Frame& frame,
   const ShadingSetup setup(frame);
   const int columns = (frame.view.width + tile_columns - 1) / tile_columns;
   const int rows = (frame.view.height + tile_rows - 1) / tile_rows;
+  const OcclusionMap occlusion(frame, buffer, setup.get(), report);
   StepTimer step(report, "finish", static_cast<std::uint64_t>(rows));
   parallelBlocks(
       static_cast<std::size_t>(rows), 1, frame.threads, [&](auto begin, auto) {
         const auto scratch = pool.take();
-        TileFinisher finisher(frame, buffer, setup.get(), image, clock, *scratch);
+        TileFinisher finisher(
+            frame, buffer, setup.get(), occlusion, image, clock, *scratch);
         for (int column = 0; column < columns; ++column)
           finisher.finish(static_cast<int>(begin) * tile_rows, column * tile_columns);
         pool.giveBack(scratch);

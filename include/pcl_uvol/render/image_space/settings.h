@@ -42,6 +42,9 @@ struct ImageSpaceSettings {
   bool shading = true;
   Material material;
   std::vector<Light> lights = defaultLights();
+  /** What walls around a place take of its light, in [0, 1]: pits and creases are
+   * darker; 0 leaves it out. Beyond the thesis. */
+  double ambient_occlusion = 0.0;
   SmoothingFilter smoothing = SmoothingFilter::AlleviatedGaussian;
   /** In [0, 6]. */
   int smoothing_iterations = 1;
