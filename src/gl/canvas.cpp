@@ -22,21 +22,27 @@ canvasSize(int buffer_size)
 void
 checkSize(const GlFunctions& gl, const View& view)
 {
-  GLint largest = 0;
-  gl.GetIntegerv(GL_MAX_RECTANGLE_TEXTURE_SIZE, &largest);
-  GLint viewport[2] = {0, 0};
-  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-  largest = std::min({largest, viewport[0], viewport[1]});
-  const int border = 2 * (View::guard + shaders::margin);
-  if (canvasSize(std::max(view.bufferWidth(), view.bufferHeight())) > largest)
+  const int largest = findLargestImage(gl);
+  if (std::max(view.width, view.height) > largest)
     throw GlError("An image of " + std::to_string(view.width) + " x " +
                   std::to_string(view.height) +
                   " pixels is too large for this OpenGL, which has at most " +
-                  std::to_string(largest - border) +
-                  ": use a smaller one, or the cpu backend.");
+                  std::to_string(largest) + ": use a smaller one, or the cpu backend.");
 }
 
 } // namespace
+
+int
+findLargestImage(const GlFunctions& gl)
+{
+  GLint texture = 0;
+  gl.GetIntegerv(GL_MAX_RECTANGLE_TEXTURE_SIZE, &texture);
+  GLint viewport[2] = {0, 0};
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  const int canvas =
+      std::min({texture, viewport[0], viewport[1]}) / TileSet::tile * TileSet::tile;
+  return canvas - 2 * (View::guard + shaders::margin);
+}
 
 Canvas::Canvas(const GlFunctions& gl, const View& view, const Options& options)
     : gl_(gl)

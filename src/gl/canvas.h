@@ -8,6 +8,11 @@
 
 namespace pcl_uvol {
 
+/** \brief Pixels along a side of the largest image that OpenGL has textures and
+ * viewports for. */
+int
+findLargestImage(const GlFunctions& gl);
+
 /** \brief Textures for one size of image, and framebuffers over them. Two of a kind
  * are read and written in turn. */
 class Canvas {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/gl_backend.h"
 
+#include "gl/canvas.h"
 #include "gl/errors.h"
 #include "gl/image_passes.h"
+#include "gl/picture_tiles.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace pcl_uvol {
@@ -24,7 +27,10 @@ struct GlBackend::Implementation {
   explicit Implementation(const std::shared_ptr<GlContext>& shared_context)
       : context(shared_context)
   {
-    context->run([this] { objects.emplace(*context); });
+    context->run([this] {
+      objects.emplace(*context);
+      largest_image = findLargestImage(objects->gl);
+    });
   }
 
   ~Implementation()
@@ -46,6 +52,7 @@ struct GlBackend::Implementation {
   }
 
   std::shared_ptr<GlContext> context;
+  int largest_image = 0; ///< pixels along a side
   std::optional<Objects> objects;
 };
 
@@ -55,9 +62,20 @@ GlBackend::GlBackend(const std::shared_ptr<GlContext>& context)
     throw InvalidArgument("An OpenGL backend needs a context: create one by "
                           "createHeadlessContext().");
   implementation_ = std::make_unique<Implementation>(context);
+  setLargestSide(largest_side_);
 }
 
 GlBackend::~GlBackend() = default;
+
+void
+GlBackend::setLargestSide(int pixels)
+{
+  constexpr int least = 256;
+  if (pixels < least)
+    throw InvalidArgument("Tiles of a picture have sides of at least " +
+                          std::to_string(least) + " pixels.");
+  largest_side_ = std::min(pixels, implementation_->largest_image);
+}
 
 std::string
 GlBackend::describe() const
@@ -70,10 +88,31 @@ GlBackend::describe() const
 void
 GlBackend::render(const Frame& frame, Image& image, Report& report)
 {
-  implementation_->run([&](ImagePasses& passes) {
-    passes.draw(frame, report);
-    passes.finish(frame, image, report);
-  });
+  const View& view = frame.view;
+  if (std::max(view.width, view.height) <= largest_side_)
+    implementation_->run([&](ImagePasses& passes) {
+      passes.draw(frame, report);
+      passes.finish(frame, image, report);
+    });
+  else
+    renderTiles(frame, image, report);
+}
+
+void
+GlBackend::renderTiles(const Frame& frame, Image& image, Report& report)
+{
+  const View& view = frame.view;
+  resizePlanes(frame, image);
+  ImageSpaceSettings settings = frame.settings;
+  Image drawn;
+  for (const PictureTile& tile :
+       splitPicture(view.width, view.height, largest_side_, findReach(frame))) {
+    const View part = cutView(view, tile.drawn);
+    settings.background =
+        cutBackground(frame.settings.background, tile.drawn, view.height);
+    render({frame.cloud, part, settings, frame.planes, frame.threads}, drawn, report);
+    copyTile(tile, drawn, image);
+  }
 }
 
 void

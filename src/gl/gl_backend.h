@@ -21,8 +21,8 @@ struct GlFramebuffer {
 
 /** \brief Keeps the last cloud and the textures of the last size on the graphics card:
  * 20 bytes per point, 28 with footprints; 42 per pixel, and 32 more each for normals or
- * feature lines and for footprints. All members may be called from any thread that the
- * context can be used from, one at a time. */
+ * feature lines and for footprints. Larger pictures are drawn in tiles. All members may
+ * be called from any thread that the context can be used from, one at a time. */
 class PCL_UVOL_EXPORTS GlBackend : public ImageSpaceBackend {
 public:
   /** \throws GlError if the context lacks a function, InvalidArgument without one */
@@ -36,8 +36,15 @@ public:
   std::string
   describe() const override;
 
-  /** \throws GlError if an image is too large, a cloud has too many points for a
-   * texture, or the driver fails */
+  /** \brief Draw pictures in tiles whose sides have at most so many pixels.
+   * \param pixels at least 256; default 4096, for which 2 GB of textures do. No more
+   * than OpenGL can draw are taken.
+   * \throws InvalidArgument for fewer */
+  void
+  setLargestSide(int pixels);
+
+  /** \throws GlError if a cloud has too many points for a texture, or the driver fails
+   */
   void
   render(const Frame& frame, Image& image, Report& report) override;
 
@@ -45,7 +52,7 @@ public:
    * nearer. The settings' background and the planes of the frame have no meaning here.
    * Most of the state of OpenGL is different afterwards: save and restore what you
    * need.
-   * \throws as render() */
+   * \throws as render(), and GlError if the image is too large for OpenGL */
   void
   renderToFramebuffer(const Frame& frame, const GlFramebuffer& target, Report& report);
 
@@ -61,8 +68,12 @@ public:
                      Report& report);
 
 private:
+  void
+  renderTiles(const Frame& frame, Image& image, Report& report);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
+  int largest_side_ = 4096;
 };
 
 } // namespace pcl_uvol

@@ -424,6 +424,34 @@ TEST_P(GlBackendOn, SidesAsLongAsTexturesMayBe)
     }
 }
 
+TEST_P(GlBackendOn, TilesMakeThePictureThatTheyArePartsOf)
+{
+  const auto backend = makeBackend(GetParam());
+  backend->setLargestSide(512);
+  EXPECT_THROW(backend->setLargestSide(255), pcl_uvol::InvalidArgument);
+  auto settings = settingsOf("lines"); // before a gradient
+  settings.ambient_occlusion = 0.9;
+  for (const char* name : {"knot", "near"}) {
+    const Scene& scene = sharedScene(name);
+    Report report;
+    const Image whole =
+        draw(sharedBackend(GetParam()), scene, settings, report, 600, 400);
+    const Image image = draw(*backend, scene, settings, report, 600, 400);
+    ASSERT_EQ(whole.color.size(), image.color.size());
+    std::size_t covered = 0, agreeing = 0, other_background = 0;
+    for (std::size_t i = 0; i < whole.pixels(); ++i) {
+      const bool agrees = agreesAt(whole, image, i);
+      covered += isCovered(whole, i) ? 1 : 0;
+      agreeing += isCovered(whole, i) && agrees ? 1 : 0;
+      other_background += !isCovered(whole, i) && !agrees ? 1 : 0;
+    }
+    EXPECT_GT(covered, 1000u);
+    // Places in pixels are rounded otherwise in a tile.
+    EXPECT_GE(double(agreeing), 0.998 * double(covered)) << name;
+    EXPECT_LE(double(other_background), 1e-4 * double(whole.pixels())) << name;
+  }
+}
+
 TEST_P(GlBackendOn, NothingInView)
 {
   Scene scene = sharedScene("sphere");

@@ -143,17 +143,6 @@ private:
 };
 
 void
-resizePlanes(const Frame& frame, Image& image)
-{
-  image.width = static_cast<std::uint32_t>(frame.view.width);
-  image.height = static_cast<std::uint32_t>(frame.view.height);
-  image.color.resize(4 * image.pixels());
-  image.depth.resize(frame.planes.depth ? image.pixels() : 0);
-  image.normal.resize(frame.planes.normal ? 3 * image.pixels() : 0);
-  image.id.resize(frame.planes.id ? image.pixels() : 0);
-}
-
-void
 fill(const Frame& frame, PixelBuffer& pixels, Report& report)
 {
   const ImageSpaceSettings& settings = frame.settings;

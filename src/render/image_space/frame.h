@@ -25,6 +25,7 @@ struct PCL_UVOL_EXPORTS View {
   static constexpr int largest_size = 16384 - 2 * guard - 2;
 
   int width, height;        ///< of the image
+  int shorter_side;         ///< of the picture, of which the image may be a part
   double unit;              ///< lengths of the cloud times this are those of the view
   float rotation[9];        ///< from cloud to camera space, row by row
   float translation[3];     ///< the cloud's centre in camera space
@@ -104,6 +105,10 @@ struct PCL_UVOL_EXPORTS Frame {
   Eigen::Vector3d
   lightVector(const Light& light) const;
 };
+
+/** \brief Give the planes that a frame wants the size of its image. */
+PCL_UVOL_EXPORTS void
+resizePlanes(const Frame& frame, Image& image);
 
 /** \brief Points with a larger footprint, in pixels, have all of it where others are
  * fillers: the hole beside them is too large for one disc in its rim, which leaves it

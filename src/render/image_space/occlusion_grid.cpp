@@ -18,7 +18,8 @@ constexpr double near_part = 0.2;
 /** Nor farther than this part of the picture's shorter side. */
 constexpr double picture_part = 0.125;
 
-/** Pixels of a cell's side; more in pictures with more than so many cells. */
+/** Pixels of a cell's side, a power of two; more where the picture's shorter side has
+ * more than so many cells. */
 constexpr int smallest_cell = 4, most_cells = 768;
 
 } // namespace
@@ -28,8 +29,8 @@ OcclusionGrid::OcclusionGrid(const Frame& frame)
   const View& view = frame.view;
   if (!(frame.settings.ambient_occlusion > 0.0) || !frame.settings.shading)
     return;
-  const int shorter = std::min(view.width, view.height);
-  cell = std::max(smallest_cell, (shorter + most_cells - 1) / most_cells);
+  for (cell = smallest_cell; cell * most_cells < view.shorter_side;)
+    cell *= 2;
   per_cell = 1.0f / static_cast<float>(cell);
   columns = (view.bufferWidth() + cell - 1) / cell;
   rows = (view.bufferHeight() + cell - 1) / cell;
@@ -37,7 +38,7 @@ OcclusionGrid::OcclusionGrid(const Frame& frame)
   const double distance =
       std::max(static_cast<double>(view.translation[2]), cloud_radius);
   const double pixels = std::min(near_part * cloud_radius / distance * view.focal,
-                                 picture_part * shorter);
+                                 picture_part * view.shorter_side);
   if (!(pixels >= cell)) // also where the cloud has no extent
     return;
   radius = static_cast<float>(pixels / view.focal);

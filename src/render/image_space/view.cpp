@@ -25,6 +25,7 @@ View::View(const Camera& camera,
            int image_height)
     : width(image_width)
     , height(image_height)
+    , shorter_side(std::min(image_width, image_height))
     , unit(chooseLengthUnit(bounds))
 {
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
@@ -74,6 +75,17 @@ Frame::lightVector(const Light& light) const
   const Eigen::Vector3d shift(
       view.translation[0], view.translation[1], view.translation[2]);
   return view.unit * (p - cloud.getBounds().center) + turnBack(shift);
+}
+
+void
+resizePlanes(const Frame& frame, Image& image)
+{
+  image.width = static_cast<std::uint32_t>(frame.view.width);
+  image.height = static_cast<std::uint32_t>(frame.view.height);
+  image.color.resize(4 * image.pixels());
+  image.depth.resize(frame.planes.depth ? image.pixels() : 0);
+  image.normal.resize(frame.planes.normal ? 3 * image.pixels() : 0);
+  image.id.resize(frame.planes.id ? image.pixels() : 0);
 }
 
 } // namespace pcl_uvol
