@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interpolation/blended_fits.h"
 
+#include "common/dispatch.h"
 #include "interpolation/polynomial_sum.h"
 #include "interpolation/support_finder.h"
 
@@ -13,8 +14,12 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Queries share the search for fits while these come from no more buckets. */
-constexpr std::size_t most_buckets = 32;
+/** Queries share the search for fits while these come from no more buckets: more make
+ * the search cheaper, and the choice of those that matter to a query dearer. */
+constexpr std::size_t most_buckets = 96;
+
+/** As many queries share it at first, and twice as many where so few buckets matter. */
+constexpr std::size_t usual_group = 64, few_buckets = 48;
 
 /** Weights that sum up to less are joined by those of balls that much larger. */
 constexpr double thin_weight = 0.1, wide_ball = 2.0;
@@ -23,26 +28,98 @@ constexpr double thin_weight = 0.1, wide_ball = 2.0;
  * on. */
 constexpr double farthest_offset = 1.3;
 
-/** Samples whose fits may have a weight for some queries, ascending. */
-struct Candidates {
-  std::vector<double> x[3], per_sq_reach;
-  std::vector<std::uint32_t> bucket, place; ///< in the bucket
+const KernelTable<const BlendKernels*> kernel_table{
+    &baseline::blend_kernels, &avx2::blend_kernels, &avx512::blend_kernels};
+
+/** Samples whose fits may have a weight for some queries, ascending. Rows hold what
+ * kernels read behind the last one. */
+class Candidates {
+public:
+  /** Of a fit: the bucket's, and its place there. */
+  struct Fit {
+    const BucketFits* bucket;
+    std::uint32_t place;
+  };
 
   void
   clear()
   {
-    for (auto& coordinate : x)
-      coordinate.clear();
-    per_sq_reach.clear();
-    bucket.clear();
-    place.clear();
+    fits_.clear();
+  }
+
+  /** Make room for so many more. */
+  void
+  reserve(std::size_t more)
+  {
+    const std::size_t size = fits_.size() + more + ball_padding;
+    if (per_sq_reach_.size() >= size)
+      return;
+    for (auto& row : center_)
+      row.resize(2 * size);
+    per_sq_reach_.resize(2 * size);
+  }
+
+  void
+  add(const BucketFits& bucket, std::uint32_t place, double sq_factor)
+  {
+    const std::size_t i = fits_.size();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      center_[axis][i] = bucket.center[axis][place];
+    per_sq_reach_[i] = 1.0 / (sq_factor * bucket.sq_reach[place]);
+    fits_.push_back({&bucket, place});
+  }
+
+  /** End with balls that hold nothing. */
+  void
+  close()
+  {
+    reserve(0);
+    std::fill_n(per_sq_reach_.begin() + static_cast<std::ptrdiff_t>(fits_.size()),
+                ball_padding,
+                std::numeric_limits<double>::infinity());
   }
 
   std::size_t
   size() const
   {
-    return bucket.size();
+    return fits_.size();
   }
+
+  const Fit&
+  getFit(std::size_t i) const
+  {
+    return fits_[i];
+  }
+
+  double
+  getCenter(std::size_t i, std::size_t axis) const
+  {
+    return center_[axis][i];
+  }
+
+  double
+  getPerSqReach(std::size_t i) const
+  {
+    return per_sq_reach_[i];
+  }
+
+  /** See BlendKernels::findHolding. */
+  std::size_t
+  findHolding(const BlendKernels& kernels,
+              const Query& query,
+              std::uint32_t* held,
+              double* parts) const
+  {
+    const float* const centers[] = {
+        center_[0].data(), center_[1].data(), center_[2].data()};
+    return kernels.findHolding(
+        centers, per_sq_reach_.data(), size(), query.x, held, parts);
+  }
+
+private:
+  std::vector<float> center_[3];
+  std::vector<double> per_sq_reach_;
+  std::vector<Fit> fits_;
 };
 
 /** The answers to the queries of a block. */
@@ -58,27 +135,34 @@ public:
       , fits_(fits)
       , queries_(queries)
       , estimates_(estimates)
-      , sum_(sampled.fields)
+      , kernels_(*kernel_table.get())
+      , sum_(sampled.fields, estimates.gradients != nullptr, kernels_)
   {
   }
 
-  /** Answer consecutive queries, together if few buckets matter to them. */
+  /** Answer queries, neighbours in space together as long as few buckets matter to
+   * them. */
   void
-  answer(std::size_t begin, std::size_t end)
+  answer(std::size_t count)
   {
-    const auto [low, high] = boxOf(begin, end);
-    buckets_.clear();
-    const std::size_t most =
-        end - begin == 1 ? std::numeric_limits<std::size_t>::max() : most_buckets;
-    if (!fits_.getBalls().findReaching(low, high, 1.0, most, buckets_)) {
-      const std::size_t middle = begin + (end - begin) / 2;
-      answer(begin, middle);
-      answer(middle, end);
-      return;
+    std::size_t together = usual_group;
+    for (std::size_t begin = 0; begin < count;) {
+      together = std::min(together, count - begin);
+      const auto [low, high] = boxOf(begin, begin + together);
+      const std::size_t most =
+          together == 1 ? std::numeric_limits<std::size_t>::max() : most_buckets;
+      buckets_.clear();
+      if (!fits_.getBalls().findReaching(low, high, 1.0, most, buckets_)) {
+        together = (together + 1) / 2;
+        continue;
+      }
+      collect(low, high, 1.0, candidates_);
+      const std::size_t end = begin + together;
+      for (; begin < end; ++begin)
+        answerOne(begin);
+      if (buckets_.size() < few_buckets)
+        together *= 2;
     }
-    collect(low, high, 1.0, candidates_);
-    for (std::size_t i = begin; i < end; ++i)
-      answer(i);
   }
 
 private:
@@ -104,7 +188,6 @@ private:
   void
   collect(const Corner& low, const Corner& high, double factor, Candidates& candidates)
   {
-    const std::vector<Position>& positions = sampled_.samples->getPositions();
     candidates.clear();
     for (const std::uint32_t bucket : buckets_) {
       const BallTree::Bucket& samples = fits_.getBalls().getBuckets()[bucket];
@@ -112,28 +195,27 @@ private:
       // The bound that the bucket was found by is a loose one.
       if (!(sqGap(low, high, samples.box) < factor * factor * fits.largest_sq_reach))
         continue;
-      for (std::size_t i = 0; i < fits.radius.size(); ++i) {
-        const Position& center = positions[samples.begin + i];
-        double sq_gap = 0.0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const double x = center[static_cast<int>(axis)];
-          const double gap = std::max({low[axis] - x, x - high[axis], 0.0});
-          sq_gap += gap * gap;
-        }
-        const double sq_reach = factor * factor * fits.sq_reach[i];
-        if (!(sq_gap < sq_reach))
-          continue;
-        for (int axis = 0; axis < 3; ++axis)
-          candidates.x[axis].push_back(center[axis]);
-        candidates.per_sq_reach.push_back(1.0 / sq_reach);
-        candidates.bucket.push_back(bucket);
-        candidates.place.push_back(static_cast<std::uint32_t>(i));
-      }
+      const std::size_t count = fits.radius.size();
+      found_.resize(std::max(found_.size(), count + ball_padding));
+      const float* const centers[] = {
+          fits.center[0].data(), fits.center[1].data(), fits.center[2].data()};
+      const double sq_factor = factor * factor;
+      const std::size_t found = kernels_.findReaching(centers,
+                                                      fits.sq_reach.data(),
+                                                      sq_factor,
+                                                      count,
+                                                      low.data(),
+                                                      high.data(),
+                                                      found_.data());
+      candidates.reserve(found);
+      for (std::size_t k = 0; k < found; ++k)
+        candidates.add(fits, found_[k], sq_factor);
     }
+    candidates.close();
   }
 
   void
-  answer(std::size_t i)
+  answerOne(std::size_t i)
   {
     const Query& query = queries_[i];
     bool is_inner = true, is_reduced = false;
@@ -163,37 +245,35 @@ private:
       bool& is_inner,
       bool& is_reduced)
   {
-    parts_.resize(candidates.size());
-    for (std::size_t j = 0; j < candidates.size(); ++j) {
-      const double dx = query.x[0] - candidates.x[0][j],
-                   dy = query.x[1] - candidates.x[1][j],
-                   dz = query.x[2] - candidates.x[2][j];
-      parts_[j] = (dx * dx + dy * dy + dz * dz) * candidates.per_sq_reach[j];
-    }
-    for (std::size_t j = 0; j < candidates.size(); ++j) {
-      if (!(parts_[j] < 1.0))
-        continue;
-      const double rest = 1.0 - parts_[j];
-      const double slope = -4.0 * rest * candidates.per_sq_reach[j] * factor;
-      const std::size_t place = candidates.place[j];
-      const BucketFits& fits = fits_.getFits(candidates.bucket[j]);
-      const double weight = rest * rest;
-      PolynomialSum::Part part{polynomialOf(fits, place), weight * factor, {}, {}};
+    found_.resize(std::max(found_.size(), candidates.size() + ball_padding));
+    parts_.resize(found_.size());
+    const std::size_t found =
+        candidates.findHolding(kernels_, query, found_.data(), parts_.data());
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::size_t j = found_[k];
+      const auto [fits, place] = candidates.getFit(j);
+      const double rest = 1.0 - parts_[k];
+      const double slope = -4.0 * rest * candidates.getPerSqReach(j) * factor;
+      const double weight = rest * rest, per_radius = 1.0 / fits->radius[place];
+      Corner from_center;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        from_center[axis] = query.x[axis] - candidates.getCenter(j, axis);
+      PolynomialSum::Part part{polynomialOf(*fits, place), weight * factor, {}, {}};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double along = query.x[axis] - candidates.x[axis][j];
-        part.offset[axis] = along / fits.radius[place];
-        part.weight_gradient[axis] = slope * along + weight * factor_gradient[axis];
+        part.offset[axis] = from_center[axis] * per_radius;
+        part.weight_gradient[axis] =
+            slope * from_center[axis] + weight * factor_gradient[axis];
       }
       sum_.add(part);
-      is_inner = is_inner && fits.is_inner[place];
-      is_reduced = is_reduced || fits.is_reduced[place];
+      is_inner = is_inner && fits->is_inner[place];
+      is_reduced = is_reduced || fits->is_reduced[place];
     }
   }
 
   PolynomialSum::Polynomial
   polynomialOf(const BucketFits& fits, std::size_t place) const
   {
-    return {&fits.coefficients[place * sampled_.fields * polynomial_terms],
+    return {&fits.coefficients[place * sampled_.fields * cubic_terms],
             &fits.errors[place * sampled_.fields],
             fits.radius[place]};
   }
@@ -247,10 +327,12 @@ private:
   const SampleFits& fits_;
   const Query* queries_;
   const Estimates& estimates_;
+  const BlendKernels& kernels_;
   PolynomialSum sum_;
   std::vector<std::uint32_t> buckets_;
   Candidates candidates_, wide_;
-  std::vector<double> parts_; ///< squared distances by squared radii
+  std::vector<std::uint32_t> found_; // by kernels
+  std::vector<double> parts_;        ///< of the balls that are held
   std::optional<SupportFinder> support_;
 };
 
@@ -268,7 +350,7 @@ BlendedFits::evaluate(const Query* queries,
                       std::size_t count,
                       const Estimates& estimates) const
 {
-  BlockBlender(sampled_, sparse_, fits_, queries, estimates).answer(0, count);
+  BlockBlender(sampled_, sparse_, fits_, queries, estimates).answer(count);
 }
 
 void

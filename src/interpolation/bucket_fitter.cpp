@@ -2,6 +2,7 @@
 #include "interpolation/bucket_fitter.h"
 
 #include "common/dispatch.h"
+#include "interpolation/blend_kernel.h"
 #include "interpolation/reduced_fit.h"
 
 #include <algorithm>
@@ -49,12 +50,18 @@ BucketFitter::fit(std::uint32_t begin, std::uint32_t count)
   const std::size_t fields = sampled_.fields;
   BucketFits fits;
   fits.radius.resize(count);
-  fits.sq_reach.resize(count);
+  const Position* const centers = &sampled_.samples->getPositions()[begin];
+  for (int axis = 0; axis < 3; ++axis) {
+    fits.center[axis].resize(count + ball_padding);
+    for (std::uint32_t i = 0; i < count; ++i)
+      fits.center[axis][i] = centers[i][axis];
+  }
+  fits.sq_reach.resize(count + ball_padding);
   fits.is_inner.resize(count);
   fits.is_reduced.resize(count);
   fits.coefficients.resize(count * fields * polynomial_terms);
   fits.errors.resize(count * fields);
-  finder_.expect(&sampled_.samples->getPositions()[begin], count);
+  finder_.expect(centers, count);
   for (std::size_t first = 0; first < count; first += polynomial_lanes)
     fitLanes(begin, first, std::min(polynomial_lanes, count - first), fits);
   fits.largest_sq_reach = *std::max_element(fits.sq_reach.begin(), fits.sq_reach.end());

@@ -34,7 +34,7 @@ fittedSamples(double samples, QueryShape shape)
 double
 modelBytes(double samples, double fields, InterpolationModel model, QueryShape shape)
 {
-  const double fit_bytes = 24.0 + 168.0 * fields; // see BucketFits
+  const double fit_bytes = 36.0 + 168.0 * fields; // see BucketFits
   switch (model) {
   case InterpolationModel::Fit:
     return fit_bytes * fittedSamples(samples, shape);

@@ -2,7 +2,7 @@
 // The weighted mean of polynomials around several samples, at a place.
 #pragma once
 
-#include "derivatives/polynomial_kernel.h"
+#include "interpolation/blend_kernel.h"
 #include "interpolation/field_model.h"
 
 #include <array>
@@ -29,7 +29,8 @@ public:
     std::array<double, 3> weight_gradient;
   };
 
-  explicit PolynomialSum(std::size_t fields);
+  /** \param gradients false: they are not summed up */
+  PolynomialSum(std::size_t fields, bool gradients, const BlendKernels& kernels);
 
   void
   clear();
@@ -59,22 +60,20 @@ public:
   finish(std::size_t query, const Estimates& estimates) const;
 
 private:
-  struct Sums {
-    double reference; ///< values are summed relative to the first one
-    double value, square, sq_error;
-    std::array<double, 3> gradient;
-  };
-
+  /** Add the values and gradients of a part. */
   void
-  addValues(std::size_t field,
-            const Part& part,
-            double value,
-            const std::array<double, 3>& gradient);
+  addValues(const Part& part);
 
+  const BlendKernels& kernels_;
+  std::size_t fields_;
   double weight_ = 0.0;
   std::array<double, 3> weight_gradient_{};
   bool is_empty_ = true;
-  std::vector<Sums> sums_; ///< [field]
+  // By field
+  std::vector<double> values_, gradients_; ///< of a part; gradients by axis as well
+  std::vector<double> references_; ///< values are summed relative to the first ones
+  std::vector<double> value_sums_, square_sums_, sq_error_sums_;
+  std::vector<double> gradient_sums_; ///< by axis as well; none: not wanted
 };
 
 } // namespace pcl_uvol::detail

@@ -16,10 +16,12 @@ namespace pcl_uvol::detail {
 
 /** \brief The polynomials of a bucket of samples.
  *
- * Memory per sample: 24 bytes and 168 per field. */
+ * Memory per sample: 36 bytes and 168 per field. */
 struct BucketFits {
-  std::vector<double> radius;    ///< [sample] of the support of the fit: its unit
-  std::vector<double> sq_reach;  ///< [sample] of the ball in which the fit has a weight
+  std::vector<double> radius;   ///< [sample] of the support of the fit: its unit
+  std::vector<float> center[3]; ///< [sample] its coordinates; ball_padding more
+  std::vector<double> sq_reach; ///< [sample] of the ball in which the fit has a weight;
+                                ///< ball_padding more, which are 0
   double largest_sq_reach = 0.0; ///< of these
   std::vector<bool> is_inner;    ///< [sample] neighbours on all sides
   std::vector<bool> is_reduced;  ///< [sample] neighbours on few planes or lines, or too
