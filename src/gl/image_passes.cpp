@@ -380,13 +380,14 @@ ImagePasses::paste(const View& view,
 {
   const PassTimer timer(gl_, report, "output");
   prepareState();
-  const GlName colors =
-      makeTexture(gl_, GL_RGBA8, view.width, view.height, image.color.data());
-  const GlName depths =
-      makeTexture(gl_, GL_R32F, view.width, view.height, image.depth.data());
+  const int width = static_cast<int>(image.width),
+            height = static_cast<int>(image.height);
+  const GlName colors = makeTexture(gl_, GL_RGBA8, width, height, image.color.data());
+  const GlName depths = makeTexture(gl_, GL_R32F, width, height, image.depth.data());
   const Program& program = programs_.use(shaders::composite, "#define OF_IMAGE\n");
   program.setTexture("colors", 0, colors);
   program.setTexture("depths", 1, depths);
+  program.set("scale", width < view.width ? 0.5 : 1.0);
   drawOver(program, view, target);
 }
 

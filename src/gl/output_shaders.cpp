@@ -43,15 +43,16 @@ layout(location = 0) out vec4 color;
 
 #ifdef OF_IMAGE
 uniform sampler2DRect depths;
+uniform float scale; // texels by pixels
 
 float depthAt(vec2 pixel)
 {
-  return texture(depths, pixel).x;
+  return texture(depths, pixel * scale).x;
 }
 
 vec4 colorAt(vec2 pixel)
 {
-  vec4 straight = texture(colors, pixel);
+  vec4 straight = texture(colors, pixel * scale);
   return vec4(straight.rgb * straight.a, straight.a);
 }
 #else

@@ -11,9 +11,18 @@
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <chrono>
 #include <cmath>
 
 namespace pcl_uvol {
+
+namespace {
+
+/** Frames per second: what VTK asks for while nothing moves is far less than one, while
+ * the mouse moves something 15. */
+constexpr double least_hasty_rate = 1.0;
+
+} // namespace
 
 vtkStandardNewMacro(ImageSpaceProp);
 
@@ -129,12 +138,33 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
   shown.target.name = drawing.getFramebuffer();
   is_by_cpu_ = choice_ == WindowBackend::Cpu ||
                (choice_ == WindowBackend::Auto && !context->isHardware());
-  renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {
-    if (is_by_cpu_)
-      paste(frame, shown.target, backend, report);
-    else
-      backend.renderToFramebuffer(frame, shown.target, report);
-  });
+  is_halved_ = is_by_cpu_ && window->GetDesiredUpdateRate() >= least_hasty_rate &&
+               whole_time_ > drag_time_;
+  const auto start = std::chrono::steady_clock::now();
+  if (!renderer_.getOpacities().empty()) {
+    ImageSpaceBackend& drawing_backend =
+        is_by_cpu_ ? static_cast<ImageSpaceBackend&>(*cpu_) : backend;
+    renderer_.drawLayers(chooseView(shown.view), drawing_backend, image_);
+    Report ignored; // of a frame that is drawn already
+    backend.pasteToFramebuffer(shown.view, image_, shown.target, ignored);
+  }
+  else
+    renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {
+      if (is_by_cpu_)
+        paste(frame, shown.target, backend, report);
+      else
+        backend.renderToFramebuffer(frame, shown.target, report);
+    });
+  if (!is_halved_)
+    whole_time_ = std::chrono::duration<double, std::milli>(
+                      std::chrono::steady_clock::now() - start)
+                      .count();
+}
+
+View
+ImageSpaceProp::chooseView(const View& view) const
+{
+  return is_halved_ ? view.halved() : view;
 }
 
 void
@@ -143,13 +173,12 @@ ImageSpaceProp::paste(const Frame& frame,
                       GlBackend& backend,
                       Report& report)
 {
-
   ImageSpaceSettings settings = frame.settings;
   settings.background.kind = Background::Kind::Transparent;
   ImagePlanes planes;
   planes.depth = true;
-  cpu_->render(
-      {frame.cloud, frame.view, settings, planes, frame.threads}, image_, report);
+  const View view = chooseView(frame.view);
+  cpu_->render({frame.cloud, view, settings, planes, frame.threads}, image_, report);
   backend.pasteToFramebuffer(frame.view, image_, target, report);
 }
 

@@ -3,6 +3,7 @@
 #include "support/screenshot.h"
 #include "support/surfaces.h"
 #include "support/virtual_display.h"
+#include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/vtk/image_space_prop.h>
 
 #include <gtest/gtest.h>
@@ -278,6 +279,77 @@ TEST_P(ImageSpacePropTest, ParallelProjectionsAreThoseOfVtk)
   EXPECT_LT(grey, seen / 50);
   EXPECT_NEAR(seen, covered(behind), 0.12 * seen);
   EXPECT_EQ("", errors_);
+}
+
+/** A green sphere of half the radius inside a blue one: isovalues 1 and 2. */
+pcl::PCLPointCloud2::Ptr
+makeShells()
+{
+  pcl::PointCloud<pcl_uvol::PointIso> shells;
+  for (const float part : {0.5f, 1.0f})
+    for (const pcl::PointNormal& point : *uvol_test::makeSphere(20000, 3)) {
+      pcl_uvol::PointIso shell;
+      shell.getVector3fMap() = part * point.getVector3fMap();
+      shell.getNormalVector3fMap() = point.getNormalVector3fMap();
+      shell.isovalue = 2.0f * part;
+      shells.push_back(shell);
+    }
+  pcl::PCLPointCloud2::Ptr cloud(new pcl::PCLPointCloud2);
+  pcl::toPCLPointCloud2(shells, *cloud);
+  return cloud;
+}
+
+TEST_P(ImageSpacePropTest, LightPassesIsovalues)
+{
+  const pcl::PCLPointCloud2::Ptr shells = makeShells();
+  pcl_uvol::Camera camera;
+  camera.eye = eye;
+  for (const std::vector<double>& opacities :
+       {std::vector<double>{1.0, 0.4}, std::vector<double>{0.3}}) {
+    pcl_uvol::ImageSpaceRenderer<pcl::PCLPointCloud2> cpu;
+    cpu.setInputCloud(shells);
+    cpu.setSize(width, height);
+    cpu.setCamera(camera);
+    prop_->setInputCloud(shells);
+    for (pcl_uvol::ImageSpaceRendererBase* const renderer :
+         {static_cast<pcl_uvol::ImageSpaceRendererBase*>(&cpu), &prop_->renderer()}) {
+      renderer->setColorField("isovalue");
+      renderer->setOpacities(opacities);
+    }
+    cpu.settings().background.color = {0.0f, 0.0f, 0.0f};
+    Image expected;
+    cpu.render(expected);
+    expectSame(expected, shoot());
+  }
+  // Too many for the isovalues
+  prop_->renderer().setOpacities({1.0, 0.5, 0.2});
+  shoot();
+  EXPECT_NE(std::string::npos, errors_.find("2 isovalues")) << errors_;
+}
+
+TEST_P(ImageSpacePropTest, DragsAreDrawnCoarserByTheCpu)
+{
+  const bool is_by_cpu = GetParam() == pcl_uvol::WindowBackend::Cpu;
+  const Image still = shoot();
+  window_->SetDesiredUpdateRate(15.0);
+  prop_->setDragTime(INFINITY);
+  EXPECT_EQ(still.color, shoot().color);
+  prop_->setDragTime(0.0);
+  const Image dragged = shoot();
+  EXPECT_EQ(is_by_cpu, still.color != dragged.color);
+  // The same surface in the same place; its soft border is twice as wide.
+  EXPECT_NEAR(covered(still), covered(dragged), 0.06 * covered(still));
+  double difference = 0.0;
+  for (std::size_t i = 0; i < still.color.size(); ++i)
+    difference += std::abs(still.color[i] - dragged.color[i]);
+  EXPECT_LT(difference / static_cast<double>(still.color.size()), 3.0);
+  // hides and is hidden as before
+  addSphere(center, radius);
+  expectNearerSphereSeen(shoot(), 30.0);
+  window_->SetDesiredUpdateRate(0.001);
+  renderer_->RemoveAllViewProps();
+  renderer_->AddViewProp(prop_);
+  EXPECT_EQ(still.color, shoot().color);
 }
 
 TEST_P(ImageSpacePropTest, TheNearerPropIsSeen)

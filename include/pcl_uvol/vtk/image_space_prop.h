@@ -24,6 +24,7 @@ class CpuBackend;
 class GlBackend;
 class GlContext;
 struct GlFramebuffer;
+struct View;
 
 /** \brief What draws the frames of a window. */
 enum class WindowBackend {
@@ -77,7 +78,7 @@ public:
 
   /** \brief Settings of the passes, colours, threads, report of the last frame. Camera,
    * size, background and backend are the window's: those of this object are not used.
-   */
+   * Opacities are: isovalues are then drawn one by one and laid over each other. */
   ImageSpaceRendererBase&
   renderer()
   {
@@ -90,6 +91,15 @@ public:
   {
     choice_ = backend;
     Modified();
+  }
+
+  /** \brief Let the CPU draw at half the resolution while the window asks for a rate of
+   * frames, as it does when a mouse turns it, and a whole frame takes longer than so
+   * many milliseconds; default 25. Infinite: never. */
+  void
+  setDragTime(double milliseconds)
+  {
+    drag_time_ = milliseconds;
   }
 
   /** \brief What drew the last frame, see ImageSpaceBackend::describe; "none" before.
@@ -143,6 +153,11 @@ private:
         GlBackend& backend,
         Report& report);
 
+  /** The view that is drawn of a view that is shown: half of it where the window is in
+   * a hurry. */
+  View
+  chooseView(const View& view) const;
+
   /** The backend in the context of a window, which is current. */
   GlBackend&
   backendFor(vtkOpenGLRenderWindow& window, const std::shared_ptr<GlContext>& context);
@@ -160,8 +175,11 @@ private:
   double box_[6]; // as VTK's: lower and upper x, y, z
   WindowBackend choice_ = WindowBackend::Auto;
   std::unique_ptr<CpuBackend> cpu_;
-  Image image_;            // of cpu_
-  bool is_by_cpu_ = false; // the last frame
+  Image image_; // of cpu_, or of what lets light through
+  double drag_time_ = 25.0;
+  double whole_time_ = 0.0; // of the last frame of the full size, milliseconds
+  bool is_halved_ = false;  // the frame that is drawn
+  bool is_by_cpu_ = false;  // the last frame
   std::unique_ptr<GlBackend> backend_;
   vtkWeakPointer<vtkOpenGLRenderWindow> window_; // that backend_ draws in
   std::string reported_;

@@ -41,6 +41,16 @@ struct PCL_UVOL_EXPORTS View {
        int image_width,
        int image_height);
 
+  /** \brief The same view of a part of what it was made for.
+   * \param bounds that it was made for
+   * \param part bounds of points among these */
+  View
+  ofPart(const BoundingSphere& bounds, const BoundingSphere& part) const;
+
+  /** \brief The same view in an image of half the size, rounded up. */
+  View
+  halved() const;
+
   int
   bufferWidth() const
   {

@@ -228,37 +228,47 @@ ImageSpaceRendererBase::findFootprints(SurfaceCloud& surface, const View& view)
 void
 ImageSpaceRendererBase::renderLayers(const CloudView& cloud,
                                      const pcl::Indices& indices,
+                                     const LayerPicture& picture,
                                      Image& image)
 {
-  const Camera camera = cameraFor(surface_->getBounds());
   startReport();
   report_.merge(surface_report_);
   prepareLayers(cloud, indices);
   updateColors(cloud);
-  ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
+  ImageSpaceSettings settings = picture.settings;
   settings.background.kind = Background::Kind::Transparent;
   ImagePlanes planes;
   planes.depth = true;
   std::vector<detail::SurfaceLayer> drawn;
   const StepTimer timer(report_, "frame");
   for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const View view(camera,
-                    layers_[i]->getBounds(),
-                    width_ * supersampling_,
-                    height_ * supersampling_);
+    const View view = picture.find_view(layers_[i]->getBounds());
     findFootprints(*layers_[i], view);
     drawn.push_back({Image(),
                      static_cast<double>(view.far) / view.unit,
                      opacities_[std::min(i, opacities_.size() - 1)]});
-    backend_->render(
+    picture.backend.render(
         {*layers_[i], view, settings, planes, threads_}, drawn.back().image, report_);
   }
-  if (supersampling_ == 1) {
-    detail::blendLayers(drawn, settings_.background, threads_, image);
-    return;
-  }
-  detail::blendLayers(drawn, settings_.background, threads_, fine_);
-  average(fine_, supersampling_, image);
+  detail::blendLayers(
+      drawn, picture.settings.background, picture.with_depth, threads_, image);
+}
+
+void
+ImageSpaceRendererBase::renderLayersFrom(const CloudView& cloud,
+                                         const pcl::IndicesConstPtr& indices,
+                                         const View& view,
+                                         ImageSpaceBackend& backend,
+                                         Image& image)
+{
+  checkParameters(settings_);
+  const BoundingSphere bounds = prepare(cloud, indices).getBounds();
+  ImageSpaceSettings settings = settings_;
+  settings.background.kind = Background::Kind::Transparent;
+  const auto find_view = [&](const BoundingSphere& part) {
+    return view.ofPart(bounds, part);
+  };
+  renderLayers(cloud, *indices, {find_view, settings, backend, true}, image);
 }
 
 void
@@ -294,7 +304,18 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
     if (planes_.depth || planes_.normal || planes_.id)
       throw InvalidArgument("Transparent surfaces have no planes: render depth, normal "
                             "or id without opacities.");
-    renderLayers(cloud, *indices, image);
+    const Camera camera = cameraFor(bounds);
+    const auto find_view = [&](const BoundingSphere& part) {
+      return View(camera, part, width_ * supersampling_, height_ * supersampling_);
+    };
+    const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
+    const bool is_fine = supersampling_ > 1;
+    renderLayers(cloud,
+                 *indices,
+                 {find_view, settings, *backend_, false},
+                 is_fine ? fine_ : image);
+    if (is_fine)
+      average(fine_, supersampling_, image);
     return;
   }
   drawFrom(cloud, indices, view, [&](const Frame& frame, Report& report) {

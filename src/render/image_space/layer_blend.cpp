@@ -45,6 +45,7 @@ groundOf(const Background& background, float below)
 void
 blendLayers(const std::vector<SurfaceLayer>& layers,
             const Background& background,
+            bool with_depth,
             unsigned threads,
             Image& image)
 {
@@ -54,6 +55,7 @@ blendLayers(const std::vector<SurfaceLayer>& layers,
   image.width = first.width;
   image.height = first.height;
   image.color.resize(4 * image.pixels());
+  image.depth.resize(with_depth ? image.pixels() : 0, 1.0f);
   parallelBlocks(height, 1, threads, [&](std::size_t row, std::size_t) {
     const Paint ground = groundOf(
         background, (static_cast<float>(row) + 0.5f) / static_cast<float>(height));
@@ -70,8 +72,12 @@ blendLayers(const std::vector<SurfaceLayer>& layers,
         return distance(a) > distance(b);
       });
       Paint paint = ground;
-      for (const SurfaceLayer* const layer : order)
+      for (const SurfaceLayer* const layer : order) {
         layOver(&layer->image.color[4 * pixel], layer->opacity, paint);
+        if (with_depth && layer->opacity > 0.0)
+          image.depth[pixel] =
+              static_cast<float>(distance(layer) / layers.front().depth_unit);
+      }
       for (std::size_t k = 0; k < 3; ++k)
         image.color[4 * pixel + k] =
             static_cast<std::uint8_t>(std::lround(paint.color[k]));

@@ -20,10 +20,12 @@ struct SurfaceLayer {
 /** \brief Lay the surfaces over each other, pixel by pixel from the farthest one to the
  * nearest one; of equal distances the later one is nearer.
  * \param layers at least one; all of the same size
- * \param image gets colours only */
+ * \param with_depth give the image depths as well: that of the nearest surface that is
+ * not clear, in the unit of the first layer */
 PCL_UVOL_EXPORTS void
 blendLayers(const std::vector<SurfaceLayer>& layers,
             const Background& background,
+            bool with_depth,
             unsigned threads,
             Image& image);
 

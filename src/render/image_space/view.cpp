@@ -49,6 +49,37 @@ View::View(const Camera& camera,
   near = static_cast<float>(near_part * far);
 }
 
+View
+View::ofPart(const BoundingSphere& bounds, const BoundingSphere& part) const
+{
+  View view = *this;
+  view.unit = chooseLengthUnit(part);
+  const double growth = view.unit / unit;
+  const Eigen::Vector3d shift = view.unit * (part.center - bounds.center);
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector3d axis(
+        rotation[3 * row], rotation[3 * row + 1], rotation[3 * row + 2]);
+    view.translation[row] =
+        static_cast<float>(growth * translation[row] + axis.dot(shift));
+  }
+  view.near = static_cast<float>(growth * near);
+  view.far = static_cast<float>(growth * far);
+  return view;
+}
+
+View
+View::halved() const
+{
+  View view = *this;
+  view.width = (width + 1) / 2;
+  view.height = (height + 1) / 2;
+  view.shorter_side = (shorter_side + 1) / 2;
+  view.focal *= 0.5f;
+  view.center_x = guard + 0.5f * (center_x - guard);
+  view.center_y = guard + 0.5f * (center_y - guard);
+  return view;
+}
+
 float
 Frame::layerDistance() const
 {

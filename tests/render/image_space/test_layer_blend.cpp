@@ -40,7 +40,7 @@ std::vector<std::uint8_t>
 blended(const std::vector<SurfaceLayer>& layers, const Background& background)
 {
   Image image;
-  pcl_uvol::detail::blendLayers(layers, background, 1, image);
+  pcl_uvol::detail::blendLayers(layers, background, true, 1, image);
   return image.color;
 }
 

@@ -73,11 +73,18 @@ public:
    * "isovalue") is drawn by itself, of which the nearest layer is seen, and these are
    * laid over each other. Default: none, all surfaces are opaque.
    * \param opacities in [0, 1], of the isovalues in ascending order, or one for all;
-   * draw() does not use them */
+   * drawLayers() uses them, draw() does not */
   void
   setOpacities(const std::vector<double>& opacities)
   {
     opacities_ = opacities;
+  }
+
+  /** \brief Opacities of the isovalues; none: all surfaces are opaque. */
+  const std::vector<double>&
+  getOpacities() const
+  {
+    return opacities_;
   }
 
   /** \brief Steps and thresholds. */
@@ -137,6 +144,19 @@ protected:
            const View& view,
            const Painter& painter);
 
+  /** \brief ImageSpaceRenderer::drawLayers() of any cloud.
+   * \param cloud what is drawn
+   * \param indices of its points
+   * \param view made for findBounds()
+   * \param backend that draws
+   * \param image gets colours and depths */
+  void
+  renderLayersFrom(const CloudView& cloud,
+                   const pcl::IndicesConstPtr& indices,
+                   const View& view,
+                   ImageSpaceBackend& backend,
+                   Image& image);
+
   /** \brief ImageSpaceRenderer::getBounds() of any cloud.
    * \param cloud what is drawn
    * \param indices of its points */
@@ -162,8 +182,19 @@ private:
   void
   prepareLayers(const CloudView& cloud, const pcl::Indices& indices);
 
+  /** How layers become a picture. */
+  struct LayerPicture {
+    std::function<View(const BoundingSphere& part)> find_view;
+    const ImageSpaceSettings& settings;
+    ImageSpaceBackend& backend;
+    bool with_depth;
+  };
+
   void
-  renderLayers(const CloudView& cloud, const pcl::Indices& indices, Image& image);
+  renderLayers(const CloudView& cloud,
+               const pcl::Indices& indices,
+               const LayerPicture& picture,
+               Image& image);
 
   void
   findFootprints(SurfaceCloud& surface, const View& view);
@@ -220,6 +251,14 @@ public:
   void
   draw(const View& view, const Painter& painter);
 
+  /** \brief Draw what setOpacities() lets light through, for somebody else to show:
+   * colours on a transparent ground, and depths of the nearest surfaces. Camera, size,
+   * supersampling, background and backend of this object are not used.
+   * \param view made for getBounds()
+   * \throws as render() */
+  void
+  drawLayers(const View& view, ImageSpaceBackend& backend, Image& image);
+
   /** \brief A ball around what render() draws: for cameras.
    * \throws as render() */
   BoundingSphere
@@ -250,6 +289,18 @@ ImageSpaceRenderer<PointT>::draw(const View& view, const Painter& painter)
   this->withInput("ImageSpaceRenderer",
                   [&](const CloudView& cloud, const pcl::Indices&) {
                     drawFrom(cloud, this->indices_, view, painter);
+                  });
+}
+
+template <typename PointT>
+void
+ImageSpaceRenderer<PointT>::drawLayers(const View& view,
+                                       ImageSpaceBackend& backend,
+                                       Image& image)
+{
+  this->withInput("ImageSpaceRenderer",
+                  [&](const CloudView& cloud, const pcl::Indices&) {
+                    renderLayersFrom(cloud, this->indices_, view, backend, image);
                   });
 }
 
