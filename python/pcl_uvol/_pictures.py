@@ -188,9 +188,10 @@ class Drawable:
         views : sequence of str
             Several views in one picture, as ("iso", "top"), instead of `view`.
         passes : dict, optional
-            What few change: fill, occluded, layers, shading, smoothing ("none", "box",
-            "gaussian", "alleviated"), smoothings, silhouette_threshold,
-            feature_threshold, antialias, antialias_threshold.
+            What few change: fill, occluded, layers, shading, occlusion (0 to 1: what
+            walls around take of the light), smoothing ("none", "box", "gaussian",
+            "alleviated"), smoothings, silhouette_threshold, feature_threshold, antialias,
+            antialias_threshold.
         threads, progress
             As those of `isosurface`.
 

@@ -130,7 +130,8 @@ reportPasses(benchmark::State& state, const pcl_uvol::Report& report)
       static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-/** \param state surface, width, height, 1 for silhouettes and feature lines */
+/** \param state surface, width, height, lines: 1 for silhouettes and feature lines; 1
+ * for ambient occlusion */
 void
 imageSpace(benchmark::State& state)
 {
@@ -148,6 +149,7 @@ imageSpace(benchmark::State& state)
   renderer.setCamera(cameraOf(surface, renderer, static_cast<double>(width) / height));
   renderer.settings().silhouettes = renderer.settings().feature_lines =
       state.range(3) != 0;
+  renderer.settings().ambient_occlusion = static_cast<double>(state.range(4));
   pcl_uvol::Image image;
   renderer.render(image); // sorts the points
   for ([[maybe_unused]] const auto& iteration : state)
@@ -225,12 +227,14 @@ vtkPointMapper(benchmark::State& state)
 void
 ours(benchmark::internal::Benchmark* bench)
 {
-  bench->ArgNames({"surface", "width", "height", "lines"});
+  bench->ArgNames({"surface", "width", "height", "lines", "occlusion"});
   for (const Surface surface : {Knot, Sphere, Dragon, Blade, Isosurface})
     for (const int size : {512, 1024})
       for (const int lines : {0, 1})
-        bench->Args({surface, size, size, lines});
-  bench->Args({LargeKnot, 1920, 1080, 0});
+        bench->Args({surface, size, size, lines, 0});
+  for (const Surface surface : {Knot, Dragon})
+    bench->Args({surface, 1024, 1024, 0, 1});
+  bench->Args({LargeKnot, 1920, 1080, 0, 0});
 }
 
 void

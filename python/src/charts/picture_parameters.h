@@ -61,6 +61,7 @@ struct PassParameters {
   int occluded = ImageSpaceSettings().occluded_fill;
   double layers = ImageSpaceSettings().layer_distance;
   bool shading = true;
+  double occlusion = ImageSpaceSettings().ambient_occlusion;
   SmoothingFilter smoothing = ImageSpaceSettings().smoothing;
   int smoothings = ImageSpaceSettings().smoothing_iterations;
   double silhouette_threshold = ImageSpaceSettings().silhouette_threshold;
@@ -76,6 +77,7 @@ struct PassParameters {
                            Member{"occluded", &Own::occluded},
                            Member{"layers", &Own::layers},
                            Member{"shading", &Own::shading},
+                           Member{"occlusion", &Own::occlusion},
                            Member{"smoothing", &Own::smoothing},
                            Member{"smoothings", &Own::smoothings},
                            Member{"silhouette_threshold", &Own::silhouette_threshold},

@@ -36,6 +36,7 @@ applyPasses(const PictureParameters& parameters, ImageSpaceSettings& settings)
   settings.occluded_fill = passes.occluded;
   settings.layer_distance = passes.layers;
   settings.shading = passes.shading;
+  settings.ambient_occlusion = passes.occlusion;
   settings.smoothing = passes.smoothing;
   settings.smoothing_iterations = passes.smoothings;
   settings.silhouettes = parameters.silhouettes;
