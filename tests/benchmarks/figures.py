@@ -28,7 +28,7 @@ MEASUREMENTS = {
     "accuracy_waves": ("rows", "accuracy waves uniform 3 1e6"),
     "nearest": ("google", f"bench_nearest {REPEATED}"),
     "neighborhoods": ("google", f"bench_neighborhoods --benchmark_filter=/1000000/ {REPEATED}"),
-    "rendering": ("google", "xvfb-run -a bench_rendering --benchmark_filter='surface:0/width:1024.*(lines:0|1024)/real_time' "
+    "rendering": ("google", "xvfb-run -a bench_rendering --benchmark_filter='surface:0/width:1024.*(lines:0/occlusion:0|height:1024)/real_time' "
                   f"{REPEATED}"),
     "ray_tracing": ("google", "bench_ray_tracing --benchmark_filter='(rayTracer|userGeometry)/splats:300000/radius:300' "
                     f"{REPEATED}"),
