@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A smooth level-set function of scattered samples (thesis chapter 3).
 #include "charts/line_plot.h"
+#include "charts/picture_file.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "expressions/memory_need.h"
@@ -16,7 +17,6 @@
 #include "shared/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
@@ -129,7 +129,7 @@ declare(Options& options, Arguments& arguments)
                   many,
                   "write the zero level every so many steps, as out_00010.ply");
   options.output("csv", "out.csv", arguments.table, "write a table of all steps");
-  options.output("plot", "out.png", arguments.plot, "draw how it converged");
+  options.output("plot", "out.png|out.svg", arguments.plot, "draw how it converged");
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -209,7 +209,8 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
     lines[1].values.push_back(step.slope_error);
     lines[2].values.push_back(step.energy);
   }
-  pcl_uvol::savePng(path, uvol_tools::drawLinePlot(lines, "step"));
+  const uvol_tools::PictureFile file(path);
+  file.save(uvol_tools::drawLinePlot(lines, "step"));
 }
 
 /** What the tool holds beside the points.
@@ -271,7 +272,7 @@ run(int argc, char** argv)
   if (!arguments.table.empty())
     pcl_uvol::checkTablePath(arguments.table);
   if (!arguments.plot.empty())
-    pcl_uvol::checkPngPath(arguments.plot);
+    uvol_tools::checkPicturePath(arguments.plot);
   const bool has_snapshots = arguments.snapshots > 0;
   uvol_tools::MemoryGuard memory("A level set");
   memory.checkFile(arguments.input,

@@ -2,6 +2,7 @@
 // Figures of surfaces: area, volume, axes, genus, integrals of fields, and the samples
 // inside; of a mesh, or of the isosurfaces of samples.
 #include "charts/line_plot.h"
+#include "charts/picture_file.h"
 #include "common/scalar_field.h"
 #include "pipeline/memory_need.h"
 #include "shared/isosurface_options.h"
@@ -12,7 +13,6 @@
 #include "shared/progress_bar.h"
 #include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -116,7 +116,7 @@ check(const Options& options, Arguments& arguments)
   if (!arguments.output.empty())
     pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.picture.empty())
-    pcl_uvol::checkPngPath(arguments.picture);
+    uvol_tools::checkPicturePath(arguments.picture);
 }
 
 /** A surface, and the samples to look for inside. */
@@ -244,7 +244,8 @@ drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
       isovalue = std::log10(isovalue);
     profile.abscissa = "log10 of the isovalue";
   }
-  pcl_uvol::savePng(arguments.picture, uvol_tools::drawProfile(profile));
+  const uvol_tools::PictureFile file(arguments.picture);
+  file.save(uvol_tools::drawProfile(profile));
 }
 
 /** The rows of the table. */
@@ -286,10 +287,11 @@ public:
       Report report;
       uvol_tools::savePoints(arguments_.output, table_.toDataset(), {}, report);
     }
-    if (draws_curve_)
-      pcl_uvol::savePng(arguments_.picture,
-                        uvol_tools::drawProfile(makeProfile(
-                            arguments_, table_, have_times_ ? "time" : "number")));
+    if (draws_curve_) {
+      const uvol_tools::PictureFile file(arguments_.picture);
+      file.save(uvol_tools::drawProfile(
+          makeProfile(arguments_, table_, have_times_ ? "time" : "number")));
+    }
   }
 
   bool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data of many dimensions as points in space, by optimised star coordinates (thesis
 // 2.6).
+#include "charts/picture_file.h"
 #include "charts/scatter_plot.h"
 #include "io/table_file.h"
 #include "shared/attribute_options.h"
@@ -10,7 +11,6 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <iomanip>
@@ -50,8 +50,10 @@ declare(Options& options, Arguments& arguments)
   options.group("Output");
   options.output(
       "axes", "out.csv", arguments.axes, "write the axis of every attribute");
-  options.output(
-      "png", "out.png", arguments.picture, "draw the points, by cluster, and the axes");
+  options.output("png",
+                 "out.png|out.svg",
+                 arguments.picture,
+                 "draw the points, by cluster, and the axes");
   options.choice("view",
                  {"iso", "front", "back", "left", "right", "top", "bottom"},
                  arguments.view,
@@ -82,10 +84,9 @@ drawPicture(const Arguments& arguments, const pcl_uvol::ProjectedPoints& found)
   for (std::size_t i = 0; i < names.size(); ++i)
     axes.push_back({names[i], {{rows[0][i], rows[1][i], rows[2][i]}}});
   constexpr int width = 640, height = 512;
-  pcl_uvol::savePng(
-      arguments.picture,
-      uvol_tools::drawScatterPlot(
-          found.places, found.labels, axes, arguments.view, width, height));
+  const uvol_tools::PictureFile file(arguments.picture);
+  file.save(uvol_tools::drawScatterPlot(
+      found.places, found.labels, axes, arguments.view, width, height));
 }
 
 int
@@ -105,7 +106,7 @@ run(int argc, char** argv)
   if (arguments.axes == arguments.output)
     throw UsageError("-axes and the output are the same file.");
   if (!arguments.picture.empty())
-    pcl_uvol::checkPngPath(arguments.picture);
+    uvol_tools::checkPicturePath(arguments.picture);
   if (!arguments.axes.empty())
     pcl_uvol::checkTablePath(arguments.axes);
 

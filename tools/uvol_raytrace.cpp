@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray-traced pictures of scenes, or of one surface given as points (thesis 4.2).
+#include "charts/picture_file.h"
 #include "io/scene_file.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/ray_options.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -142,7 +142,7 @@ run(int argc, char** argv)
   arguments.view.check(options);
   arguments.rays.check(options);
   checkInput(options, arguments);
-  pcl_uvol::checkPngPath(arguments.output);
+  uvol_tools::checkPicturePath(arguments.output);
 
   Report report;
   uvol_tools::ProgressBar bar;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
+#include "charts/picture_file.h"
 #include "shared/point_files.h"
 #include "shared/render_options.h"
 #include "shared/series.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
 
 #include <filesystem>
 #include <memory>
@@ -39,7 +39,7 @@ struct Job {
   uvol_tools::RenderOptions look;
   uvol_tools::Options options{
       "uvol_render",
-      "in.ply out.png|out.html [options]",
+      "in.ply out.png|out.svg|out.html [options]",
       "Draws a surface given as points with normals: lit, smooth and without holes; as "
       "a\n"
       "picture, or as a web page in one file that turns in any browser."};
@@ -80,7 +80,7 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (is_page)
     checkPage(options);
   else
-    pcl_uvol::checkPngPath(output);
+    uvol_tools::checkPicturePath(output);
 
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete Voronoi diagrams of points as grids and pictures (thesis 2.1).
+#include "charts/picture_file.h"
 #include "gl/conic_sections.h"
 #include "io/grid_file.h"
 #include "render/voronoi_slices.h"
@@ -9,7 +10,6 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <memory>
@@ -62,7 +62,7 @@ declare(Options& options, Arguments& arguments)
                   "of the first ring; the thesis has 4");
   options.group("Picture");
   options.output(
-      "png", "out.png", arguments.picture, "draw slices, a colour per region");
+      "png", "out.png|out.svg", arguments.picture, "draw slices, a colour per region");
   options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");
   options.choice(
       "axis", {"x", "y", "z"}, arguments.axis, "slices are perpendicular to it");
@@ -136,7 +136,7 @@ run(int argc, char** argv)
     throw UsageError("-margin is for cubic cells: give -grid one number.");
   pcl_uvol::checkGridPath(arguments.output);
   if (!arguments.picture.empty())
-    pcl_uvol::checkPngPath(arguments.picture);
+    uvol_tools::checkPicturePath(arguments.picture);
   else if (options.given("slices") || options.given("axis"))
     throw UsageError("-slices and -axis need -png.");
 
@@ -151,9 +151,8 @@ run(int argc, char** argv)
     pcl_uvol::saveVoronoiGrid(
         arguments.output, *grid, dataset.origin, options.threads());
     if (!arguments.picture.empty())
-      pcl_uvol::savePng(
-          arguments.picture,
-          pcl_uvol::drawVoronoiSlices(
+      uvol_tools::PictureFile(arguments.picture)
+          .save(pcl_uvol::drawVoronoiSlices(
               *grid, arguments.axis[0] - 'x', static_cast<int>(arguments.slices)));
   }
   const auto& shape = grid->getShape();

@@ -25,7 +25,7 @@ throwUnreadable(const std::string& path, const std::string& reason);
 throwUnreadable(const std::string& path, std::size_t line, const std::string& reason);
 
 /** \throws IOError "Cannot write 'path': reason." */
-[[noreturn]] void
+[[noreturn]] PCL_UVOL_EXPORTS void
 throwUnwritable(const std::string& path, const std::string& reason);
 
 /** \brief Call what reads a file; numbers it cannot take and a lack of memory are
@@ -52,11 +52,11 @@ reading(const std::string& path, const Reader& read)
 /** \brief The ending of a file name in lower case, with its dot; "-", standard output,
  * counts as .ply, and what packs a file (.gz, .bz2, .zst) does not count where the name
  * has another ending. */
-std::string
+PCL_UVOL_EXPORTS std::string
 getEnding(const std::string& path);
 
 /** \brief Throw IOError unless a file of that name can be created. */
-void
+PCL_UVOL_EXPORTS void
 checkWritable(const std::string& path);
 
 /** \brief A regular, non-empty file opened for reading; "-" is standard input. */

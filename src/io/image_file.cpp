@@ -49,29 +49,35 @@ checkPngPath(const std::string& path)
   io::checkWritable(path);
 }
 
+std::vector<std::uint8_t>
+encodePng(const Image& image, const std::vector<ImageText>& texts)
+{
+  if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
+    throw InvalidArgument("The image has no pixels.");
+  const auto data = toVtk(image, isOpaque(image) ? 3 : 4);
+  const io::VtkMessages messages;
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(data);
+  writer->WriteToMemoryOn();
+  for (const auto& [keyword, text] : texts)
+    writer->AddText(keyword.c_str(), text.c_str());
+  writer->Write();
+  vtkUnsignedCharArray* const bytes = writer->GetResult();
+  if (bytes == nullptr || !messages.getError().empty())
+    throw IOError("VTK could not encode a picture: " + messages.getError());
+  return {bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues()};
+}
+
 void
 savePng(const std::string& path,
         const Image& image,
         const std::vector<ImageText>& texts)
 {
   checkPngPath(path);
-  if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
-    throw InvalidArgument("The image for '" + path + "' has no pixels.");
-  const auto data = toVtk(image, isOpaque(image) ? 3 : 4);
+  const std::vector<std::uint8_t> bytes = encodePng(image, texts);
   writeAtomically(path, [&](const std::string& file) {
-    const io::VtkMessages messages;
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(data);
-    writer->WriteToMemoryOn();
-    for (const auto& [keyword, text] : texts)
-      writer->AddText(keyword.c_str(), text.c_str());
-    writer->Write();
-    vtkUnsignedCharArray* const bytes = writer->GetResult();
-    if (bytes == nullptr || !messages.getError().empty())
-      io::throwUnwritable(path, "VTK says: " + messages.getError());
     io::OutputFile target(file, path);
-    target.write(bytes->GetPointer(0),
-                 static_cast<std::size_t>(bytes->GetNumberOfValues()));
+    target.write(bytes.data(), bytes.size());
     target.close();
   });
 }

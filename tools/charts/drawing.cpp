@@ -25,6 +25,14 @@ inkOf(const pcl_uvol::Color& color)
       pcl_uvol::toByte(color.r), pcl_uvol::toByte(color.g), pcl_uvol::toByte(color.b)};
 }
 
+std::string
+describeColor(const Ink& ink)
+{
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", ink[0], ink[1], ink[2]);
+  return text;
+}
+
 void
 blend(Image& image, int column, int row, const Ink& ink, double opacity)
 {
@@ -100,7 +108,29 @@ struct Letters {
   }
 };
 
+thread_local TextKeeper* current_keeper = nullptr;
+
 } // namespace
+
+TextKeeper::TextKeeper()
+    : outer_(current_keeper)
+{
+  current_keeper = this;
+}
+
+TextKeeper::~TextKeeper()
+{
+  current_keeper = outer_;
+}
+
+bool
+TextKeeper::keep(const TextLine& line)
+{
+  if (current_keeper == nullptr)
+    return false;
+  current_keeper->lines_.push_back(line);
+  return true;
+}
 
 int
 writeText(Image& image,
@@ -112,6 +142,8 @@ writeText(Image& image,
           const Ink& ink)
 {
   const Letters letters(text, size);
+  if (TextKeeper::keep({text, size, column, row, anchor, false, ink}))
+    return letters.width;
   const int left = column - (anchor == TextAnchor::Left     ? 0
                              : anchor == TextAnchor::Center ? letters.width / 2
                                                             : letters.width);
@@ -129,6 +161,8 @@ writeUpwards(Image& image,
              int row,
              const Ink& ink)
 {
+  if (TextKeeper::keep({text, size, column, row, TextAnchor::Center, true, ink}))
+    return;
   const Letters letters(text, size);
   const int start = row + letters.width / 2;
   letters.forEach([&](int along, int above, double opacity) {

@@ -20,6 +20,10 @@ using Ink = std::array<std::uint8_t, 3>;
 Ink
 inkOf(const pcl_uvol::Color& color);
 
+/** \brief "#rrggbb". */
+std::string
+describeColor(const Ink& ink);
+
 /** \brief Lay a color over a pixel; nothing outside the image. */
 void
 blend(pcl_uvol::Image& image, int column, int row, const Ink& ink, double opacity);
@@ -40,6 +44,41 @@ Ink
 inkOn(const pcl_uvol::Image& image);
 
 enum class TextAnchor { Left, Center, Right };
+
+/** \brief A line of text in a picture. */
+struct TextLine {
+  std::string text;
+  int size;        ///< of the font, pixels
+  int column, row; ///< of the anchor, in the middle of the letters' height
+  TextAnchor anchor;
+  bool is_upright; ///< it runs upwards
+  Ink ink;
+};
+
+/** \brief While it lives, the lines of text of its thread are kept instead of drawn:
+ * for pictures whose letters stay letters. */
+class TextKeeper {
+public:
+  TextKeeper();
+  ~TextKeeper();
+  TextKeeper(const TextKeeper&) = delete;
+  TextKeeper&
+  operator=(const TextKeeper&) = delete;
+
+  const std::vector<TextLine>&
+  getLines() const
+  {
+    return lines_;
+  }
+
+  /** \brief Keep a line; false where none of this thread keeps lines. */
+  static bool
+  keep(const TextLine& line);
+
+private:
+  std::vector<TextLine> lines_;
+  TextKeeper* outer_;
+};
 
 /** \brief Write a line of text around a row.
  * \param size of the font, pixels

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/picture_series.h"
 
+#include "charts/picture_file.h"
 #include "io/unpacked_file.h"
-#include <pcl_uvol/io/image_file.h>
 
 #include <cstring>
 #include <utility>
@@ -43,7 +43,8 @@ PictureSeries::add(SlicePlot&& slice, bool has_own_scale, const std::string& pat
       drawn.scale.low = (*shared_.range)[0];
       drawn.scale.high = (*shared_.range)[1];
     }
-    pcl_uvol::savePng(path, drawSlicePlot(drawn));
+    const PictureFile file(path);
+    file.save(drawSlicePlot(drawn));
   });
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/ray_options.h"
 
+#include "charts/picture_file.h"
 #include "render/point_colors.h"
 #include "render/ray_tracing/gap_dots.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/image_file.h>
 
 #include <algorithm>
 
@@ -161,7 +161,7 @@ traceScene(const Options& options,
     tracer.render(image);
     tracing = tracer.getReport();
     const pcl_uvol::StepTimer timer(report, "write");
-    pcl_uvol::savePng(view.frameName(output, frame), image, describeOrigin(options));
+    PictureFile(view.frameName(output, frame)).save(image, describeOrigin(options));
   }
   report.merge(tracing);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures of a surface, from views, legend and marks.
 #include "charts/color_bar.h"
+#include "charts/picture_file.h"
 #include "shared/view_options.h"
-#include <pcl_uvol/io/image_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -137,6 +137,7 @@ ViewOptions::drawFrames(const Options& options,
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
     std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
     addIsovalues(surface.cloud, texts);
+    const PictureFile file(frameName(output, frame));
     pcl_uvol::Image picture = drawFrame(surface, frame, draw, texts);
     if (drawsBar(surface.cloud))
       drawLegend(picture,
@@ -147,7 +148,7 @@ ViewOptions::drawFrames(const Options& options,
                  range());
     figure_.get().drawTitle(picture);
     const pcl_uvol::StepTimer timer(report, "write");
-    pcl_uvol::savePng(frameName(output, frame), picture, texts);
+    file.save(picture, texts);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/surface_picture.h"
 
+#include "charts/picture_file.h"
 #include "surface/memory_need.h"
-#include <pcl_uvol/io/image_file.h>
 
 namespace uvol_tools {
 
@@ -19,7 +19,7 @@ void
 SurfacePicture::declare(Options& options)
 {
   options.group("Picture");
-  options.output("png", "out.png", path_, "draw the isosurface as well");
+  options.output("png", "out.png|out.svg", path_, "draw the isosurface as well");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats").rare();
   look_.declareView(options);
   look_.declareExaggeration(options);
@@ -42,7 +42,7 @@ SurfacePicture::check(const Options& options)
   look_.check(options);
   rays_.check(options);
   if (!path_.empty())
-    pcl_uvol::checkPngPath(path_);
+    checkPicturePath(path_);
 }
 
 void

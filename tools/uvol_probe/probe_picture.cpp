@@ -2,10 +2,10 @@
 #include "uvol_probe/probe_picture.h"
 
 #include "charts/line_plot.h"
+#include "charts/picture_file.h"
 #include "charts/slice_plot.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/io/image_file.h>
 
 #include <Eigen/Core>
 
@@ -101,7 +101,7 @@ ProbePicture::finish(const Options& options, bool is_plane, bool is_line) const
   if (!is_plane && !is_line)
     throw UsageError("-png needs -plane or -line.");
   colors_.check();
-  pcl_uvol::checkPngPath(path_);
+  checkPicturePath(path_);
 }
 
 void
@@ -110,12 +110,12 @@ ProbePicture::drawLine(const std::string& field,
                        const std::vector<double>& values,
                        const std::vector<double>& errors) const
 {
-  savePng(path_,
-          drawProfile({distances,
-                       values,
-                       errors,
-                       withUnit("distance", unit_),
-                       label_.empty() ? field : label_}));
+  const PictureFile file(path_);
+  file.save(drawProfile({distances,
+                         values,
+                         errors,
+                         withUnit("distance", unit_),
+                         label_.empty() ? field : label_}));
 }
 
 void
@@ -160,8 +160,10 @@ ProbePicture::drawSlice(const std::string& field,
   }
   if (series)
     series->add(std::move(plot), range.has_value(), path_);
-  else
-    savePng(path_, drawSlicePlot(plot));
+  else {
+    const PictureFile file(path_);
+    file.save(drawSlicePlot(plot));
+  }
 }
 
 } // namespace uvol_tools

@@ -2,9 +2,9 @@
 #include "uvol_probe/variogram_output.h"
 
 #include "charts/line_plot.h"
+#include "charts/picture_file.h"
 #include "io/table_file.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/image_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +113,7 @@ VariogramOutput::finish(const Options& options,
   if (!table_.empty())
     pcl_uvol::checkTablePath(table_);
   if (!picture_.empty())
-    pcl_uvol::checkPngPath(picture_);
+    checkPicturePath(picture_);
 }
 
 Facts
@@ -145,8 +145,10 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
       continue;
     if (!table_.empty())
       pcl_uvol::saveTable(table_, writeTable(*variogram));
-    if (!picture_.empty())
-      pcl_uvol::savePng(picture_, draw(*variogram, names[field], is_stretched));
+    if (!picture_.empty()) {
+      const PictureFile file(picture_);
+      file.save(draw(*variogram, names[field], is_stretched));
+    }
   }
   if (!of_fields.empty())
     facts.emplace_back("variograms", of_fields);

@@ -3,17 +3,15 @@
 
 #include "charts/color_bar.h"
 #include "charts/drawing.h"
+#include "charts/picture_file.h"
 #include "surface/packed_normal.h"
 #include "web/surface_page_template.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 
-#include <vtkBase64Utilities.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -73,28 +71,6 @@ packPoints(const pcl_uvol::SurfaceCloud& surface, float radius)
   return points;
 }
 
-std::string
-encode(const std::vector<PagePoint>& points)
-{
-  const std::size_t size = points.size() * sizeof(PagePoint);
-  std::string text(4 * ((size + 2) / 3), '\0');
-  vtkBase64Utilities::Encode(reinterpret_cast<const unsigned char*>(points.data()),
-                             size,
-                             reinterpret_cast<unsigned char*>(text.data()));
-  return text;
-}
-
-/** "#rrggbb" */
-std::string
-describeColor(const pcl_uvol::Color& color)
-{
-  std::ostringstream text;
-  text << '#' << std::hex << std::setfill('0');
-  for (const std::uint8_t channel : inkOf(color))
-    text << std::setw(2) << int{channel};
-  return text.str();
-}
-
 json
 describeLegend(const SurfacePage& page)
 {
@@ -102,8 +78,8 @@ describeLegend(const SurfacePage& page)
   if (!page.categories.empty()) {
     // The highest one above, as on a bar.
     for (auto it = page.categories.rbegin(); it != page.categories.rend(); ++it)
-      legend["categories"].push_back(
-          {{"text", describeCategory(*it)}, {"color", describeColor(it->color)}});
+      legend["categories"].push_back({{"text", describeCategory(*it)},
+                                      {"color", describeColor(inkOf(it->color))}});
     return legend;
   }
   if (page.field.empty())
@@ -111,7 +87,7 @@ describeLegend(const SurfacePage& page)
   constexpr int steps = 32;
   for (int i = 0; i <= steps; ++i)
     legend["colors"].push_back(
-        describeColor(page.map.at(static_cast<double>(i) / steps)));
+        describeColor(inkOf(page.map.at(static_cast<double>(i) / steps))));
   constexpr double nearest = 0.05; // two lines of text on a bar of usual height
   const BarLabels labels = labelBar(page.scale, nearest);
   if (!labels.offset.empty())
@@ -188,10 +164,11 @@ writeSurfacePage(const std::string& path,
   const std::string facts_mark = "@FACTS@", points_mark = "@POINTS@";
   const std::size_t first = split(facts_mark), second = split(points_mark);
   pcl_uvol::writeAtomically(path, [&](const std::string& file) {
+    const std::vector<PagePoint> points = packPoints(surface, drawn_radius);
     std::ofstream stream(file, std::ios::binary);
     stream << text.substr(0, first) << facts
            << text.substr(first + facts_mark.size(), second - first - facts_mark.size())
-           << encode(packPoints(surface, drawn_radius))
+           << encodeBase64(points.data(), points.size() * sizeof(PagePoint))
            << text.substr(second + points_mark.size());
     stream.close();
     if (!stream)

@@ -5,6 +5,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/image.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,13 @@ namespace pcl_uvol {
 
 /** \brief A keyword of at most 79 characters, such as "Software", and what it says. */
 using ImageText = std::pair<std::string, std::string>;
+
+/** \brief The bytes of an image as a PNG file, with opacity where a pixel is not opaque.
+ * \param image with its colours
+ * \param texts kept in it, for those who ask where the picture is from
+ * \throws InvalidArgument for an image without pixels */
+PCL_UVOL_EXPORTS std::vector<std::uint8_t>
+encodePng(const Image& image, const std::vector<ImageText>& texts = {});
 
 /** \brief Write the colours of an image as PNG, with opacity where a pixel is not
  * opaque. The file appears whole or not at all.

@@ -255,6 +255,8 @@ public:
    * colours on a transparent ground, and depths of the nearest surfaces. Camera, size,
    * supersampling, background and backend of this object are not used.
    * \param view made for getBounds()
+   * \param backend that draws
+   * \param image gets the pixels
    * \throws as render() */
   void
   drawLayers(const View& view, ImageSpaceBackend& backend, Image& image);

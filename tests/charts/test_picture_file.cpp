@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures whose letters stay letters.
+#include "charts/drawing.h"
+#include "charts/picture_file.h"
+#include "support/environment.h"
+#include <pcl_uvol/common/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace {
+
+using namespace uvol_tools;
+using pcl_uvol::Image;
+
+Image
+makeWhite()
+{
+  Image image;
+  image.width = 120;
+  image.height = 60;
+  image.color.assign(4 * image.pixels(), 255);
+  return image;
+}
+
+constexpr Ink red{255, 0, 17};
+
+void
+writeLines(Image& image)
+{
+  writeText(image, "a < b & \"c\"", 12, 100, 20, TextAnchor::Right, red);
+  writeUpwards(image, "up", 9, 7, 30, {0, 0, 0});
+}
+
+std::string
+read(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class PictureFiles : public testing::Test {
+protected:
+  const uvol_test::TemporaryFolder folder_;
+};
+
+TEST_F(PictureFiles, LettersOfSvgAreText)
+{
+  Image image = makeWhite();
+  const std::string path = folder_ / "a.svg";
+  {
+    const PictureFile file(path);
+    writeLines(image);
+    file.save(image, {{"Camera", "-eye 1,2,3 <&>"}});
+  }
+  EXPECT_EQ(makeWhite().color, image.color);
+  const std::string svg = read(path);
+  for (const char* part :
+       {"width=\"120\" height=\"60\" viewBox=\"0 0 120 60\"",
+        "<desc>Camera: -eye 1,2,3 &lt;&amp;&gt;\n</desc>",
+        "href=\"data:image/png;base64,iVBORw0KGgo",
+        "<text font-size=\"12\" text-anchor=\"end\" fill=\"#ff0011\" "
+        "transform=\"translate(100.5 20.5)\" y=\"4.2\">a &lt; b "
+        "&amp; &quot;c&quot;</text>",
+        "<text font-size=\"9\" text-anchor=\"middle\" "
+        "fill=\"#000000\" transform=\"translate(7.5 30.5) "
+        "rotate(-90)\" y=\"3.15\">up</text>",
+        "</svg>\n"})
+    EXPECT_NE(std::string::npos, svg.find(part)) << part << '\n' << svg;
+}
+
+TEST_F(PictureFiles, LettersOfPngArePixels)
+{
+  Image image = makeWhite();
+  const PictureFile file(folder_ / "a.png");
+  writeLines(image);
+  file.save(image);
+  EXPECT_NE(makeWhite().color, image.color);
+  EXPECT_EQ(0u, read(folder_ / "a.png").find("\x89PNG"));
+}
+
+TEST_F(PictureFiles, TextIsAsWideEitherWay)
+{
+  Image image = makeWhite();
+  const int drawn = writeText(image, "1234", 14, 5, 20, TextAnchor::Left, red);
+  const TextKeeper outer;
+  {
+    const TextKeeper inner;
+    EXPECT_EQ(drawn, writeText(image, "1234", 14, 5, 20, TextAnchor::Left, red));
+    EXPECT_EQ(1u, inner.getLines().size());
+  }
+  writeText(image, "5", 14, 5, 20, TextAnchor::Left, red);
+  ASSERT_EQ(1u, outer.getLines().size());
+  EXPECT_EQ("5", outer.getLines()[0].text);
+}
+
+TEST_F(PictureFiles, OtherEndingsAndFoldersAreRefused)
+{
+  checkPicturePath(folder_ / "a.svg");
+  checkPicturePath(folder_ / "a.PNG");
+  EXPECT_THROW(checkPicturePath(folder_ / "a.gif"), pcl_uvol::IOError);
+  EXPECT_THROW(checkPicturePath(folder_ / "missing/a.svg"), pcl_uvol::IOError);
+  EXPECT_THROW(checkPicturePath(folder_ / "missing/a.png"), pcl_uvol::IOError);
+  EXPECT_EQ("AAECAwQ=", encodeBase64("\0\1\2\3\4", 5));
+}
+
+} // namespace

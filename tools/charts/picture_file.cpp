@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "charts/picture_file.h"
+
+#include "io/files.h"
+#include <pcl_uvol/io/dataset.h>
+
+#include <vtkBase64Utilities.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace uvol_tools {
+
+namespace {
+
+using pcl_uvol::Image;
+
+bool
+isSvg(const std::string& path)
+{
+  return pcl_uvol::io::getEnding(path) == ".svg";
+}
+
+std::string
+escape(const std::string& text)
+{
+  std::string escaped;
+  for (const char letter : text)
+    switch (letter) {
+    case '&':
+      escaped += "&amp;";
+      break;
+    case '<':
+      escaped += "&lt;";
+      break;
+    case '>':
+      escaped += "&gt;";
+      break;
+    case '"':
+      escaped += "&quot;";
+      break;
+    default:
+      // XML has no control characters.
+      escaped += static_cast<unsigned char>(letter) < ' ' ? ' ' : letter;
+    }
+  return escaped;
+}
+
+const char*
+describe(TextAnchor anchor)
+{
+  switch (anchor) {
+  case TextAnchor::Left:
+    return "start";
+  case TextAnchor::Right:
+    return "end";
+  default:
+    return "middle";
+  }
+}
+
+void
+writeLine(const TextLine& line, std::ostream& out)
+{
+  // Of digits and capitals, which are 0.7 of the font's size.
+  const double half_height = 0.35 * line.size;
+  out << "<text font-size=\"" << line.size << "\" text-anchor=\""
+      << describe(line.anchor) << "\" fill=\"" << describeColor(line.ink)
+      << "\" transform=\"translate(" << line.column + 0.5 << ' ' << line.row + 0.5
+      << ')' << (line.is_upright ? " rotate(-90)" : "") << "\" y=\"" << half_height
+      << "\">" << escape(line.text) << "</text>\n";
+}
+
+std::string
+makeSvg(const Image& image,
+        const std::vector<TextLine>& lines,
+        const std::vector<pcl_uvol::ImageText>& texts)
+{
+  const std::vector<std::uint8_t> png = encodePng(image);
+  std::ostringstream out;
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << image.width
+      << "\" height=\"" << image.height << "\" viewBox=\"0 0 " << image.width << ' '
+      << image.height << "\" font-family=\"Arial, Helvetica, sans-serif\">\n<desc>";
+  for (const auto& [keyword, text] : texts)
+    out << escape(keyword) << ": " << escape(text) << '\n';
+  out << "</desc>\n<image width=\"" << image.width << "\" height=\"" << image.height
+      << "\" href=\"data:image/png;base64," << encodeBase64(png.data(), png.size())
+      << "\"/>\n";
+  for (const TextLine& line : lines)
+    writeLine(line, out);
+  out << "</svg>\n";
+  return out.str();
+}
+
+} // namespace
+
+std::string
+encodeBase64(const void* bytes, std::size_t count)
+{
+  std::string text(4 * ((count + 2) / 3), '\0');
+  vtkBase64Utilities::Encode(static_cast<const unsigned char*>(bytes),
+                             count,
+                             reinterpret_cast<unsigned char*>(text.data()));
+  return text;
+}
+
+void
+checkPicturePath(const std::string& path)
+{
+  if (isSvg(path))
+    pcl_uvol::io::checkWritable(path);
+  else if (pcl_uvol::io::getEnding(path) == ".png")
+    pcl_uvol::checkPngPath(path);
+  else
+    pcl_uvol::io::throwUnwritable(path, "pictures are written as .png or .svg");
+}
+
+PictureFile::PictureFile(const std::string& path)
+    : path_(path)
+{
+  if (isSvg(path))
+    letters_.emplace();
+}
+
+void
+PictureFile::save(const Image& picture,
+                  const std::vector<pcl_uvol::ImageText>& texts) const
+{
+  if (!letters_) {
+    pcl_uvol::savePng(path_, picture, texts);
+    return;
+  }
+  const std::string svg = makeSvg(picture, letters_->getLines(), texts);
+  pcl_uvol::writeAtomically(path_, [&](const std::string& file) {
+    std::ofstream stream(file, std::ios::binary);
+    stream << svg;
+    stream.close();
+    if (!stream)
+      throw pcl_uvol::IOError("Cannot write '" + path_ + "'.");
+  });
+}
+
+} // namespace uvol_tools

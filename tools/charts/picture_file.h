@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures as files: of pixels, or with letters over them that stay letters.
+#pragma once
+
+#include "charts/drawing.h"
+#include <pcl_uvol/io/image_file.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace uvol_tools {
+
+/** \brief Bytes as text, for files of text that hold them. */
+std::string
+encodeBase64(const void* bytes, std::size_t count);
+
+/** \brief Throw IOError unless the name ends in .png or .svg and its folder can be
+ * written to: to be called before work whose result would be lost. */
+void
+checkPicturePath(const std::string& path);
+
+/** \brief A picture that is going to be written: as .png, or as .svg, in which its
+ * letters are text over its pixels, for programs that set and edit figures. */
+class PictureFile {
+public:
+  /** \brief Begin before the picture is drawn: letters of this thread are kept from now
+   * on if they stay letters.
+   * \param path ends in .png or .svg */
+  explicit PictureFile(const std::string& path);
+
+  /** \brief Write the picture; the file appears whole or not at all.
+   * \param texts kept in the file, for those who ask where the picture is from
+   * \throws IOError */
+  void
+  save(const pcl_uvol::Image& picture,
+       const std::vector<pcl_uvol::ImageText>& texts = {}) const;
+
+private:
+  std::string path_;
+  std::optional<TextKeeper> letters_; // of an .svg
+};
+
+} // namespace uvol_tools
