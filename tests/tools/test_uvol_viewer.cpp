@@ -104,6 +104,8 @@ public:
     mouse.SetEventInformation(x1, y1);
     mouse.InvokeEvent(vtkCommand::MouseMoveEvent);
     mouse.InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+    if (waits)
+      window->finish();
   }
 
   void
@@ -146,6 +148,8 @@ public:
     keyboard.SetEventInformation(at[0], at[1], 0, 0, key);
     keyboard.InvokeEvent(vtkCommand::KeyPressEvent);
     keyboard.InvokeEvent(vtkCommand::CharEvent);
+    if (waits)
+      window->finish();
   }
 
   vtkCamera&
@@ -162,6 +166,7 @@ public:
     return uvol_test::readPng("shot.png", channels);
   }
 
+  bool waits = true; // for the surface that events ask for
   uvol_tools::ShownSurface surface;
   uvol_tools::RenderOptions look;
   uvol_tools::Options options{"uvol_viewer", "", ""};
@@ -179,18 +184,36 @@ covered(const Image& image)
 }
 
 // The first test: VTK's loop also serves earlier interactors that are gone.
-TEST_F(UvolViewer, AKeyEndsTheLoopOfEvents)
+TEST_F(UvolViewer, TheLoopShowsNewSurfacesUntilAKeyEndsIt)
 {
   OpenWindow open(makeVolume(), "intensity", {});
+  open.waits = false;
+  open.slide(0.8);
+  EXPECT_NEAR(0.8, open.surface.getIsoValue(), 0.05);
+  const double center = open.camera().GetFocalPoint()[0];
+  open.drag(120, 100, 160, 100); // the window goes on
+  EXPECT_NE(center, open.camera().GetPosition()[0]);
+  struct Watch {
+    OpenWindow& open;
+    pcl::PCLPointCloud2::ConstPtr before;
+    int looks_left;
+  } watch{open, open.surface.getCloud(), 400};
+  EXPECT_TRUE(open.surface.isBusy());
   vtkNew<vtkCallbackCommand> quit;
-  quit->SetClientData(&open);
+  quit->SetClientData(&watch);
   quit->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
-    static_cast<OpenWindow*>(data)->type('q');
+    Watch& w = *static_cast<Watch*>(data);
+    if (w.open.surface.getCloud() != w.before || --w.looks_left == 0)
+      w.open.type('q');
   });
   open.window->interactor().AddObserver(vtkCommand::TimerEvent, quit);
   open.window->interactor().CreateRepeatingTimer(50);
   open.window->run();
   EXPECT_TRUE(open.window->interactor().GetDone());
+  EXPECT_GT(watch.looks_left, 0);
+  EXPECT_FALSE(open.surface.isBusy());
+  EXPECT_GT(open.surface.getCloud()->width, watch.before->width);
+  open.slide(0.4); // goes with the window
 }
 
 TEST_F(UvolViewer, MouseAndSliderMoveCameraAndIsovalue)

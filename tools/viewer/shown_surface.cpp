@@ -79,8 +79,21 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   if (!(range_[0] < range_[1]))
     throw InvalidArgument("All values of " + field_ +
                           " are equal: there is no isosurface between them.");
-  pipeline_.setInput(samples);
-  pipeline_.setNumberOfThreads(threads);
+  const auto pipeline = std::make_shared<pcl_uvol::IsosurfacePipeline>();
+  pipeline->setInput(samples);
+  pipeline->setNumberOfThreads(threads);
+  worker_ = std::make_unique<SurfaceWorker>(
+      [pipeline, field](const SurfaceRequest& request,
+                        const pcl_uvol::ProgressCallback& progress) {
+        pcl_uvol::IsosurfacePipelineParameters parameters;
+        if (request.is_meshed)
+          parameters.mesh.emplace().open = true; // caps would hide the surface
+        parameters.isosurface.field = field;
+        parameters.isosurface.isovalues = {request.isovalue};
+        pipeline->setParameters(parameters);
+        pipeline->setProgressCallback(progress);
+        return pipeline->run();
+      });
 }
 
 std::vector<double>
@@ -110,7 +123,7 @@ ShownSurface::setIsoValue(double isovalue)
          << ", the range of " << field_ << ", and is not " << isovalue << ".";
     throw InvalidArgument(text.str());
   }
-  extract(isovalue, is_meshed_);
+  ask({isovalue, asked_.is_meshed});
 }
 
 void
@@ -119,27 +132,53 @@ ShownSurface::setMeshed(bool is_meshed)
   if (field_.empty())
     throw InvalidArgument("A mesh is made of samples, and these are points of a "
                           "surface: -field shows the isosurfaces of samples.");
-  extract(isovalue_, is_meshed);
+  ask({asked_.isovalue, is_meshed});
 }
 
 void
-ShownSurface::extract(double isovalue, bool is_meshed)
+ShownSurface::ask(const SurfaceRequest& request)
 {
-  pcl_uvol::IsosurfacePipelineParameters parameters;
-  if (is_meshed)
-    parameters.mesh.emplace().open = true; // caps would hide the surface
-  parameters.isosurface.field = field_;
-  parameters.isosurface.isovalues = {isovalue};
-  pipeline_.setParameters(parameters);
-  pcl_uvol::IsosurfaceResult result = pipeline_.run();
-  report_ = std::move(result.report);
-  isovalue_ = isovalue;
-  is_meshed_ = is_meshed;
-  triangles_ = std::move(result.triangles);
+  worker_->ask(request);
+  asked_ = request;
+}
+
+bool
+ShownSurface::update()
+{
+  return takeFrom(&SurfaceWorker::take);
+}
+
+bool
+ShownSurface::finish()
+{
+  return takeFrom(&SurfaceWorker::finish);
+}
+
+bool
+ShownSurface::takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*give)())
+{
+  if (!worker_)
+    return false;
+  std::optional<SurfaceWorker::Result> result;
+  try {
+    result = (*worker_.*give)();
+  }
+  catch (...) {
+    if (!worker_->isBusy())
+      asked_ = shown_;
+    throw;
+  }
+  if (!result)
+    return false;
+  shown_ = result->request;
+  report_ = std::move(result->surface.report);
+  report_.progress = nullptr; // that of the worker
+  triangles_ = std::move(result->surface.triangles);
   whole_.reset();
-  if (result.surface.cloud.width > 0)
-    whole_ = pcl::make_shared<Cloud>(std::move(result.surface.cloud));
+  if (result->surface.surface.cloud.width > 0)
+    whole_ = pcl::make_shared<Cloud>(std::move(result->surface.surface.cloud));
   applyCut();
+  return true;
 }
 
 void

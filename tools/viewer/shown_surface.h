@@ -2,14 +2,15 @@
 // What the viewer shows: points of a surface, or an isosurface of samples.
 #pragma once
 
+#include "viewer/surface_worker.h"
 #include <pcl_uvol/common/report.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/render/camera.h>
 
 #include <Eigen/Geometry>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@
 namespace uvol_tools {
 
 /** \brief A cloud whose isovalue, if it has one, can be changed: tree and values are
- * kept. */
+ * kept. Isosurfaces are extracted in another thread; what was shown is shown until
+ * update() or finish(). */
 class ShownSurface {
 public:
   using Cloud = pcl::PCLPointCloud2;
@@ -50,18 +52,19 @@ public:
   double
   proposeIsoValue() const;
 
+  /** \brief The one that was asked for last. */
   double
   getIsoValue() const
   {
-    return isovalue_;
+    return asked_.isovalue;
   }
 
-  /** \brief Extract another isosurface, with all fields of the samples.
+  /** \brief Ask for another isosurface, with all fields of the samples.
    * \throws InvalidArgument if it lies outside of the range */
   void
   setIsoValue(double isovalue);
 
-  /** \brief Make meshes of isosurfaces from now on, or points again.
+  /** \brief Ask for meshes of isosurfaces from now on, or points again.
    * \throws InvalidArgument for a surface given as points */
   void
   setMeshed(bool is_meshed);
@@ -69,8 +72,25 @@ public:
   bool
   isMeshed() const
   {
-    return is_meshed_;
+    return asked_.is_meshed;
   }
+
+  /** \brief Whether something that was asked for is not shown yet. */
+  bool
+  isBusy() const
+  {
+    return worker_ && worker_->isBusy();
+  }
+
+  /** \brief Show what was extracted since the last call.
+   * \return false if that is nothing
+   * \throws what the extraction has thrown; what was shown is then what is asked for */
+  bool
+  update();
+
+  /** \brief The same once all that was asked for is extracted. */
+  bool
+  finish();
 
   /** \brief The triangles of a mesh, whose vertices are the points of the cloud. */
   const std::vector<pcl_uvol::Triangle>&
@@ -117,7 +137,10 @@ public:
 
 private:
   void
-  extract(double isovalue, bool is_meshed);
+  ask(const SurfaceRequest& request);
+
+  /** Show what the worker gives, if it gives something. */
+  bool takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*give)());
 
   /** Take the points that are not cut away. */
   void
@@ -129,11 +152,10 @@ private:
   std::array<double, 3> origin_;
   std::string field_;
   std::array<double, 2> range_{{0.0, 0.0}};
-  double isovalue_ = 0.0;
-  bool is_meshed_ = false;
+  SurfaceRequest asked_, shown_;
   std::vector<pcl_uvol::Triangle> triangles_;
-  pcl_uvol::IsosurfacePipeline pipeline_;
   pcl_uvol::Report report_;
+  std::unique_ptr<SurfaceWorker> worker_; // null for a surface given as points
 };
 
 /** \brief Least and largest finite value of a field.

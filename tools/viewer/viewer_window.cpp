@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <string_view>
 
 namespace uvol_tools {
 
@@ -42,6 +43,12 @@ valueAt(const pcl_uvol::ColorScale& scale, double place)
 /** Part of the range of the field that + and - move the isovalue by. */
 constexpr double isovalue_step = 0.01;
 
+/** Milliseconds between looks for a new surface: less than a frame takes. */
+constexpr unsigned long look_interval = 15;
+
+/** Keys that mean the surface that was asked for, and not the one before it. */
+constexpr std::string_view keys_of_surface = "efkpsS";
+
 /** VTK's way to turn, move and zoom with the mouse, without its keys. */
 class MouseStyle : public vtkInteractorStyleTrackballCamera {
 public:
@@ -53,6 +60,13 @@ public:
   OnChar() override
   {
     press(Interactor->GetKeyCode());
+  }
+
+  /** VTK's own would turn on while a button is held: the timers are not meant for it.
+   */
+  void
+  OnTimer() override
+  {
   }
 
   void
@@ -84,19 +98,19 @@ private:
 
 vtkStandardNewMacro(MouseStyle);
 
-/** Call a function with an event's text, if it has one. */
+/** Call a function with an event's data, if it has some. */
 void
 observe(vtkObject& object,
         unsigned long event,
-        std::function<void(const char* text)> function)
+        std::function<void(const void* data)> function)
 {
-  using Function = std::function<void(const char* text)>;
+  using Function = std::function<void(const void* data)>;
   vtkNew<vtkCallbackCommand> command;
   command->SetClientData(new Function(std::move(function)));
   command->SetClientDataDeleteCallback(
-      [](void* data) { delete static_cast<Function*>(data); });
-  command->SetCallback([](vtkObject*, unsigned long, void* data, void* text) {
-    (*static_cast<Function*>(data))(static_cast<const char*>(text));
+      [](void* function_data) { delete static_cast<Function*>(function_data); });
+  command->SetCallback([](vtkObject*, unsigned long, void* function_data, void* data) {
+    (*static_cast<Function*>(function_data))(data);
   });
   object.AddObserver(event, command);
 }
@@ -143,6 +157,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
     : surface_(surface)
     , look_(look)
 {
+  surface_.finish();
   const pcl::PCLPointCloud2::ConstPtr& cloud = surface_.getCloud();
   if (!cloud)
     throw pcl_uvol::InvalidArgument("There are no points at this isovalue of " +
@@ -151,8 +166,8 @@ ViewerWindow::ViewerWindow(const std::string& title,
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
   colors_.emplace(look_, *cloud);
-  observe(*prop_, vtkCommand::ErrorEvent, [this](const char* text) {
-    error_ = extractWords(text);
+  observe(*prop_, vtkCommand::ErrorEvent, [this](const void* text) {
+    error_ = extractWords(static_cast<const char*>(text));
     std::cerr << "uvol_viewer: " << error_ << '\n';
   });
   const pcl_uvol::Background background = renderer.settings().background;
@@ -197,11 +212,28 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };
   style->click = [this](int column, int row) {
-    attempt([&] { tellPoint(column, row); });
+    attempt([&] {
+      finish();
+      tellPoint(column, row);
+    });
     render();
   };
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style);
+  observe(*interactor_, vtkCommand::TimerEvent, [this](const void* timer) {
+    if (!awaits_surface_ || *static_cast<const int*>(timer) != timers_[1])
+      return;
+    awaits_surface_ = false;
+    bool is_new = true;
+    attempt([&] {
+      is_new = surface_.update();
+      if (is_new)
+        showNewSurface();
+    });
+    if (is_new) // or an error is to be told
+      render();
+    awaitSurface();
+  });
 }
 
 void
@@ -263,7 +295,7 @@ ViewerWindow::setUpSlider()
   slider_->SetInteractor(interactor_);
   slider_->SetRepresentation(slider_shape_);
   slider_->SetAnimationModeToJump();
-  observe(*slider_, vtkCommand::InteractionEvent, [this](const char*) {
+  observe(*slider_, vtkCommand::InteractionEvent, [this](const void*) {
     attempt([this] { followSlider(); });
   });
   slider_->EnabledOn();
@@ -321,10 +353,7 @@ void
 ViewerWindow::switchMesh()
 {
   surface_.setMeshed(!surface_.isMeshed());
-  showSurface();
-  show(surface_.getTriangles().empty()
-           ? std::string()
-           : std::to_string(surface_.getTriangles().size()) + " triangles");
+  awaitSurface();
 }
 
 void
@@ -352,16 +381,45 @@ ViewerWindow::nextColor()
 void
 ViewerWindow::followSlider()
 {
-  showIsoValue(valueAt(scale_, slider_shape_->GetValue()));
+  askForIsoValue(valueAt(scale_, slider_shape_->GetValue()));
 }
 
 void
-ViewerWindow::showIsoValue(double isovalue)
+ViewerWindow::askForIsoValue(double isovalue)
 {
   surface_.setIsoValue(isovalue);
   nameIsoValue();
+  awaitSurface();
+}
+
+void
+ViewerWindow::awaitSurface()
+{
+  if (awaits_surface_ || !surface_.isBusy())
+    return;
+  // VTK uses a timer once more after its event: here the one before is over for sure.
+  interactor_->DestroyTimer(timers_[0]);
+  timers_ = {{timers_[1], interactor_->CreateOneShotTimer(look_interval)}};
+  awaits_surface_ = true;
+}
+
+void
+ViewerWindow::finish()
+{
+  if (surface_.finish())
+    showNewSurface();
+}
+
+void
+ViewerWindow::showNewSurface()
+{
   showSurface();
-  show(surface_.getCloud() ? "" : "no points at this isovalue");
+  if (typed_.isBegun()) // whose digits are shown
+    return;
+  const std::size_t triangles = surface_.getTriangles().size();
+  show(!surface_.getCloud() ? "no points at this isovalue"
+       : triangles > 0      ? std::to_string(triangles) + " triangles"
+                            : "");
 }
 
 void
@@ -373,7 +431,7 @@ ViewerWindow::typeIsoValue(char key)
   show(typed_.isBegun() ? surface_.getField() + " = " + typed_.getText() + "_" : "");
   if (!isovalue)
     return;
-  showIsoValue(*isovalue);
+  askForIsoValue(*isovalue);
   slider_shape_->SetValue(scale_.placeOf(*isovalue));
 }
 
@@ -401,6 +459,8 @@ ViewerWindow::press(char key)
   if (key != 'h')
     help_->VisibilityOff();
   attempt([this, key] {
+    if (keys_of_surface.find(key) != std::string_view::npos)
+      finish();
     if (key == '=' || typed_.isBegun())
       typeIsoValue(key);
     else if (switchPass(key, prop_->renderer().settings()))
@@ -438,6 +498,7 @@ ViewerWindow::press(char key)
 void
 ViewerWindow::save(const std::string& path)
 {
+  finish();
   render();
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
@@ -473,6 +534,7 @@ ViewerWindow::run()
 pcl_uvol::Report
 ViewerWindow::getReport()
 {
+  finish();
   pcl_uvol::Report report = surface_.getReport();
   report.merge(prop_->renderer().getReport());
   return report;
@@ -485,13 +547,20 @@ ViewerWindow::attempt(const std::function<void()>& action)
     action();
   }
   catch (const pcl_uvol::Exception& error) {
-    show(error.message());
-    std::cerr << "uvol_viewer: " << error.message() << '\n';
+    tellFailure(error.message());
   }
   catch (const std::exception& error) {
-    show(error.what());
-    std::cerr << "uvol_viewer: " << error.what() << '\n';
+    tellFailure(error.what());
   }
+}
+
+void
+ViewerWindow::tellFailure(const std::string& message)
+{
+  if (!surface_.getField().empty())
+    nameIsoValue(); // which is that of the surface before
+  show(message);
+  std::cerr << "uvol_viewer: " << message << '\n';
 }
 
 void

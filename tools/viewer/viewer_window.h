@@ -20,6 +20,7 @@
 #include <vtkSliderWidget.h>
 #include <vtkTextActor.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -50,8 +51,13 @@ public:
   void
   press(char key);
 
-  /** \brief Write what the window shows as a PNG file.
-   * \throws pcl_uvol::Exception if it could not be drawn, IOError */
+  /** \brief Wait for the surface that was asked for, and show it.
+   * \throws what its extraction has thrown */
+  void
+  finish();
+
+  /** \brief Write what the window shows as a PNG file, once it shows what was asked
+   * for. \throws pcl_uvol::Exception if it could not be drawn, IOError */
   void
   save(const std::string& path);
 
@@ -69,7 +75,7 @@ public:
     return prop_->describeBackend();
   }
 
-  /** \brief Counts and times of the last isosurface and frame. */
+  /** \brief Counts and times of the last isosurface and frame, once it is shown. */
   pcl_uvol::Report
   getReport();
 
@@ -122,11 +128,19 @@ private:
   void
   typeIsoValue(char key);
 
-  /** Show the isosurface of another value. */
+  /** Ask for the isosurface of another value. */
   void
-  showIsoValue(double isovalue);
+  askForIsoValue(double isovalue);
 
-  /** The isovalue of the slider, not drawn yet. */
+  /** Look soon for the surface that was asked for, if one was. */
+  void
+  awaitSurface();
+
+  /** Show a surface that has come, and what is to be said of it. */
+  void
+  showNewSurface();
+
+  /** Ask for the isovalue of the slider. */
   void
   followSlider();
 
@@ -170,14 +184,19 @@ private:
   attempt(const std::function<void()>& action);
 
   void
+  tellFailure(const std::string& message);
+
+  void
   show(const std::string& message);
 
   ShownSurface& surface_;
   const RenderOptions& look_;
   std::optional<ColorChoice> colors_;
   TypedNumber typed_;
-  pcl_uvol::ColorScale scale_; // of the slider
-  std::string error_;          // of the last frame
+  pcl_uvol::ColorScale scale_;  // of the slider
+  std::array<int, 2> timers_{}; // the last ones; 0: there was none
+  bool awaits_surface_ = false;
+  std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;
   vtkNew<vtkActor> mesh_actor_;

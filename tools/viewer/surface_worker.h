@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isosurfaces that are extracted while the window goes on.
+#pragma once
+
+#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace uvol_tools {
+
+/** \brief What the user wants to see of samples. */
+struct SurfaceRequest {
+  double isovalue = 0.0;
+  bool is_meshed = false; ///< triangles instead of isopoints
+};
+
+/** \brief Extracts isosurfaces in a thread of its own, one at a time. Requests that are
+ * overtaken by newer ones before their turn comes are dropped; the one under way is
+ * done, so that a slider that never rests shows something, too. */
+class SurfaceWorker {
+public:
+  /** \brief Makes a surface, in the worker's thread. What it tells to the progress is
+   * dropped, but ends it when the worker ends. */
+  using Extract = std::function<pcl_uvol::IsosurfaceResult(
+      const SurfaceRequest& request, const pcl_uvol::ProgressCallback& progress)>;
+
+  /** \brief A surface, and what it is of. */
+  struct Result {
+    SurfaceRequest request;
+    pcl_uvol::IsosurfaceResult surface;
+  };
+
+  explicit SurfaceWorker(Extract extract);
+  SurfaceWorker(const SurfaceWorker&) = delete;
+  SurfaceWorker&
+  operator=(const SurfaceWorker&) = delete;
+  /** \brief Ends what is under way. */
+  ~SurfaceWorker();
+
+  /** \brief Ask for a surface. */
+  void
+  ask(const SurfaceRequest& request);
+
+  /** \brief Whether a surface that was asked for is not taken yet. */
+  bool
+  isBusy() const;
+
+  /** \brief The newest surface that is ready and was not taken yet; none: there is no
+   * such one.
+   * \throws what its extraction has thrown */
+  std::optional<Result>
+  take();
+
+  /** \brief The same once all that was asked for is done. */
+  std::optional<Result>
+  finish();
+
+private:
+  /** What the thread does. */
+  void
+  work();
+
+  /** Extract a surface, with what is thrown in the place of a result. */
+  void
+  extract(const SurfaceRequest& request);
+
+  const Extract extract_;
+  mutable std::mutex mutex_; // of all below
+  std::condition_variable changed_;
+  std::optional<SurfaceRequest> waiting_;
+  bool is_working_ = false;
+  std::atomic<bool> is_ending_ = false;
+  std::optional<Result> result_;
+  std::exception_ptr error_; // in the place of a result
+  std::thread thread_;       // last: it uses the others
+};
+
+} // namespace uvol_tools
