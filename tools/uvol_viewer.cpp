@@ -9,8 +9,8 @@
 #include <vtkLogger.h>
 
 #include <iostream>
-#include <limits>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -18,25 +18,25 @@ using pcl_uvol::Report;
 
 struct Arguments {
   std::string input, field, screenshot;
-  double isovalue = std::numeric_limits<double>::infinity();
+  std::vector<double> isovalues;
   pcl_uvol::WindowBackend backend = pcl_uvol::WindowBackend::Auto;
 };
 
 void
 declare(uvol_tools::Options& options, Arguments& arguments)
 {
-  constexpr double largest = std::numeric_limits<double>::max();
   options.file("in", arguments.input);
   options.group("Input");
   options.text("field",
                "name",
                arguments.field,
                "the points are samples of this scalar field: show an isosurface");
-  options.number("iso",
-                 arguments.isovalue,
-                 -largest,
-                 largest,
-                 "isovalue to start with (default the first that uvol_info proposes)");
+  options.numbers("iso",
+                  "v,...",
+                  0,
+                  arguments.isovalues,
+                  "isovalues to start with, of which the last one moves (default the "
+                  "first that uvol_info proposes)");
   options.group("Picture");
   options.choice("backend",
                  arguments.backend,
@@ -92,6 +92,7 @@ run(int argc, char** argv)
           uvol_tools::describeKeys());
   declare(options, arguments);
   look.declareScene(options);
+  look.declareOpacity(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))
     return 0;
@@ -102,8 +103,9 @@ run(int argc, char** argv)
   Report report;
   uvol_tools::ShownSurface surface = load(options, arguments, look, report);
   if (!arguments.field.empty()) {
-    surface.setIsoValue(options.given("iso") ? arguments.isovalue
-                                             : surface.proposeIsoValue());
+    surface.setIsoValues(options.given("iso")
+                             ? arguments.isovalues
+                             : std::vector<double>{surface.proposeIsoValue()});
   }
   uvol_tools::ViewerWindow window(
       "uvol_viewer " + arguments.input, surface, look, options, arguments.backend);

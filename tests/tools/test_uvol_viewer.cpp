@@ -5,6 +5,7 @@
 #include "support/surfaces.h"
 #include "support/virtual_display.h"
 #include "viewer/keys.h"
+#include "viewer/opacity_choice.h"
 #include "viewer/point_picking.h"
 #include "viewer/viewer_window.h"
 
@@ -414,6 +415,111 @@ TEST_F(UvolViewer, IsovaluesAreTyped)
   EXPECT_TRUE(before.color != open.shoot().color);
 }
 
+std::vector<double>
+isovaluesOf(const pcl::PCLPointCloud2& cloud)
+{
+  return pcl_uvol::listCategories(pcl_uvol::viewOf(cloud), "isovalue", 20);
+}
+
+/** Pixels that are no shade of grey. */
+int
+countColored(const Image& image)
+{
+  int count = 0;
+  for (std::size_t i = 0; i < image.pixels() * 3 / 4; ++i)
+    count += std::abs(image.color[4 * i] - image.color[4 * i + 2]) > 40;
+  return count;
+}
+
+TEST_F(UvolViewer, IsovaluesAreKeptColoredAndLetLightThrough)
+{
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  const int colored = countColored(open.shoot()); // of the triad
+  open.type('i');
+  open.type('i'); // once is enough
+  EXPECT_EQ((std::vector<double>{0.5, 0.5}), open.surface.getIsoValues());
+  EXPECT_EQ(1u, isovaluesOf(*open.surface.getCloud()).size());
+  open.slide(0.3);
+  ASSERT_EQ(2u, open.surface.getIsoValues().size());
+  EXPECT_EQ(0.5, open.surface.getIsoValues()[0]);
+  EXPECT_EQ(2u, isovaluesOf(*open.surface.getCloud()).size());
+  const Image outer = open.shoot();
+  EXPECT_GT(countColored(outer), colored + 1000);
+  open.type('o');
+  const Image clear = open.shoot();
+  EXPECT_TRUE(clear.color != outer.color);
+  EXPECT_NEAR(covered(outer), covered(clear), 0.05 * covered(outer));
+  open.type('s');
+  EXPECT_GT(countColored(read("uvol_viewer_1.png")), 1000);
+  open.type('o');
+  EXPECT_TRUE(clear.color != open.shoot().color);
+  open.slide(open.surface.getRange()[0]); // which has no points: one is left
+  EXPECT_EQ(1u, isovaluesOf(*open.surface.getCloud()).size());
+  EXPECT_GT(covered(open.shoot()), 1500);
+  open.slide(0.3);
+  open.type('o'); // all are opaque
+  EXPECT_GT(countColored(open.shoot()), colored + 1000);
+  open.type('c'); // one colour
+  EXPECT_EQ(colored, countColored(open.shoot()));
+  open.type('m');
+  EXPECT_GT(open.surface.getTriangles().size(), 1000u);
+  open.type('I');
+  EXPECT_EQ(1u, open.surface.getIsoValues().size());
+  EXPECT_NEAR(0.3, open.surface.getIsoValue(), 0.05);
+  EXPECT_EQ(1u, isovaluesOf(*open.surface.getCloud()).size());
+}
+
+/** Cubes around the origin, a corner in each octant.
+ * \param sides half of those of each cube, by isovalue */
+pcl::PCLPointCloud2
+makeCubes(const std::vector<std::pair<float, float>>& sides)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> points;
+  for (const auto& [isovalue, side] : sides)
+    for (int corner = 0; corner < 8; ++corner) {
+      pcl_uvol::PointIso point;
+      for (int axis = 0; axis < 3; ++axis)
+        point.data[axis] = (corner >> axis & 1) != 0 ? side : -side;
+      point.isovalue = isovalue;
+      points.push_back(point);
+    }
+  pcl::PCLPointCloud2 cloud;
+  pcl::toPCLPointCloud2(points, cloud);
+  return cloud;
+}
+
+TEST(OpacityChoice, FollowsTheIsovaluesThatHavePoints)
+{
+  using Opacities = std::vector<double>;
+  const auto three = makeCubes({{0.1f, 3.0f}, {0.2f, 1.0f}, {0.4f, 2.0f}});
+  const auto two = makeCubes({{0.1f, 3.0f}, {0.4f, 2.0f}});
+  pcl::PCLPointCloud2 plain;
+  pcl::toPCLPointCloud2(*uvol_test::makeSphere(10, 1), plain);
+
+  uvol_tools::OpacityChoice opaque({});
+  EXPECT_EQ(Opacities(), opaque.find(three, {}));
+  EXPECT_EQ(0.6, opaque.next());
+  EXPECT_EQ((Opacities{0.6, 1.0, 0.6}), opaque.find(three, {}));
+  EXPECT_EQ((Opacities{0.6, 1.0}), opaque.find(two, {0.1, 0.2, 0.4}));
+  EXPECT_EQ(Opacities(), opaque.find(plain, {}));
+  EXPECT_EQ(0.3, opaque.next());
+  EXPECT_EQ((Opacities{0.3, 1.0, 0.3}), opaque.find(three, {}));
+  EXPECT_EQ(1.0, opaque.next());
+  EXPECT_EQ(Opacities(), opaque.find(three, {}));
+
+  uvol_tools::OpacityChoice given({0.5, 0.25});
+  EXPECT_EQ((Opacities{0.5, 0.25, 0.25}), given.find(three, {}));
+  EXPECT_EQ((Opacities{0.5, 0.25}), given.find(two, {}));
+  // The lowest of those that were asked for has no points.
+  EXPECT_EQ((Opacities{0.25, 0.25}), given.find(two, {0.4, 0.1, 0.05, 0.4}));
+  EXPECT_EQ((Opacities{0.5}), given.find(plain, {}));
+  EXPECT_EQ(1.0, given.next());
+  EXPECT_EQ(0.6, given.next());
+  EXPECT_EQ(0.3, given.next());
+  EXPECT_GT(0.0, given.next());
+  EXPECT_EQ((Opacities{0.5, 0.25, 0.25}), given.find(three, {}));
+}
+
 TEST_F(UvolViewer, KeysLookFromSidesAndPrintTheCamera)
 {
   OpenWindow open(makeVolume(), "intensity", {});
@@ -473,6 +579,22 @@ TEST_F(UvolViewer, TheToolSavesWhatItShows)
   EXPECT_EQ('{', result.out.front());
   EXPECT_GT(covered(read("half.png")), 1500);
   EXPECT_TRUE(read("middle.png").color != read("half.png").color);
+
+  // Several isovalues, as uvol_render draws them
+  const std::string look =
+      " -opacity 1,0.4 -background white -no-bar -eye 0,-3,0 -size 240x180";
+  result = runCommand("uvol_viewer volume.ply -field intensity -iso 0.3,0.6 "
+                      "-screenshot two.png" +
+                      look);
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  ASSERT_EQ(0,
+            runCommand("uvol_isosurface volume.ply two.ply -field intensity -iso "
+                       "0.3,0.6 && uvol_render two.ply same.png" +
+                       look)
+                .exit_code);
+  const int colored = countColored(read("same.png"));
+  EXPECT_GT(colored, 1000);
+  EXPECT_NEAR(colored, countColored(read("two.png")), 0.1 * colored);
 
   pcl_uvol::Dataset sphere;
   pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);

@@ -19,7 +19,7 @@ public:
   void
   declareView(Options& options);
 
-  /** \brief -opacity, for tools that call drawCloud(). */
+  /** \brief -opacity, for tools that call drawCloud() or take getOpacities(). */
   void
   declareOpacity(Options& options);
 
@@ -32,6 +32,14 @@ public:
   hasOpacities() const
   {
     return !opacities_.empty();
+  }
+
+  /** \brief Of the isovalues, the lowest first, or one for all; none: all are opaque.
+   */
+  const std::vector<double>&
+  getOpacities() const
+  {
+    return opacities_;
   }
 
   /** \brief As ViewOptions::check. */

@@ -79,21 +79,20 @@ isConstant(const pcl::PCLPointCloud2& cloud, const std::string& name)
 
 ColorChoice::ColorChoice(const RenderOptions& look, const pcl::PCLPointCloud2& cloud)
     : look_(look)
-    , fields_{look.colorField(pcl_uvol::viewOf(cloud))}
+    , fields_{look.colorField(pcl_uvol::viewOf(cloud)), ""}
 {
-  if (!getField().empty())
-    fields_.emplace_back();
   std::vector<std::string> constant;
   for (const std::string& name : listScalars(cloud))
-    if (name != fields_[0])
-      (isConstant(cloud, name) ? constant : fields_).push_back(name);
+    (isConstant(cloud, name) ? constant : fields_).push_back(name);
   fields_.insert(fields_.end(), constant.begin(), constant.end());
 }
 
 void
 ColorChoice::next()
 {
-  chosen_ = (chosen_ + 1) % fields_.size();
+  do
+    chosen_ = (chosen_ + 1) % fields_.size();
+  while (chosen_ != 0 && fields_[chosen_] == fields_[0]);
 }
 
 bool
@@ -107,6 +106,7 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
                    pcl_uvol::ImageSpaceRendererBase& renderer,
                    vtkScalarBarActor& bar)
 {
+  fields_[0] = look_.colorField(pcl_uvol::viewOf(cloud));
   const std::string& field = getField();
   renderer.setColorField("");
   bar.VisibilityOff();

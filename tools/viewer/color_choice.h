@@ -17,7 +17,7 @@ namespace uvol_tools {
 class ColorChoice {
 public:
   /** \param look names the first field, and the range of its colours if it has one;
-   * outlives this object */
+   * outlives this object. Where it names none, several isovalues have a colour each */
   ColorChoice(const RenderOptions& look, const pcl::PCLPointCloud2& cloud);
 
   /** \brief "" for one colour. */
@@ -64,7 +64,7 @@ private:
   };
 
   const RenderOptions& look_;
-  std::vector<std::string> fields_; // that of the options first
+  std::vector<std::string> fields_; // that of the options first, and again by its name
   std::size_t chosen_ = 0;
   Legend legend_;
 };

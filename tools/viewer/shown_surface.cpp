@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -89,7 +91,9 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
         if (request.is_meshed)
           parameters.mesh.emplace().open = true; // caps would hide the surface
         parameters.isosurface.field = field;
-        parameters.isosurface.isovalues = {request.isovalue};
+        const std::set<double> isovalues(request.isovalues.begin(),
+                                         request.isovalues.end());
+        parameters.isosurface.isovalues = {isovalues.begin(), isovalues.end()};
         pipeline->setParameters(parameters);
         pipeline->setProgressCallback(progress);
         return pipeline->run();
@@ -117,13 +121,30 @@ ShownSurface::proposeIsoValue() const
 void
 ShownSurface::setIsoValue(double isovalue)
 {
-  if (!(isovalue >= range_[0] && isovalue <= range_[1])) {
-    std::ostringstream text;
-    text << "The isovalue lies between " << range_[0] << " and " << range_[1]
-         << ", the range of " << field_ << ", and is not " << isovalue << ".";
-    throw InvalidArgument(text.str());
-  }
-  ask({isovalue, asked_.is_meshed});
+  std::vector<double> isovalues = asked_.isovalues;
+  isovalues.back() = isovalue;
+  setIsoValues(isovalues);
+}
+
+void
+ShownSurface::setIsoValues(const std::vector<double>& isovalues)
+{
+  for (const double isovalue : isovalues)
+    if (!(isovalue >= range_[0] && isovalue <= range_[1])) {
+      std::ostringstream text;
+      text << "The isovalue lies between " << range_[0] << " and " << range_[1]
+           << ", the range of " << field_ << ", and is not " << isovalue << ".";
+      throw InvalidArgument(text.str());
+    }
+  ask({isovalues, asked_.is_meshed});
+}
+
+void
+ShownSurface::keepIsoValue()
+{
+  const auto moving = std::prev(asked_.isovalues.end());
+  if (std::find(asked_.isovalues.begin(), moving, *moving) == moving)
+    asked_.isovalues.push_back(*moving);
 }
 
 void
@@ -132,7 +153,7 @@ ShownSurface::setMeshed(bool is_meshed)
   if (field_.empty())
     throw InvalidArgument("A mesh is made of samples, and these are points of a "
                           "surface: -field shows the isosurfaces of samples.");
-  ask({asked_.isovalue, is_meshed});
+  ask({asked_.isovalues, is_meshed});
 }
 
 void

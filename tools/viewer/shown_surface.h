@@ -52,17 +52,35 @@ public:
   double
   proposeIsoValue() const;
 
-  /** \brief The one that was asked for last. */
+  /** \brief The one that moves, as it was asked for last. */
   double
   getIsoValue() const
   {
-    return asked_.isovalue;
+    return asked_.isovalues.back();
   }
 
-  /** \brief Ask for another isosurface, with all fields of the samples.
+  /** \brief All that were asked for: those that are kept in the order in which they
+   * came, then the one that moves. */
+  const std::vector<double>&
+  getIsoValues() const
+  {
+    return asked_.isovalues;
+  }
+
+  /** \brief Ask for another isovalue in the place of the one that moves; surfaces have
+   * all fields of the samples.
    * \throws InvalidArgument if it lies outside of the range */
   void
   setIsoValue(double isovalue);
+
+  /** \brief Ask for several isovalues, of which the last one moves.
+   * \throws InvalidArgument as setIsoValue() */
+  void
+  setIsoValues(const std::vector<double>& isovalues);
+
+  /** \brief Keep the isovalue that moves: another one moves from there. */
+  void
+  keepIsoValue();
 
   /** \brief Ask for meshes of isosurfaces from now on, or points again.
    * \throws InvalidArgument for a surface given as points */

@@ -12,13 +12,14 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace uvol_tools {
 
 /** \brief What the user wants to see of samples. */
 struct SurfaceRequest {
-  double isovalue = 0.0;
-  bool is_meshed = false; ///< triangles instead of isopoints
+  std::vector<double> isovalues = {0.0}; ///< the last one moves, the others are kept
+  bool is_meshed = false;                ///< triangles instead of isopoints
 };
 
 /** \brief Extracts isosurfaces in a thread of its own, one at a time. Requests that are

@@ -85,6 +85,7 @@ ViewerWindow::savePicture()
   renderer.setInputCloud(surface_.getCloud());
   renderer.settings() = prop_->renderer().settings();
   colors_->colorLike(renderer);
+  renderer.setOpacities(prop_->renderer().getOpacities());
   const int* const size = window_->GetSize();
   renderer.setSize(size[0], size[1]);
   renderer.setSupersampling(look_.getSupersampling());

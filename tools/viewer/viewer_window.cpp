@@ -156,6 +156,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
                            pcl_uvol::WindowBackend backend)
     : surface_(surface)
     , look_(look)
+    , opacities_(look.getOpacities())
 {
   surface_.finish();
   const pcl::PCLPointCloud2::ConstPtr& cloud = surface_.getCloud();
@@ -292,6 +293,7 @@ ViewerWindow::setUpSlider()
   }
   renderer_->AddViewProp(
       drawHistogram(surface_.readValues(), scale_, {{0.1, 0.125, 0.9, 0.2}}));
+  slider_->KeyPressActivationOff(); // else the key i hides it
   slider_->SetInteractor(interactor_);
   slider_->SetRepresentation(slider_shape_);
   slider_->SetAnimationModeToJump();
@@ -317,6 +319,7 @@ ViewerWindow::setUpTriad(double grey)
     caption->GetTextActor()->SetTextScaleModeToNone(); // else it goes by the corner
   }
   triad_->SetOrientationMarker(axes);
+  triad_->KeyPressActivationOff(); // else the key i hides it
   triad_->SetInteractor(interactor_);
   triad_->SetViewport(0.86, 0.86, 1.0, 1.0);
   triad_->EnabledOn();
@@ -328,6 +331,7 @@ ViewerWindow::showSurface()
 {
   prop_->setInputCloud(surface_.getCloud());
   applyColor();
+  applyOpacities();
   showMesh();
   renderer_->ResetCameraClippingRange();
 }
@@ -436,10 +440,45 @@ ViewerWindow::typeIsoValue(char key)
 }
 
 void
+ViewerWindow::keepIsoValue(bool keeps)
+{
+  if (surface_.getField().empty())
+    return;
+  if (keeps)
+    surface_.keepIsoValue();
+  else
+    surface_.setIsoValues({surface_.getIsoValue()});
+  nameIsoValue();
+  awaitSurface();
+}
+
+void
+ViewerWindow::applyOpacities()
+{
+  const bool is_of_samples = !surface_.getField().empty();
+  if (surface_.getCloud())
+    prop_->renderer().setOpacities(opacities_.find(
+        *surface_.getCloud(),
+        is_of_samples ? surface_.getIsoValues() : std::vector<double>()));
+}
+
+void
+ViewerWindow::nextOpacities()
+{
+  const double opacity = opacities_.next();
+  applyOpacities();
+  show(opacity < 0.0
+           ? "opacities of the options"
+           : "opacity " + shortNumber(opacity) + " of all isovalues but the innermost");
+}
+
+void
 ViewerWindow::nameIsoValue()
 {
-  const std::string text =
-      surface_.getField() + " = " + shortNumber(surface_.getIsoValue());
+  const std::vector<double>& isovalues = surface_.getIsoValues();
+  std::string text = surface_.getField() + " = " + shortNumber(isovalues.back());
+  for (std::size_t i = 0; i + 1 < isovalues.size(); ++i)
+    text += (i == 0 ? ", kept: " : ", ") + shortNumber(isovalues[i]);
   slider_shape_->SetTitleText(text.c_str());
 }
 
@@ -475,6 +514,10 @@ ViewerWindow::press(char key)
       switchMesh();
     else if (key == '+' || key == '-')
       stepIsoValue(key == '+' ? 1 : -1);
+    else if (key == 'i' || key == 'I')
+      keepIsoValue(key == 'i');
+    else if (key == 'o')
+      nextOpacities();
     else if (key == 'r')
       renderer_->ResetCamera();
     else if (key == 's')

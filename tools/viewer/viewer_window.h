@@ -4,6 +4,7 @@
 
 #include "shared/render_options.h"
 #include "viewer/color_choice.h"
+#include "viewer/opacity_choice.h"
 #include "viewer/shown_surface.h"
 #include "viewer/typed_number.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
@@ -147,7 +148,18 @@ private:
   void
   stepIsoValue(int steps);
 
-  /** Write the isovalue beside the slider. */
+  /** Keep the isovalue that moves, or let go of all that are kept. */
+  void
+  keepIsoValue(bool keeps);
+
+  /** Let light through isovalues as chosen. */
+  void
+  applyOpacities();
+
+  void
+  nextOpacities();
+
+  /** Write the isovalues beside the slider. */
   void
   nameIsoValue();
 
@@ -192,6 +204,7 @@ private:
   ShownSurface& surface_;
   const RenderOptions& look_;
   std::optional<ColorChoice> colors_;
+  OpacityChoice opacities_;
   TypedNumber typed_;
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
