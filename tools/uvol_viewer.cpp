@@ -63,20 +63,22 @@ checkCombinations(const uvol_tools::Options& options,
     pcl_uvol::checkPngPath(arguments.screenshot);
 }
 
-uvol_tools::ShownSurface
+/** Read a file, of which the look gets to know the colours. */
+uvol_tools::ShownFile
 load(const uvol_tools::Options& options,
-     Arguments& arguments,
-     uvol_tools::RenderOptions& look,
-     Report& report)
+     const std::string& path,
+     std::string field,
+     uvol_tools::RenderOptions look)
 {
-  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
-  if (arguments.field.empty())
+  Report report;
+  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(path, report);
+  if (field.empty())
     look.addColor(options, dataset, report);
   else {
-    uvol_tools::addField(dataset, arguments.field, options, report);
+    uvol_tools::addField(dataset, field, options, report);
     look.addColorOfSamples(options, dataset, report);
   }
-  return {std::move(dataset), arguments.field, options.threads()};
+  return {{std::move(dataset), field, options.threads()}, look, report};
 }
 
 int
@@ -100,15 +102,18 @@ run(int argc, char** argv)
   uvol_tools::checkDisplay();
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR); // PCL and X cause warnings
 
-  Report report;
-  uvol_tools::ShownSurface surface = load(options, arguments, look, report);
+  const auto open = [&](const std::string& path) {
+    return load(options, path, arguments.field, look);
+  };
+  uvol_tools::ShownFile file = open(arguments.input);
   if (!arguments.field.empty()) {
-    surface.setIsoValues(options.given("iso")
-                             ? arguments.isovalues
-                             : std::vector<double>{surface.proposeIsoValue()});
+    file.surface.setIsoValues(
+        options.given("iso") ? arguments.isovalues
+                             : std::vector<double>{file.surface.proposeIsoValue()});
   }
   uvol_tools::ViewerWindow window(
-      "uvol_viewer " + arguments.input, surface, look, options, arguments.backend);
+      arguments.input, file.surface, file.look, options, arguments.backend, open);
+  Report report = file.report;
   report.merge(window.getReport());
   if (!arguments.screenshot.empty())
     window.save(arguments.screenshot);

@@ -15,9 +15,11 @@
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -91,7 +93,27 @@ public:
     look.check(options);
     if (!field.empty())
       surface.setIsoValue(0.5);
-    window = std::make_unique<uvol_tools::ViewerWindow>("in", surface, look, options);
+    const auto read = [this, field](const std::string& path) {
+      return uvol_tools::ShownFile{
+          {pcl_uvol::loadDataset(path), field, 0}, look, pcl_uvol::Report()};
+    };
+    window = std::make_unique<uvol_tools::ViewerWindow>(
+        "in", surface, look, options, pcl_uvol::WindowBackend::Auto, read);
+  }
+
+  void
+  drop(const std::vector<const char*>& paths)
+  {
+    vtkNew<vtkStringArray> files;
+    for (const char* const path : paths)
+      files->InsertNextValue(path);
+    window->interactor().InvokeEvent(vtkCommand::DropFilesEvent, files);
+  }
+
+  std::string
+  title()
+  {
+    return window->interactor().GetRenderWindow()->GetWindowName();
   }
 
   /** Move the mouse with the left button held, in pixels from the lower left. */
@@ -413,6 +435,74 @@ TEST_F(UvolViewer, IsovaluesAreTyped)
   const Image before = open.shoot();
   open.type('4'); // is a pass again
   EXPECT_TRUE(before.color != open.shoot().color);
+}
+
+TEST_F(UvolViewer, FilesAreDroppedOnIt)
+{
+  pcl_uvol::Dataset volume = makeVolume();
+  pcl_uvol::saveDataset("same.ply", volume);
+  const pcl_uvol::CloudView points = pcl_uvol::viewOf(volume.cloud);
+  const auto field = std::find_if(volume.cloud.fields.begin(),
+                                  volume.cloud.fields.end(),
+                                  [](const auto& f) { return f.name == "intensity"; });
+  for (std::size_t i = 0; i < points.count; ++i) {
+    float value;
+    std::uint8_t* const place =
+        &volume.cloud.data[i * volume.cloud.point_step + field->offset];
+    std::memcpy(&value, place, sizeof(value));
+    value = 1000.0f * value + 1000.0f;
+    std::memcpy(place, &value, sizeof(value));
+  }
+  pcl_uvol::saveDataset("other.ply", volume);
+  uvol_test::writeFile("equal.csv", "x,y,z,intensity\n0,0,0,1\n1,0,0,1\n");
+  uvol_test::writeFile("none.csv", "x,y,z\n0,0,0\n1,0,0\n");
+
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  const std::size_t width_at_half = open.surface.getCloud()->width;
+  open.type('i');
+  open.slide(0.7);
+  const auto isovalues = open.surface.getIsoValues();
+  const auto before = open.surface.getCloud();
+  open.drop({});
+  for (const char* const bad : {"gone.ply", "equal.csv", "none.csv"}) {
+    open.drop({bad, "same.ply"});
+    EXPECT_EQ(before, open.surface.getCloud()) << bad;
+    EXPECT_EQ(isovalues, open.surface.getIsoValues()) << bad;
+    EXPECT_EQ("uvol_viewer in (h: keys)", open.title());
+  }
+  open.type('k'); // cuts the old surface
+  open.drop({"same.ply"});
+  EXPECT_EQ("uvol_viewer same.ply (h: keys)", open.title());
+  EXPECT_EQ(isovalues, open.surface.getIsoValues());
+  EXPECT_EQ(before->width, open.surface.getCloud()->width);
+
+  open.drop({"other.ply", "same.ply"});
+  EXPECT_EQ("uvol_viewer other.ply (h: keys)", open.title());
+  ASSERT_EQ(1u, open.surface.getIsoValues().size());
+  EXPECT_NEAR(1000.0, open.surface.getRange()[0], 50.0);
+  open.slide(1500.0); // by the new range
+  EXPECT_NEAR(1500.0, open.surface.getIsoValue(), 40.0);
+  EXPECT_NEAR(width_at_half,
+              open.surface.getCloud()->width,
+              0.1 * static_cast<double>(width_at_half));
+  EXPECT_GT(covered(open.shoot()), 1500);
+}
+
+TEST_F(UvolViewer, DroppedPointsThatCannotBeDrawnLeaveTheOldOnes)
+{
+  pcl_uvol::Dataset sphere;
+  pcl::toPCLPointCloud2(*uvol_test::makeSphere(6000, 1), sphere.cloud);
+  uvol_test::writeFile("nowhere.csv", "x,y,z\n,,\n,,\n");
+  OpenWindow open(sphere, "", {});
+  sphere.origin = {{100.0, 0.0, 0.0}};
+  pcl_uvol::saveDataset("far.ply", sphere);
+  const Image before = open.shoot();
+  open.drop({"nowhere.csv"});
+  EXPECT_EQ("uvol_viewer in (h: keys)", open.title());
+  EXPECT_NEAR(covered(before), covered(open.shoot()), 0.01 * covered(before));
+  open.drop({"far.ply"});
+  EXPECT_EQ("uvol_viewer far.ply (h: keys)", open.title());
+  EXPECT_GT(covered(open.shoot()), 1000);
 }
 
 std::vector<double>

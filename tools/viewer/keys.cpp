@@ -66,7 +66,7 @@ describeKeys()
   std::string text = "left drag: turn   middle drag: move   wheel, right drag: zoom\n";
   for (const PassKey& key : pass_keys)
     text += std::string(1, key.key) + "  " + key.help + " on or off\n";
-  return text + "click: what a point holds\n"
+  return text + "click: what a point holds   drop a file: open it\n"
                 "f  turn about the point under the mouse\n"
                 "k  cut away what lies in front of that, or show it again\n"
                 "c  colour by the next field\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cameras of the window, and what it saves.
+// Cameras of the window, what it saves, and files that it opens.
 #include "shared/ray_options.h"
 #include "viewer/keys.h"
 #include "viewer/viewer_window.h"
@@ -141,6 +141,76 @@ ViewerWindow::saveSurface()
   surface.origin = surface_.getOrigin();
   pcl_uvol::saveDataset(name, surface);
   show("saved " + name);
+}
+
+ShownFile
+ViewerWindow::readFile(const std::string& path)
+{
+  ShownFile file = open_(path);
+  ShownSurface& surface = file.surface;
+  if (surface.getField().empty())
+    return file;
+  surface.setMeshed(surface_.isMeshed());
+  // A further state of the same samples is compared at the same isovalues.
+  const auto& isovalues = surface_.getIsoValues();
+  const auto& range = surface.getRange();
+  if (std::all_of(isovalues.begin(), isovalues.end(), [&range](double isovalue) {
+        return isovalue >= range[0] && isovalue <= range[1];
+      })) {
+    surface.setIsoValues(isovalues);
+    surface.finish();
+  }
+  if (!surface.getCloud()) {
+    surface.setIsoValues({surface.proposeIsoValue()});
+    surface.finish();
+  }
+  if (!surface.getCloud())
+    throw pcl_uvol::InvalidArgument("There are no points at the isovalues of " + path +
+                                    " that were tried.");
+  return file;
+}
+
+void
+ViewerWindow::openFile(const std::string& path)
+{
+  show("reading " + path);
+  render();
+  ShownFile file = readFile(path);
+  std::unique_ptr<ColorChoice> colors;
+  const auto exchange = [&] {
+    std::swap(surface_, file.surface);
+    std::swap(look_, file.look);
+    std::swap(colors_, colors);
+  };
+  const pcl_uvol::Camera before = getCamera();
+  exchange();
+  try {
+    colors_ = std::make_unique<ColorChoice>(look_, *surface_.getCloud());
+    showOtherSurface();
+    renderer_->ResetCamera();
+    render();
+    if (!error_.empty())
+      throw pcl_uvol::Exception(error_);
+  }
+  catch (...) { // it is no surface that can be drawn
+    exchange();
+    showOtherSurface();
+    setCamera(before);
+    throw;
+  }
+  nameWindow(path);
+  std::string warnings;
+  for (const std::string& warning : file.report.warnings)
+    warnings += (warnings.empty() ? "" : "\n") + warning;
+  show(warnings);
+}
+
+void
+ViewerWindow::showOtherSurface()
+{
+  showSurface();
+  if (!surface_.getField().empty())
+    fitSlider();
 }
 
 } // namespace uvol_tools

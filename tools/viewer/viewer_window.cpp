@@ -18,6 +18,7 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkProperty2D.h>
+#include <vtkStringArray.h>
 #include <vtkTextProperty.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <iostream>
 #include <string_view>
+#include <utility>
 
 namespace uvol_tools {
 
@@ -149,13 +151,15 @@ setColor(vtkTextProperty& text, double grey)
 
 } // namespace
 
-ViewerWindow::ViewerWindow(const std::string& title,
+ViewerWindow::ViewerWindow(const std::string& path,
                            ShownSurface& surface,
                            const RenderOptions& look,
                            const Options& options,
-                           pcl_uvol::WindowBackend backend)
+                           pcl_uvol::WindowBackend backend,
+                           Open open)
     : surface_(surface)
     , look_(look)
+    , open_(std::move(open))
     , opacities_(look.getOpacities())
 {
   surface_.finish();
@@ -166,7 +170,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
   prop_->setBackend(backend);
   pcl_uvol::ImageSpaceRendererBase& renderer = prop_->renderer();
   look_.applyLook(options, pcl_uvol::viewOf(*cloud), renderer);
-  colors_.emplace(look_, *cloud);
+  colors_ = std::make_unique<ColorChoice>(look_, *cloud);
   observe(*prop_, vtkCommand::ErrorEvent, [this](const void* text) {
     error_ = extractWords(static_cast<const char*>(text));
     std::cerr << "uvol_viewer: " << error_ << '\n';
@@ -175,7 +179,7 @@ ViewerWindow::ViewerWindow(const std::string& title,
   setUpScene(background);
   setUpTexts(background);
   showSurface();
-  window_->SetWindowName((title + " (h: keys)").c_str());
+  nameWindow(path);
   if (!surface_.getField().empty())
     setUpSlider();
   setUpTriad(greyOn(background));
@@ -221,6 +225,13 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   };
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style);
+  observe(*interactor_, vtkCommand::DropFilesEvent, [this](const void* files) {
+    const auto& paths = *static_cast<const vtkStringArray*>(files);
+    if (!open_ || paths.GetNumberOfValues() == 0)
+      return;
+    attempt([&] { openFile(paths.GetValue(0)); });
+    render();
+  });
   observe(*interactor_, vtkCommand::TimerEvent, [this](const void* timer) {
     if (!awaits_surface_ || *static_cast<const int*>(timer) != timers_[1])
       return;
@@ -269,15 +280,9 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
 void
 ViewerWindow::setUpSlider()
 {
-  // Fields of many decades have most of their surfaces in the lower ones.
-  constexpr double many_decades = 1e3;
-  const auto& [low, high] = surface_.getRange();
-  scale_ = {low, high, low > 0.0 && high / low >= many_decades};
   slider_shape_->SetMinimumValue(0.0);
   slider_shape_->SetMaximumValue(1.0);
-  slider_shape_->SetValue(scale_.placeOf(surface_.getIsoValue()));
   slider_shape_->ShowSliderLabelOff();
-  nameIsoValue();
   slider_shape_->SetSliderLength(0.03); // parts of the window
   slider_shape_->SetSliderWidth(0.03);
   slider_shape_->SetTubeWidth(0.008);
@@ -291,8 +296,7 @@ ViewerWindow::setUpSlider()
     end->SetCoordinateSystemToNormalizedDisplay();
     end->SetValue(x, 0.12);
   }
-  renderer_->AddViewProp(
-      drawHistogram(surface_.readValues(), scale_, {{0.1, 0.125, 0.9, 0.2}}));
+  fitSlider();
   slider_->KeyPressActivationOff(); // else the key i hides it
   slider_->SetInteractor(interactor_);
   slider_->SetRepresentation(slider_shape_);
@@ -301,6 +305,26 @@ ViewerWindow::setUpSlider()
     attempt([this] { followSlider(); });
   });
   slider_->EnabledOn();
+}
+
+void
+ViewerWindow::fitSlider()
+{
+  // Fields of many decades have most of their surfaces in the lower ones.
+  constexpr double many_decades = 1e3;
+  const auto& [low, high] = surface_.getRange();
+  scale_ = {low, high, low > 0.0 && high / low >= many_decades};
+  slider_shape_->SetValue(scale_.placeOf(surface_.getIsoValue()));
+  nameIsoValue();
+  renderer_->RemoveViewProp(histogram_);
+  histogram_ = drawHistogram(surface_.readValues(), scale_, {{0.1, 0.125, 0.9, 0.2}});
+  renderer_->AddViewProp(histogram_);
+}
+
+void
+ViewerWindow::nameWindow(const std::string& path)
+{
+  window_->SetWindowName(("uvol_viewer " + path + " (h: keys)").c_str());
 }
 
 void
@@ -603,7 +627,8 @@ ViewerWindow::tellFailure(const std::string& message)
   if (!surface_.getField().empty())
     nameIsoValue(); // which is that of the surface before
   show(message);
-  std::cerr << "uvol_viewer: " << message << '\n';
+  if (message != error_) // which was written when it was found
+    std::cerr << "uvol_viewer: " << message << '\n';
 }
 
 void

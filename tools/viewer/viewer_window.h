@@ -10,6 +10,7 @@
 #include <pcl_uvol/vtk/image_space_prop.h>
 
 #include <vtkActor.h>
+#include <vtkActor2D.h>
 #include <vtkNew.h>
 #include <vtkOrientationMarkerWidget.h>
 #include <vtkPolyDataMapper.h>
@@ -19,27 +20,42 @@
 #include <vtkScalarBarActor.h>
 #include <vtkSliderRepresentation2D.h>
 #include <vtkSliderWidget.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
 #include <array>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 
 namespace uvol_tools {
+
+/** \brief A file that is shown. */
+struct ShownFile {
+  ShownSurface surface;
+  RenderOptions look;      ///< which knows the labels and the colours of the file
+  pcl_uvol::Report report; ///< of reading it
+};
 
 /** \brief Shows a surface until the user closes it. Failures of single actions are told
  * in the window and on stderr. */
 class ViewerWindow {
 public:
+  /** \brief Reads a file as the command line says; surfaces of samples need no isovalue
+   * yet. */
+  using Open = std::function<ShownFile(const std::string& path)>;
+
   /** \brief Open the window and draw the first frame. There must be a display.
+   * \param path of the file that is shown
    * \param surface outlives the window, its isovalue is set where it has a field
+   * \param open reads files that are dropped on the window; empty: none can be
    * \throws pcl_uvol::Exception if it cannot be drawn */
-  ViewerWindow(const std::string& title,
+  ViewerWindow(const std::string& path,
                ShownSurface& surface,
                const RenderOptions& look,
                const Options& options,
-               pcl_uvol::WindowBackend backend = pcl_uvol::WindowBackend::Auto);
+               pcl_uvol::WindowBackend backend = pcl_uvol::WindowBackend::Auto,
+               Open open = {});
   ViewerWindow(const ViewerWindow&) = delete;
   ViewerWindow&
   operator=(const ViewerWindow&) = delete;
@@ -89,6 +105,25 @@ private:
 
   void
   setUpSlider();
+
+  /** Fit slider and histogram to the surface's field. */
+  void
+  fitSlider();
+
+  void
+  nameWindow(const std::string& path);
+
+  /** Show a file in the place of what is shown. */
+  void
+  openFile(const std::string& path);
+
+  /** Read a file, and extract from its samples what is shown of those before. */
+  ShownFile
+  readFile(const std::string& path);
+
+  /** Show a surface that has taken the place of another one, with its slider. */
+  void
+  showOtherSurface();
 
   /** Show how the axes lie, in a corner. */
   void
@@ -202,8 +237,9 @@ private:
   show(const std::string& message);
 
   ShownSurface& surface_;
-  const RenderOptions& look_;
-  std::optional<ColorChoice> colors_;
+  RenderOptions look_;
+  const Open open_;
+  std::unique_ptr<ColorChoice> colors_;
   OpacityChoice opacities_;
   TypedNumber typed_;
   pcl_uvol::ColorScale scale_;  // of the slider
@@ -218,6 +254,7 @@ private:
   vtkNew<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkTextActor> help_, message_;
   vtkNew<vtkScalarBarActor> bar_;
+  vtkSmartPointer<vtkActor2D> histogram_;
   vtkNew<vtkSliderRepresentation2D> slider_shape_;
   vtkNew<vtkSliderWidget> slider_;
   vtkNew<vtkOrientationMarkerWidget> triad_;
