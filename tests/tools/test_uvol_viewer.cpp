@@ -18,10 +18,12 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 namespace {
 
@@ -219,23 +221,41 @@ TEST_F(UvolViewer, TheLoopShowsNewSurfacesUntilAKeyEndsIt)
   struct Watch {
     OpenWindow& open;
     pcl::PCLPointCloud2::ConstPtr before;
-    int looks_left;
-  } watch{open, open.surface.getCloud(), 400};
+    int looks;
+  } watch{open, open.surface.getCloud(), 0};
   EXPECT_TRUE(open.surface.isBusy());
-  vtkNew<vtkCallbackCommand> quit;
-  quit->SetClientData(&watch);
-  quit->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
+  vtkNew<vtkCallbackCommand> look;
+  look->SetClientData(&watch);
+  look->SetCallback([](vtkObject*, unsigned long, void* data, void*) {
     Watch& w = *static_cast<Watch*>(data);
-    if (w.open.surface.getCloud() != w.before || --w.looks_left == 0)
+    if (++w.looks <= 3) { // one surface is ready, and the next one asked for
+      w.open.type('+');
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      w.open.type('+');
+    }
+    else if (!w.open.surface.isBusy() || w.looks == 400)
       w.open.type('q');
   });
-  open.window->interactor().AddObserver(vtkCommand::TimerEvent, quit);
+  const unsigned long looks =
+      open.window->interactor().AddObserver(vtkCommand::TimerEvent, look);
   open.window->interactor().CreateRepeatingTimer(50);
   open.window->run();
+  open.window->interactor().RemoveObserver(looks);
   EXPECT_TRUE(open.window->interactor().GetDone());
-  EXPECT_GT(watch.looks_left, 0);
   EXPECT_FALSE(open.surface.isBusy());
   EXPECT_GT(open.surface.getCloud()->width, watch.before->width);
+  EXPECT_GT(open.surface.getIsoValue(), 0.85);
+
+  // The last one is drawn as if there had been no others before it.
+  OpenWindow other(makeVolume(), "intensity", {});
+  other.surface.setIsoValue(open.surface.getIsoValue());
+  other.window->finish();
+  open.type('y');
+  other.type('y');
+  const Image last = open.shoot(), same = other.shoot();
+  const auto above_slider = static_cast<std::ptrdiff_t>(last.color.size() * 3 / 4);
+  EXPECT_TRUE(std::equal(
+      last.color.begin(), last.color.begin() + above_slider, same.color.begin()));
   open.slide(0.4); // goes with the window
 }
 

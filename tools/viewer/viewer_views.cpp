@@ -173,6 +173,7 @@ ViewerWindow::readFile(const std::string& path)
 void
 ViewerWindow::openFile(const std::string& path)
 {
+  finish();
   show("reading " + path);
   render();
   ShownFile file = readFile(path);

@@ -48,8 +48,8 @@ constexpr double isovalue_step = 0.01;
 /** Milliseconds between looks for a new surface: less than a frame takes. */
 constexpr unsigned long look_interval = 15;
 
-/** Keys that mean the surface that was asked for, and not the one before it. */
-constexpr std::string_view keys_of_surface = "efkpsS";
+/** Keys that mean the surface that was asked for, and not those on the way to it. */
+constexpr std::string_view keys_of_surface = "7efkpsS";
 
 /** VTK's way to turn, move and zoom with the mouse, without its keys. */
 class MouseStyle : public vtkInteractorStyleTrackballCamera {
@@ -242,8 +242,10 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
       if (is_new)
         showNewSurface();
     });
-    if (is_new) // or an error is to be told
+    if (is_new) { // or an error is to be told
+      hurry(surface_.isBusy());
       render();
+    }
     awaitSurface();
   });
 }
@@ -434,8 +436,21 @@ ViewerWindow::awaitSurface()
 void
 ViewerWindow::finish()
 {
+  hurry(false);
   if (surface_.finish())
     showNewSurface();
+}
+
+void
+ViewerWindow::hurry(bool is_hasty)
+{
+  if (is_hasty == is_hasty_)
+    return;
+  bool& footprints = prop_->renderer().settings().footprints;
+  if (is_hasty)
+    had_footprints_ = footprints;
+  footprints = !is_hasty && had_footprints_;
+  is_hasty_ = is_hasty;
 }
 
 void

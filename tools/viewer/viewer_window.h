@@ -172,6 +172,11 @@ private:
   void
   awaitSurface();
 
+  /** Draw without footprints while surfaces follow one another, or with them again:
+   * those of a surface take about as long as its extraction. */
+  void
+  hurry(bool is_hasty);
+
   /** Show a surface that has come, and what is to be said of it. */
   void
   showNewSurface();
@@ -245,6 +250,7 @@ private:
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
   bool awaits_surface_ = false;
+  bool is_hasty_ = false, had_footprints_ = false;
   std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;
