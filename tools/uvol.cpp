@@ -102,18 +102,19 @@ printFormats()
 {
   using pcl_uvol::io::listLoadedEndings;
   using pcl_uvol::io::listSavedEndings;
-  std::cout << "Points, read:    " << joined(listLoadedEndings())
-            << ", snapshots of Gadget;\n                 packed .gz .bz2 .zst; - is "
-               "standard input"
-            << "\nPoints, written: " << joined(listSavedEndings())
-            << ", by many processes .pvtp\n"
-               "Meshes, read:    .ply .vtp .vtkhdf .obj .off .stl\n"
-               "Meshes, written: .ply .vtp .vtkhdf .obj .off .stl\n"
-               "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
-               "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
-               "Scenes, read:    .scene .txt\n"
-               "Pictures:        .png, .svg; of uvol_render also .html, which turns in any "
-               "browser\n";
+  std::cout
+      << "Points, read:    " << joined(listLoadedEndings())
+      << ", snapshots of Gadget;\n                 packed .gz .bz2 .zst; - is "
+         "standard input"
+      << "\nPoints, written: " << joined(listSavedEndings())
+      << ", by many processes .pvtp\n"
+         "Meshes, read:    .ply .vtp .vtkhdf .obj .off .stl\n"
+         "Meshes, written: .ply .vtp .vtkhdf .obj .off .stl\n"
+         "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
+         "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
+         "Scenes, read:    .scene .txt\n"
+         "Pictures:        .png, .svg; of uvol_render also .html, which turns in any "
+         "browser\n";
 }
 
 /** \throws UsageError unless the process becomes the tool */

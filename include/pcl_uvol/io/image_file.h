@@ -15,10 +15,9 @@ namespace pcl_uvol {
 /** \brief A keyword of at most 79 characters, such as "Software", and what it says. */
 using ImageText = std::pair<std::string, std::string>;
 
-/** \brief The bytes of an image as a PNG file, with opacity where a pixel is not opaque.
- * \param image with its colours
- * \param texts kept in it, for those who ask where the picture is from
- * \throws InvalidArgument for an image without pixels */
+/** \brief The bytes of an image as a PNG file, with opacity where a pixel is not
+ * opaque. \param image with its colours \param texts kept in it, for those who ask
+ * where the picture is from \throws InvalidArgument for an image without pixels */
 PCL_UVOL_EXPORTS std::vector<std::uint8_t>
 encodePng(const Image& image, const std::vector<ImageText>& texts = {});
 
