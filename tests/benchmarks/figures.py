@@ -159,7 +159,7 @@ def write_tables():
         lines.append(f"| {what} | " + " | ".join(figures) + " |")
     machines = sorted({load(name)["machine"] for name, *_ in ROWS.values()})
     dates = sorted({load(name)["date"] for name, *_ in ROWS.values()})
-    lines += ["", "Times on machines A and B of the diary, two virtual cores each, and how many times as long the peer takes; in the last run "
+    lines += ["", "Times on machines A, B and C of the diary, two virtual cores each, and how many times as long the peer takes; in the last run "
               f"({dates[-1]}, {'; '.join(machines)}) other programs waited for the cores, as many as the load says, which lengthens all times "
               "and disturbs the ratio of programs that use several threads.", "",
               "| what | ours | beside | times as long | machine | last run |", "|---|---|---|---|---|---|"]
