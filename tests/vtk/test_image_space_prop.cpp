@@ -285,9 +285,10 @@ TEST_P(ImageSpacePropTest, ParallelProjectionsAreThoseOfVtk)
 pcl::PCLPointCloud2::Ptr
 makeShells()
 {
+  const auto sphere = uvol_test::makeSphere(20000, 3);
   pcl::PointCloud<pcl_uvol::PointIso> shells;
   for (const float part : {0.5f, 1.0f})
-    for (const pcl::PointNormal& point : *uvol_test::makeSphere(20000, 3)) {
+    for (const pcl::PointNormal& point : *sphere) {
       pcl_uvol::PointIso shell;
       shell.getVector3fMap() = part * point.getVector3fMap();
       shell.getNormalVector3fMap() = point.getNormalVector3fMap();
