@@ -85,15 +85,20 @@ findReaching(const float* const* centers,
   return found;
 }
 
-/** Four sums side by side: as many on all machines, in one order. */
+/** Four sums side by side: as many on all machines, in one order. Functions neither
+ * take nor return them by value, which machines without such registers do differently.
+ */
 using Sums = double __attribute__((vector_size(32)));
 
 double
 dot(const double* coefficients, const Sums* terms)
 {
-  Sums sum = load<Sums>(coefficients) * terms[0];
-  for (std::size_t i = 1; i < cubic_terms / 4; ++i)
-    sum += load<Sums>(coefficients + 4 * i) * terms[i];
+  Sums sum{};
+  for (std::size_t i = 0; i < cubic_terms / 4; ++i) {
+    Sums factors;
+    __builtin_memcpy(&factors, coefficients + 4 * i, sizeof factors);
+    sum += factors * terms[i];
+  }
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 

@@ -40,7 +40,7 @@ drawHistogram(const std::vector<double>& values,
 {
   const auto counts = countValues(values, scale);
   const double highest =
-      std::sqrt(static_cast<double>(*std::max_element(counts.begin(), counts.end())));
+      std::log1p(static_cast<double>(*std::max_element(counts.begin(), counts.end())));
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> bars;
   const double width = (corners[2] - corners[0]) / bins;
@@ -49,7 +49,7 @@ drawHistogram(const std::vector<double>& values,
       continue;
     const double left = corners[0] + static_cast<double>(i) * width,
                  top = corners[1] + (corners[3] - corners[1]) *
-                                        std::sqrt(static_cast<double>(counts[i])) /
+                                        std::log1p(static_cast<double>(counts[i])) /
                                         highest;
     const vtkIdType first = points->InsertNextPoint(left, corners[1], 0.0);
     points->InsertNextPoint(left + width, corners[1], 0.0);

@@ -12,8 +12,8 @@
 
 namespace uvol_tools {
 
-/** \brief Bars over a scale, whose heights are the square roots of their numbers, so
- * that rare values are seen.
+/** \brief Bars over a scale, whose heights are the logarithms of their numbers: most
+ * samples lie far from a surface, and rare values are to be seen.
  *
  * \param values those that are not finite do not count
  * \param corners left, bottom, right and top in the viewport, in [0, 1] */
