@@ -301,7 +301,7 @@ KernelSums::evaluate(const Query* queries,
                  slope * (query.x[2] - static_cast<double>(x[2]))});
       }
     }
-    estimates.support[i] = support.find(query);
+    estimates.support[i] = support.findExpected(i);
     if (!(sum.getWeight() > 0.0)) {
       estimates.support[i] = FieldSupport::Outside;
       sum.add(sum.getReference(), 1.0, {});

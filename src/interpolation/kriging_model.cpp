@@ -160,7 +160,7 @@ KrigingModel::evaluate(const Query* queries,
   Eigen::MatrixX3d offsets;
   Eigen::VectorXd values;
   for (std::size_t i = 0; i < count; ++i) {
-    estimates.support[i] = support.find(queries[i]);
+    estimates.support[i] = support.findExpected(i);
     if (estimates.support[i] == FieldSupport::Outside && !estimates.extrapolate)
       continue;
     const auto& near = finder.find(i);

@@ -14,10 +14,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/** Nearest samples that a cell begins with: those of random samples have 15.5 natural
- * neighbours, and most of these are among them. */
-constexpr std::size_t nearest_samples = 40;
-
 /** Share of the distance of the nearest sample: for derivatives by differences. */
 constexpr double difference_step = 1e-4;
 
@@ -25,7 +21,7 @@ constexpr double difference_step = 1e-4;
 
 NaturalNeighborFinder::NaturalNeighborFinder(const SampleSet& samples,
                                              NaturalCoordinates coordinates)
-    : cells_(samples)
+    : search_(samples)
     , coordinates_(coordinates)
 {
 }
@@ -35,30 +31,61 @@ NaturalNeighborFinder::find(const Query& place,
                             const std::uint32_t* near,
                             std::size_t count)
 {
-  const bool is_bounded = cells_.find(place, near, count);
-  neighbors_.clear();
-  offsets_.clear();
-  cells_.forFaces([&](const CellFace& face) {
-    const std::uint32_t sample =
-        cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
-    const Vector3d offset = cells_.offsetOf(sample);
-    const PolygonMoments moments = face.polygon.computeMoments();
-    const double ratio = moments.area / offset.norm();
-    neighbors_.push_back({sample, ratio, {}});
-    // The face moves with the place, farther from its foot more so.
-    const Vector3d gradient = ratio * face.plane.placeOf(moments.centroid);
-    std::copy_n(gradient.data(), 3, neighbors_.back().gradient.begin());
-    offsets_.push_back(offset);
-  });
-  if (coordinates_ == NaturalCoordinates::Sibson)
-    computeVolumes();
-  else
+  search_.start(place, CellSearch::no_sample, near, count);
+  bool is_bounded = true;
+  if (!simple_cells_.find(search_) || !takeSimpleCell()) {
+    is_bounded = cells_.find(search_);
+    takePolygons();
+  }
+  if (coordinates_ == NaturalCoordinates::Laplace)
     for (Neighbor& neighbor : neighbors_)
       neighbor.gradient.fill(std::numeric_limits<double>::quiet_NaN());
   std::sort(neighbors_.begin(), neighbors_.end(), [](const auto& a, const auto& b) {
     return a.sample < b.sample;
   });
   return is_bounded;
+}
+
+bool
+NaturalNeighborFinder::takeSimpleCell()
+{
+  const SimpleCell& cell = simple_cells_.getCell();
+  const std::size_t count = cell.getNumFaces();
+  std::array<double, SimpleCell::most_faces> ratios, volumes;
+  std::array<Vector3d, SimpleCell::most_faces> moments;
+  if (!cell.measureFaces(ratios.data(), moments.data()))
+    return false;
+  const bool is_sibson = coordinates_ == NaturalCoordinates::Sibson;
+  if (is_sibson && !cavity_.measure(cell, ratios.data(), volumes.data()))
+    return false;
+  neighbors_.resize(count);
+  for (std::size_t face = 0; face < count; ++face) {
+    neighbors_[face].sample = cell.getFace(face).sample;
+    neighbors_[face].weight = is_sibson ? std::max(0.0, volumes[face]) : ratios[face];
+    // The face moves with the place, farther from its foot more so.
+    std::copy_n(moments[face].data(), 3, neighbors_[face].gradient.begin());
+  }
+  return true;
+}
+
+void
+NaturalNeighborFinder::takePolygons()
+{
+  neighbors_.clear();
+  offsets_.clear();
+  cells_.forFaces([&](const CellFace& face) {
+    const std::uint32_t sample =
+        cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
+    const Vector3d offset = search_.offsetOf(sample);
+    const PolygonMoments moments = face.polygon.computeMoments();
+    const double ratio = moments.area / offset.norm();
+    neighbors_.push_back({sample, ratio, {}});
+    const Vector3d gradient = ratio * face.plane.placeOf(moments.centroid);
+    std::copy_n(gradient.data(), 3, neighbors_.back().gradient.begin());
+    offsets_.push_back(offset);
+  });
+  if (coordinates_ == NaturalCoordinates::Sibson)
+    computeVolumes();
 }
 
 void
@@ -209,9 +236,9 @@ NaturalModel::evaluate(const Query* queries,
   BlockInterpolator interpolator(sampled_, coordinates_);
   SupportFinder support(*sampled_.samples, sparse_);
   support.expect(queries, count);
-  QuerySearch search(*sampled_.samples, nearest_samples, queries, count);
+  QuerySearch search(*sampled_.samples, CellSearch::usual_near, queries, count);
   for (std::size_t i = 0; i < count; ++i) {
-    estimates.support[i] = support.find(queries[i]);
+    estimates.support[i] = support.findExpected(i);
     if (estimates.support[i] == FieldSupport::Outside && !estimates.extrapolate)
       continue;
     const auto near = search.find(i);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "interpolation/field_model.h"
+#include "neighbors/delaunay_cavity.h"
 #include "neighbors/voronoi_cell.h"
 
 #include <array>
@@ -31,7 +32,9 @@ public:
   /** \param samples must outlive the finder */
   NaturalNeighborFinder(const SampleSet& samples, NaturalCoordinates coordinates);
 
-  /** \brief Find those of a place that is no sample; see VoronoiCellFinder::find.
+  /** \brief Find those of a place that is no sample.
+   * \param near samples to begin with: the nearest ones, as many as it pleases, in any
+   * order
    * \return false outside of the convex hull */
   bool
   find(const Query& place, const std::uint32_t* near, std::size_t count);
@@ -44,6 +47,15 @@ public:
   }
 
 private:
+  /** Take them from a simple cell.
+   * \return false if rounding decides what their volumes are */
+  bool
+  takeSimpleCell();
+
+  /** Take them from a cell of polygons. */
+  void
+  takePolygons();
+
   /** The volumes of the parts of the cell that each face's sample was nearest to. */
   void
   computeVolumes();
@@ -53,6 +65,9 @@ private:
   double
   measureBetween(std::size_t i, std::size_t j);
 
+  CellSearch search_;
+  SimpleCellFinder simple_cells_;
+  DelaunayCavity cavity_;
   VoronoiCellFinder cells_;
   NaturalCoordinates coordinates_;
   std::vector<Neighbor> neighbors_;

@@ -6,23 +6,47 @@
 
 namespace pcl_uvol::detail {
 
+namespace {
+
+/** Queries that share a copy of the samples around them: with more of them it holds too
+ * many samples for each, with fewer it is made too often. */
+constexpr std::size_t group_queries = 16;
+
+} // namespace
+
+void
+QueryGroups::assign(const Query* queries, std::size_t count)
+{
+  places_.resize(count);
+  std::transform(queries, queries + count, places_.begin(), [](const Query& query) {
+    return query.toPosition();
+  });
+  announced_ = 0;
+}
+
+const Position&
+QueryGroups::announce(std::size_t query, NearestFinder& finder)
+{
+  if (query >= announced_) {
+    announced_ = std::min(places_.size(), query + group_queries);
+    finder.expect(&places_[query], announced_ - query);
+  }
+  return places_[query];
+}
+
 QuerySearch::QuerySearch(const SampleSet& samples,
                          std::size_t k,
                          const Query* queries,
                          std::size_t count)
     : finder_(samples, k)
-    , places_(count)
 {
-  std::transform(queries, queries + count, places_.begin(), [](const Query& query) {
-    return query.toPosition();
-  });
-  finder_.expect(places_.data(), count);
+  queries_.assign(queries, count);
 }
 
 NearestFinder::Row
 QuerySearch::find(std::size_t query)
 {
-  const auto near = finder_.find(places_[query], reach_);
+  const auto near = finder_.find(queries_.announce(query, finder_), reach_);
   const float sq_reach = *std::max_element(near.sq_dists, near.sq_dists + near.size);
   if (sq_reach > 0.0f)
     reach_ = std::sqrt(sq_reach);

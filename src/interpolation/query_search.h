@@ -12,10 +12,28 @@
 
 namespace pcl_uvol::detail {
 
+/** \brief The queries of a block, as places of a search that is told which ones come
+ * next, a group at a time. */
+class QueryGroups {
+public:
+  /** \param queries in spatial order */
+  void
+  assign(const Query* queries, std::size_t count);
+
+  /** \brief A query to search for, after the ones before it. */
+  const Position&
+  announce(std::size_t query, NearestFinder& finder);
+
+private:
+  std::vector<Position> places_;
+  std::size_t announced_ = 0; ///< queries before this one are
+};
+
 /** \brief Nearest samples of a block of queries. */
 class QuerySearch {
 public:
-  /** \param queries in spatial order; they and the samples must outlive the search */
+  /** \param samples must outlive the search
+   * \param queries in spatial order */
   QuerySearch(const SampleSet& samples,
               std::size_t k,
               const Query* queries,
@@ -27,7 +45,7 @@ public:
 
 private:
   NearestFinder finder_;
-  std::vector<Position> places_;
+  QueryGroups queries_;
   float reach_ = 1.0f; ///< of the query before
 };
 

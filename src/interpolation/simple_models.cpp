@@ -30,7 +30,7 @@ NearestModel::evaluate(const Query* queries,
         sampled_.valuesOf(near.samples[0]), fields, estimates.values + i * fields);
     if (estimates.gradients)
       std::fill_n(estimates.gradients + 3 * i * fields, 3 * fields, 0.0);
-    estimates.support[i] = support.find(queries[i]);
+    estimates.support[i] = support.findExpected(i);
   }
 }
 
@@ -78,7 +78,7 @@ ShepardModel::evaluate(const Query* queries,
                slope * (query.x[2] - static_cast<double>(place[2]))});
     }
     sum.finish(i, estimates);
-    estimates.support[i] = support.find(query);
+    estimates.support[i] = support.findExpected(i);
   }
 }
 

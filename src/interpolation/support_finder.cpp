@@ -45,17 +45,24 @@ SupportFinder::SupportFinder(const SampleSet& samples,
 void
 SupportFinder::expect(const Query* queries, std::size_t count)
 {
-  expected_.resize(count);
-  std::transform(queries, queries + count, expected_.begin(), [](const Query& query) {
-    return query.toPosition();
-  });
-  finder_.expect(expected_.data(), count);
+  expected_.assign(queries, count);
+}
+
+FieldSupport
+SupportFinder::findExpected(std::size_t query)
+{
+  return findAt(expected_.announce(query, finder_));
 }
 
 FieldSupport
 SupportFinder::find(const Query& query)
 {
-  const Position center = query.toPosition();
+  return findAt(query.toPosition());
+}
+
+FieldSupport
+SupportFinder::findAt(const Position& center)
+{
   const auto near = finder_.find(center, reach_ > 0.0f ? reach_ : 1.0f);
   float sq_nearest = near.sq_dists[0], sq_farthest = near.sq_dists[0];
   for (std::size_t j = 1; j < near.size; ++j) {

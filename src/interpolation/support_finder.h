@@ -3,7 +3,7 @@
 // of the cloud, or nothing.
 #pragma once
 
-#include "interpolation/field_model.h"
+#include "interpolation/query_search.h"
 #include "neighbors/empty_cone.h"
 #include "neighbors/nearest_finder.h"
 
@@ -23,14 +23,23 @@ public:
   /** \param samples, sparse must outlive the finder; see sparseSamples */
   SupportFinder(const SampleSet& samples, const std::vector<Position>& sparse);
 
-  /** \brief Prepare for queries that come next: close ones then share a search. */
+  /** \brief Prepare for a block of queries in spatial order: close ones then share a
+   * search. */
   void
   expect(const Query* queries, std::size_t count);
 
+  /** \brief Support of one of the queries expected, in their order. */
+  FieldSupport
+  findExpected(std::size_t query);
+
+  /** \brief Support of any query. */
   FieldSupport
   find(const Query& query);
 
 private:
+  FieldSupport
+  findAt(const Position& center);
+
   /** Directions to places; those behind the last are zero. */
   bool
   leavesConeEmpty(const Position& center,
@@ -43,7 +52,7 @@ private:
   NearestFinder finder_;
   EmptyCone cone_;
   float reach_ = 0.0f; ///< of the query before
-  std::vector<Position> expected_;
+  QueryGroups expected_;
   std::vector<float> directions_[3];
 };
 

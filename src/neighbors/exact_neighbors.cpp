@@ -3,10 +3,12 @@
 
 #include "common/parallel.h"
 #include "neighbors/nearest_finder.h"
+#include "neighbors/simple_cell.h"
 #include "neighbors/voronoi_cell.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_uvol {
@@ -15,9 +17,8 @@ namespace {
 
 constexpr std::size_t block_samples = 1u << 9;
 
-/** Nearest samples that a cell begins with: those of random samples have 15.5 natural
- * neighbours, and most of these are among them. */
-constexpr std::size_t nearest_samples = 40;
+/** Samples that share a copy of those around them. */
+constexpr std::size_t group_samples = 16;
 
 /** Share of the squared distance of two samples: a face of less area is one of
  * rounding. */
@@ -28,21 +29,26 @@ struct Rows {
   std::vector<std::uint32_t> sizes, indices;
 };
 
-/** Finds the neighbours of one sample after another, ascending. */
+/** Finds the neighbours of one sample of a block after another, ascending. */
 class FaceFinder {
 public:
   FaceFinder(const SampleSet& samples, std::size_t begin, std::size_t end)
       : samples_(samples)
-      , nearest_(samples, nearest_samples + 1)
-      , cells_(samples)
+      , expected_(begin)
+      , end_(end)
+      , nearest_(samples, detail::CellSearch::usual_near + 1)
+      , search_(samples)
   {
-    nearest_.expect(&samples.getPositions()[begin], end - begin);
   }
 
   const std::vector<std::uint32_t>&
   find(std::uint32_t sample)
   {
     const Position& place = samples_.getPositions()[sample];
+    if (sample == expected_) {
+      expected_ = std::min(end_, expected_ + group_samples);
+      nearest_.expect(&place, expected_ - sample);
+    }
     const NearestFinder::Row row = nearest_.find(place, reach_);
     reach_ = std::sqrt(row.sq_dists[row.size - 1]);
     others_.clear();
@@ -51,21 +57,49 @@ public:
     found_.clear();
     if (others_.empty())
       return found_;
-    cells_.findWhole(sample, others_.data(), others_.size());
-    cells_.forFaces([&](const detail::CellFace& face) {
-      const std::uint32_t other =
-          cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
-      if (face.polygon.computeMoments().area >
-          least_area * cells_.offsetOf(other).squaredNorm())
-        found_.push_back(other);
-    });
+    search_.start(
+        {{place[0], place[1], place[2]}}, sample, others_.data(), others_.size());
+    if (!simple_cells_.find(search_) || !takeSimpleCell())
+      takeWholeCell();
     std::sort(found_.begin(), found_.end());
     return found_;
   }
 
 private:
+  /** \return false if rounding has left the cell open */
+  bool
+  takeSimpleCell()
+  {
+    const detail::SimpleCell& cell = simple_cells_.getCell();
+    std::array<double, detail::SimpleCell::most_faces> ratios;
+    std::array<Eigen::Vector3d, detail::SimpleCell::most_faces> moments;
+    if (!cell.measureFaces(ratios.data(), moments.data()))
+      return false;
+    for (std::size_t i = 0; i < cell.getNumFaces(); ++i)
+      if (ratios[i] > least_area * cell.getFace(i).length)
+        found_.push_back(cell.getFace(i).sample);
+    return true;
+  }
+
+  void
+  takeWholeCell()
+  {
+    cells_.findWhole(search_);
+    cells_.forFaces([&](const detail::CellFace& face) {
+      const std::uint32_t other =
+          cells_.getNeighbors()[static_cast<std::size_t>(face.tag)];
+      if (face.polygon.computeMoments().area >
+          least_area * search_.offsetOf(other).squaredNorm())
+        found_.push_back(other);
+    });
+  }
+
   const SampleSet& samples_;
+  std::size_t expected_; ///< samples before this one are in a group
+  std::size_t end_;
   NearestFinder nearest_;
+  detail::CellSearch search_;
+  detail::SimpleCellFinder simple_cells_;
   detail::VoronoiCellFinder cells_;
   float reach_ = 1.0f; ///< of the sample before
   std::vector<std::uint32_t> others_, found_;

@@ -3,9 +3,8 @@
 // triangulation.
 #pragma once
 
+#include "neighbors/cell_search.h"
 #include "neighbors/convex_polygon.h"
-#include "neighbors/query.h"
-#include "neighbors/sample_set.h"
 
 #include <cstdint>
 #include <vector>
@@ -69,23 +68,17 @@ struct CellFace {
  * does, its bisector cuts the vertex off. */
 class VoronoiCellFinder {
 public:
-  /** \param samples must outlive the finder */
-  explicit VoronoiCellFinder(const SampleSet& samples);
-
   /** \brief Find the cell of a place that is no sample.
-   * \param near samples to begin with: the nearest ones, as many as it pleases, in any
-   * order
    * \return false if the cell is not bounded: the place lies outside of the convex hull
    * of the samples; what is found then is the cell among the first ones and some
    * others, within a cube far outside */
   bool
-  find(const Query& place, const std::uint32_t* near, std::size_t count);
+  find(const CellSearch& around);
 
   /** \brief Find the cell of a sample, to its end also where it is not bounded: then
-   * within a cube of some hundred diagonals of the samples' box.
-   * \param near other samples to begin with, at least one */
+   * within a cube of some hundred diagonals of the samples' box. */
   void
-  findWhole(std::uint32_t sample, const std::uint32_t* near, std::size_t count);
+  findWhole(const CellSearch& around);
 
   /** \brief Call visit(face) for the faces that samples give the cell, relative to the
    * place; their tags are places in getNeighbors(). */
@@ -112,13 +105,7 @@ public:
     return neighbors_;
   }
 
-  /** \brief A sample seen from the place. */
-  Eigen::Vector3d
-  offsetOf(std::uint32_t sample) const;
-
 private:
-  static constexpr std::uint32_t no_sample = 0xffffffffu;
-
   struct Vertex {
     double sq_length; ///< from the place
     Eigen::Vector3d place;
@@ -132,7 +119,7 @@ private:
 
   /** Cut with the first samples. */
   void
-  start(const Query& place, const std::uint32_t* near, std::size_t count);
+  start(const CellSearch& around);
 
   /** A face at the end. */
   CellFace&
@@ -146,20 +133,13 @@ private:
   /** Look at the farthest vertex that may not be final: cut it off if it is not.
    * \return false if all are */
   bool
-  improve();
+  improve(const CellSearch& around);
 
   bool
   isKnown(const Eigen::Vector3d& vertex) const;
 
-  /** The sample nearest to a vertex, if one is nearer than the place. */
-  bool
-  findInBall(const Eigen::Vector3d& vertex, std::uint32_t& found) const;
-
-  const SampleSet& samples_;
-  Query place_{};
-  std::uint32_t own_ = no_sample; ///< at the place
-  std::size_t count_ = 0;         ///< of faces
-  std::vector<CellFace> faces_;   ///< those behind the last keep their memory
+  std::size_t count_ = 0;       ///< of faces
+  std::vector<CellFace> faces_; ///< those behind the last keep their memory
   double reach_ = 0.0;
   std::vector<std::uint32_t> neighbors_;
   std::vector<Vertex> final_; ///< ascending

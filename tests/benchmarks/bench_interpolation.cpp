@@ -204,10 +204,16 @@ SIZED((uvolKept, fit, InterpolationModel::Fit, 1))->Args({million, million});
 SIZED((uvolKept, fit_8_fields, InterpolationModel::Fit, 8))->Args({million, million});
 SIZED((vtkGaussian, 1_5_spacings, 1.5))->Args({million, million});
 SIZED((vtkGaussian, 2_5_spacings, 2.5))->Args({million, million});
-SIZED((uvolMade, natural, InterpolationModel::Sibson, 1, 1))->Args({100000, 20000});
-SIZED((uvolMade, laplace, InterpolationModel::Laplace, 1, 1))->Args({100000, 20000});
+SIZED((uvolMade, natural, InterpolationModel::Sibson, 1))->Args({million, million});
+SIZED((uvolMade, natural_1_thread, InterpolationModel::Sibson, 1, 1))
+    ->Args({100000, 20000})
+    ->Args({million, million});
+SIZED((uvolMade, laplace_1_thread, InterpolationModel::Laplace, 1, 1))
+    ->Args({100000, 20000})
+    ->Args({million, million});
 BENCHMARK(cgalSibson)
     ->Args({100000, 20000})
+    ->Args({million, million})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 SIZED((uvolMade, kriging, InterpolationModel::Kriging, 1))->Args({million, 100000});

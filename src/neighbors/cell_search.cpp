@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/cell_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl_uvol::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/** Half the side of the cube in diagonals of the samples' box. */
+constexpr double cube_size = 256.0;
+
+/** Share of squared distances: rounding of vertices. */
+constexpr double slack = 1e-11;
+
+} // namespace
+
+CellSearch::CellSearch(const SampleSet& samples)
+    : samples_(samples)
+{
+}
+
+void
+CellSearch::start(const Query& place,
+                  std::uint32_t own,
+                  const std::uint32_t* near,
+                  std::size_t count)
+{
+  place_ = place;
+  own_ = own;
+  by_distance_.resize(count);
+  std::transform(near, near + count, by_distance_.begin(), [&](std::uint32_t sample) {
+    return std::pair(sqDistance(place, samples_.getPositions()[sample]), sample);
+  });
+  std::sort(by_distance_.begin(), by_distance_.end());
+  near_.resize(count);
+  std::transform(by_distance_.begin(),
+                 by_distance_.end(),
+                 near_.begin(),
+                 [](auto& pair) { return pair.second; });
+}
+
+double
+CellSearch::getHalfSide() const
+{
+  const KdBox box = samples_.getTree().getBox(samples_.getTree().getRoot());
+  double sq_size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.low[axis], high = box.high[axis];
+    const double along = std::max(high, place_.x[axis]) - std::min(low, place_.x[axis]);
+    sq_size += along * along;
+  }
+  return cube_size * std::sqrt(sq_size);
+}
+
+Vector3d
+CellSearch::offsetOf(std::uint32_t sample) const
+{
+  const Position& position = samples_.getPositions()[sample];
+  return {static_cast<double>(position[0]) - place_.x[0],
+          static_cast<double>(position[1]) - place_.x[1],
+          static_cast<double>(position[2]) - place_.x[2]};
+}
+
+bool
+CellSearch::findInBall(const Vector3d& vertex, std::uint32_t& found) const
+{
+  const KdTree& tree = samples_.getTree();
+  const std::vector<Position>& positions = samples_.getPositions();
+  const Query center{
+      {place_.x[0] + vertex[0], place_.x[1] + vertex[1], place_.x[2] + vertex[2]}};
+  double sq_least = (1.0 - slack) * vertex.squaredNorm();
+  bool is_found = false;
+  const auto sqGap = [&](const KdNode& node) {
+    const KdBox& box = tree.getBox(node);
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max({static_cast<double>(box.low[axis]) - center.x[axis],
+                                   center.x[axis] - static_cast<double>(box.high[axis]),
+                                   0.0});
+      sum += gap * gap;
+    }
+    return sum;
+  };
+  std::pair<KdNode, double> stack[2 * 64];
+  std::size_t depth = 0;
+  stack[depth++] = {tree.getRoot(), sqGap(tree.getRoot())};
+  while (depth > 0) {
+    const auto [node, sq_gap] = stack[--depth];
+    if (sq_gap >= sq_least)
+      continue;
+    if (!KdTree::isBucket(node)) {
+      const KdNode left = node.left(), right = node.right();
+      const double to_left = sqGap(left), to_right = sqGap(right);
+      // The nearer one comes off the stack first.
+      if (to_left <= to_right) {
+        stack[depth++] = {right, to_right};
+        stack[depth++] = {left, to_left};
+      }
+      else {
+        stack[depth++] = {left, to_left};
+        stack[depth++] = {right, to_right};
+      }
+      continue;
+    }
+    for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) {
+      const double sq_dist = sqDistance(center, positions[i]);
+      if (sq_dist >= sq_least || i == own_)
+        continue;
+      sq_least = sq_dist;
+      found = i;
+      is_found = true;
+    }
+  }
+  return is_found;
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "neighbors/simple_cell.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_uvol::detail {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/** Share of the size of a cell: vertices that close to a plane may lie on either side
+ * of it. Rounding is some 1e-15; of random samples one cell in 10^8 comes that near. */
+constexpr double unsure_height = 1e-11;
+
+/** Share of the product of three lengths: the volume that three normals span. Where it
+ * is less, rounding moves the vertex by more than unsure_height. */
+constexpr double least_volume = 1e-4;
+
+/** Share of its surface that a closed cell's faces, as vectors, sum up to by rounding.
+ */
+constexpr double rounding = 1e-11;
+
+} // namespace
+
+void
+SimpleCell::start(double half_side)
+{
+  faces_ = 0;
+  vertices_ = 0;
+  sq_reach_ = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      uses_[faces_] = 0;
+      face_[faces_++] = {
+          side * Vector3d::Unit(axis), half_side, 1.0, CellSearch::no_sample};
+    }
+  for (const std::uint8_t x : {0, 1})
+    for (const std::uint8_t y : {2, 3})
+      for (const std::uint8_t z : {4, 5})
+        if ((x + y + z) % 2 == 1) // an even number of them looks down its axis
+          addVertex(x, y, z);
+        else
+          addVertex(y, x, z);
+}
+
+SimpleCell::Cut
+SimpleCell::cut(const Vector3d& offset, std::uint32_t sample)
+{
+  const double sq_length = offset.squaredNorm(), limit = 0.5 * sq_length;
+  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
+  bool is_kept = true, is_sure = true;
+  for (std::size_t v = 0; v < vertices_; ++v) {
+    const double height =
+        offset.x() * x_[v] + offset.y() * y_[v] + offset.z() * z_[v] - limit;
+    heights_[v] = height;
+    is_kept &= height < -margin;
+    is_sure &= std::abs(height) > margin;
+  }
+  if (is_kept)
+    return Cut::Nothing;
+  if (!is_sure)
+    return Cut::Unsure;
+  const std::size_t own = findEmptyFace();
+  if (own == most_faces)
+    return Cut::Unsure;
+  face_[own] = {offset, limit, std::sqrt(sq_length), sample};
+  return replaceVertices(static_cast<std::uint8_t>(own)) ? Cut::Part : Cut::Unsure;
+}
+
+bool
+SimpleCell::replaceVertices(std::uint8_t face)
+{
+  std::array<std::array<std::uint8_t, 3>, most_vertices> removed;
+  std::size_t gone = 0, kept = 0;
+  sq_reach_ = 0.0;
+  for (std::size_t v = 0; v < vertices_; ++v)
+    if (heights_[v] > 0.0) {
+      const auto& corner = removed[gone++] = corners_[v];
+      for (std::size_t k = 0; k < 3; ++k) {
+        removed_edges_[corner[k]] |= std::uint64_t{1} << corner[(k + 1) % 3];
+        --uses_[corner[k]];
+      }
+    }
+    else {
+      x_[kept] = x_[v];
+      y_[kept] = y_[v];
+      z_[kept] = z_[v];
+      is_final_[kept] = is_final_[v];
+      corners_[kept++] = corners_[v];
+      sq_reach_ = std::max(sq_reach_, x_[v] * x_[v] + y_[v] * y_[v] + z_[v] * z_[v]);
+    }
+  vertices_ = kept;
+  // Edges of one removed triangle alone are the rim that the new face's triangles
+  // close.
+  bool is_sure = true;
+  for (std::size_t i = 0; i < gone; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint8_t a = removed[i][k], b = removed[i][(k + 1) % 3];
+      if ((removed_edges_[b] >> a & 1u) == 0)
+        is_sure = addVertex(a, b, face) && is_sure;
+    }
+  for (std::size_t i = 0; i < gone; ++i)
+    for (const std::uint8_t other : removed[i])
+      removed_edges_[other] = 0;
+  return is_sure;
+}
+
+bool
+SimpleCell::addVertex(std::uint8_t a, std::uint8_t b, std::uint8_t c)
+{
+  const Face &first = face_[a], &second = face_[b], &third = face_[c];
+  const Vector3d across = second.offset.cross(third.offset);
+  const double volume = first.offset.dot(across);
+  if (vertices_ == most_vertices ||
+      !(volume > least_volume * first.length * second.length * third.length))
+    return false;
+  const Vector3d place =
+      (first.limit * across +
+       first.offset.cross(third.limit * second.offset - second.limit * third.offset)) /
+      volume;
+  x_[vertices_] = place.x();
+  y_[vertices_] = place.y();
+  z_[vertices_] = place.z();
+  is_final_[vertices_] = false;
+  corners_[vertices_++] = {a, b, c};
+  for (const std::uint8_t face : {a, b, c})
+    ++uses_[face];
+  sq_reach_ = std::max(sq_reach_, place.squaredNorm());
+  return true;
+}
+
+std::size_t
+SimpleCell::findEmptyFace()
+{
+  const auto* const empty = std::find(uses_.begin(), uses_.begin() + faces_, 0);
+  const auto face = static_cast<std::size_t>(empty - uses_.begin());
+  if (face == faces_ && faces_ < most_faces)
+    uses_[faces_++] = 0;
+  return face;
+}
+
+void
+SimpleCell::dropEmptyFaces()
+{
+  std::array<std::uint8_t, most_faces> number{};
+  std::size_t kept = 0;
+  for (std::size_t face = 0; face < faces_; ++face)
+    if (uses_[face] > 0) {
+      number[face] = static_cast<std::uint8_t>(kept);
+      uses_[kept] = uses_[face];
+      face_[kept++] = face_[face];
+    }
+  faces_ = kept;
+  for (std::size_t v = 0; v < vertices_; ++v)
+    for (std::uint8_t& face : corners_[v])
+      face = number[face];
+}
+
+bool
+SimpleCell::findOpenVertex(double sq_limit, std::size_t& found) const
+{
+  bool is_found = false;
+  for (std::size_t v = 0; v < vertices_; ++v) {
+    const double sq_length = getVertex(v).squaredNorm();
+    if (sq_length <= sq_limit || is_final_[v])
+      continue;
+    sq_limit = sq_length;
+    found = v;
+    is_found = true;
+  }
+  return is_found;
+}
+
+bool
+SimpleCell::isOfCube(std::size_t vertex) const
+{
+  const auto& corner = corners_[vertex];
+  return std::any_of(corner.begin(), corner.end(), [this](std::uint8_t face) {
+    return face_[face].sample == CellSearch::no_sample;
+  });
+}
+
+bool
+SimpleCell::measureFaces(double* ratios, Vector3d* moments) const
+{
+  std::fill_n(ratios, faces_, 0.0);
+  std::fill_n(moments, faces_, Vector3d::Zero());
+  // A face is the sum of the triangles between its foot and its edges.
+  forEdges([&](std::uint8_t a, std::uint8_t b, std::size_t from, std::size_t to) {
+    const Vector3d begin = getVertex(from), end = getVertex(to);
+    const Vector3d across = end.cross(begin), ends = begin + end;
+    const auto addTriangle = [&](std::size_t face, double twice) {
+      ratios[face] += twice; // the area times the distance of the sample
+      moments[face] += twice * (0.5 * face_[face].offset + ends);
+    };
+    addTriangle(a, face_[a].offset.dot(across));
+    addTriangle(b, -face_[b].offset.dot(across));
+  });
+  double area = 0.0;
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t face = 0; face < faces_; ++face) {
+    const double per_sq_length = 0.25 / face_[face].limit;
+    ratios[face] *= per_sq_length;
+    moments[face] *= per_sq_length / 3.0;
+    area += ratios[face] * face_[face].length;
+    sum += ratios[face] * face_[face].offset;
+  }
+  return sum.squaredNorm() <= rounding * rounding * area * area;
+}
+
+bool
+SimpleCellFinder::find(const CellSearch& around)
+{
+  cell_.start(around.getHalfSide());
+  double sq_known = 0.0;
+  for (const std::uint32_t sample : around.getNear()) {
+    const Vector3d offset = around.offsetOf(sample);
+    sq_known = offset.squaredNorm();
+    if (sq_known >= 4.0 * cell_.getSqReach())
+      break;
+    if (cell_.cut(offset, sample) == SimpleCell::Cut::Unsure)
+      return false;
+  }
+  // Only samples farther out than those are left to cut off a vertex: not the near
+  // ones.
+  for (std::size_t vertex; cell_.findOpenVertex(0.25 * sq_known, vertex);) {
+    std::uint32_t sample;
+    if (!around.findInBall(cell_.getVertex(vertex), sample)) {
+      if (cell_.isOfCube(vertex))
+        return false;
+      cell_.setFinal(vertex);
+    }
+    else if (cell_.cut(around.offsetOf(sample), sample) != SimpleCell::Cut::Part)
+      return false;
+  }
+  cell_.dropEmptyFaces();
+  return true;
+}
+
+} // namespace pcl_uvol::detail

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells kept as triangles of their faces, and the hole of the triangulation below them,
+// against cells of polygons, cubes, and counted and moved places.
+#include "common/random.h"
+#include "src/neighbors/delaunay_cavity.h"
+#include "src/neighbors/voronoi_cell.h"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace {
+
+using namespace pcl_uvol;
+using namespace pcl_uvol::detail;
+using Eigen::Vector3d;
+
+SampleSet::ConstPtr
+buildSamples(const std::vector<Position>& positions)
+{
+  std::vector<std::uint32_t> use(positions.size());
+  std::iota(use.begin(), use.end(), 0u);
+  Report report;
+  return SampleSet::build(
+      positions.front().x, 3, use, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
+}
+
+SampleSet::ConstPtr
+buildRandomSamples(std::size_t n, std::uint64_t seed)
+{
+  std::vector<Position> positions(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      positions[i][axis] =
+          static_cast<float>(uniformAt(seed, i, static_cast<std::uint64_t>(axis)));
+  return buildSamples(positions);
+}
+
+Query
+randomPlace(const SampleSet& samples, std::uint64_t index)
+{
+  const double factor = static_cast<double>(samples.getUnit().factor);
+  Query place;
+  for (int axis = 0; axis < 3; ++axis)
+    place.x[axis] =
+        factor * (0.2 + 0.6 * uniformAt(9, index, static_cast<std::uint64_t>(axis)));
+  return place;
+}
+
+void
+startAround(CellSearch& search,
+            const SampleSet& samples,
+            const Query& place,
+            std::size_t near)
+{
+  std::vector<std::uint32_t> all(samples.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::sort(all.begin(), all.end(), [&](auto a, auto b) {
+    return sqDistance(place, samples.getPositions()[a]) <
+           sqDistance(place, samples.getPositions()[b]);
+  });
+  search.start(place, CellSearch::no_sample, all.data(), std::min(near, all.size()));
+}
+
+struct Measured {
+  std::array<double, SimpleCell::most_faces> ratios;
+  std::array<Vector3d, SimpleCell::most_faces> moments;
+};
+
+TEST(SimpleCell, IsACubeFirst)
+{
+  SimpleCell cell;
+  cell.start(2.0);
+  EXPECT_EQ(6u, cell.getNumFaces());
+  EXPECT_EQ(8u, cell.getNumVertices());
+  EXPECT_EQ(12.0, cell.getSqReach());
+  EXPECT_TRUE(cell.isOfCube(3));
+}
+
+/** A box of 2 x 4 x 6 about the origin: areas by distances, with their centroids. */
+TEST(SimpleCell, MeasuresFaces)
+{
+  SimpleCell cell;
+  cell.start(100.0);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0})
+      EXPECT_EQ(SimpleCell::Cut::Part,
+                cell.cut(side * 2.0 * (axis + 1) * Vector3d::Unit(axis),
+                         static_cast<std::uint32_t>(axis)));
+  EXPECT_EQ(SimpleCell::Cut::Nothing, cell.cut(Vector3d(9.0, 9.0, 9.0), 6));
+  cell.dropEmptyFaces();
+  ASSERT_EQ(6u, cell.getNumFaces());
+  ASSERT_EQ(8u, cell.getNumVertices());
+  EXPECT_NEAR(14.0, cell.getSqReach(), 1e-13);
+  Measured measured;
+  ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
+  const double areas[] = {24.0, 12.0, 8.0};
+  for (std::size_t face = 0; face < 6; ++face) {
+    const SimpleCell::Face& plane = cell.getFace(face);
+    const double ratio = areas[plane.sample] / plane.length;
+    EXPECT_NEAR(ratio, measured.ratios[face], 1e-13);
+    EXPECT_LT((measured.moments[face] - 0.5 * ratio * plane.offset).norm(), 1e-12);
+  }
+}
+
+TEST(SimpleCell, IsUnsureOfPlanesThroughVertices)
+{
+  SimpleCell cell;
+  for (const double off : {-1e-13, 0.0, 1e-13}) {
+    cell.start(1.0);
+    // The bisector passes through the vertex (1, 1, 1), and three others.
+    EXPECT_EQ(SimpleCell::Cut::Unsure, cell.cut({2.0 + off, 0.0, 0.0}, 0));
+  }
+  cell.start(1.0);
+  EXPECT_EQ(SimpleCell::Cut::Part, cell.cut({1.99, 0.0, 0.0}, 0));
+  cell.start(1.0);
+  EXPECT_EQ(SimpleCell::Cut::Nothing, cell.cut({2.01, 0.0, 0.0}, 0));
+}
+
+/** Bisectors of places on a sphere, each of which leaves a face: more than there is
+ * room for. */
+TEST(SimpleCell, IsUnsureOfTooManyFaces)
+{
+  SimpleCell cell;
+  cell.start(10.0);
+  std::size_t cuts = 0;
+  for (std::size_t i = 0; i < 2 * SimpleCell::most_faces; ++i) {
+    const double z = 1.0 - (static_cast<double>(i) + 0.5) / SimpleCell::most_faces,
+                 angle = 2.4 * static_cast<double>(i), r = std::sqrt(1.0 - z * z);
+    if (cell.cut({r * std::cos(angle), r * std::sin(angle), z},
+                 static_cast<std::uint32_t>(i)) != SimpleCell::Cut::Part)
+      break;
+    ++cuts;
+    EXPECT_EQ(cell.getNumVertices() % 2, 0u);
+  }
+  EXPECT_GT(cuts, SimpleCell::most_faces / 2);
+  EXPECT_LE(cuts, SimpleCell::most_faces);
+}
+
+/** The same faces as by polygons, whatever the cell begins with. */
+TEST(SimpleCellFinder, FindsTheCellsOfPolygons)
+{
+  const auto samples = buildRandomSamples(3000, 1);
+  CellSearch search(*samples);
+  SimpleCellFinder simple;
+  VoronoiCellFinder polygons;
+  std::size_t found = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    startAround(search, *samples, randomPlace(*samples, i), i % 3 == 0 ? 4 : 60);
+    ASSERT_TRUE(polygons.find(search));
+    if (!simple.find(search))
+      continue;
+    ++found;
+    std::map<std::uint32_t, std::pair<double, Vector3d>> expected;
+    polygons.forFaces([&](const CellFace& face) {
+      const std::uint32_t sample =
+          polygons.getNeighbors()[static_cast<std::size_t>(face.tag)];
+      const PolygonMoments moments = face.polygon.computeMoments();
+      const double ratio = moments.area / search.offsetOf(sample).norm();
+      expected[sample] = {ratio, ratio * face.plane.placeOf(moments.centroid)};
+    });
+    const SimpleCell& cell = simple.getCell();
+    ASSERT_EQ(expected.size(), cell.getNumFaces());
+    const double size = polygons.getReach();
+    EXPECT_NEAR(size * size, cell.getSqReach(), 1e-11 * size * size);
+    Measured measured;
+    ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
+    for (std::size_t face = 0; face < cell.getNumFaces(); ++face) {
+      const auto& [ratio, moment] = expected.at(cell.getFace(face).sample);
+      EXPECT_NEAR(ratio, measured.ratios[face], 1e-10 * size);
+      EXPECT_LT((moment - measured.moments[face]).norm(), 1e-10 * size * size);
+    }
+  }
+  EXPECT_GT(found, 295u);
+}
+
+TEST(SimpleCellFinder, LeavesOpenCellsAndLatticesToPolygons)
+{
+  std::vector<Position> lattice;
+  for (int i = 0; i < 512; ++i)
+    lattice.push_back({{static_cast<float>(i % 8),
+                        static_cast<float>(i / 8 % 8),
+                        static_cast<float>(i / 64)}});
+  const auto samples = buildSamples(lattice);
+  CellSearch search(*samples);
+  SimpleCellFinder finder;
+  const double unit = static_cast<double>(samples->getUnit().factor);
+  for (const Vector3d& place :
+       {Vector3d(3.5, 3.5, 3.5), Vector3d(3.2, 3.6, 3.7), Vector3d(-1.0, 3.2, 3.4)}) {
+    startAround(
+        search, *samples, {{unit * place.x(), unit * place.y(), unit * place.z()}}, 60);
+    EXPECT_FALSE(finder.find(search)) << place.transpose();
+  }
+}
+
+/** Four samples around the place, in whose one tetrahedron's sphere it lies: the cell
+ * takes a corner of each one's. */
+TEST(DelaunayCavity, OfOneTetrahedron)
+{
+  const Vector3d corners[] = {Vector3d(1.0, 1.0, 1.0),
+                              Vector3d(1.1, -1.0, -1.0),
+                              Vector3d(-1.0, 1.2, -1.0),
+                              Vector3d(-1.0, -1.0, 1.3)};
+  SimpleCell cell;
+  cell.start(100.0);
+  for (std::uint32_t i = 0; i < 4; ++i)
+    ASSERT_EQ(SimpleCell::Cut::Part, cell.cut(corners[i], i));
+  cell.dropEmptyFaces();
+  ASSERT_EQ(4u, cell.getNumFaces());
+  Measured measured;
+  ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
+  DelaunayCavity cavity;
+  std::array<double, 4> volumes;
+  ASSERT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+  // Sibson's coordinates are the barycentric ones, scaled by the cell's volume.
+  Eigen::Matrix4d system;
+  double volume = 0.0;
+  for (std::size_t face = 0; face < 4; ++face) {
+    const SimpleCell::Face& plane = cell.getFace(face);
+    system.col(static_cast<Eigen::Index>(face)) << plane.offset, 1.0;
+    volume += measured.ratios[face] * plane.length * plane.length / 6.0;
+  }
+  const Eigen::Vector4d weights =
+      system.inverse() * Eigen::Vector4d(0.0, 0.0, 0.0, volume);
+  for (std::size_t face = 0; face < 4; ++face)
+    EXPECT_NEAR(
+        weights[static_cast<Eigen::Index>(face)], volumes[face], 1e-12 * volume);
+}
+
+/** The parts that the boundaries between the samples' cells, cut to the place's cell,
+ * enclose: by areas of polygons, each of which is cut by all others. */
+TEST(DelaunayCavity, MeasuresThePartsOfPolygons)
+{
+  const auto samples = buildRandomSamples(3000, 2);
+  CellSearch search(*samples);
+  SimpleCellFinder finder;
+  DelaunayCavity cavity;
+  ConvexPolygon polygon;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    startAround(search, *samples, randomPlace(*samples, i), 60);
+    if (!finder.find(search))
+      continue;
+    const SimpleCell& cell = finder.getCell();
+    const std::size_t count = cell.getNumFaces();
+    Measured measured;
+    ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
+    std::array<double, SimpleCell::most_faces> volumes;
+    ASSERT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+    double volume = 0.0;
+    for (std::size_t a = 0; a < count; ++a) {
+      const SimpleCell::Face& own = cell.getFace(a);
+      double expected = measured.ratios[a] * own.limit / 3.0;
+      volume += expected;
+      for (std::size_t b = 0; b < count; ++b) {
+        if (b == a)
+          continue;
+        const SimpleCell::Face& other = cell.getFace(b);
+        const CellPlane plane(other.offset - own.offset, other.limit - own.limit);
+        polygon.start(10.0 * std::sqrt(cell.getSqReach()) + std::abs(plane.height));
+        for (std::size_t c = 0; c < count && polygon.size() > 0; ++c) {
+          plane.cut(polygon, cell.getFace(c).offset, cell.getFace(c).limit, 0.0);
+          if (c != a && c != b && polygon.size() > 0)
+            plane.cut(polygon,
+                      cell.getFace(c).offset - own.offset,
+                      cell.getFace(c).limit - own.limit,
+                      0.0);
+        }
+        expected += plane.height * polygon.computeMoments().area / 3.0;
+      }
+      EXPECT_NEAR(expected, volumes[a], 1e-9 * volume + 1e-9 * std::abs(expected));
+    }
+  }
+}
+
+/** A cell that is no Voronoi cell of these samples has no hole below it. */
+TEST(DelaunayCavity, NoticesWrongCells)
+{
+  const auto samples = buildRandomSamples(3000, 3);
+  CellSearch search(*samples);
+  startAround(search, *samples, randomPlace(*samples, 5), 60);
+  SimpleCellFinder finder;
+  ASSERT_TRUE(finder.find(search));
+  Measured measured;
+  const SimpleCell& cell = finder.getCell();
+  ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
+  DelaunayCavity cavity;
+  std::array<double, SimpleCell::most_faces> volumes;
+  EXPECT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+  measured.ratios[0] *= 1.0 + 1e-6;
+  EXPECT_FALSE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+}
+
+} // namespace
