@@ -235,13 +235,12 @@ NaturalModel::evaluate(const Query* queries,
 {
   BlockInterpolator interpolator(sampled_, coordinates_);
   SupportFinder support(*sampled_.samples, sparse_);
-  support.expect(queries, count);
   QuerySearch search(*sampled_.samples, CellSearch::usual_near, queries, count);
   for (std::size_t i = 0; i < count; ++i) {
-    estimates.support[i] = support.findExpected(i);
+    const auto near = search.find(i);
+    estimates.support[i] = support.judge(queries[i], near);
     if (estimates.support[i] == FieldSupport::Outside && !estimates.extrapolate)
       continue;
-    const auto near = search.find(i);
     if (!interpolator.answer(queries[i], near, i, estimates))
       estimates.support[i] = FieldSupport::Outside;
     if (estimates.gradients && coordinates_ == NaturalCoordinates::Laplace)

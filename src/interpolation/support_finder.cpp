@@ -51,25 +51,47 @@ SupportFinder::expect(const Query* queries, std::size_t count)
 FieldSupport
 SupportFinder::findExpected(std::size_t query)
 {
-  return findAt(expected_.announce(query, finder_));
+  const Position& center = expected_.announce(query, finder_);
+  return judgeNearest(center, finder_.find(center, reach_));
 }
 
 FieldSupport
 SupportFinder::find(const Query& query)
 {
-  return findAt(query.toPosition());
+  const Position center = query.toPosition();
+  return judgeNearest(center, finder_.find(center, reach_));
 }
 
 FieldSupport
-SupportFinder::findAt(const Position& center)
+SupportFinder::judge(const Query& query, const NearestFinder::Row& near)
 {
-  const auto near = finder_.find(center, reach_ > 0.0f ? reach_ : 1.0f);
+  if (near.size <= nearest_samples)
+    return judgeNearest(query.toPosition(), near);
+  by_distance_.resize(near.size);
+  for (std::size_t j = 0; j < near.size; ++j)
+    by_distance_[j] = {near.sq_dists[j], near.samples[j]};
+  std::nth_element(
+      by_distance_.begin(), by_distance_.begin() + nearest_samples, by_distance_.end());
+  sq_dists_.resize(nearest_samples);
+  nearest_.resize(nearest_samples);
+  for (std::size_t j = 0; j < nearest_samples; ++j) {
+    sq_dists_[j] = by_distance_[j].first;
+    nearest_[j] = by_distance_[j].second;
+  }
+  return judgeNearest(query.toPosition(),
+                      {nearest_.data(), sq_dists_.data(), nearest_samples});
+}
+
+FieldSupport
+SupportFinder::judgeNearest(const Position& center, const NearestFinder::Row& near)
+{
   float sq_nearest = near.sq_dists[0], sq_farthest = near.sq_dists[0];
   for (std::size_t j = 1; j < near.size; ++j) {
     sq_nearest = std::min(sq_nearest, near.sq_dists[j]);
     sq_farthest = std::max(sq_farthest, near.sq_dists[j]);
   }
-  reach_ = std::sqrt(sq_farthest);
+  if (sq_farthest > 0.0f)
+    reach_ = std::sqrt(sq_farthest);
   const bool is_far = sq_nearest > empty_ball * empty_ball * sq_farthest;
   if (!leavesConeEmpty(center, samples_.getPositions(), near.samples, near.size))
     return is_far ? FieldSupport::Bridged : FieldSupport::Measured;

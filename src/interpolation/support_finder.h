@@ -32,13 +32,18 @@ public:
   FieldSupport
   findExpected(std::size_t query);
 
+  /** \brief Support of a query whose nearest samples are known.
+   * \param near at least the 41 nearest, or all samples */
+  FieldSupport
+  judge(const Query& query, const NearestFinder::Row& near);
+
   /** \brief Support of any query. */
   FieldSupport
   find(const Query& query);
 
 private:
   FieldSupport
-  findAt(const Position& center);
+  judgeNearest(const Position& center, const NearestFinder::Row& near);
 
   /** Directions to places; those behind the last are zero. */
   bool
@@ -51,8 +56,11 @@ private:
   const std::vector<Position>& sparse_;
   NearestFinder finder_;
   EmptyCone cone_;
-  float reach_ = 0.0f; ///< of the query before
+  float reach_ = 1.0f; ///< of the query before
   QueryGroups expected_;
+  std::vector<std::pair<float, std::uint32_t>> by_distance_;
+  std::vector<float> sq_dists_;
+  std::vector<std::uint32_t> nearest_;
   std::vector<float> directions_[3];
 };
 

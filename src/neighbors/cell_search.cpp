@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace pcl_uvol::detail {
@@ -16,6 +17,10 @@ constexpr double cube_size = 256.0;
 
 /** Share of squared distances: rounding of vertices. */
 constexpr double slack = 1e-11;
+
+/** What is farther than the farthest of the nearest in float may be that much nearer.
+ */
+constexpr double float_rounding = 1.0 - 1e-6;
 
 } // namespace
 
@@ -34,14 +39,18 @@ CellSearch::start(const Query& place,
   own_ = own;
   by_distance_.resize(count);
   std::transform(near, near + count, by_distance_.begin(), [&](std::uint32_t sample) {
-    return std::pair(sqDistance(place, samples_.getPositions()[sample]), sample);
+    const auto sq_dist =
+        static_cast<float>(sqDistance(place, samples_.getPositions()[sample]));
+    std::uint32_t bits; // of numbers that are not negative, ascending as they are
+    std::memcpy(&bits, &sq_dist, sizeof bits);
+    return static_cast<std::uint64_t>(bits) << 32 | sample;
   });
   std::sort(by_distance_.begin(), by_distance_.end());
   near_.resize(count);
-  std::transform(by_distance_.begin(),
-                 by_distance_.end(),
-                 near_.begin(),
-                 [](auto& pair) { return pair.second; });
+  std::transform(by_distance_.begin(), by_distance_.end(), near_.begin(), [](auto key) {
+    return static_cast<std::uint32_t>(key);
+  });
+  sq_known_ = float_rounding * offsetOf(near_.back()).squaredNorm();
 }
 
 double

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -34,11 +33,18 @@ public:
         const std::uint32_t* near,
         std::size_t count);
 
-  /** \brief The samples to begin with, nearest first. */
+  /** \brief The samples to begin with, nearest first, but for rounding to float. */
   const std::vector<std::uint32_t>&
   getNear() const
   {
     return near_;
+  }
+
+  /** \brief No other sample than the near ones has a smaller squared distance. */
+  double
+  getSqKnown() const
+  {
+    return sq_known_;
   }
 
   /** \brief Half the side of a cube about the place that is far larger than all cells
@@ -59,8 +65,9 @@ private:
   const SampleSet& samples_;
   Query place_{};
   std::uint32_t own_ = no_sample;
-  std::vector<std::pair<double, std::uint32_t>> by_distance_; ///< of a sort
+  std::vector<std::uint64_t> by_distance_; ///< distances before samples, as bits
   std::vector<std::uint32_t> near_;
+  double sq_known_ = 0.0;
 };
 
 } // namespace pcl_uvol::detail

@@ -26,11 +26,10 @@ mostTetrahedra(std::size_t corners)
 }
 
 std::uint32_t
-keyOf(std::array<std::uint8_t, 3> corners)
+keyOf(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
-  std::sort(corners.begin(), corners.end());
-  return static_cast<std::uint32_t>(corners[0]) << 16 |
-         static_cast<std::uint32_t>(corners[1]) << 8 | corners[2];
+  const std::uint32_t low = std::min({a, b, c}), high = std::max({a, b, c});
+  return low << 16 | (a + b + c - low - high) << 8 | high;
 }
 
 /** How much an edge of the Voronoi diagram, around the edge of the triangulation
@@ -62,8 +61,7 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
     volumes[b] += around;
   });
   for (std::size_t tetrahedra = 0; !fronts_.empty(); ++tetrahedra) {
-    const Front front = fronts_.back();
-    fronts_.pop_back();
+    const Front front = remove(fronts_.size() - 1);
     std::uint8_t tip;
     Vector3d center;
     if (tetrahedra == mostTetrahedra(count_) || !findTip(front, tip, center))
@@ -97,6 +95,7 @@ DelaunayCavity::measure(const SimpleCell& cell, const double* ratios, double* vo
 void
 DelaunayCavity::start(const SimpleCell& cell)
 {
+  kernels_ = &cell.getKernels();
   count_ = cell.getNumFaces();
   for (std::size_t face = 0; face < count_; ++face) {
     const Vector3d& offset = cell.getFace(face).offset;
@@ -105,12 +104,35 @@ DelaunayCavity::start(const SimpleCell& cell)
     z_[face] = offset.z();
     limits_[face] = cell.getFace(face).limit;
   }
+  for (auto* const row : {&x_, &y_, &z_})
+    std::fill_n(row->begin() + count_, cell_padding, 0.0);
+  std::fill_n(
+      limits_.begin() + count_, cell_padding, std::numeric_limits<double>::infinity());
   fronts_.clear();
+  keys_.clear();
   for (std::size_t v = 0; v < cell.getNumVertices(); ++v) {
     const auto& [a, b, c] = cell.getCorner(v);
     // Counterclockwise from the place, which is inside.
-    fronts_.push_back({{a, c, b}, keyOf({a, b, c}), cell.getVertex(v)});
+    push({{a, c, b}, cell.getVertex(v)}, keyOf(a, b, c));
   }
+}
+
+void
+DelaunayCavity::push(const Front& front, std::uint32_t key)
+{
+  fronts_.push_back(front);
+  keys_.push_back(key);
+}
+
+DelaunayCavity::Front
+DelaunayCavity::remove(std::size_t front)
+{
+  const Front removed = fronts_[front];
+  fronts_[front] = fronts_.back();
+  keys_[front] = keys_.back();
+  fronts_.pop_back();
+  keys_.pop_back();
+  return removed;
 }
 
 bool
@@ -122,22 +144,18 @@ DelaunayCavity::findTip(const Front& front, std::uint8_t& tip, Vector3d& center)
   const Vector3d first(x_[a], y_[a], z_[a]);
   const Vector3d normal = (Vector3d(x_[b], y_[b], z_[b]) - first)
                               .cross(Vector3d(x_[c], y_[c], z_[c]) - first);
-  const double height = normal.dot(first), power = limits_[a] - front.center.dot(first);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const double ahead = normal.x() * x_[i] + normal.y() * y_[i] + normal.z() * z_[i] -
-                         height,
-                 outside = limits_[i] - front.center.x() * x_[i] -
-                           front.center.y() * y_[i] - front.center.z() * z_[i] - power;
-    distances_[i] =
-        ahead > 0.0 ? outside / ahead : std::numeric_limits<double>::infinity();
-  }
-  for (const std::uint8_t corner : front.corners)
-    distances_[corner] = std::numeric_limits<double>::infinity();
-  const auto* const nearest =
-      std::min_element(distances_.begin(), distances_.begin() + count_);
-  tip = static_cast<std::uint8_t>(nearest - distances_.begin());
-  center = front.center + *nearest * normal;
-  return std::isfinite(*nearest);
+  const double* const points[] = {x_.data(), y_.data(), z_.data(), limits_.data()};
+  const double plane[] = {normal.x(), normal.y(), normal.z(), normal.dot(first)};
+  const double sphere[] = {front.center.x(),
+                           front.center.y(),
+                           front.center.z(),
+                           limits_[a] - front.center.dot(first)};
+  std::size_t met;
+  const double distance = kernels_->findFirst(
+      points, count_, plane, sphere, front.corners.data(), distances_.data(), &met);
+  tip = static_cast<std::uint8_t>(met);
+  center = front.center + distance * normal;
+  return std::isfinite(distance);
 }
 
 bool
@@ -147,22 +165,17 @@ DelaunayCavity::addTriangle(std::uint8_t a,
                             const Vector3d& center,
                             double* volumes)
 {
-  const std::uint32_t key = keyOf({a, b, c});
-  const auto other = std::find_if(fronts_.begin(),
-                                  fronts_.end(),
-                                  [&](const Front& front) { return front.key == key; });
-  if (other == fronts_.end()) {
-    fronts_.push_back({{a, b, c}, key, center});
+  const std::uint32_t key = keyOf(a, b, c);
+  const auto known = std::find(keys_.begin(), keys_.end(), key);
+  if (known == keys_.end()) {
+    push({{a, b, c}, center}, key);
     return true;
   }
-  addVoronoiEdge(*other, center, volumes);
+  const Front other = remove(static_cast<std::size_t>(known - keys_.begin()));
+  addVoronoiEdge(other, center, volumes);
   // It must look the other way.
-  const auto& corners = other->corners;
-  const std::size_t k = corners[0] == a ? 0 : corners[1] == a ? 1 : 2;
-  const bool is_opposite = corners[(k + 1) % 3] == c;
-  *other = fronts_.back();
-  fronts_.pop_back();
-  return is_opposite;
+  const std::size_t k = other.corners[0] == a ? 0 : other.corners[1] == a ? 1 : 2;
+  return other.corners[(k + 1) % 3] == c;
 }
 
 void

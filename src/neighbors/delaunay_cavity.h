@@ -34,12 +34,18 @@ private:
    * side from which they go round counterclockwise, is not known yet. */
   struct Front {
     std::array<std::uint8_t, 3> corners;
-    std::uint32_t key;      ///< the corners in ascending order
     Eigen::Vector3d center; ///< of the sphere of the tetrahedron on the back
   };
 
   void
   start(const SimpleCell& cell);
+
+  void
+  push(const Front& front, std::uint32_t key);
+
+  /** Take a front away. */
+  Front
+  remove(std::size_t front);
 
   /** Find the tetrahedron in front of a triangle.
    * \return false if there is none */
@@ -59,9 +65,12 @@ private:
   void
   addVoronoiEdge(const Front& front, const Eigen::Vector3d& center, double* volumes);
 
+  const CellKernels* kernels_ = nullptr; ///< those of the cell
   std::size_t count_ = 0;
-  std::array<double, SimpleCell::most_faces> x_, y_, z_, limits_, distances_;
+  std::array<double, SimpleCell::most_faces + cell_padding> x_, y_, z_, limits_,
+      distances_;
   std::vector<Front> fronts_;
+  std::vector<std::uint32_t> keys_; ///< of each: its corners in ascending order
 };
 
 } // namespace pcl_uvol::detail

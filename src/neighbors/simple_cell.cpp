@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/simple_cell.h"
 
+#include "common/dispatch.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,6 +14,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+const KernelTable<const CellKernels*> kernel_table{
+    &baseline::cell_kernels, &avx2::cell_kernels, &avx512::cell_kernels};
+
 /** Share of the size of a cell: vertices that close to a plane may lie on either side
  * of it. Rounding is some 1e-15; of random samples one cell in 10^8 comes that near. */
 constexpr double unsure_height = 1e-11;
@@ -20,11 +25,20 @@ constexpr double unsure_height = 1e-11;
  * is less, rounding moves the vertex by more than unsure_height. */
 constexpr double least_volume = 1e-4;
 
+/** Twice the distance of the farthest vertex, and some: samples farther away cut
+ * nothing off. */
+constexpr double most_reaches = 2.0 + 1e-9;
+
 /** Share of its surface that a closed cell's faces, as vectors, sum up to by rounding.
  */
 constexpr double rounding = 1e-11;
 
 } // namespace
+
+SimpleCell::SimpleCell()
+    : kernels_(kernel_table.get())
+{
+}
 
 void
 SimpleCell::start(double half_side)
@@ -51,18 +65,18 @@ SimpleCell::Cut
 SimpleCell::cut(const Vector3d& offset, std::uint32_t sample)
 {
   const double sq_length = offset.squaredNorm(), limit = 0.5 * sq_length;
-  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
-  bool is_kept = true, is_sure = true;
-  for (std::size_t v = 0; v < vertices_; ++v) {
-    const double height =
-        offset.x() * x_[v] + offset.y() * y_[v] + offset.z() * z_[v] - limit;
-    heights_[v] = height;
-    is_kept &= height < -margin;
-    is_sure &= std::abs(height) > margin;
-  }
-  if (is_kept)
+  if (sq_length > most_reaches * most_reaches * sq_reach_)
     return Cut::Nothing;
-  if (!is_sure)
+  const double margin = unsure_height * std::sqrt(sq_length * sq_reach_);
+  for (auto* const row : {&x_, &y_, &z_})
+    std::fill_n(row->begin() + vertices_, cell_padding, 0.0);
+  const double* const points[] = {x_.data(), y_.data(), z_.data()};
+  const double plane[] = {offset.x(), offset.y(), offset.z(), limit};
+  const unsigned heights =
+      kernels_->measureHeights(points, vertices_, plane, margin, heights_.data());
+  if (heights == 0)
+    return Cut::Nothing;
+  if (heights & 2)
     return Cut::Unsure;
   const std::size_t own = findEmptyFace();
   if (own == most_faces)
@@ -216,18 +230,12 @@ bool
 SimpleCellFinder::find(const CellSearch& around)
 {
   cell_.start(around.getHalfSide());
-  double sq_known = 0.0;
-  for (const std::uint32_t sample : around.getNear()) {
-    const Vector3d offset = around.offsetOf(sample);
-    sq_known = offset.squaredNorm();
-    if (sq_known >= 4.0 * cell_.getSqReach())
-      break;
-    if (cell_.cut(offset, sample) == SimpleCell::Cut::Unsure)
+  for (const std::uint32_t sample : around.getNear())
+    if (cell_.cut(around.offsetOf(sample), sample) == SimpleCell::Cut::Unsure)
       return false;
-  }
   // Only samples farther out than those are left to cut off a vertex: not the near
   // ones.
-  for (std::size_t vertex; cell_.findOpenVertex(0.25 * sq_known, vertex);) {
+  for (std::size_t vertex; cell_.findOpenVertex(0.25 * around.getSqKnown(), vertex);) {
     std::uint32_t sample;
     if (!around.findInBall(cell_.getVertex(vertex), sample)) {
       if (cell_.isOfCube(vertex))

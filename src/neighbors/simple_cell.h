@@ -2,6 +2,7 @@
 // The Voronoi cell of a place among samples in general position.
 #pragma once
 
+#include "neighbors/cell_kernel.h"
 #include "neighbors/cell_search.h"
 
 #include <Eigen/Core>
@@ -21,6 +22,8 @@ class SimpleCell {
 public:
   static constexpr std::size_t most_faces = 64; ///< those of random samples have 15.5
   static constexpr std::size_t most_vertices = 2 * most_faces; // Euler: 2 f - 4
+
+  SimpleCell();
 
   enum class Cut {
     Nothing, ///< was cut off
@@ -119,6 +122,12 @@ public:
     is_final_[vertex] = true;
   }
 
+  const CellKernels&
+  getKernels() const
+  {
+    return *kernels_;
+  }
+
   /** \brief Whether a face of a vertex is one of the cube's. */
   bool
   isOfCube(std::size_t vertex) const;
@@ -146,6 +155,7 @@ private:
   std::size_t
   findEmptyFace();
 
+  const CellKernels* kernels_;
   std::size_t faces_ = 0; ///< some of them empty
   std::size_t vertices_ = 0;
   double sq_reach_ = 0.0;
@@ -153,7 +163,7 @@ private:
   std::array<std::uint8_t, most_faces> uses_; ///< vertices of a face
   /** A bit for each edge of removed vertices, from face to face; 0 between cuts. */
   std::array<std::uint64_t, most_faces> removed_edges_{};
-  std::array<double, most_vertices> x_, y_, z_, heights_;
+  std::array<double, most_vertices + cell_padding> x_, y_, z_, heights_;
   std::array<bool, most_vertices> is_final_;
   std::array<std::array<std::uint8_t, 3>, most_vertices> corners_;
 };

@@ -62,7 +62,7 @@ VoronoiCellFinder::start(const CellSearch& around)
   neighbors_ = around.getNear();
   for (std::size_t i = 0; i < neighbors_.size(); ++i)
     cut(around.offsetOf(neighbors_[i]), static_cast<int>(i));
-  sq_reach_ = around.offsetOf(neighbors_.back()).squaredNorm();
+  sq_reach_ = around.getSqKnown();
   is_bounded_ = true;
 }
 
