@@ -31,7 +31,7 @@ pcl_uvol_part(PYTHON "Build the Python module (pybind11)" ${PROJECT_IS_TOP_LEVEL
 pcl_uvol_part(TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL} TOOLS VTK)
 pcl_uvol_part(BENCHMARKS "Build the benchmarks (Google Benchmark, CGAL with TBB, Embree)" OFF TESTS)
 pcl_uvol_part(FUZZERS "Build the fuzzers (clang): tools/fuzz.sh" OFF TESTS)
-pcl_uvol_part(PARAVIEW_PLUGIN "Build the plugin for ParaView (ParaView_DIR: its SDK)" OFF)
+pcl_uvol_part(PARAVIEW_PLUGIN "Build the plugin for ParaView (ParaView_DIR: its SDK)" OFF GL)
 option(PCL_UVOL_PRECOMPILE_HEADERS "Build core faster where ccache knows nothing, which it cannot help with then" OFF)
 option(PCL_UVOL_INSTALL "Install the libraries, their headers and the package" ${PROJECT_IS_TOP_LEVEL})
 option(PCL_UVOL_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)

@@ -11,7 +11,7 @@ endforeach()
 ExternalProject_Add(pcl_uvol_paraview
   SOURCE_DIR ${PROJECT_SOURCE_DIR}/src/paraview
   BINARY_DIR ${PROJECT_BINARY_DIR}/paraview
-  DEPENDS pcl_uvol_core
+  DEPENDS pcl_uvol_core pcl_uvol_gl
   CMAKE_CACHE_ARGS -Dpcl_uvol_DIR:PATH=${PROJECT_BINARY_DIR} ${paraview_settings}
   BUILD_ALWAYS ON
   INSTALL_COMMAND "")

@@ -109,6 +109,14 @@ TEST(ImageSpaceRenderer, ColoursByFieldAndByRgb)
   const auto* const bottom = &image.color[4 * (80 * 100 + 50)];
   EXPECT_GT(top[1], top[2]);       // green to yellow
   EXPECT_GT(bottom[2], bottom[1]); // violet
+  const std::vector<pcl_uvol::Rgba> green(cloud->size(), 0x00ff00);
+  renderer.setPointColors(green);
+  renderer.render(image);
+  EXPECT_EQ(middle[0], 0);
+  EXPECT_GT(middle[1], 100);
+  renderer.setPointColors({0x00ff00});
+  EXPECT_THROW(renderer.render(image), InvalidArgument);
+  renderer.setPointColors({});
   renderer.setColorField("density");
   EXPECT_THROW(renderer.render(image), InvalidArgument);
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace pcl_uvol {
 
@@ -177,17 +178,21 @@ ImageSpaceRendererBase::colorSurface(const CloudView& cloud)
   std::vector<SurfaceCloud*> surfaces = {surface_.get()};
   for (const auto& layer : layers_)
     surfaces.push_back(layer.get());
-  PointColors colors;
-  if (!color_field_.empty()) {
-    colors = colorPoints(
+  std::vector<Rgba> colors = point_colors_;
+  if (!colors.empty() && colors.size() != cloud.count)
+    throw InvalidArgument("There are " + std::to_string(colors.size()) +
+                          " colours for " + std::to_string(cloud.count) + " points.");
+  if (colors.empty() && !color_field_.empty()) {
+    PointColors found = colorPoints(
         cloud, color_field_, {color_map_, color_range_, logarithmic_colors_});
-    used_range_ = {colors.scale.low, colors.scale.high};
+    used_range_ = {found.scale.low, found.scale.high};
+    colors = std::move(found.colors);
   }
   for (SurfaceCloud* const surface : surfaces) {
-    if (color_field_.empty())
+    if (colors.empty())
       surface->setColor(toRgba(settings_.material.color));
     else
-      surface->setColors(colors.colors);
+      surface->setColors(colors);
     if (supersampling_ == 1) // else the pixels around make them paler
       surface->fadeBridged(settings_.background.color);
   }
@@ -276,8 +281,7 @@ ImageSpaceRendererBase::updateColors(const CloudView& cloud)
 {
   const Rgba color = toRgba(settings_.material.color);
   const Rgba behind = supersampling_ == 1 ? toRgba(settings_.background.color) : 0;
-  if (colored_ && behind == color_behind_ &&
-      (!color_field_.empty() || color == uniform_color_))
+  if (colored_ && behind == color_behind_ && (!isUniform() || color == uniform_color_))
     return;
   colorSurface(cloud);
   uniform_color_ = color;

@@ -42,6 +42,16 @@ public:
     colored_ = false;
   }
 
+  /** \brief Colours that somebody else has made, whatever the field is.
+   * \param colors one for each point of the cloud, drawn or not; none (default): those
+   * of the field */
+  void
+  setPointColors(const std::vector<Rgba>& colors)
+  {
+    point_colors_ = colors;
+    colored_ = false;
+  }
+
   /** \brief Default: viridis. */
   void
   setColorMap(const ColorMap& map)
@@ -199,7 +209,15 @@ private:
   void
   findFootprints(SurfaceCloud& surface, const View& view);
 
+  /** Whether all points have the material's colour. */
+  bool
+  isUniform() const
+  {
+    return color_field_.empty() && point_colors_.empty();
+  }
+
   std::string color_field_;
+  std::vector<Rgba> point_colors_; // instead of those of the field
   ColorMap color_map_;
   std::optional<std::array<double, 2>> color_range_;
   bool logarithmic_colors_ = false;
@@ -213,7 +231,7 @@ private:
   pcl::IndicesConstPtr drawn_;                        // input points behind surface_
   Report surface_report_;                             // what preparing it counted
   bool colored_ = false;
-  Rgba uniform_color_ = 0; // of surface_ without a colour field
+  Rgba uniform_color_ = 0; // of surface_ without other colours
   Rgba color_behind_ = 0;  // that bridged isopoints of surface_ are mixed with
   Image fine_;             // for supersampling
 };
