@@ -3,7 +3,6 @@
 
 #include "common/parallel.h"
 #include "render/point_colors.h"
-#include "surface/footprints.h"
 
 #include <algorithm>
 #include <atomic>
@@ -185,9 +184,19 @@ SurfaceCloud::fadeBridged(const Color& background)
 void
 SurfaceCloud::computeFootprints(unsigned threads, Report& report)
 {
-  if (!footprints_.empty())
-    return;
-  Footprints footprints = pcl_uvol::computeFootprints(points_, threads, report);
+  if (footprints_.empty())
+    setFootprints(findFootprints(threads, report));
+}
+
+Footprints
+SurfaceCloud::findFootprints(unsigned threads, Report& report) const
+{
+  return pcl_uvol::computeFootprints(points_, threads, report);
+}
+
+void
+SurfaceCloud::setFootprints(Footprints footprints)
+{
   footprints_ = std::move(footprints.radii);
   fillers_ = std::move(footprints.fillers);
   for (auto* const radii : {&footprints_, &fillers_})

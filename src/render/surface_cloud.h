@@ -3,6 +3,7 @@
 // footprints of the points where they are asked for.
 #pragma once
 
+#include "surface/footprints.h"
 #include "surface/oriented_points.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
@@ -127,8 +128,16 @@ public:
   fadeBridged(const Color& background);
 
   /** \brief Find how large the discs of the points must be to leave no hole between
-   * them, once; further calls return at once. The radius of a point's disc is the
-   * distance to the farthest corner of its Voronoi cell in its tangent plane. */
+   * them. The radius of a point's disc is the distance to the farthest corner of its
+   * Voronoi cell in its tangent plane. Colours may change meanwhile. */
+  Footprints
+  findFootprints(unsigned threads, Report& report) const;
+
+  /** \brief Take what findFootprints() has found. */
+  void
+  setFootprints(Footprints footprints);
+
+  /** \brief Both, once; further calls return at once. */
   void
   computeFootprints(unsigned threads, Report& report);
 

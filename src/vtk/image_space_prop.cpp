@@ -44,11 +44,14 @@ ImageSpaceProp::PrintSelf(std::ostream& out, vtkIndent indent)
 }
 
 void
-ImageSpaceProp::setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud)
+ImageSpaceProp::setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud,
+                              const std::shared_ptr<PreparedSurface>& prepared)
 {
   cloud_ = cloud;
-  if (cloud)
+  if (cloud) {
     renderer_.setInputCloud(cloud);
+    renderer_.setPreparedSurface(prepared);
+  }
   measured_ = false;
   reported_.clear();
   Modified();

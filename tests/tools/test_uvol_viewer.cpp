@@ -8,6 +8,7 @@
 #include "viewer/opacity_choice.h"
 #include "viewer/point_picking.h"
 #include "viewer/viewer_window.h"
+#include <pcl_uvol/common/point_types.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

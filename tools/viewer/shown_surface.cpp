@@ -5,6 +5,7 @@
 #include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <Eigen/Geometry>
 
@@ -41,6 +42,57 @@ ballAround(const pcl::PCLPointCloud2& points)
     if (position(i).allFinite())
       ball.radius = std::max(ball.radius, (position(i) - ball.center).norm());
   return ball;
+}
+
+using Cut = std::optional<Eigen::Hyperplane<double, 3>>;
+
+bool
+isSameCut(const Cut& a, const Cut& b)
+{
+  return a && b ? a->coeffs() == b->coeffs() : !a && !b;
+}
+
+/** The points that are not in front of a plane, and all of them without one. */
+pcl::PCLPointCloud2::ConstPtr
+cutAway(const pcl::PCLPointCloud2::ConstPtr& whole, const Cut& plane)
+{
+  if (!whole || !plane)
+    return whole;
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*whole);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < cloud.count; ++i)
+    if (plane->signedDistance(
+            Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i)).cast<double>()) <= 0.0)
+      kept.push_back(static_cast<std::uint32_t>(i));
+  if (kept.empty())
+    return nullptr;
+  const auto part = pcl::make_shared<pcl::PCLPointCloud2>();
+  part->height = 1;
+  part->width = static_cast<pcl::uindex_t>(kept.size());
+  pcl_uvol::copyFields(*whole, kept, *part);
+  return part;
+}
+
+/** What is drawn of an isosurface. */
+ExtractedSurface
+makeShown(pcl_uvol::IsosurfaceResult result,
+          const SurfaceRequest& request,
+          unsigned threads,
+          const pcl_uvol::ProgressCallback& progress)
+{
+  ExtractedSurface shown;
+  shown.report = std::move(result.report);
+  shown.report.progress = nullptr; // that of the worker
+  shown.triangles = std::move(result.triangles);
+  if (result.surface.cloud.width > 0)
+    shown.whole =
+        pcl::make_shared<pcl::PCLPointCloud2>(std::move(result.surface.cloud));
+  shown.cloud =
+      shown.triangles.empty() ? cutAway(shown.whole, request.cut) : shown.whole;
+  if (shown.cloud && shown.triangles.empty())
+    shown.prepared =
+        std::make_shared<pcl_uvol::PreparedSurface>(*shown.cloud, threads, progress);
+  return shown;
 }
 
 } // namespace
@@ -85,8 +137,8 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   pipeline->setInput(samples);
   pipeline->setNumberOfThreads(threads);
   worker_ = std::make_unique<SurfaceWorker>(
-      [pipeline, field](const SurfaceRequest& request,
-                        const pcl_uvol::ProgressCallback& progress) {
+      [pipeline, field, threads](const SurfaceRequest& request,
+                                 const pcl_uvol::ProgressCallback& progress) {
         pcl_uvol::IsosurfacePipelineParameters parameters;
         if (request.is_meshed)
           parameters.mesh.emplace().open = true; // caps would hide the surface
@@ -96,7 +148,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
         parameters.isosurface.isovalues = {isovalues.begin(), isovalues.end()};
         pipeline->setParameters(parameters);
         pipeline->setProgressCallback(progress);
-        return pipeline->run();
+        return makeShown(pipeline->run(), request, threads, progress);
       });
 }
 
@@ -136,7 +188,7 @@ ShownSurface::setIsoValues(const std::vector<double>& isovalues)
            << ", the range of " << field_ << ", and is not " << isovalue << ".";
       throw InvalidArgument(text.str());
     }
-  ask({isovalues, asked_.is_meshed});
+  ask({isovalues, asked_.is_meshed, asked_.cut});
 }
 
 void
@@ -153,7 +205,7 @@ ShownSurface::setMeshed(bool is_meshed)
   if (field_.empty())
     throw InvalidArgument("A mesh is made of samples, and these are points of a "
                           "surface: -field shows the isosurfaces of samples.");
-  ask({asked_.isovalues, is_meshed});
+  ask({asked_.isovalues, is_meshed, asked_.cut});
 }
 
 void
@@ -193,42 +245,21 @@ ShownSurface::takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*giv
     return false;
   shown_ = result->request;
   report_ = std::move(result->surface.report);
-  report_.progress = nullptr; // that of the worker
   triangles_ = std::move(result->surface.triangles);
-  whole_.reset();
-  if (result->surface.surface.cloud.width > 0)
-    whole_ = pcl::make_shared<Cloud>(std::move(result->surface.surface.cloud));
-  applyCut();
+  whole_ = result->surface.whole;
+  cloud_ = result->surface.cloud;
+  prepared_ = result->surface.prepared;
+  if (!isSameCut(shown_.cut, asked_.cut)) // which has changed meanwhile
+    setCut(asked_.cut);
   return true;
 }
 
 void
 ShownSurface::setCut(const std::optional<Eigen::Hyperplane<double, 3>>& plane)
 {
-  plane_ = plane;
-  applyCut();
-}
-
-void
-ShownSurface::applyCut()
-{
-  cloud_ = whole_;
-  if (!plane_ || !whole_ || !triangles_.empty())
-    return;
-  const pcl_uvol::CloudView whole = pcl_uvol::viewOf(*whole_);
-  std::vector<std::uint32_t> kept;
-  for (std::size_t i = 0; i < whole.count; ++i)
-    if (plane_->signedDistance(
-            Eigen::Map<const Eigen::Vector3f>(whole.xyz(i)).cast<double>()) <= 0.0)
-      kept.push_back(static_cast<std::uint32_t>(i));
-  cloud_.reset();
-  if (kept.empty())
-    return;
-  const auto part = pcl::make_shared<Cloud>();
-  part->height = 1;
-  part->width = static_cast<pcl::uindex_t>(kept.size());
-  pcl_uvol::copyFields(*whole_, kept, *part);
-  cloud_ = part;
+  asked_.cut = shown_.cut = plane;
+  cloud_ = triangles_.empty() ? cutAway(whole_, plane) : whole_;
+  prepared_.reset();
 }
 
 pcl_uvol::BoundingSphere

@@ -93,7 +93,8 @@ public:
     return asked_.is_meshed;
   }
 
-  /** \brief Whether something that was asked for is not shown yet. */
+  /** \brief Whether something that was asked for is not shown yet, or its footprints
+   * are not found yet. */
   bool
   isBusy() const
   {
@@ -110,6 +111,13 @@ public:
   bool
   finish();
 
+  /** \brief What is drawn of getCloud(), ready for the first frame; null: it is not. */
+  const std::shared_ptr<pcl_uvol::PreparedSurface>&
+  getPrepared() const
+  {
+    return prepared_;
+  }
+
   /** \brief The triangles of a mesh, whose vertices are the points of the cloud. */
   const std::vector<pcl_uvol::Triangle>&
   getTriangles() const
@@ -125,7 +133,7 @@ public:
   bool
   isCut() const
   {
-    return plane_.has_value();
+    return asked_.cut.has_value();
   }
 
   /** \brief Null where an isosurface has no points. */
@@ -160,13 +168,9 @@ private:
   /** Show what the worker gives, if it gives something. */
   bool takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*give)());
 
-  /** Take the points that are not cut away. */
-  void
-  applyCut();
-
   Cloud::ConstPtr samples_;
   Cloud::ConstPtr whole_, cloud_; // the surface, and what is shown of it
-  std::optional<Eigen::Hyperplane<double, 3>> plane_;
+  std::shared_ptr<pcl_uvol::PreparedSurface> prepared_;
   std::array<double, 3> origin_;
   std::string field_;
   std::array<double, 2> range_{{0.0, 0.0}};

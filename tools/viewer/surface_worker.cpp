@@ -7,7 +7,7 @@ namespace uvol_tools {
 
 namespace {
 
-/** Thrown through an extraction to end it. */
+/** Thrown through what is under way to end it. */
 struct Ended {};
 
 } // namespace
@@ -34,6 +34,7 @@ SurfaceWorker::ask(const SurfaceRequest& request)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_ = request;
+    is_overtaken_ = true;
   }
   changed_.notify_all();
 }
@@ -74,17 +75,20 @@ SurfaceWorker::work()
       return;
     const SurfaceRequest request = *std::exchange(waiting_, std::nullopt);
     is_working_ = true;
+    is_overtaken_ = false;
     lock.unlock();
-    extract(request);
+    if (const auto prepared = extract(request))
+      findFootprints(*prepared);
     lock.lock();
     is_working_ = false;
     changed_.notify_all();
   }
 }
 
-void
+std::shared_ptr<pcl_uvol::PreparedSurface>
 SurfaceWorker::extract(const SurfaceRequest& request)
 {
+  std::shared_ptr<pcl_uvol::PreparedSurface> prepared;
   std::optional<Result> result;
   std::exception_ptr error;
   try {
@@ -92,6 +96,7 @@ SurfaceWorker::extract(const SurfaceRequest& request)
                       if (is_ending_)
                         throw Ended();
                     })};
+    prepared = result->surface.prepared;
   }
   catch (...) {
     error = std::current_exception();
@@ -99,6 +104,22 @@ SurfaceWorker::extract(const SurfaceRequest& request)
   const std::lock_guard<std::mutex> lock(mutex_);
   result_ = std::move(result);
   error_ = std::move(error);
+  return prepared;
+}
+
+void
+SurfaceWorker::findFootprints(pcl_uvol::PreparedSurface& prepared)
+{
+  const auto end_if_overtaken = [this](const std::string&, double) {
+    if (is_ending_ || is_overtaken_)
+      throw Ended();
+  };
+  try {
+    end_if_overtaken("", 0.0);
+    prepared.findFootprints(end_if_overtaken);
+  }
+  catch (...) { // it is drawn without them, and tells why when it is drawn with them
+  }
 }
 
 } // namespace uvol_tools

@@ -242,7 +242,8 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
       if (is_new)
         showNewSurface();
     });
-    if (is_new) { // or an error is to be told
+    const bool has_footprints = is_hasty_ && !surface_.isBusy();
+    if (is_new || has_footprints) { // or an error is to be told
       hurry(surface_.isBusy());
       render();
     }
@@ -355,7 +356,7 @@ ViewerWindow::setUpTriad(double grey)
 void
 ViewerWindow::showSurface()
 {
-  prop_->setInputCloud(surface_.getCloud());
+  prop_->setInputCloud(surface_.getCloud(), surface_.getPrepared());
   applyColor();
   applyOpacities();
   showMesh();
@@ -444,12 +445,7 @@ ViewerWindow::finish()
 void
 ViewerWindow::hurry(bool is_hasty)
 {
-  if (is_hasty == is_hasty_)
-    return;
-  bool& footprints = prop_->renderer().settings().footprints;
-  if (is_hasty)
-    had_footprints_ = footprints;
-  footprints = !is_hasty && had_footprints_;
+  prop_->renderer().setHasty(is_hasty);
   is_hasty_ = is_hasty;
 }
 

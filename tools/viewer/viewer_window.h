@@ -172,8 +172,8 @@ private:
   void
   awaitSurface();
 
-  /** Draw without footprints while surfaces follow one another, or with them again:
-   * those of a surface take about as long as its extraction. */
+  /** Draw without footprints that are not found yet, or with them: those of a surface
+   * take about as long as its extraction. */
   void
   hurry(bool is_hasty);
 
@@ -250,7 +250,7 @@ private:
   pcl_uvol::ColorScale scale_;  // of the slider
   std::array<int, 2> timers_{}; // the last ones; 0: there was none
   bool awaits_surface_ = false;
-  bool is_hasty_ = false, had_footprints_ = false;
+  bool is_hasty_ = false;
   std::string error_; // of the last frame
   vtkNew<pcl_uvol::ImageSpaceProp> prop_;
   vtkNew<vtkPolyDataMapper> mesh_;

@@ -72,9 +72,11 @@ public:
 
   /** \brief The surface: x, y, z as float32, and normals as of ImageSpaceRenderer. It
    * must not change until the next call.
-   * \param cloud null (default): nothing is drawn */
+   * \param cloud null (default): nothing is drawn
+   * \param prepared of the cloud; null: the first frame prepares it */
   void
-  setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud);
+  setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud,
+                const std::shared_ptr<PreparedSurface>& prepared = nullptr);
 
   /** \brief Settings of the passes, colours, threads, report of the last frame. Camera,
    * size, background and backend are the window's: those of this object are not used.

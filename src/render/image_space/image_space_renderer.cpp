@@ -7,6 +7,7 @@
 #include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
+#include <pcl_uvol/render/image_space/prepared_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -141,7 +142,16 @@ void
 ImageSpaceRendererBase::forgetSurface()
 {
   surface_.reset();
+  prepared_.reset();
   layers_.clear();
+}
+
+void
+ImageSpaceRendererBase::setPreparedSurface(
+    const std::shared_ptr<PreparedSurface>& prepared)
+{
+  forgetSurface();
+  prepared_ = prepared;
 }
 
 const SurfaceCloud&
@@ -151,14 +161,24 @@ ImageSpaceRendererBase::prepare(const CloudView& cloud,
   if (surface_ && indices == drawn_)
     return *surface_;
   detail::checkIndices(*indices, cloud.count, "ImageSpaceRenderer");
-  const std::vector<std::uint32_t> use(indices->begin(), indices->end());
-  startReport();
-  {
-    const StepTimer timer(report_, "prepare");
-    surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, report_);
-  }
   surface_report_ = Report();
-  surface_report_.merge(report_);
+  if (prepared_) {
+    if (prepared_->count_ != cloud.count || indices->size() != cloud.count)
+      throw InvalidArgument("The surface was prepared of " +
+                            std::to_string(prepared_->count_) + " points, and " +
+                            std::to_string(indices->size()) + " are to be drawn.");
+    surface_ = prepared_->surface_;
+    surface_report_.merge(prepared_->report_);
+  }
+  else {
+    const std::vector<std::uint32_t> use(indices->begin(), indices->end());
+    startReport();
+    {
+      const StepTimer timer(report_, "prepare");
+      surface_ = std::make_shared<SurfaceCloud>(cloud, use, threads_, report_);
+    }
+    surface_report_.merge(report_);
+  }
   layers_.clear();
   drawn_ = indices;
   colored_ = false;
@@ -226,7 +246,11 @@ ImageSpaceRendererBase::prepareLayers(const CloudView& cloud,
 void
 ImageSpaceRendererBase::findFootprints(SurfaceCloud& surface, const View& view)
 {
-  if (settings_.footprints && needsFootprints(surface, view))
+  if (!settings_.footprints || !needsFootprints(surface, view))
+    return;
+  const bool is_found = prepared_ && prepared_->surface_.get() == &surface &&
+                        prepared_->applyFootprints(report_);
+  if (!is_found && !is_hasty_)
     surface.computeFootprints(threads_, report_);
 }
 

@@ -21,6 +21,7 @@
 
 namespace pcl_uvol {
 
+class PreparedSurface;
 class SurfaceCloud;
 struct View;
 
@@ -95,6 +96,19 @@ public:
   getOpacities() const
   {
     return opacities_;
+  }
+
+  /** \brief Draw all points of the input as they were prepared, until the next input.
+   * \param prepared of the same cloud; null: frames prepare what they need */
+  void
+  setPreparedSurface(const std::shared_ptr<PreparedSurface>& prepared);
+
+  /** \brief Do without footprints that are still to be found, by somebody else, rather
+   * than let a frame wait for them; default false. */
+  void
+  setHasty(bool is_hasty)
+  {
+    is_hasty_ = is_hasty;
   }
 
   /** \brief Steps and thresholds. */
@@ -227,9 +241,11 @@ private:
   std::shared_ptr<ImageSpaceBackend> backend_;
   std::vector<double> opacities_;
   std::shared_ptr<SurfaceCloud> surface_;
+  std::shared_ptr<PreparedSurface> prepared_; // that surface_ is of; null: its own
   std::vector<std::shared_ptr<SurfaceCloud>> layers_; // by ascending isovalue
   pcl::IndicesConstPtr drawn_;                        // input points behind surface_
   Report surface_report_;                             // what preparing it counted
+  bool is_hasty_ = false;
   bool colored_ = false;
   Rgba uniform_color_ = 0; // of surface_ without other colours
   Rgba color_behind_ = 0;  // that bridged isopoints of surface_ are mixed with

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/surface_cloud.h"
+#include "surface/footprints.h"
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/render/image_space/prepared_surface.h>
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace pcl_uvol {
+
+PreparedSurface::PreparedSurface(const pcl::PCLPointCloud2& cloud,
+                                 unsigned threads,
+                                 const ProgressCallback& progress)
+    : threads_(threads)
+{
+  const CloudView view = viewOf(cloud);
+  count_ = view.count;
+  std::vector<std::uint32_t> all(count_);
+  std::iota(all.begin(), all.end(), 0u);
+  report_.progress = progress;
+  {
+    const StepTimer timer(report_, "prepare");
+    surface_ = std::make_shared<SurfaceCloud>(view, all, threads, report_);
+  }
+  report_.progress = nullptr;
+}
+
+PreparedSurface::~PreparedSurface() = default;
+
+void
+PreparedSurface::findFootprints(const ProgressCallback& progress)
+{
+  Report report;
+  report.progress = progress;
+  auto found = std::make_unique<Footprints>(surface_->findFootprints(threads_, report));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  footprints_ = std::move(found);
+  footprints_report_ = std::move(report);
+}
+
+bool
+PreparedSurface::applyFootprints(Report& report)
+{
+  std::unique_ptr<Footprints> found;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!footprints_)
+      return false;
+    found = std::move(footprints_);
+    report.merge(footprints_report_);
+  }
+  surface_->setFootprints(std::move(*found));
+  return true;
+}
+
+} // namespace pcl_uvol
