@@ -166,6 +166,30 @@ laneBits(const Longs& comparison)
 #endif
 }
 
+/** The upper 32 bits of the numbers of two registers. */
+inline Ints
+upperHalves(const Longs& a, const Longs& b)
+{
+#if defined(__AVX512F__)
+  const Ints odd = 2 * laneNumbers() + 1;
+  return bitCast<Ints>(_mm512_permutex2var_epi32(
+      bitCast<__m512i>(a), bitCast<__m512i>(odd), bitCast<__m512i>(b)));
+#elif defined(__AVX2__)
+  constexpr int odd = 0xdd, middle_swapped = 0xd8;
+  const __m256 by_halves =
+      _mm256_shuffle_ps(bitCast<__m256>(a), bitCast<__m256>(b), odd);
+  return bitCast<Ints>(
+      _mm256_permute4x64_epi64(bitCast<__m256i>(by_halves), middle_swapped));
+#else
+  Ints upper{};
+  for (int lane = 0; lane < lanes / 2; ++lane) {
+    upper[lane] = static_cast<std::int32_t>(a[lane] >> 32);
+    upper[lanes / 2 + lane] = static_cast<std::int32_t>(b[lane] >> 32);
+  }
+  return upper;
+#endif
+}
+
 /** base[index] of every lane. */
 inline Floats
 gather(const float* base, const Ints& index)

@@ -121,6 +121,35 @@ keepFront(PixelKey& pixel, float depth, std::uint32_t point)
   pixel = key < pixel ? key : pixel;
 }
 
+/** Pixels that share a register: so many columns of two rows. */
+constexpr int patch_columns = lanes / 2;
+
+/** Where the rows of a patch begin, as keys of a band count. */
+struct Patch {
+  std::ptrdiff_t first, second;
+
+  /** The second row is the first one where the band ends: the next is another thread's.
+   */
+  Patch(const PixelBand& band, int row, int column)
+      : first(row * band.stride + column)
+      , second(first + (row + 1 < band.last_row ? band.stride : 0))
+  {
+  }
+
+  std::ptrdiff_t
+  pixelOf(int lane) const
+  {
+    return (lane < patch_columns ? first : second) + lane % patch_columns;
+  }
+
+  Floats
+  seenDepths(const PixelBand& band) const
+  {
+    return fromBits(
+        upperHalves(load<Longs>(band.keys + first), load<Longs>(band.keys + second)));
+  }
+};
+
 /** One disc in a band: pixels side by side. */
 class LargeDisc {
 public:
@@ -155,28 +184,40 @@ public:
           last_row_);
   }
 
-  /** Call visit(row, column, depth, part of the squared radius) for every pixel that is
-   * covered. */
+  /** Whether pixels may see it, stretched, within its radius and so much depth besides:
+   * not if it lies farther behind all that is seen in the cells that it reaches. */
+  bool
+  mayBeSeen(const PixelBand& band, const float* deepest, float room) const
+  {
+    const Vector& c = disc_.center;
+    const float distance = squareRoot(c.x * c.x + c.y * c.y + c.z * c.z)[0];
+    const float facing = __builtin_fabsf(disc_.facing[0]);
+    if (facing < least_cosine * distance)
+      return true;
+    const float nearest =
+        ((1.0f - depth_error) * distance - 2.0f * radius()) * projection_.per_far -
+        room;
+    const int cells = cellsInRow(band.width);
+    for (int row = (first_row_ - band.first_row) / cell_rows;
+         row * cell_rows < last_row_ - band.first_row;
+         ++row)
+      for (int column = first_column_ / cell_columns;
+           column * cell_columns < last_column_;
+           ++column)
+        if (deepest[row * cells + column] >= nearest)
+          return true;
+    return false;
+  }
+
+  /** Call visit(row, column, covered lanes, depths, parts of the squared radius) for
+   * every patch with a pixel that is covered; row and column of its first pixel. */
   template <typename Visit>
   void
-  forCovered(const Visit& visit) const
+  forPatches(const Visit& visit) const
   {
-    const int width = last_column_ - first_column_, height = last_row_ - first_row_;
-    if (width <= 0 || height <= 0)
-      return;
-    if (width < lanes) {
-      // Pixels of several rows share a register.
-      const float per_width = 1.0f / static_cast<float>(width);
-      for (int i = 0; i < width * height; i += lanes) {
-        const Ints number = laneNumbers() + i;
-        const Ints row = toInts((toFloats(number) + 0.5f) * per_width);
-        visitLanes(row + first_row_, number - row * width + first_column_, visit);
-      }
-      return;
-    }
-    for (int row = first_row_; row < last_row_; ++row)
-      for (int column = first_column_; column < last_column_; column += lanes)
-        visitLanes(fill(row), laneNumbers() + column, visit);
+    for (int row = first_row_; row < last_row_; row += 2)
+      for (int column = first_column_; column < last_column_; column += patch_columns)
+        visitPatch(row, column, visit);
   }
 
   float
@@ -192,6 +233,13 @@ public:
   }
 
 private:
+  /** Depths of a disc that is seen under a smaller cosine, nearly edge-on, may be off
+   * by more than its radius: rounding is multiplied by the square of its inverse.
+   * Others, at 1e-7 of the distance for each operation, by far less than the second. @{
+   */
+  static constexpr float least_cosine = 0.05f, depth_error = 1e-4f;
+  /** @} */
+
   /** Whole pixels of a range, within bounds. */
   static void
   range(float center, float extent, int& first, int& last)
@@ -203,32 +251,26 @@ private:
 
   template <typename Visit>
   void
-  visitLanes(const Ints& rows, const Ints& columns, const Visit& visit) const
+  visitPatch(int row, int column, const Visit& visit) const
   {
-    const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
-    const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
+    const Ints lane = laneNumbers();
+    const Ints rows = row - (lane >= patch_columns); // a true one is -1
+    const Ints columns = column + (lane & (patch_columns - 1));
     const Floats ex = toFloats(columns) + 0.5f - disc_.px,
                  ey = toFloats(rows) + 0.5f - disc_.py;
     const Floats beyond = (polynomials_.xx * ex + polynomials_.linearAt(ey)) * ex +
                           polynomials_.constantAt(ey);
     const Floats toward = (1.0f + disc_.tilt_y * ey) + disc_.tilt_x * ex;
-    const Floats depth = depthAt(projection_, disc_.center.z * (1.0f / toward), qx, qy);
-    const Ints covered = (toward > 0.0f) & (beyond <= 0.0f) & (depth < 1.0f) &
-                         (rows < fill(last_row_)) & (columns < fill(last_column_));
-    std::uint32_t bits = laneBits(covered);
-    if (bits == 0)
+    const Ints inside = (toward > 0.0f) & (beyond <= 0.0f) & (rows < fill(last_row_)) &
+                        (columns < fill(last_column_));
+    if (laneBits(inside) == 0)
       return;
-    alignas(64) std::int32_t row[lanes], column[lanes];
-    alignas(64) float depths[lanes], parts[lanes];
-    store(row, rows);
-    store(column, columns);
-    store(depths, depth);
+    const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
+    const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
+    const Floats depth = depthAt(projection_, disc_.center.z * (1.0f / toward), qx, qy);
     const Floats radius = disc_.radius * toward;
-    store(parts, 1.0f + beyond / (radius * radius));
-    for (; bits != 0; bits &= bits - 1) {
-      const int lane = __builtin_ctz(bits);
-      visit(row[lane], column[lane], depths[lane], parts[lane]);
-    }
+    visit(
+        row, column, inside & (depth < 1.0f), depth, 1.0f + beyond / (radius * radius));
   }
 
   DiscLanes disc_;
@@ -406,9 +448,21 @@ draw(const Projection& projection,
       const float depth_in_radii =
           disc.looksAway() ? back + projection.away_depth : back;
       const float room = disc.radius() * (depth_in_radii * projection.per_far);
-      disc.forCovered([&](int row, int column, float depth, float) {
-        if (depth + room < 1.0f)
-          keepFront(band.keys[row * band.stride + column], depth + room, point);
+      disc.forPatches([&](int row,
+                          int column,
+                          const Ints& covered,
+                          const Floats& depth,
+                          const Floats&) {
+        const Floats deeper = depth + room;
+        const Patch patch(band, row, column);
+        alignas(64) float depths[lanes];
+        store(depths, deeper);
+        std::uint32_t front =
+            laneBits(covered & (deeper < 1.0f) & (deeper <= patch.seenDepths(band)));
+        for (; front != 0; front &= front - 1) {
+          const int lane = __builtin_ctz(front);
+          keepFront(band.keys[patch.pixelOf(lane)], depths[lane], point);
+        }
       });
     }
   }
@@ -417,19 +471,71 @@ draw(const Projection& projection,
 /** All sums of a pixel. */
 using PixelSums = float __attribute__((vector_size(blended_values * sizeof(float))));
 
-/** The sums of a pixel, those of its segment cleared if it is the first. */
-float*
-sumsAt(const BlendSums& blended, std::ptrdiff_t pixel)
+/** Clear the sums of a pixel's segment if it is the first one there. */
+void
+reachSegment(const BlendSums& blended, std::ptrdiff_t pixel)
 {
   const std::ptrdiff_t segment = BlendSums::segmentOf(pixel);
-  if (blended.marks[segment] == 0) {
-    blended.marks[segment] = 1;
-    const std::ptrdiff_t first = segment * blend_segment - blend_segment / 2;
-    __builtin_memset(blended.values + blended_values * first,
-                     0,
-                     sizeof(float) * blended_values * blend_segment);
+  if (blended.marks[segment] != 0)
+    return;
+  blended.marks[segment] = 1;
+  const std::ptrdiff_t first = segment * blend_segment - blend_segment / 2;
+  __builtin_memset(blended.values + blended_values * first,
+                   0,
+                   sizeof(float) * blended_values * blend_segment);
+}
+
+/** Add weighted values to the pixels of a row of a patch that have a bit. */
+void
+addToRow(const BlendSums& blended,
+         std::ptrdiff_t pixel,
+         std::uint32_t bits,
+         const float* values,
+         const float* weights)
+{
+  if (bits == 0)
+    return;
+  static_assert(patch_columns <= blend_segment, "at most two segments");
+  reachSegment(blended, pixel + __builtin_ctz(bits));
+  reachSegment(blended, pixel + (31 - __builtin_clz(bits)));
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    float* const sums = blended.values + blended_values * (pixel + lane);
+    store(sums, load<PixelSums>(sums) + load<PixelSums>(values) * weights[lane]);
   }
-  return blended.values + blended_values * pixel;
+}
+
+/** A bit for every pixel of a patch that is of a side. */
+std::uint32_t
+lanesOfSide(const std::uint8_t* first, const std::uint8_t* second, std::uint8_t side)
+{
+  alignas(64) std::int32_t sides[lanes];
+  for (int lane = 0; lane < patch_columns; ++lane) {
+    sides[lane] = first[lane];
+    sides[patch_columns + lane] = second[lane];
+  }
+  return laneBits(load<Ints>(sides) == side);
+}
+
+void
+findDeepest(const PixelBand& band, float* deepest)
+{
+  const int cells = cellsInRow(band.width);
+  for (int top = band.first_row; top < band.last_row; top += cell_rows)
+    for (int cell = 0; cell < cells; ++cell) {
+      Longs most{};
+      for (int row = top; row < top + cell_rows && row < band.last_row; ++row)
+        for (int column = 0; column < cell_columns; column += lanes / 2) {
+          const Longs key = load<Longs>(band.keys + row * band.stride +
+                                        (cell * cell_columns + column));
+          const Longs seen = key < background_key ? key : Longs{};
+          most = seen > most ? seen : most;
+        }
+      PixelKey last = 0;
+      for (int lane = 0; lane < lanes / 2; ++lane)
+        last = most[lane] > last ? most[lane] : last;
+      *deepest++ = depthOf(last);
+    }
 }
 
 void
@@ -439,10 +545,14 @@ blend(const Projection& projection,
       const std::uint32_t* discs,
       std::size_t count,
       const PixelBand& band,
+      const float* deepest,
       const BlendSums& blended)
 {
   for (std::size_t i = 0; i < count; ++i) {
     const LargeDisc disc(projection, points, discs[i], points.stretch, band);
+    const float room = disc.radius() * projection.per_far;
+    if (!disc.mayBeSeen(band, deepest, room))
+      continue;
     Floats direction[3];
     unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
     const Floats length =
@@ -456,26 +566,38 @@ blend(const Projection& projection,
       values[3 + k] = static_cast<float>((color >> (8 * k)) & 0xff);
     }
     values[6] = 1.0f;
-    const float room = disc.radius() * projection.per_far;
     const std::uint8_t disc_side =
         sideOf(color, projection.has_sides && disc.looksAway());
-    disc.forCovered([&](int row, int column, float depth, float part) {
-      const std::ptrdiff_t pixel = row * band.stride + column;
-      if (blended.sides != nullptr && blended.sides[pixel] != disc_side)
-        return;
-      const float behind = depth - depthOf(band.keys[pixel]);
-      if (!(behind <= room && behind >= -room))
+    disc.forPatches([&](int row,
+                        int column,
+                        const Ints& covered,
+                        const Floats& depth,
+                        const Floats& part) {
+      const Patch patch(band, row, column);
+      const Floats behind = depth - patch.seenDepths(band);
+      const Ints seen = covered & (behind <= room) & (behind >= -room);
+      std::uint32_t bits = laneBits(seen);
+      if (blended.sides != nullptr)
+        bits &= lanesOfSide(
+            blended.sides + patch.first, blended.sides + patch.second, disc_side);
+      if (bits == 0)
         return;
       // Falls smoothly to zero at the rim.
-      const float weight = (1.0f - part) * (1.0f - part);
-      float* const sums = sumsAt(blended, pixel);
-      store(sums, load<PixelSums>(sums) + load<PixelSums>(values) * weight);
+      alignas(64) float weights[lanes];
+      store(weights, (1.0f - part) * (1.0f - part));
+      constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
+      addToRow(blended, patch.first, bits & row_bits, values, weights);
+      addToRow(blended,
+               patch.second,
+               bits >> patch_columns,
+               values,
+               weights + patch_columns);
     });
   }
 }
 
 } // namespace
 
-extern const DiscKernels disc_kernels{draw, blend};
+extern const DiscKernels disc_kernels{draw, findDeepest, blend};
 
 } // namespace pcl_uvol::PCL_UVOL_SIMD

@@ -33,6 +33,17 @@ struct BlendSums {
   }
 };
 
+/** Pixels of a band are told about by cells of so many of them. @{ */
+constexpr int cell_rows = 8, cell_columns = 16;
+/** @} */
+
+/** \brief Cells side by side in so many columns. */
+constexpr int
+cellsInRow(int width)
+{
+  return (width + cell_columns - 1) / cell_columns;
+}
+
 /** \brief One instruction set's versions. */
 struct DiscKernels {
   /** \brief Put discs into all pixels whose centre they cover.
@@ -44,15 +55,22 @@ struct DiscKernels {
                float back,
                const PixelBand& band);
 
+  /** \brief Find the largest depth of a point that is seen in each cell of a band; 0
+   * where there is none.
+   * \param deepest of the cells, row by row */
+  void (*findDeepest)(const PixelBand& band, float* deepest);
+
   /** \brief Add discs, stretched, one after another, to all pixels they cover where
    * they lie at most their radius in front of or behind what is seen there.
-   * \param looks of all points: packed normal, then colour */
+   * \param looks of all points: packed normal, then colour
+   * \param deepest as findDeepest() gives: hidden discs are passed over */
   void (*blend)(const Projection& projection,
                 const ProjectedPoints& points,
                 const std::uint32_t* looks,
                 const std::uint32_t* discs,
                 std::size_t count,
                 const PixelBand& band,
+                const float* deepest,
                 const BlendSums& blended);
 };
 

@@ -187,12 +187,18 @@ Projector::blend(StepTimer& step)
     const PixelBand band = bandOf(begin, end);
     if (has_sides && !discs.empty())
       side_table.get()(projection_, looks, band, buffer_.firstSide());
+    if (discs.empty())
+      return;
+    std::vector<float> deepest(static_cast<std::size_t>(
+        cellsInRow(band.width) * ((band_rows + cell_rows - 1) / cell_rows)));
+    disc_kernels_.findDeepest(band, deepest.data());
     disc_kernels_.blend(projection_,
                         points_,
                         looks,
                         discs.data(),
                         discs.size(),
                         band,
+                        deepest.data(),
                         buffer_.blendSums());
     step.advance(end - begin);
   });

@@ -133,6 +133,41 @@ struct Sums {
   bool is_clear = true;
 };
 
+/** Depths of the cells of the rows from first_row to last_row. */
+std::vector<float>
+findDeepest(const DiscKernels& kernel, PixelRows& rows)
+{
+  std::vector<float> deepest(static_cast<std::size_t>(
+      cellsInRow(PixelRows::width) * ((last_row - first_row) / cell_rows + 1)));
+  kernel.findDeepest(rows.band(first_row, last_row), deepest.data());
+  return deepest;
+}
+
+TEST(DiscKernel, FindsTheDeepestOfEachCell)
+{
+  PixelRows rows;
+  PixelRandom random(7);
+  for (int row = 0; row < PixelRows::height; ++row)
+    for (int column = 0; column < PixelRows::width; ++column)
+      if ((row / 20 + column / 30) % 2 == 0 && random.below(3) == 0)
+        rows.first()[row * PixelRows::stride + column] =
+            uvol_test::makeKey(random.between(0.1, 0.9), random.below(1u << 30));
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    const std::vector<float> deepest = findDeepest(*kernel, rows);
+    const int cells = cellsInRow(PixelRows::width);
+    std::vector<float> expected(deepest.size());
+    for (int row = first_row; row < last_row; ++row)
+      for (int column = 0; column < PixelRows::width; ++column) {
+        float& cell = expected[static_cast<std::size_t>(
+            (row - first_row) / cell_rows * cells + column / cell_columns)];
+        if (rows.at(column, row) != background_key)
+          cell = std::max(cell, readDepth(rows.at(column, row)));
+      }
+    EXPECT_EQ(expected, deepest);
+    EXPECT_NE(0, std::count(expected.begin(), expected.end(), 0.0f));
+  });
+}
+
 TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
 {
   TestCamera camera;
@@ -156,14 +191,27 @@ TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
     std::vector<std::uint8_t> marks(rows.keys.size() / blend_segment);
     constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
     static_assert(first % blend_segment == 0);
-    kernel->blend(
-        camera.projection,
-        points.view(stretch),
-        looks.data(),
-        discs.data(),
-        discs.size(),
-        rows.band(first_row, last_row),
-        {values.data() + blended_values * first, marks.data() + first / blend_segment});
+    const auto blend = [&](const std::vector<float>& deepest) {
+      kernel->blend(camera.projection,
+                    points.view(stretch),
+                    looks.data(),
+                    discs.data(),
+                    discs.size(),
+                    rows.band(first_row, last_row),
+                    deepest.data(),
+                    {values.data() + blended_values * first,
+                     marks.data() + first / blend_segment});
+    };
+    // Hidden discs would add nothing if they were not passed over.
+    const std::vector<float> deepest = findDeepest(*kernel, rows);
+    blend(std::vector<float>(deepest.size(), -1.0f));
+    EXPECT_EQ(std::vector<std::uint8_t>(marks.size()), marks);
+    blend(std::vector<float>(deepest.size(), 1.0f));
+    const std::vector<float> unhidden = values;
+    std::fill(marks.begin(), marks.end(), std::uint8_t(0));
+    std::fill(values.begin(), values.end(), -7.0f);
+    blend(deepest);
+    EXPECT_EQ(unhidden, values);
     std::size_t blended = 0;
     for (int row = first_row; row < last_row; ++row)
       for (int column = 0; column < PixelRows::width; ++column) {
