@@ -161,12 +161,13 @@ TEST(NaturalNeighborFinder, LatticesAreNoTrouble)
 }
 
 /** Sibson's coordinates: the part of the cell that was nearest to each sample. */
-TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumes)
+void
+expectStolenVolumes(const std::vector<Position>& positions, std::uint64_t queries)
 {
-  const auto samples = buildSamples(randomPositions(300, 3));
+  const auto samples = buildSamples(positions);
   const double unit = static_cast<double>(samples->getUnit().factor);
   NaturalNeighborFinder finder(*samples, NaturalCoordinates::Sibson);
-  for (std::uint64_t i = 0; i < 4; ++i) {
+  for (std::uint64_t i = 0; i < queries; ++i) {
     const Query query = inUnit(*samples, randomQuery(1000 + i, 0.4, 0.6));
     ASSERT_TRUE(find(finder, *samples, query, 20));
     std::map<std::uint32_t, double> counted;
@@ -214,10 +215,22 @@ TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumes)
   }
 }
 
-/** The gradients of volumes are their derivatives. */
-TEST(NaturalNeighborFinder, GradientsAreDerivatives)
+TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumes)
 {
-  const auto samples = buildSamples(randomPositions(500, 4));
+  expectStolenVolumes(randomPositions(300, 3), 4);
+}
+
+/** There faces are polygons. */
+TEST(NaturalNeighborFinder, SibsonsCoordinatesAreStolenVolumesInLattices)
+{
+  expectStolenVolumes(lattice(8), 2);
+}
+
+/** The gradients of volumes are their derivatives. */
+void
+expectGradients(const std::vector<Position>& positions)
+{
+  const auto samples = buildSamples(positions);
   NaturalNeighborFinder finder(*samples, NaturalCoordinates::Sibson);
   const auto weightsAt = [&](const Query& query) {
     find(finder, *samples, query);
@@ -245,6 +258,16 @@ TEST(NaturalNeighborFinder, GradientsAreDerivatives)
                     1e-3 * std::cbrt(size * size));
     }
   }
+}
+
+TEST(NaturalNeighborFinder, GradientsAreDerivatives)
+{
+  expectGradients(randomPositions(500, 4));
+}
+
+TEST(NaturalNeighborFinder, GradientsAreDerivativesInLattices)
+{
+  expectGradients(lattice(8));
 }
 
 TEST(NaturalNeighborFinder, KnowsTheConvexHull)
