@@ -157,6 +157,8 @@ std::optional<double>
 SplatTree::findEntry(const Ray& ray, double near, double far) const
 {
   const Eigen::Vector3d offset = ray.origin - center_;
+  if (offset.squaredNorm() <= radius_ * radius_)
+    return 0.0;
   const double b = offset.dot(ray.direction);
   const double rest = radius_ * radius_ - (offset - b * ray.direction).squaredNorm();
   if (rest < 0.0)

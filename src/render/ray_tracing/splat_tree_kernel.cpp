@@ -16,6 +16,13 @@ struct Aside {
   float near; ///< distance of its box
 };
 
+/** In which order children are gone through. */
+enum class Order {
+  NearestFirst, ///< what hits first ends the way soon
+  Any           ///< any hit will do, and most rays meet none
+};
+
+template <Order order>
 class Traversal {
 public:
   Traversal(const TreeArrays& tree, const TreeRay& ray)
@@ -45,7 +52,7 @@ public:
     return far_;
   }
 
-  /** Go through the leaves, near ones first; visit(leaf) returns false to stop. */
+  /** Go through the leaves; visit(leaf) returns false to stop. */
   template <typename Visit>
   void
   run(const Visit& visit)
@@ -98,7 +105,7 @@ public:
   }
 
 private:
-  /** The children that the ray meets, the nearest one last. */
+  /** The children that the ray meets, the nearest one last, or in any order. */
   std::size_t
   putAside(const TreeNode& node, std::size_t count)
   {
@@ -125,8 +132,9 @@ private:
       const int child = __builtin_ctz(met);
       const Aside found = {node.child[child], nears[child]};
       std::size_t place = count++;
-      for (; place > begin && aside_[place - 1].near < found.near; --place)
-        aside_[place] = aside_[place - 1];
+      if (order == Order::NearestFirst)
+        for (; place > begin && aside_[place - 1].near < found.near; --place)
+          aside_[place] = aside_[place - 1];
       aside_[place] = found;
     }
     return count;
@@ -147,7 +155,7 @@ collect(const TreeArrays& tree,
         SplatHit* hits,
         std::size_t room)
 {
-  Traversal traversal(tree, ray);
+  Traversal<Order::NearestFirst> traversal(tree, ray);
   std::size_t count = 0;
   alignas(64) float distance[tree_width], sq_offset[tree_width];
   traversal.run([&](std::uint32_t number) {
@@ -205,7 +213,7 @@ isOwn(const TreeRay& ray, const TreeLeaf& leaf, int splat, float distance)
 bool
 isBlocked(const TreeArrays& tree, const TreeRay& ray)
 {
-  Traversal traversal(tree, ray);
+  Traversal<Order::Any> traversal(tree, ray);
   bool is_blocked = false;
   alignas(64) float distance[tree_width], sq_offset[tree_width];
   traversal.run([&](std::uint32_t number) {
