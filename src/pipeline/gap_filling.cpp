@@ -11,9 +11,14 @@
 #include "pipeline/lattice_band.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
+#include <pcl/conversions.h>
+#include <pcl/point_types.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 namespace pcl_uvol::detail {
 
@@ -26,16 +31,17 @@ constexpr std::size_t block_places = 256;
 /** Samples that the field between others is kriged from. */
 constexpr std::size_t kriged_samples = 16;
 
-/** Predicted samples to the width of a gap: fewer, and a hold-out test tells more of
- * the samples left out wrongly (tests/benchmarks). */
-constexpr double samples_per_gap = 2.0;
+/** Predicted samples to the width of a gap: with 2, a hold-out test tells more of the
+ * samples left out wrongly (tests/benchmarks), since gaps are narrower in places. */
+constexpr double samples_per_gap = 4.0;
 
 /** Share of the spacing of the lattice: its nodes are moved so far along each axis, at
  * most, since edges slip between samples on a lattice. */
 constexpr double jitter = 0.25;
 
-/** Share of that spacing: no sample is predicted nearer to a measured one. */
-constexpr double nearest_part = 0.5;
+/** Share of that spacing: where measured samples are farther away, they do not tell
+ * more than the lattice does, whatever lies around. */
+constexpr double sampled_part = 0.5;
 
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */
@@ -94,14 +100,13 @@ public:
     return place;
   }
 
+  /** \brief The cell that a place is in, by its lowest node. */
   LatticeNode
-  nodeAt(const PointIso& point) const
+  cellOf(const Place& place) const
   {
     LatticeNode node;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double steps =
-          (static_cast<double>(point.data[axis]) * factor(axis) - origin_[axis]) /
-          spacing_;
+      const double steps = (place[axis] * factor(axis) - origin_[axis]) / spacing_;
       node[axis] =
           static_cast<std::int32_t>(std::clamp(std::floor(steps), 0.0, farthest_node));
     }
@@ -119,6 +124,61 @@ private:
   Eigen::Array3f scale_;
   Place origin_{};
 };
+
+/** What is averaged in one cell of a lattice. */
+struct Composite {
+  LatticeNode cell;
+  Place place;
+  double value;
+};
+
+/** The mean places and values of samples in the same cells, in the order of these,
+ * whatever that of the samples. */
+std::vector<Composite>
+averageInCells(std::vector<Composite> samples)
+{
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.cell, a.place, a.value) < std::tie(b.cell, b.place, b.value);
+  });
+  std::vector<Composite> means;
+  for (auto begin = samples.begin(); begin != samples.end();) {
+    const auto end = std::find_if(begin, samples.end(), [&](const Composite& sample) {
+      return sample.cell != begin->cell;
+    });
+    const auto count = static_cast<double>(end - begin);
+    Composite mean{begin->cell, {}, 0.0};
+    for (; begin != end; ++begin) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        mean.place[axis] += begin->place[axis] / count;
+      mean.value += begin->value / count;
+    }
+    means.push_back(mean);
+  }
+  return means;
+}
+
+/** Pairs of nodes that follow one another along an axis, by their indices.
+ * \param nodes ascending */
+std::vector<std::pair<std::size_t, std::size_t>>
+listNeighbors(const std::vector<std::pair<LatticeNode, double>>& nodes)
+{
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      LatticeNode next = nodes[i].first;
+      ++next[axis];
+      const auto found =
+          std::lower_bound(nodes.begin(),
+                           nodes.end(),
+                           next,
+                           [](const auto& node, const LatticeNode& wanted) {
+                             return node.first < wanted;
+                           });
+      if (found != nodes.end() && found->first == next)
+        pairs.emplace_back(i, static_cast<std::size_t>(found - nodes.begin()));
+    }
+  return pairs;
+}
 
 /** Copy points of a cloud behind its others. */
 void
@@ -156,6 +216,14 @@ gapKriging(const IsosurfaceParameters& isosurface)
   return parameters;
 }
 
+bool
+takesLattice(const IsosurfacePipelineParameters& parameters)
+{
+  return parameters.isosurface.interpolation == Interpolation::Auto &&
+         parameters.normals == NormalMethod::Auto && !parameters.smooth &&
+         !parameters.mesh;
+}
+
 FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
                        const pcl::Indices& use,
                        const IsosurfaceParameters& parameters,
@@ -172,10 +240,10 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   own.progress = report.progress;
   field_ = std::make_unique<FieldInterpolator>(
       viewOf(samples->cloud), use, kriging, threads, own);
-  const Variogram variogram = field_->findVariogram(0)->model;
-  summary_.range = variogram.range;
-  summary_.nugget = variogram.nugget;
-  summary_.sill = variogram.sill;
+  takeVariogram();
+  kriging.model = InterpolationModel::Nearest;
+  nearest_ = std::make_unique<FieldInterpolator>(
+      viewOf(samples->cloud), use, kriging, threads, own);
 
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud({samples, &samples->cloud});
@@ -190,8 +258,57 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   sampling_ = summarizeSampling(*measured_, threads);
   findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
   filled_ = samples;
-  if (summary_.spacing > 0.0)
-    predict(roots, parameters, threads, report);
+  if (!(summary_.spacing > 0.0))
+    return;
+  krigeComposites(parameters, threads, report.progress);
+  predict(roots, parameters, threads, report);
+}
+
+void
+FilledGaps::takeVariogram()
+{
+  const Variogram variogram = field_->findVariogram(0)->model;
+  summary_.range = variogram.range;
+  summary_.nugget = variogram.nugget;
+  summary_.sill = variogram.sill;
+}
+
+void
+FilledGaps::krigeComposites(const IsosurfaceParameters& parameters,
+                            unsigned threads,
+                            const ProgressCallback& progress)
+{
+  const CloudView cloud = viewOf(samples_->cloud);
+  const ScalarField field(samples_->cloud.fields, parameters.field);
+  const Lattice lattice(summary_.spacing, parameters.scale, *measured_);
+  std::vector<Composite> all;
+  for (const int index : *indices_) {
+    const auto i = static_cast<std::size_t>(index);
+    const float* const xyz = cloud.xyz(i);
+    const double value = field.read(cloud.point(i));
+    const Place place{xyz[0], xyz[1], xyz[2]};
+    if (std::isfinite(value) && isFinite(toFloat(place)))
+      all.push_back({lattice.cellOf(place), place, value});
+  }
+  pcl::PointCloud<pcl::PointXYZ> places;
+  std::vector<double> values;
+  for (const Composite& mean : averageInCells(std::move(all))) {
+    const Position place = toFloat(mean.place);
+    places.push_back({place[0], place[1], place[2]});
+    values.push_back(mean.value);
+  }
+  Dataset composites;
+  pcl::toPCLPointCloud2(places, composites.cloud);
+  setField(composites, parameters.field, values);
+  pcl::Indices every(values.size());
+  std::iota(every.begin(), every.end(), 0);
+  InterpolationParameters kriging = gapKriging(parameters);
+  kriging.extrapolate = kriging.errors = true;
+  Report own;
+  own.progress = progress;
+  field_ = std::make_unique<FieldInterpolator>(
+      viewOf(composites.cloud), every, kriging, threads, own);
+  takeVariogram();
 }
 
 std::vector<std::uint8_t>
@@ -228,7 +345,7 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
     places.push_back({root.x, root.y, root.z});
   Report own;
   own.progress = progress;
-  const auto support = field_->interpolate(places, threads, own).support;
+  const auto support = nearest_->interpolate(places, threads, own).support;
   const auto thin = findThin(places, threads, nullptr);
   const CloudView cloud = viewOf(samples_->cloud);
   std::size_t in_gaps = 0;
@@ -253,7 +370,7 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
     width = lengths[lengths.size() / 4];
   }
   summary_.spacing = width / samples_per_gap;
-  reach_ = std::min(summary_.range, farthest_gaps * width);
+  reach_ = farthest_gaps * width;
 }
 
 void
@@ -264,6 +381,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
 {
   Report own;
   own.progress = report.progress;
+  reach_ = std::min(summary_.range, reach_);
   std::vector<std::pair<LatticeNode, double>> nodes;
   for (bool is_complete = false; !is_complete;) {
     const Lattice lattice(summary_.spacing, parameters.scale, *measured_);
@@ -282,11 +400,12 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
           near_places.push_back(places[i]);
         }
       const InterpolatedFields field = field_->interpolate(near_places, threads, own);
+      const auto support = nearest_->interpolate(near_places, threads, own).support;
       for (std::size_t j = 0; j < near.size(); ++j) {
         const std::size_t i = near[j];
-        const bool is_gap = thin[i] != 0 || field.support[j] != FieldSupport::Measured;
-        values[i] = {field.values[j],
-                     is_gap && distances[i] >= nearest_part * summary_.spacing};
+        const bool is_gap = thin[i] != 0 || support[j] != FieldSupport::Measured ||
+                            distances[i] > sampled_part * summary_.spacing;
+        values[i] = {field.values[j], is_gap && distances[i] > 0.0};
       }
       return values;
     };
@@ -297,7 +416,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
       std::vector<LatticeNode> seeds;
       for (; root != roots.end() && root->isovalue == static_cast<float>(isovalue);
            ++root)
-        seeds.push_back(lattice.nodeAt(*root));
+        seeds.push_back(lattice.cellOf({root->x, root->y, root->z}));
       is_complete = is_complete && band.follow(seeds, isovalue);
     }
     if (is_complete)
@@ -334,6 +453,9 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
                     axis,
                     &filled->cloud.data[(cloud.count + i) * filled->cloud.point_step]);
   }
+  for (const auto& [first, second] : listNeighbors(nodes))
+    lattice_edges_.emplace_back(static_cast<std::uint32_t>(cloud.count + first),
+                                static_cast<std::uint32_t>(cloud.count + second));
   summary_.sources = std::move(sources);
   setField(*filled, parameters.field, values); // double: integers hold no estimates
   filled_ = filled;

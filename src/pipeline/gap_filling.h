@@ -17,8 +17,11 @@
 
 #include <pcl/types.h>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol::detail {
@@ -33,12 +36,22 @@ constexpr std::size_t most_gap_nodes = std::size_t{1} << 20;
 InterpolationParameters
 gapKriging(const IsosurfaceParameters& isosurface);
 
+/** \brief Whether isopoints in gaps are those of the lattice that the kriged field was
+ * followed on, and not those between predicted and measured samples: where isopoints
+ * are chosen one by one. */
+bool
+takesLattice(const IsosurfacePipelineParameters& parameters);
+
 /** \brief The samples with those that were predicted behind them.
  *
  * A surface is followed from the isopoints that lack support through the kriged field,
- * on a jittered lattice of half the spacing of the lines or sheets. The lattice's nodes
- * around it become samples where measured ones lack, no farther from the nearest
- * measured one than the range of the variogram and than a few of these spacings. */
+ * on a jittered lattice of a quarter of the spacing of the lines or sheets. The field
+ * is kriged from the means of the samples in the lattice's cells, as drill cores are
+ * composited (Chiles and Delfiner, Geostatistics, section 2.4, on regularization): what
+ * is finer along a line cannot be followed across to the next one. The lattice's nodes
+ * around the surface become samples where measured ones lack, no farther from the
+ * nearest measured one than the range of the variogram and than a few of these
+ * spacings. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param use the points to take
@@ -83,8 +96,9 @@ public:
    *
    * With Interpolation::Auto, isopoints that lack support of measured samples are put
    * onto the kriged surface, or back to their edge where this is a short one between
-   * measured samples, and have the normals of the kriged field; those that lie farther
-   * than a spacing from its surface, at edges that reach across, are removed. */
+   * measured samples, and have the normals of the kriged field; those that lie far from
+   * its surface are removed. Where takesLattice() says so, those in gaps are added
+   * first, and measured samples have no others across gaps. */
   void
   judge(const IsosurfacePipelineParameters& parameters,
         unsigned threads,
@@ -94,7 +108,8 @@ public:
         Report& report) const;
 
 private:
-  class Places;
+  /** Predicted samples that are neighbours on the lattice. */
+  using LatticeEdge = std::pair<std::uint32_t, std::uint32_t>;
 
   void
   findSpacing(const pcl::PointCloud<PointIso>& roots,
@@ -102,6 +117,15 @@ private:
               const IsosurfaceParameters& parameters,
               unsigned threads,
               const ProgressCallback& progress);
+
+  /** Krige from now on from the means of samples in cells of the lattice. */
+  void
+  krigeComposites(const IsosurfaceParameters& parameters,
+                  unsigned threads,
+                  const ProgressCallback& progress);
+
+  void
+  takeVariogram();
 
   void
   predict(const pcl::PointCloud<PointIso>& roots,
@@ -116,11 +140,20 @@ private:
            unsigned threads,
            std::vector<double>* distances) const;
 
+  /** Add the isopoints of the lattice behind the others of their isovalue. */
+  void
+  addLatticeIsopoints(const IsosurfaceParameters& parameters,
+                      pcl::PointCloud<PointIso>& isopoints,
+                      IsoEdges& edges,
+                      IsopointChoice& choice) const;
+
   std::shared_ptr<const Dataset> samples_, filled_;
   pcl::IndicesPtr indices_;
   SampleSet::ConstPtr measured_;
   SamplingSummary sampling_;
   std::unique_ptr<FieldInterpolator> field_;
+  std::unique_ptr<FieldInterpolator> nearest_; ///< tells support of measured samples
+  std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample
   GapFilling summary_;
 };

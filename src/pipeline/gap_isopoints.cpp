@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints between samples some of which kriging has predicted.
+#include "common/scalar_field.h"
 #include "pipeline/gap_filling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -17,6 +19,12 @@ constexpr double slope_step = 1.0;
 /** Spacings of predicted samples: an edge between measured samples that is longer
  * reaches across a gap. */
 constexpr double longest_edge = 2.0;
+
+/** Spacings of predicted samples that an isopoint may lie off the kriged surface: in a
+ * gap, where it is put onto it, and on a line of measured samples, where it stays.
+ * There a field that goes up and down within a spacing crosses the isovalue in places
+ * that no surface can be followed from. */
+constexpr double farthest_in_gap = 1.0, farthest_on_line = 0.5;
 
 /** Share of the variance: where less is explained, most of a value is chance. */
 constexpr float least_confidence = 0.5f;
@@ -88,6 +96,51 @@ warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
 } // namespace
 
 void
+FilledGaps::addLatticeIsopoints(const IsosurfaceParameters& parameters,
+                                pcl::PointCloud<PointIso>& isopoints,
+                                IsoEdges& edges,
+                                IsopointChoice& choice) const
+{
+  const CloudView cloud = viewOf(filled_->cloud);
+  const ScalarField field(filled_->cloud.fields, parameters.field);
+  pcl::PointCloud<PointIso> all;
+  IsoEdges all_edges;
+  IsopointChoice of_all;
+  const auto add = [&](const PointIso& point,
+                       const IsoEdge& edge,
+                       IsoMethod method,
+                       IsoOrientation orientation) {
+    all.push_back(point);
+    all_edges.push_back(edge);
+    of_all.method.push_back(method);
+    of_all.orientation.push_back(orientation);
+  };
+  std::size_t i = 0;
+  for (const double isovalue : parameters.isovalues) {
+    const auto rounded = static_cast<float>(isovalue);
+    for (; i < isopoints.size() && isopoints[i].isovalue == rounded; ++i)
+      add(isopoints[i], edges[i], choice.method[i], choice.orientation[i]);
+    for (const auto& [first, second] : lattice_edges_) {
+      const double a = field.read(cloud.point(first)),
+                   b = field.read(cloud.point(second));
+      if ((a >= isovalue) == (b >= isovalue))
+        continue;
+      const IsoEdge edge{first, second, static_cast<float>((isovalue - a) / (b - a))};
+      PointIso point;
+      point.isovalue = rounded;
+      point.getArray3fMap() = rootOf(cloud, edge).cast<float>();
+      point.edge_length = (Eigen::Map<const Eigen::Vector3f>(cloud.xyz(second)) -
+                           Eigen::Map<const Eigen::Vector3f>(cloud.xyz(first)))
+                              .norm();
+      add(point, edge, IsoMethod::Kriging, IsoOrientation::Kriging);
+    }
+  }
+  isopoints.swap(all);
+  edges.swap(all_edges);
+  choice = std::move(of_all);
+}
+
+void
 FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
                   unsigned threads,
                   pcl::PointCloud<PointIso>& isopoints,
@@ -95,6 +148,9 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
                   IsopointChoice& choice,
                   Report& report) const
 {
+  const bool on_lattice = summary_.predicted > 0 && takesLattice(parameters);
+  if (on_lattice)
+    addLatticeIsopoints(parameters.isosurface, isopoints, edges, choice);
   choice.confidence.assign(isopoints.size(), 1.0f);
   if (summary_.predicted == 0)
     return;
@@ -117,6 +173,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   Report own;
   own.progress = report.progress;
   const InterpolatedFields field = field_->interpolate(places, threads, own);
+  const auto support = nearest_->interpolate(roots, threads, own).support;
   const auto thin = findThin(roots, threads, nullptr);
   const double variance = summary_.nugget + summary_.sill;
   const std::size_t measured = samples_->cloud.width;
@@ -126,18 +183,17 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     PointIso& point = isopoints[i];
     const IsoEdge& edge = edges[i];
     const bool is_predicted = edge.first >= measured || edge.second >= measured;
-    if (!is_predicted && thin[i] == 0 &&
-        field.support[star * i] == FieldSupport::Measured)
-      continue;
-    const Slope slope =
-        slopeAt(field, star * i, step, static_cast<double>(point.isovalue));
-    if (!(slope.length > 0.0))
-      continue;
     const Eigen::Map<const Eigen::Array3f> a(cloud.xyz(edge.first)),
         b(cloud.xyz(edge.second));
     const bool is_in_gap =
         is_predicted || ((b - a).cast<double>() * scale).matrix().norm() >
                             longest_edge * summary_.spacing;
+    if (!is_in_gap && thin[i] == 0 && support[i] == FieldSupport::Measured)
+      continue;
+    const Slope slope =
+        slopeAt(field, star * i, step, static_cast<double>(point.isovalue));
+    if (!(slope.length > 0.0))
+      continue;
     const Array3d covector = slope.direction * scale;
     if (is_in_gap) {
       point.support = static_cast<std::uint8_t>(IsoSupport::Predicted);
@@ -149,7 +205,11 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     }
     if (!is_auto)
       continue;
-    stays[i] = !is_in_gap || std::abs(slope.offset) <= summary_.spacing;
+    const double offset = std::abs(slope.offset) / summary_.spacing;
+    if (is_in_gap)
+      stays[i] = (is_predicted || !on_lattice) && offset <= farthest_in_gap;
+    else
+      stays[i] = !on_lattice || offset <= farthest_on_line;
     Array3d place(roots[i][0], roots[i][1], roots[i][2]);
     if (is_in_gap)
       place += slope.offset * slope.direction / scale;

@@ -283,8 +283,10 @@ IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
   IsosurfacePipelineParameters of_result = parameters;
   of_result.fill_gaps = false;
   of_result.validation = {};
-  IsosurfaceResult result =
-      runOther(gaps.getSamples(), gaps.getIndices(), of_result, &gaps);
+  const auto taken = detail::takesLattice(of_result)
+                         ? std::make_shared<pcl::Indices>(listPoints())
+                         : gaps.getIndices();
+  IsosurfaceResult result = runOther(gaps.getSamples(), taken, of_result, &gaps);
   report_.merge(result.report);
   result.report = std::move(report_);
   result.gaps = gaps.getSummary();

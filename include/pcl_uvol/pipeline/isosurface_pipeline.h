@@ -63,7 +63,9 @@ struct ValidationScore {
 };
 
 /** \brief How gaps of the sampling were filled: around the isosurfaces, by samples that
- * ordinary kriging predicts. Lengths are in units of the stretched space.
+ * ordinary kriging predicts from the means of measured ones in cells as long as the
+ * spacing of predicted ones. Lengths are in units of the stretched space; the variogram
+ * is that of the means, or of the samples where there was no gap.
  *
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
  * deviation of the kriging over the slope of the kriged field, and `confidence` the
