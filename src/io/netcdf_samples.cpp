@@ -42,7 +42,7 @@ SampleVariable::findPacking()
   highest_ = range.size() == 2 ? range[1] : first("valid_max", infinity);
   const bool is_packed = factor_ != 1.0 || offset_ != 0.0;
   const bool has_gaps =
-      !missing_.empty() || std::isfinite(lowest_) || std::isfinite(highest_);
+      !missing_.empty() || lowest_ != -infinity || highest_ != infinity;
   if (is_packed || (has_gaps && !is_floating))
     datatype_ = Type::FLOAT64;
 }
@@ -100,6 +100,12 @@ SampleSpace::findInstances()
           return dimension;
     return -1;
   };
+  const auto size_of = [&](int dimension) { // held against the bytes of the file
+    NetcdfVariable along;
+    along.name = file_->nameOf(dimension);
+    along.dimensions = {dimension};
+    return file_->sizeOf(along);
+  };
   for (const NetcdfVariable& variable : file_->getVariables()) {
     if (variable.dimensions.size() != 1 || variable.is_text)
       continue;
@@ -111,16 +117,18 @@ SampleSpace::findInstances()
       continue;
     file_->read(variable, 0, numbers.size(), numbers.data());
     std::vector<std::uint64_t> list;
-    const std::uint64_t size = file_->sizeOf(samples >= 0 ? samples : own);
+    const int instance = samples >= 0 ? own : profiles;
+    const std::uint64_t size = size_of(samples >= 0 ? samples : own),
+                        count = size_of(instance);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (samples < 0)
-        list.push_back(static_cast<std::uint64_t>(std::max(numbers[i], 0.0)));
+        list.push_back(numbers[i] < static_cast<double>(count)
+                           ? static_cast<std::uint64_t>(std::max(numbers[i], 0.0))
+                           : count);
       else if (numbers[i] >= 0.0 &&
                numbers[i] <= static_cast<double>(size - list.size()))
         list.insert(list.end(), static_cast<std::size_t>(numbers[i]), i);
     }
-    const int instance = samples >= 0 ? own : profiles;
-    const std::uint64_t count = file_->sizeOf(instance);
     if (list.size() != size || std::any_of(list.begin(), list.end(), [&](auto index) {
           return index >= count;
         }))

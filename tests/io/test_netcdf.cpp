@@ -280,6 +280,42 @@ TEST_P(Netcdf, ReadsGridsWithPackedNumbers)
   }
 }
 
+TEST_P(Netcdf, HoldsNumbersOfIntegersAgainstARangeThatIsNone)
+{
+  {
+    NetcdfWriter file(path("a.nc"), GetParam());
+    const int samples = file.dimension("obs", 2);
+    const int x = file.variable("x", NC_FLOAT, {samples}),
+              y = file.variable("y", NC_FLOAT, {samples}),
+              count = file.variable("count", NC_INT, {samples});
+    file.number(count, "valid_min", NC_DOUBLE, nan_value);
+    file.beginData();
+    file.put(x, {0.0, 1.0});
+    file.put(y, {0.0, 1.0});
+    file.put(count, {7.0, 8.0});
+  }
+  expectNear({nan_value, nan_value}, valuesOf(loadDataset(path("a.nc")), "count"));
+}
+
+TEST_P(Netcdf, RefusesIndicesThatAreNone)
+{
+  for (const double index : {nan_value, 1e300, 2.0}) {
+    {
+      NetcdfWriter file(path("a.nc"), GetParam());
+      const int dives = file.dimension("dive", 2), samples = file.dimension("obs", 2);
+      const int x = file.variable("x", NC_FLOAT, {dives}),
+                y = file.variable("y", NC_FLOAT, {dives}),
+                of_dive = file.variable("of_dive", NC_DOUBLE, {samples});
+      file.text(of_dive, "instance_dimension", "dive");
+      file.beginData();
+      file.put(x, {0.0, 1.0});
+      file.put(y, {0.0, 1.0});
+      file.put(of_dive, {0.0, index});
+    }
+    EXPECT_THROW(loadDataset(path("a.nc")), IOError) << index;
+  }
+}
+
 TEST_P(Netcdf, AnswersDamagedFilesByASentence)
 {
   writeProfiles(path("a.nc"), GetParam());
