@@ -43,8 +43,8 @@ constexpr const char* exodus_endings[] = {".ex2", ".exo", ".e", ".exii"};
 /** Adaptive meshes and octrees, whose data are those of cells. */
 constexpr const char* cell_endings[] = {".vthb", ".htg"};
 constexpr const char* list_endings[] = {".pvd", ".vtm", ".pvtu", ".pvtp", ".pvts"};
-/** Lists may name lists, but not without end. */
-constexpr std::size_t most_lists = 8;
+/** Lists may name lists, but not without end, nor one another again and again. */
+constexpr std::size_t most_open_lists = 8, most_lists = 1000;
 
 template <std::size_t count>
 bool
@@ -268,17 +268,28 @@ addByVtk(const std::string& path, DataPlace place, PointJoiner& points)
   return note;
 }
 
-/** \param lists that are open, to notice one that names itself */
+/** The lists that are read. */
+struct ReadLists {
+  std::string first;
+  std::size_t open = 0; ///< each named by the one before
+  std::size_t all = 0;
+};
+
 void
 addFiles(const std::string& path,
          DataPlace place,
-         std::vector<std::string>& lists,
+         ReadLists& lists,
          PointJoiner& points,
          std::vector<std::string>& notes)
 {
-  if (lists.size() >= most_lists)
-    throwUnreadable(lists.front(), "its lists name one another without end");
-  lists.push_back(path);
+  if (lists.open == most_open_lists)
+    throwUnreadable(lists.first, "its lists name one another without end");
+  if (lists.all == most_lists)
+    throwUnreadable(lists.first,
+                    "more than " + std::to_string(most_lists) +
+                        " lists are named, many of them again and again");
+  ++lists.open;
+  ++lists.all;
   std::vector<ListedFile> files = listFiles(path);
   const std::string first = files.front().time;
   const std::size_t all = files.size();
@@ -302,7 +313,7 @@ addFiles(const std::string& path,
                                                               : readVtkXml(file.path);
     points.add(*content.data);
   }
-  lists.pop_back();
+  --lists.open;
 }
 
 } // namespace
@@ -339,7 +350,8 @@ VtkContent
 readFileList(const std::string& path, DataPlace place)
 {
   PointJoiner points(place);
-  std::vector<std::string> lists, notes;
+  ReadLists lists{path};
+  std::vector<std::string> notes;
   addFiles(path, place, lists, points, notes);
   VtkContent content = points.join(path);
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());

@@ -98,6 +98,20 @@ TEST_F(FileLists, SayWhatIsWrong)
   EXPECT_NE(std::string::npos, message.find("e.ex2")) << message;
 }
 
+TEST_F(FileLists, ThatNameOneAnotherAgainAndAgainEnd)
+{
+  std::string named = "parts/0.vtp";
+  for (int depth = 0; depth < 7; ++depth) {
+    std::string content;
+    for (int i = 0; i < 4; ++i)
+      content += "<DataSet file=\"" + named + "\"/>";
+    named = "list" + std::to_string(depth) + ".vtm";
+    save(named, content);
+  }
+  const std::string message = messageOf<IOError>([&] { loadDataset(folder_ / named); });
+  EXPECT_NE(std::string::npos, message.find("again and again")) << message;
+}
+
 TEST_F(FileLists, ExodusHasTheFieldsOfItsNodes)
 {
   if (dataFolder().empty())
