@@ -143,18 +143,29 @@ SampleSpace::findInstances()
 void
 SampleSpace::findDimensions(const std::vector<NetcdfVariable>& places)
 {
-  const auto add = [&](const NetcdfVariable& variable) {
+  bool has_instances = false;
+  const auto add = [&](const NetcdfVariable& variable, bool by_instances) {
     for (const int dimension : variable.dimensions) {
       const auto found = samples_of_.find(dimension);
-      const int own = found == samples_of_.end() ? dimension : found->second;
+      const bool is_mapped = by_instances && found != samples_of_.end();
+      has_instances = has_instances || is_mapped;
+      const int own = is_mapped ? found->second : dimension;
       if (std::find(dimensions_.begin(), dimensions_.end(), own) == dimensions_.end())
         dimensions_.push_back(own);
     }
   };
   // Those of the largest variable that has all the dimensions of places come first, in
-  // its order, so that it is read from front to back.
+  // its order, so that it is read from front to back; but rows of many lengths lie
+  // along one dimension.
   for (const NetcdfVariable& place : places)
-    add(place);
+    add(place, true);
+  const bool is_by_rows = has_instances && dimensions_.size() == 1;
+  if (has_instances && !is_by_rows) {
+    dimensions_.clear();
+    instances_->clear();
+    for (const NetcdfVariable& place : places)
+      add(place, false);
+  }
   const std::vector<int> of_places = dimensions_;
   const NetcdfVariable* largest = nullptr;
   for (const NetcdfVariable& variable : file_->getVariables()) {
@@ -167,7 +178,7 @@ SampleSpace::findDimensions(const std::vector<NetcdfVariable>& places)
         (!largest || file_->sizeOf(variable) > file_->sizeOf(*largest)))
       largest = &variable;
   }
-  if (largest)
+  if (largest && !is_by_rows)
     dimensions_ = largest->dimensions;
   NetcdfVariable all;
   all.name = "the samples";

@@ -227,6 +227,33 @@ TEST_P(Netcdf, ReadsTrajectoriesThatStandBehindOneAnother)
   }
 }
 
+TEST_P(Netcdf, LeavesOutWhatHasMoreDimensionsThanSamplesBehindOneAnother)
+{
+  for (const bool places_agree : {true, false}) {
+    {
+      NetcdfWriter file(path("a.nc"), GetParam());
+      const int dives = file.dimension("dive", 2), samples = file.dimension("obs", 5),
+                bands = file.dimension("band", 3);
+      const int latitude = file.variable("lat", NC_FLOAT, {dives}),
+                longitude =
+                    file.variable("lon", NC_FLOAT, {places_agree ? dives : bands}),
+                rows = file.variable("rows", NC_INT, {dives}),
+                spectrum = file.variable("spectrum", NC_FLOAT, {samples, bands});
+      file.text(rows, "sample_dimension", "obs");
+      file.beginData();
+      file.put(latitude, {0.0, 0.2});
+      file.put(longitude,
+               places_agree ? std::vector<double>{10.0, 10.4}
+                            : std::vector<double>{10.0, 10.4, 10.8});
+      file.put(rows, {2.0, 3.0});
+      file.put(spectrum, std::vector<double>(15, 1.0));
+    }
+    const Dataset dataset = loadDataset(path("a.nc"));
+    EXPECT_EQ(places_agree ? 5u : 6u, dataset.cloud.width);
+    EXPECT_EQ(nullptr, findField(dataset.cloud.fields, "spectrum"));
+  }
+}
+
 TEST_P(Netcdf, ReadsGridsWithPackedNumbers)
 {
   {
