@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coordinates and fields put into datasets.
+#include "common/printable.h"
 #include "common/records.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
@@ -20,10 +21,11 @@ replaceField(Dataset& dataset,
   pcl::PCLPointCloud2& cloud = dataset.cloud;
   const std::size_t count = values.size();
   if (count != std::size_t{cloud.width} * cloud.height)
-    throw InvalidArgument("The field '" + name + "' has " + std::to_string(count) +
-                          " values for " + std::to_string(cloud.width) + " points.");
+    throw InvalidArgument("The field " + quoteText(name) + " has " +
+                          std::to_string(count) + " values for " +
+                          std::to_string(cloud.width) + " points.");
   if (axisOf(name) >= 0)
-    throw InvalidArgument("The field '" + name + "' is a coordinate.");
+    throw InvalidArgument("The field " + quoteText(name) + " is a coordinate.");
   dataset.labels.erase(name);
   // The old one becomes padding, which goes when the new one is packed.
   for (auto& field : cloud.fields)

@@ -291,7 +291,8 @@ checkComplete(const pcl::PCLPointCloud2& cloud)
                           std::to_string(points) + " points need.");
   for (const auto& field : cloud.fields)
     if (field.offset + fieldBytes(field) > cloud.point_step)
-      throw InvalidArgument("The field '" + field.name + "' ends behind its point.");
+      throw InvalidArgument("The field " + quoteText(field.name) +
+                            " ends behind its point.");
 }
 
 Fields

@@ -129,12 +129,13 @@ scalarComponent(const Fields& fields, const std::string& expression)
 {
   if (const auto* const field = findField(fields, expression)) {
     const std::size_t count = componentCount(*field);
-    if (count > 1)
-      throw InvalidArgument("The field '" + expression + "' has " +
-                            std::to_string(count) + " components: write " + expression +
-                            "[0] to " + expression + "[" + std::to_string(count - 1) +
-                            "] for one of them or |" + expression +
-                            "| for their length.");
+    if (count > 1) {
+      const std::string shown = shortenText(expression);
+      throw InvalidArgument("The field '" + shown + "' has " + std::to_string(count) +
+                            " components: write " + shown + "[0] to " + shown + "[" +
+                            std::to_string(count - 1) + "] for one of them or |" +
+                            shown + "| for their length.");
+    }
     return componentOf(*field, 0);
   }
   const std::size_t bracket = expression.rfind('[');
@@ -144,17 +145,17 @@ scalarComponent(const Fields& fields, const std::string& expression)
   const char* const last = expression.data() + expression.size() - 1;
   const auto parsed = std::from_chars(expression.data() + bracket + 1, last, index, 10);
   if (parsed.ec != std::errc() || parsed.ptr != last)
-    throw InvalidArgument("The component in '" + expression +
-                          "' is not a number from 0, as in vel[1].");
+    throw InvalidArgument("The component in " + quoteText(expression) +
+                          " is not a number from 0, as in vel[1].");
   const std::string name = trimmed(std::string_view(expression).substr(0, bracket));
   const auto* const field = findField(fields, name);
   const auto parts = // of one field there may be very many
       field ? std::vector<FieldComponent>() : allComponents(fields, name);
   const std::size_t count = field ? componentCount(*field) : parts.size();
   if (index >= count)
-    throw InvalidArgument("The component in '" + expression +
-                          "' is too large: it may be 0 to " +
-                          std::to_string(count - 1) + ".");
+    throw InvalidArgument("The component in " + quoteText(expression) +
+                          " is too large: it may be 0 to " + std::to_string(count - 1) +
+                          ".");
   return field ? componentOf(*field, index) : parts[index];
 }
 

@@ -142,17 +142,17 @@ findFormat(const std::string& path, const LoadOptions& options)
   const FileFormat format = is_grid ? FileFormat::Vtk : formatOf(path);
   if (options.xyz_columns != LoadOptions().xyz_columns && format != FileFormat::Text)
     throw InvalidArgument(
-        "Columns of coordinates can be chosen in text files only, and '" + path +
-        "' is none.");
+        "Columns of coordinates can be chosen in text files only, and '" +
+        printable(path) + "' is none.");
   if (!options.particles.empty() && format != FileFormat::Gadget &&
       format != FileFormat::Hdf5)
-    throw InvalidArgument("Particles can be chosen in snapshots only, and '" + path +
-                          "' is none.");
+    throw InvalidArgument("Particles can be chosen in snapshots only, and '" +
+                          printable(path) + "' is none.");
   if (options.cells && format != FileFormat::Vtk)
     throw InvalidArgument(
         "Cells can be chosen in files of VTK but .vtkhdf, Exodus, EnSight and "
         "OpenFOAM only, and '" +
-        path + "' is none.");
+        printable(path) + "' is none.");
   return format;
 }
 

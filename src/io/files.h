@@ -2,6 +2,7 @@
 // Files as bytes and lines, with errors that name the file in one sentence.
 #pragma once
 
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
@@ -39,7 +40,7 @@ reading(const std::string& path, const Reader& read)
     return read();
   }
   catch (const InvalidArgument& error) {
-    throw IOError("Cannot read '" + path + "': " + error.message());
+    throw IOError("Cannot read '" + printable(path) + "': " + error.message());
   }
   catch (const std::bad_alloc&) {
     throwUnreadable(path, "there is not enough memory for it");

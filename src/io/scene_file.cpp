@@ -471,8 +471,8 @@ SceneReader::readInclude(SceneItem& item)
   if (same != files_.end()) {
     std::string circle;
     for (auto file = same; file != files_.end(); ++file)
-      circle += *file + " -> ";
-    io::throwAt(place, "a file includes itself: " + circle + path);
+      circle += printable(*file) + " -> ";
+    io::throwAt(place, "a file includes itself: " + circle + printable(path));
   }
   read(path, text);
 }
@@ -482,7 +482,8 @@ SceneReader::finish(const std::string& path, unsigned threads, Report& report)
 {
   Scene& scene = scene_.scene;
   if (clouds_.empty() && scene.spheres.empty() && scene.planes.empty())
-    throw IOError("'" + path + "' draws nothing: it has no cloud, sphere or plane.");
+    throw IOError("'" + printable(path) +
+                  "' draws nothing: it has no cloud, sphere or plane.");
   addClouds(clouds_, threads, report, scene_);
   const Eigen::Vector3d origin = Eigen::Map<Eigen::Vector3d>(scene_.origin.data());
   for (SphereObject& sphere : scene.spheres)

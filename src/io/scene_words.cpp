@@ -25,7 +25,7 @@ constexpr double shortest_direction = 1e-100;
 std::string
 ScenePlace::text() const
 {
-  return file + ":" + std::to_string(line) + ":" + std::to_string(column);
+  return printable(file) + ":" + std::to_string(line) + ":" + std::to_string(column);
 }
 
 void

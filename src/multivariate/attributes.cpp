@@ -2,6 +2,7 @@
 #include "multivariate/attributes.h"
 
 #include "common/parallel.h"
+#include "common/printable.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -53,8 +54,8 @@ resolveFields(const CloudView& cloud, const std::vector<std::string>& names)
     const ScalarField field(cloud.fields, name);
     for (const ScalarField& other : fields)
       if (areSame(field, other))
-        throw InvalidArgument("The attributes '" + other.getName() + "' and '" + name +
-                              "' are the same: each counts once.");
+        throw InvalidArgument("The attributes " + quoteText(other.getName()) + " and " +
+                              quoteText(name) + " are the same: each counts once.");
     fields.push_back(field);
   }
   return fields;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/camera.h>
 
@@ -112,8 +113,8 @@ Camera::fit(const BoundingSphere& sphere,
                  vertical_fov,
                  aspect,
                  fill);
-  throw InvalidArgument("There is no view '" + view +
-                        "': choose front, back, left, right, top, bottom or iso.");
+  throw InvalidArgument("There is no view " + quoteText(view) +
+                        ": choose front, back, left, right, top, bottom or iso.");
 }
 
 const std::vector<std::string>&

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/color_map.h>
 
@@ -194,7 +195,8 @@ ColorMap::ColorMap(const std::string& name)
   std::string list;
   for (const NamedMap& map : maps)
     list += (list.empty() ? "" : ", ") + std::string(map.name);
-  throw InvalidArgument("There is no colour map '" + name + "': choose one of " + list +
+  throw InvalidArgument("There is no colour map " + quoteText(name) +
+                        ": choose one of " + list +
                         ", or one of them with _r behind it to run backwards.");
 }
 

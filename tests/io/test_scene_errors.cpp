@@ -58,6 +58,8 @@ TEST_F(SceneErrors, WordsThatAreNotKnownOrTooMany)
               "1:1: colormap and range need 'color FIELD'");
   expectError("cloud a.ply color rgb range 0 1", "1:1: colormap and range need");
   expectError("cloud a.ply color x colormap jet", "1:30: ");
+  expectError("cloud a.ply color x colormap jet\xec",
+              "1:30: There is no colour map 'jet\\xec'");
 }
 
 TEST_F(SceneErrors, NumbersThatAreMissingMalformedOrOutOfRange)
