@@ -27,7 +27,7 @@ namespace pcl_uvol {
 namespace io {
 namespace {
 
-constexpr std::size_t block_bytes = std::size_t(1) << 17;
+constexpr std::size_t block_bytes = std::size_t(1) << 16;
 
 /** The next bytes of a descriptor; 0 at its end. */
 std::size_t
