@@ -115,8 +115,12 @@ public:
   {
     H5Gclose(H5Gcreate2(file_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   }
+  /** \param has_any_length as h5py writes it */
   void
-  addText(const char* object, const char* name, const std::string& text);
+  addText(const char* object,
+          const char* name,
+          const std::string& text,
+          bool has_any_length = false);
   /** Fills the file. */
   void
   addObjects(Bytes& bytes)
@@ -143,13 +147,20 @@ private:
 };
 
 void
-Hdf5Maker::addText(const char* object, const char* name, const std::string& text)
+Hdf5Maker::addText(const char* object,
+                   const char* name,
+                   const std::string& text,
+                   bool has_any_length)
 {
   const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, text.size());
+  H5Tset_size(type, has_any_length ? H5T_VARIABLE : text.size());
   const hid_t made = H5Acreate_by_name(
       file_, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Awrite(made, type, text.data());
+  const char* const characters = text.data();
+  if (has_any_length)
+    H5Awrite(made, type, &characters);
+  else
+    H5Awrite(made, type, characters);
   H5Aclose(made);
   H5Tclose(type);
   H5Sclose(space);
@@ -215,6 +226,7 @@ Hdf5Maker::addTable(Bytes& bytes)
   const hid_t space = H5Screate_simple(rank, sizes.data(), nullptr);
   const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
   const bool has_chunks = bytes.flip() && rank > 0;
+  bool has_other_filter = false; // whose damaged data the library does not survive
   if (has_chunks) {
     const std::array<hsize_t, 3> chunk{
         {1 + bytes.choose(most_rows), 1 + bytes.choose(most_columns), 1}};
@@ -223,21 +235,35 @@ Hdf5Maker::addTable(Bytes& bytes)
       H5Pset_shuffle(properties);
     if (bytes.flip())
       H5Pset_deflate(properties, 1);
-    if (bytes.flip())
+    const std::size_t others = bytes.choose(16);
+    if (others % 2 == 1)
       H5Pset_fletcher32(properties);
+    has_other_filter = others >= 12;
+    if (has_other_filter)
+      H5Pset_nbit(properties);
   }
   const hid_t table = H5Dcreate2(
       file_, name, takeType(bytes), space, H5P_DEFAULT, properties, H5P_DEFAULT);
   if (table >= 0 && rank > 0 && sizes[0] > 0) {
     if (bytes.choose(8) != 0)
       writeNumbers(table, bytes, sizes[0] * (rank > 1 ? sizes[1] : 1));
-    if (has_chunks && bytes.choose(4) == 0)
+    if (has_chunks && !has_other_filter && bytes.choose(4) == 0)
       writeChunk(table, bytes);
   }
   if (table >= 0)
     H5Dclose(table);
   H5Pclose(properties);
   H5Sclose(space);
+}
+
+/** Each open file takes half a megabyte, which the library of HDF5 else gives back
+ * and fetches anew: a quarter of the time. */
+void
+keepMemory()
+{
+  constexpr int all = -1;
+  [[maybe_unused]] static const herr_t kept =
+      H5set_free_list_limits(all, all, all, all, all, all);
 }
 
 } // namespace
@@ -252,6 +278,7 @@ readHdf5(const std::uint8_t* data, std::size_t size)
   const char* const inside = insides[bytes.choose(insides.size())];
   {
     const pcl_uvol::io::Hdf5Session session;
+    keepMemory();
     Hdf5Maker(path, snapshots).addObjects(bytes);
   }
   readPoints(path + inside, true);
@@ -265,12 +292,14 @@ readVtkHdf(const std::uint8_t* data, std::size_t size)
   constexpr std::array<const char*, 5> types{
       {"PolyData", "UnstructuredGrid", "ImageData", "MultiBlockDataSet", ""}};
   const char* const type = types[bytes.choose(types.size())];
-  const bool is_series = bytes.choose(4) == 1;
+  const std::size_t choice = bytes.choose(8);
+  const bool is_series = choice % 4 == 1, has_any_length = choice >= 4;
   {
     const pcl_uvol::io::Hdf5Session session;
+    keepMemory();
     Hdf5Maker file(path, data_of_vtk);
     if (*type != '\0')
-      file.addText("/VTKHDF", "Type", type);
+      file.addText("/VTKHDF", "Type", type, has_any_length);
     if (is_series)
       for (const char* const group :
            {"/VTKHDF/Steps", "/VTKHDF/Steps/PointDataOffsets"})

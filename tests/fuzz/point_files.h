@@ -2,6 +2,8 @@
 // Files of points, and what is promised of those that are read.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace uvol_fuzz {
@@ -9,6 +11,11 @@ namespace uvol_fuzz {
 /** \brief A file of that name in a folder of this thread, which goes at its end. */
 std::string
 fileNamed(const std::string& name);
+
+/** \brief Bytes as the file of that name.
+ * \return its path */
+std::string
+writeFile(const std::string& name, const std::uint8_t* bytes, std::size_t size);
 
 /** \brief Reads points, whole and as a stream.
  * \param path of the file, which may name something within it
@@ -20,5 +27,10 @@ readPoints(const std::string& path, bool has_stream);
  * \throws BrokenPromise */
 void
 readMesh(const std::string& path);
+
+/** \brief Reads a volume, which has a value per point.
+ * \throws BrokenPromise */
+void
+readVolume(const std::string& path);
 
 } // namespace uvol_fuzz

@@ -4,7 +4,6 @@
 #include "common/scalar_field.h"
 #include "io/memory_need.h"
 #include "io/point_stream.h"
-#include "io/scene_file.h"
 #include "point_files.h"
 #include "promises.h"
 #include "targets.h"
@@ -52,15 +51,6 @@ public:
 private:
   fs::path path_;
 };
-
-std::string
-writeBytes(const std::string& name, const std::uint8_t* bytes, std::size_t size)
-{
-  const std::string path = fileNamed(name);
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-  return path;
-}
 
 void
 requireWhole(const Dataset& dataset)
@@ -129,21 +119,6 @@ requireForecast(const std::string& path, const Dataset& dataset)
           "the header tells the bytes of a point");
 }
 
-void
-readVolume(const std::string& path)
-{
-  refusalOf<IOError>(
-      [&] {
-        const auto volume = pcl_uvol::loadVolume(path);
-        require(volume.values.size() ==
-                    volume.dims[0] * volume.dims[1] * volume.dims[2],
-                "a volume has a value per point");
-        for (const double spacing : volume.spacing)
-          require(spacing > 0.0, "distances are positive");
-      },
-      path);
-}
-
 } // namespace
 
 std::string
@@ -151,6 +126,15 @@ fileNamed(const std::string& name)
 {
   static thread_local const Folder made;
   return made / name;
+}
+
+std::string
+writeFile(const std::string& name, const std::uint8_t* bytes, std::size_t size)
+{
+  const std::string path = fileNamed(name);
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  return path;
 }
 
 void
@@ -185,15 +169,30 @@ readMesh(const std::string& path)
 }
 
 void
+readVolume(const std::string& path)
+{
+  refusalOf<IOError>(
+      [&] {
+        const auto volume = pcl_uvol::loadVolume(path);
+        require(volume.values.size() ==
+                    volume.dims[0] * volume.dims[1] * volume.dims[2],
+                "a volume has a value per point");
+        for (const double spacing : volume.spacing)
+          require(spacing > 0.0, "distances are positive");
+      },
+      path);
+}
+
+void
 readPcd(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.pcd", bytes, size), true);
+  readPoints(writeFile("a.pcd", bytes, size), true);
 }
 
 void
 readPly(const std::uint8_t* bytes, std::size_t size)
 {
-  const std::string path = writeBytes("a.ply", bytes, size);
+  const std::string path = writeFile("a.ply", bytes, size);
   readPoints(path, true);
   readMesh(path);
 }
@@ -201,13 +200,13 @@ readPly(const std::uint8_t* bytes, std::size_t size)
 void
 readText(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.csv", bytes, size), true);
+  readPoints(writeFile("a.csv", bytes, size), true);
 }
 
 void
 readLegacyVtk(const std::uint8_t* bytes, std::size_t size)
 {
-  const std::string path = writeBytes("a.vtk", bytes, size);
+  const std::string path = writeFile("a.vtk", bytes, size);
   readPoints(path, false);
   readVolume(path);
 }
@@ -215,62 +214,70 @@ readLegacyVtk(const std::uint8_t* bytes, std::size_t size)
 void
 readXmlVtk(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.vtp", bytes, size), false);
-  readVolume(writeBytes("a.vti", bytes, size));
+  const std::string path = writeFile("a.vtp", bytes, size);
+  readPoints(path, false);
+  readMesh(path);
+  readVolume(writeFile("a.vti", bytes, size));
 }
 
 void
 readNrrd(const std::uint8_t* bytes, std::size_t size)
 {
-  readVolume(writeBytes("a.nrrd", bytes, size));
+  readVolume(writeFile("a.nrrd", bytes, size));
 }
 
 void
 readMetaImage(const std::uint8_t* bytes, std::size_t size)
 {
-  readVolume(writeBytes("a.mha", bytes, size));
+  readVolume(writeFile("a.mha", bytes, size));
 }
 
 void
 readGadget(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("snap.0", bytes, size), true);
+  readPoints(writeFile("snap.0", bytes, size), true);
 }
 
 void
 readBgeo(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.bgeo", bytes, size), true);
+  readPoints(writeFile("a.bgeo", bytes, size), true);
 }
 
 void
 readLas(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.las", bytes, size), true);
+  readPoints(writeFile("a.las", bytes, size), true);
 }
 
 void
 readNpy(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.npy", bytes, size), true);
+  readPoints(writeFile("a.npy", bytes, size), true);
 }
 
 void
 readNpz(const std::uint8_t* bytes, std::size_t size)
 {
-  readPoints(writeBytes("a.npz", bytes, size), true);
+  readPoints(writeFile("a.npz", bytes, size), true);
 }
 
 void
-readScene(const std::uint8_t* bytes, std::size_t size)
+readObj(const std::uint8_t* bytes, std::size_t size)
 {
-  const std::string path = writeBytes("a.scene", bytes, size);
-  refusalOf<IOError>(
-      [&] {
-        pcl_uvol::Report report;
-        pcl_uvol::loadScene(path, fileNamed(""), 1, report);
-      },
-      path);
+  readMesh(writeFile("a.obj", bytes, size));
+}
+
+void
+readOff(const std::uint8_t* bytes, std::size_t size)
+{
+  readMesh(writeFile("a.off", bytes, size));
+}
+
+void
+readStl(const std::uint8_t* bytes, std::size_t size)
+{
+  readMesh(writeFile("a.stl", bytes, size));
 }
 
 } // namespace uvol_fuzz

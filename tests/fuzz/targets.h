@@ -10,8 +10,12 @@
 
 namespace uvol_fuzz {
 
+/** What the bytes become; tools/fuzz.sh takes these words. */
+enum class Group { readers, texts, stages };
+
 struct Target {
   const char* name; ///< also of its folder of files to start with
+  Group group;
   void (*run)(const std::uint8_t* bytes, std::size_t size);
 };
 
@@ -39,6 +43,9 @@ void
 readHdf5(const std::uint8_t* bytes, std::size_t size);
 void
 readVtkHdf(const std::uint8_t* bytes, std::size_t size);
+/** Not there where the build lacks the library of NetCDF. */
+void
+readNetcdf(const std::uint8_t* bytes, std::size_t size);
 void
 readBgeo(const std::uint8_t* bytes, std::size_t size);
 void
@@ -48,7 +55,23 @@ readNpy(const std::uint8_t* bytes, std::size_t size);
 void
 readNpz(const std::uint8_t* bytes, std::size_t size);
 void
+readObj(const std::uint8_t* bytes, std::size_t size);
+void
+readOff(const std::uint8_t* bytes, std::size_t size);
+void
+readStl(const std::uint8_t* bytes, std::size_t size);
+/** @} */
+
+/** Targets that read bytes as a file that names others, or has others beside or within
+ * it. @{ */
+void
 readScene(const std::uint8_t* bytes, std::size_t size);
+void
+readFileList(const std::uint8_t* bytes, std::size_t size);
+void
+readPlot3d(const std::uint8_t* bytes, std::size_t size);
+void
+readPacked(const std::uint8_t* bytes, std::size_t size);
 /** @} */
 
 /** Targets that make texts of bytes. @{ */
