@@ -256,17 +256,15 @@ Hdf5Maker::addTable(Bytes& bytes)
   H5Sclose(space);
 }
 
-/** Each open file takes half a megabyte, which the library of HDF5 else gives back
- * and fetches anew: a quarter of the time. */
+} // namespace
+
 void
-keepMemory()
+keepMemoryOfHdf5()
 {
   constexpr int all = -1;
   [[maybe_unused]] static const herr_t kept =
       H5set_free_list_limits(all, all, all, all, all, all);
 }
-
-} // namespace
 
 void
 readHdf5(const std::uint8_t* data, std::size_t size)
@@ -278,7 +276,7 @@ readHdf5(const std::uint8_t* data, std::size_t size)
   const char* const inside = insides[bytes.choose(insides.size())];
   {
     const pcl_uvol::io::Hdf5Session session;
-    keepMemory();
+    keepMemoryOfHdf5();
     Hdf5Maker(path, snapshots).addObjects(bytes);
   }
   readPoints(path + inside, true);
@@ -296,7 +294,7 @@ readVtkHdf(const std::uint8_t* data, std::size_t size)
   const bool is_series = choice % 4 == 1, has_any_length = choice >= 4;
   {
     const pcl_uvol::io::Hdf5Session session;
-    keepMemory();
+    keepMemoryOfHdf5();
     Hdf5Maker file(path, data_of_vtk);
     if (*type != '\0')
       file.addText("/VTKHDF", "Type", type, has_any_length);

@@ -17,6 +17,11 @@ fileNamed(const std::string& name);
 std::string
 writeFile(const std::string& name, const std::uint8_t* bytes, std::size_t size);
 
+/** \brief Each open file takes half a megabyte, which the library of HDF5 else gives
+ * back and fetches anew: a quarter of the time. Within an Hdf5Session. */
+void
+keepMemoryOfHdf5();
+
 /** \brief Reads points, whole and as a stream.
  * \param path of the file, which may name something within it
  * \throws BrokenPromise */
