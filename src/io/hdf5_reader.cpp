@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <sstream>
+#include <system_error>
 
 namespace pcl_uvol {
 namespace io {
@@ -191,8 +192,9 @@ Hdf5Name
 splitHdf5Name(const std::string& path)
 {
   const std::size_t colon = path.find(":/");
+  std::error_code ignored; // of names that no file can have
   if (colon == std::string::npos ||
-      !std::filesystem::is_regular_file(path.substr(0, colon)))
+      !std::filesystem::is_regular_file(path.substr(0, colon), ignored))
     return {path, ""};
   return {path.substr(0, colon), path.substr(colon + 1)};
 }

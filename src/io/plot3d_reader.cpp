@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <system_error>
 
 namespace pcl_uvol {
 namespace io {
@@ -244,7 +245,8 @@ findSolutionFile(const std::string& path)
   else
     ending = ".q";
   const std::string found = (grid.parent_path() / (stem + ending)).string();
-  return std::filesystem::exists(found) ? found : "";
+  std::error_code ignored; // of a name that is too long
+  return std::filesystem::exists(found, ignored) ? found : "";
 }
 
 } // namespace

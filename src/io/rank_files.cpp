@@ -14,6 +14,7 @@
 #include <glob.h>
 #include <iterator>
 #include <limits>
+#include <system_error>
 #include <unistd.h>
 
 namespace pcl_uvol {
@@ -359,8 +360,9 @@ findPieces(const std::vector<std::string>& paths)
 {
   std::vector<std::string> pieces;
   for (const std::string& path : paths) {
+    std::error_code ignored; // of a pattern that is no name
     const bool is_pattern = path.find_first_of("*?[") != std::string::npos &&
-                            !std::filesystem::exists(path);
+                            !std::filesystem::exists(path, ignored);
     for (const std::string& name :
          is_pattern ? matching(path) : std::vector<std::string>{path})
       if (io::getEnding(name) == ".pvtp")

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <system_error>
 
 namespace pcl_uvol {
 namespace io {
@@ -90,7 +91,8 @@ listSnapshotFiles(const std::string& path, std::size_t count)
                         .replace_extension(std::to_string(i))
                         .concat(ending.string())
                         .string());
-    if (!fs::exists(files.back()))
+    std::error_code ignored; // of a name that is too long
+    if (!fs::exists(files.back(), ignored))
       throwUnreadable(path,
                       "of the " + std::to_string(count) + " files of its snapshot '" +
                           files.back() + "' is not there");

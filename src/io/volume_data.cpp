@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <zlib.h>
 
 namespace pcl_uvol {
@@ -319,7 +320,9 @@ filesOfPattern(const std::string& path, const std::vector<std::string_view>& wor
     name += number;
     name += pattern.substr(end + 1);
     files.push_back(besideFile(path, name));
-    if (!std::filesystem::exists(files.back())) // a list is no longer than its folder
+    std::error_code ignored; // of a name that is too long
+    if (!std::filesystem::exists(files.back(),
+                                 ignored)) // a list is no longer than its folder
       throwUnreadable(path, "there is no file " + quoteText(name) + " of its data");
   }
   return files;

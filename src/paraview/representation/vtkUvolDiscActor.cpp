@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkUvolDiscActor.h"
+#include "paraview/representation/vtkUvolDiscActor.h"
 
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/point_data.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkUvolDiscRepresentation.h"
+#include "paraview/representation/vtkUvolDiscRepresentation.h"
 
-#include "vtkUvolDiscActor.h"
+#include "paraview/representation/vtkUvolDiscActor.h"
 
 #include <vtkObjectFactory.h>
 
