@@ -7,7 +7,6 @@ cd "$(dirname "$0")/.."
 out=${1:-demo_output}
 
 # What the demo runs, and nothing else: the first build is what a newcomer waits for.
-[ -e build/release ] || export CONFIGURE=-DPCL_UVOL_PRECOMPILE_HEADERS=ON
 bash tools/build.sh demo
 mkdir -p "$out"
 bin=build/release/bin
