@@ -15,6 +15,8 @@ bash tools/install_dependencies.sh \
   pybind11-dev python3-dev python3-numpy python3-pytest \
   libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
   libgtest-dev libgmock-dev "$@"
+# A compiler cache that is empty can only cost time: a first build does not fill it.
+[ -e "build/$preset" ] || ccache --print-stats | grep -qP '^files_in_cache\t[1-9]' || export CCACHE_DISABLE=1
 # shellcheck disable=SC2086 # options are words
 cmake --preset "$preset" ${CONFIGURE:-}
 cmake --build --preset "$preset" --target "$target"

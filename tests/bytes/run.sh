@@ -3,8 +3,8 @@
 # of their reports, which go without times, bytes of memory and the name of the processor's
 # instruction set.
 # usage: run.sh FOLDER_OF_TOOLS [LIST]
-# The lists of two builds are compared by diff; that of the default commands has to be
-# expected.txt, and a change of results shows there.
+# That of the default commands has to be expected.txt, and a change of results shows there. Another compiler may
+# round otherwise: compare.sh builds an older commit beside this tree.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 tools=$(cd "$1" && pwd)

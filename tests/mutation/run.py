@@ -4,6 +4,7 @@
 runs the tests named beside it, and tells which changes no test noticed.
 
 usage: tests/mutation/run.py [-j THREADS] [WORD...]     mutations whose file or name holds a word; default: all
+       tests/mutation/run.py --list [WORD...]           their names, and whether the list fits the sources
 
 Works on a copy of the tree in build/mutation, which is kept for the next time. Refuses a list that
 no longer fits the sources (exit code 2). Exit code 1 if less than 90 % of the changes are noticed."""
@@ -141,11 +142,16 @@ def print_shares(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-j", type=int, default=os.cpu_count(), metavar="THREADS", dest="threads")
+    parser.add_argument("--list", action="store_true")
     parser.add_argument("words", nargs="*", metavar="WORD")
     options = parser.parse_args()
     mutations = read_list(options.words)
     if not mutations:
         fail("no mutation has such a name.")
+    if options.list:
+        for mutation in mutations:
+            print(f"{mutation.file}: {mutation.name}")
+        return
     copy_tree()
     # Flags are those of the tree, so that a compiler cache has what no mutation touches; and none of them
     # changes the interface of a library.
