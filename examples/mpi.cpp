@@ -2,7 +2,7 @@
 // isopoints of its piece of space; their union is what one process would find.
 #include "samples.h"
 #include <pcl_uvol/mpi/mpi_communicator.h>
-#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/conversions.h>
 #include <vtkMPIController.h>

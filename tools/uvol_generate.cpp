@@ -8,8 +8,6 @@
 #include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/volume.h>
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,6 @@
 #include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/volume.h>
 
 #include <algorithm>
 #include <iostream>

@@ -9,7 +9,6 @@
 #include "uvol_isosurface/pipeline_run.h"
 #include "uvol_isosurface/result_facts.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <array>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "shared/progress_bar.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mpi/mpi_communicator.h>
-#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <vtkMPIController.h>
 #include <vtkNew.h>

@@ -13,7 +13,7 @@
 #include "shared/progress_bar.h"
 #include "shared/series.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 

@@ -11,7 +11,7 @@
 #include "surface/memory_need.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <pcl/conversions.h>

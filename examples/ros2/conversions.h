@@ -3,7 +3,7 @@
 // that this compiles, and is tested, where ROS is not installed.
 #pragma once
 
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/point_types.h>
 
 #include <pcl/PCLPointCloud2.h>

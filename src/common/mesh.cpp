@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 
 #include <Eigen/Geometry>
 

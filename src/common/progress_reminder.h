@@ -2,7 +2,7 @@
 // A step whose parts take long looks at its listener in between.
 #pragma once
 
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <chrono>
 #include <string>

@@ -5,7 +5,7 @@
 
 #include "neighbors/kd_tree.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/derivatives/fit_scheme.h>
+#include <pcl_uvol/derivatives/gradient_estimation.h>
 
 #include <array>
 #include <cstddef>

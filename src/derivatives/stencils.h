@@ -6,7 +6,7 @@
 #include "derivatives/local_fit.h"
 #include "derivatives/stencil_view.h"
 #include "neighbors/sample_set.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <vector>

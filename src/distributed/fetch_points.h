@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
 
 #include <pcl/PCLPointCloud2.h>

@@ -4,7 +4,7 @@
 
 #include "distributed/byte_stream.h"
 #include "distributed/samples.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
 
 #include <cstddef>

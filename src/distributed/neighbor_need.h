@@ -5,7 +5,7 @@
 
 #include "distributed/samples.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
 
 #include <cstddef>

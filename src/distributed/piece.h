@@ -7,7 +7,7 @@
 #include "distributed/samples.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstddef>
 #include <cstdint>

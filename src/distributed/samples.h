@@ -8,7 +8,7 @@
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
 
 #include <cstddef>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "filters/point_arrays.h"
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstddef>
 #include <cstdint>

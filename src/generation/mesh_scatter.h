@@ -2,8 +2,8 @@
 // Points spread over a mesh: test data for everything that takes surfaces.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <array>
 #include <cstdint>

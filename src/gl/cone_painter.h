@@ -4,7 +4,7 @@
 
 #include "gl/cone_mesh.h"
 #include "gl/objects.h"
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <cstdint>
 #include <vector>

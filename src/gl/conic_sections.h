@@ -4,7 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/gl/context.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <memory>
 

@@ -4,7 +4,7 @@
 
 #include "render/image_space/frame.h"
 #include "render/image_space/pixel_box.h"
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <vector>
 

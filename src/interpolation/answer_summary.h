@@ -4,8 +4,8 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/interpolation/interpolated_fields.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <cstddef>
 #include <string>

@@ -5,7 +5,7 @@
 
 #include "neighbors/query.h"
 #include "neighbors/sample_set.h"
-#include <pcl_uvol/interpolation/interpolated_fields.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <cstddef>
 #include <memory>

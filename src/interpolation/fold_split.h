@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/interpolation/cross_validation.h>
-#include <pcl_uvol/interpolation/interpolated_fields.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/interpolation/interpolated_fields.h>
+#include <pcl_uvol/interpolation/field_interpolation.h>
 
 #include <algorithm>
 #include <cstring>

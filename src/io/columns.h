@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/records.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/io/dataset.h>
 
 namespace pcl_uvol {

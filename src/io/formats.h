@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/records.h"
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/io/dataset.h>
 
 #include <memory>

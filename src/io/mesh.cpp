@@ -8,7 +8,6 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <algorithm>
 #include <cstring>

@@ -4,7 +4,7 @@
 
 #include "common/records.h"
 #include "io/file_cursor.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cmath>
 #include <memory>

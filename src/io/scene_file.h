@@ -3,10 +3,9 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
-#include <pcl_uvol/render/ray_tracing/scene.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <optional>

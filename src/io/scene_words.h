@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 #include "io/files.h"
 #include "io/volume_data.h"
 #include "io/vtk_readers.h"
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>

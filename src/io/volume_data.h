@@ -2,7 +2,7 @@
 // The numbers of volumes whose headers are lines of text: MetaImage and NRRD.
 #pragma once
 
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <array>
 #include <cstdint>

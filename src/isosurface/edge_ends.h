@@ -4,7 +4,7 @@
 
 #include "isosurface/piece_isopoints.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstdint>
 #include <vector>

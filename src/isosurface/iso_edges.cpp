@@ -3,7 +3,7 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <algorithm>
 #include <cstring>

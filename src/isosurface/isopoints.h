@@ -4,7 +4,7 @@
 #pragma once
 
 #include "neighbors/neighbor_candidates.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstdint>

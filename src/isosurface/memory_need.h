@@ -6,7 +6,7 @@
 #include "common/memory.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/isosurface/isosurface_parameters.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <Eigen/Core>
 

@@ -8,7 +8,7 @@
 #include "neighbors/length_unit.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/levelset/initial_function.h>
+#include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "common/parameter_json.h"
 #include "common/records.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <pcl/common/io.h>

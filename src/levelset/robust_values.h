@@ -4,7 +4,7 @@
 #pragma once
 
 #include "neighbors/sample_set.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <vector>

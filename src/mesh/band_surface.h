@@ -7,7 +7,7 @@
 #include "mesh/cell_tiling.h"
 #include "mesh/cell_values.h"
 #include "mesh/working_mesh.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "isosurface/isopoints.h"
 #include "mesh/cell_tiling.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <Eigen/Core>
 

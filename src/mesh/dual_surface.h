@@ -4,8 +4,8 @@
 #pragma once
 
 #include "mesh/cell_tiling.h"
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <cstdint>
 #include <functional>

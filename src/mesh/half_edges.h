@@ -2,8 +2,8 @@
 // Which triangles of a mesh are beside one another, and whether it is a manifold.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <cstddef>
 #include <cstdint>

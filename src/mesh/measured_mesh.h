@@ -6,8 +6,8 @@
 #include "mesh/curved_triangle.h"
 #include "mesh/surface_pieces.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <Eigen/Geometry>
 

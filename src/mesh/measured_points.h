@@ -4,7 +4,7 @@
 
 #include "mesh/measured_mesh.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 namespace pcl_uvol::detail {
 

@@ -2,8 +2,8 @@
 // Which closed pieces of a mesh are around a place.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <Eigen/Core>
 

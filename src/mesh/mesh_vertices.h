@@ -4,7 +4,7 @@
 
 #include "isosurface/isopoints.h"
 #include "mesh/working_mesh.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/mesh/surface_mesh.h>
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "mesh/working_mesh.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstddef>
 

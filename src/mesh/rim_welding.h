@@ -2,9 +2,9 @@
 // Rims of a mesh in opposite faces of a box that repeats, made images of one another.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <Eigen/Core>
 

@@ -2,8 +2,8 @@
 // The triangles of a mesh that are nearest to a place, or in a box.
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 
 #include "mesh/dual_surface.h"
 #include "mesh/foot.h"
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 
 #include <Eigen/Core>
 

@@ -3,8 +3,8 @@
 // surface around them (thesis 2.6, Figure 2.22).
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 
 #include <cstdint>
 #include <vector>

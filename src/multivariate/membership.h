@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <vector>

@@ -2,10 +2,10 @@
 // Distance fields of meshes, again by discrete Voronoi diagrams (thesis 2.6).
 #pragma once
 
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 // that one tree of our own serves both.
 #pragma once
 
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <array>
 #include <atomic>

@@ -5,7 +5,7 @@
 
 #include "neighbors/kd_tree.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstddef>
 #include <cstdint>

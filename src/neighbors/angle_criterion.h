@@ -5,7 +5,7 @@
 
 #include "neighbors/kd_tree.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/neighbors/natural_neighbor_parameters.h>
+#include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 // and along z take the lower envelope of parabolas (Meijster et al. 2000, Felzenszwalb
 // and Huttenlocher 2012).
 #include "common/parallel.h"
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <algorithm>
 #include <cmath>

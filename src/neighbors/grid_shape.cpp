@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include "common/parallel.h"
 #include "neighbors/kd_tree.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cmath>
 #include <cstddef>

@@ -6,10 +6,10 @@
 
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/natural_neighbor_parameters.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/neighbors/natural_neighbors.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <cstdint>
 #include <memory>

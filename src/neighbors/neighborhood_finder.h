@@ -6,7 +6,7 @@
 #include "neighbors/neighbor_candidates.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstdint>

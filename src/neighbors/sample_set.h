@@ -6,7 +6,7 @@
 #include "neighbors/kd_tree.h"
 #include "neighbors/length_unit.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <algorithm>
 #include <cmath>

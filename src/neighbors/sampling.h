@@ -7,8 +7,8 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_set.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/sampling_summary.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "common/memory.h"
 #include "common/parallel.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <algorithm>
 #include <cmath>

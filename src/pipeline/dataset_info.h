@@ -6,8 +6,8 @@
 #include "common/stretch_axes.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/neighbors/sampling_summary.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <array>
 #include <cstdint>

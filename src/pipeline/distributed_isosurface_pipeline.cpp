@@ -8,7 +8,7 @@
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <utility>
 

@@ -6,8 +6,8 @@
 #include "distributed/run_stage.h"
 #include "isosurface/piece_isopoints.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/PCLPointCloud2.h>

@@ -8,11 +8,10 @@
 #include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/interpolation/field_interpolation.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/isosurface/isosurface_parameters.h>
-#include <pcl_uvol/neighbors/sampling_summary.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/types.h>

@@ -6,9 +6,9 @@
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <pcl/point_cloud.h>
 

@@ -6,7 +6,7 @@
 #include "common/stretch_axes.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "isosurface/memory_need.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/printable.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 namespace pcl_uvol {
 

@@ -2,7 +2,7 @@
 // What both renderers check of colours, materials and lights, and reckon with.
 #pragma once
 
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
 
 #include <Eigen/Core>
 

@@ -7,9 +7,9 @@
 #include "surface/oriented_points.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <cstdint>
 #include <vector>

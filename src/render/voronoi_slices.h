@@ -3,8 +3,8 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
+#include <pcl_uvol/render/renderer.h>
 
 namespace pcl_uvol {
 

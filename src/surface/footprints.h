@@ -4,7 +4,7 @@
 
 #include "surface/oriented_points.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <array>
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "surface/packed_normal.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <vector>

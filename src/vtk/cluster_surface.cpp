@@ -5,7 +5,7 @@
 #include "multivariate/mesh_distance.h"
 #include "multivariate/spanning_tree.h"
 #include "vtk/contour.h"
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "radial_cloud.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 

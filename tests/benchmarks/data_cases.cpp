@@ -6,7 +6,6 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/volume.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_types.h>

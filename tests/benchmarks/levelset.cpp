@@ -6,7 +6,7 @@
 #include "support/clouds.h"
 #include "support/environment.h"
 #include "support/noisy_shapes.h"
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <chrono>

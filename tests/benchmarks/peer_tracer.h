@@ -4,8 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
 #include <pcl/point_cloud.h>

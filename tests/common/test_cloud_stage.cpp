@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The input of all stages: what CloudStage gives to their work, and what it refuses.
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

@@ -6,7 +6,7 @@
 #include <pcl_uvol/multivariate/density_clustering.h>
 #include <pcl_uvol/multivariate/star_coordinates.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>
 

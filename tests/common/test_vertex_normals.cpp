@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of a mesh's vertices.
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 
 #include <gtest/gtest.h>
 

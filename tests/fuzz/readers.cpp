@@ -7,8 +7,7 @@
 #include "point_files.h"
 #include "promises.h"
 #include "targets.h"
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include <pcl_uvol/expressions/derived_fields.h>
 #include <pcl_uvol/interpolation/interpolation_parameters.h>
 #include <pcl_uvol/multivariate/density_clustering.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline_parameters.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 namespace uvol_fuzz {

@@ -2,7 +2,7 @@
 #include "common/parallel.h"
 #include "generation/analytic_fields.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "io/grid_file.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 

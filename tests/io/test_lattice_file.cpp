@@ -3,7 +3,7 @@
 #include "io/lattice_file.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 #include <pcl/PCLPointField.h>

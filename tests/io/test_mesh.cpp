@@ -2,7 +2,7 @@
 // PLY meshes: what is read, and what is refused.
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "random_dataset.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <cmath>
 #include <cstring>

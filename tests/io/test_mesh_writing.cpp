@@ -2,7 +2,7 @@
 // Meshes written and read again: triangles, places and the fields of vertices.
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 namespace {
 

@@ -4,8 +4,7 @@
 #include "pipeline/dataset_info.h"
 #include "support/environment.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 

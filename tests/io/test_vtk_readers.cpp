@@ -3,7 +3,7 @@
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/filters/point_data.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -7,7 +7,7 @@
 #include "io/point_stream.h"
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
 

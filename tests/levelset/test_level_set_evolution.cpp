@@ -5,7 +5,6 @@
 #include "support/noisy_shapes.h"
 #include "support/statistics.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/levelset/initial_function.h>
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 // Metrics of samples depend on what is asked for, not on what was asked for before.
 #include "src/common/random.h"
 #include "src/neighbors/local_metric.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Discrete Voronoi diagrams against brute force.
 #include "common/random.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "support/clouds.h"
 #include "support/thread_ranks.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/pipeline/distributed_isosurface_pipeline.h>
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

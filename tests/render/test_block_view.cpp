@@ -3,8 +3,8 @@
 #include "render/image_space/block_view.h"
 #include "render/image_space/pixel_box.h"
 #include "render/renderer_setup.h"
-#include <pcl_uvol/render/image_space/settings.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/image_space/backend.h>
 
 #include <algorithm>
 #include <cmath>

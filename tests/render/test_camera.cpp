@@ -2,7 +2,7 @@
 // The camera: directions, fitting, and how a view projects.
 #include "render/image_space/frame.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "render/image_space/frame.h"
 #include "support/environment.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <Eigen/Geometry>

@@ -3,7 +3,7 @@
 // run.
 #pragma once
 
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // What is true of a closed mesh, and how far places are from one.
 #pragma once
 
-#include <pcl_uvol/common/mesh.h>
+#include <pcl_uvol/common/dataset.h>
 
 #include <Eigen/Core>
 

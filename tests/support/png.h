@@ -2,7 +2,7 @@
 // Pictures read back.
 #pragma once
 
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <string>
 

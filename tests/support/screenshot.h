@@ -2,7 +2,7 @@
 // What a VTK window shows.
 #pragma once
 
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

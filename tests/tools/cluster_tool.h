@@ -6,7 +6,6 @@
 #include "support/meshes.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <gtest/gtest.h>
 

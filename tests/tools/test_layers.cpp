@@ -17,7 +17,7 @@ TEST(Layers, IncludesGoDownwards)
 
 TEST(Layers, ABreachIsNoticed)
 {
-  for (const char* include : {"<pcl_uvol/isosurface/iso_edges.h>",
+  for (const char* include : {"<pcl_uvol/isosurface/isosurface_extraction.h>",
                               "\"isosurface/isopoints.h\"",
                               "\"neighbors/kd_tree.h\"",
                               "\"bad_too.h\"",

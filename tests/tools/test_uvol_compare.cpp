@@ -3,7 +3,6 @@
 #include "support/environment.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include "generation/analytic_fields.h"
 #include "support/environment.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/volume.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // -mesh of uvol_isosurface from the outside: files, options, what is told, refusals.
 #include "support/environment.h"
 #include "tools/tool_test.h"
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "support/png.h"
 #include "tools/tool_test.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <gtest/gtest.h>
 

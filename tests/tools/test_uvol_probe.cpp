@@ -3,8 +3,7 @@
 // is refused.
 #include "support/png.h"
 #include "tool_test.h"
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <cmath>
 #include <functional>

@@ -3,7 +3,7 @@
 #include "support/environment.h"
 #include "support/png.h"
 #include "tools/tool_test.h"
-#include <pcl_uvol/io/volume.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include "render/color_scale.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <string>

@@ -4,7 +4,7 @@
 
 #include "charts/drawing.h"
 #include "charts/perspective.h"
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,8 @@
 // Letters and lines over the pixels of an image.
 #pragma once
 
-#include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <cmath>

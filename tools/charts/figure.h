@@ -5,9 +5,8 @@
 
 #include "charts/data_box.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Geometry>
 

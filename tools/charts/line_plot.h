@@ -2,7 +2,7 @@
 // A small picture of how figures change from step to step.
 #pragma once
 
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <string>

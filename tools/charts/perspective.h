@@ -2,7 +2,7 @@
 // Where a camera sees a place: for lines and letters over a rendered picture.
 #pragma once
 
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 
 #include "charts/drawing.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 // (thesis 2.6).
 #pragma once
 
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "charts/axes.h"
 #include "render/color_scale.h"
 #include <pcl_uvol/render/color_map.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <cstddef>

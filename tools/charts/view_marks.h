@@ -4,7 +4,7 @@
 
 #include "charts/data_box.h"
 #include "charts/perspective.h"
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <string>
 

@@ -5,7 +5,7 @@
 #include "expressions/memory_need.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <pcl/conversions.h>
 #include <pcl/point_cloud.h>

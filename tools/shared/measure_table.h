@@ -4,7 +4,7 @@
 
 #include "shared/facts.h"
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/mesh/surface_measures.h>
 
 #include <memory>

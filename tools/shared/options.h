@@ -5,7 +5,7 @@
 
 #include "shared/facts.h"
 #include <pcl_uvol/common/parameters.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/io/image_file.h>
 
 #include <array>

@@ -5,9 +5,9 @@
 #include "shared/splat_options.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <optional>

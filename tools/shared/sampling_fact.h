@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shared/facts.h"
-#include <pcl_uvol/neighbors/sampling_summary.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 namespace uvol_tools {
 

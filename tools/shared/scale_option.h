@@ -5,7 +5,7 @@
 #include "common/stretch_axes.h"
 #include "shared/facts.h"
 #include "shared/options.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/interpolation/cross_validation.h>
 
 #include <optional>

@@ -10,9 +10,8 @@
 #include "shared/options.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <algorithm>
 #include <array>

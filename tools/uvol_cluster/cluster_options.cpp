@@ -2,8 +2,8 @@
 #include "uvol_cluster/cluster_options.h"
 
 #include "io/table_file.h"
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <cmath>
 #include <limits>

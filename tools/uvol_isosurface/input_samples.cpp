@@ -7,7 +7,6 @@
 #include "interpolation/outer_layer.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <cmath>
 #include <string>

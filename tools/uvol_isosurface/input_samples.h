@@ -5,7 +5,7 @@
 #include "shared/memory_guard.h"
 #include "uvol_isosurface/pipeline_options.h"
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uvol_isosurface/mesh_options.h"
 
-#include <pcl_uvol/io/mesh.h>
+#include <pcl_uvol/io/dataset.h>
 
 #include <algorithm>
 #include <limits>

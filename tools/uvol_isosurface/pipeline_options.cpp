@@ -5,7 +5,7 @@
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/neighbors/voronoi_grid.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <cmath>
 #include <filesystem>

@@ -5,7 +5,6 @@
 #include "neighbors/periodic_box.h"
 #include "shared/point_files.h"
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/io/mesh.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // The keys of the viewer, as they are told to the user and as they act.
 #pragma once
 
-#include <pcl_uvol/render/image_space/settings.h>
+#include <pcl_uvol/render/image_space/backend.h>
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <Eigen/Geometry>

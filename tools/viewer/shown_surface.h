@@ -3,9 +3,9 @@
 #pragma once
 
 #include "viewer/surface_worker.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/io/dataset.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Geometry>
 

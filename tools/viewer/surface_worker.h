@@ -2,9 +2,9 @@
 // Isosurfaces that are extracted while the window goes on.
 #pragma once
 
-#include <pcl_uvol/common/mesh.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/image_space/prepared_surface.h>
+#include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <Eigen/Geometry>
 #include <pcl/PCLPointCloud2.h>

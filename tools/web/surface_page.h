@@ -4,9 +4,9 @@
 
 #include "render/point_colors.h"
 #include "render/surface_cloud.h"
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/common/stage.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cloud as files and other programs give it: every field under its own name and type,
-// and an origin in double precision.
+// and an origin in double precision. And triangle meshes.
 #pragma once
 
 #include <pcl_uvol/common/export.h>
@@ -75,5 +75,21 @@ setField(Dataset& dataset,
          const std::string& name,
          const std::vector<std::int32_t>& values);
 /** @} */
+
+/** \brief Indices of vertices, counter-clockwise as seen from outside. */
+using Triangle = std::array<std::uint32_t, 3>;
+
+/** \brief Vertices and triangles. */
+struct Mesh {
+  std::vector<std::array<float, 3>> vertices;
+  std::array<double, 3> origin{{0.0, 0.0, 0.0}}; ///< to be added to the vertices
+  std::vector<Triangle> triangles;
+};
+
+/** \brief Unit normals of the vertices: means of their triangles', weighted by area; 0
+ * for a vertex without any.
+ * \param mesh whose triangles name vertices that it has */
+PCL_UVOL_EXPORTS std::vector<std::array<float, 3>>
+computeVertexNormals(const Mesh& mesh);
 
 } // namespace pcl_uvol

@@ -3,17 +3,17 @@
 // the samples themselves (thesis 3.2, 3.3).
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/derivatives/fit_scheme.h>
 
 #include <pcl/search/search.h>
 #include <pcl/type_traits.h>
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -21,6 +21,22 @@
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief Which polynomial is fitted to the neighbours. */
+enum class FitScheme {
+  Linear,   ///< thesis 3.2: a plane through the sample and its neighbours, unweighted;
+            ///< first order, little noise
+  Quadratic ///< nine terms that pass through the sample's own value, weight
+            ///< exp(-2 d^2 / h^2), h a little more than the farthest neighbour; second
+            ///< order, with second derivatives (default)
+};
+
+/** \return The words for its values in JSON and options. */
+constexpr std::array<EnumWord<FitScheme>, 2>
+listWords(FitScheme)
+{
+  return {{{FitScheme::Linear, "linear"}, {FitScheme::Quadratic, "quadratic"}}};
+}
 
 /** \brief Parameters of GradientEstimation. */
 struct PCL_UVOL_EXPORTS GradientParameters {

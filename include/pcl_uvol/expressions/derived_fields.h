@@ -6,7 +6,7 @@
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <array>
 #include <cstddef>

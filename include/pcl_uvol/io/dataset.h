@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds from files and into files.
+// Clouds, meshes and regular volumes from files; clouds and meshes into files.
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -105,5 +106,87 @@ removeUnfinishedFiles();
  * \param path may name no file */
 PCL_UVOL_EXPORTS std::string
 resolveLinks(const std::string& path);
+
+/** \brief Read a mesh as the other loadMesh() does, places and faces only.
+ * \param path of the file
+ * \throws IOError in one sentence, also for a file without faces */
+PCL_UVOL_EXPORTS Mesh
+loadMesh(const std::string& path);
+
+/** \brief Read the vertices of a .ply, .vtp, .vtkhdf, .obj, .off or .stl with all their
+ * fields, and its faces, as saveMesh() writes them; polygons become fans of triangles.
+ * Vertices of an .obj have normals where all faces name the same one at each; corners
+ * of an .stl at one place become one vertex. \param[out] triangles stay empty for a
+ * file of points \param path of the file \throws IOError in one sentence */
+PCL_UVOL_EXPORTS Dataset
+loadMesh(const std::string& path, std::vector<Triangle>& triangles);
+
+/** \brief Write a mesh as .ply, .vtp or .vtkhdf with all fields of the vertices, as
+ * .obj with their normals, or as .off or .stl, by the ending of the name. STL is
+ * written in binary and in single precision, relative to the origin of the vertices;
+ * the others hold all digits. The file appears whole or not at all. \param vertices
+ * with any fields \param path of the file \param triangles of these vertices \param
+ * options text or binary, comments \throws IOError, also for another ending */
+PCL_UVOL_EXPORTS void
+saveMesh(const std::string& path,
+         const Dataset& vertices,
+         const std::vector<Triangle>& triangles,
+         const SaveOptions& options = {});
+
+/** \brief Throw IOError unless saveMesh() knows the ending of the name and its folder
+ * can be written to.
+ * \param path as saveMesh() will get it */
+PCL_UVOL_EXPORTS void
+checkMeshPath(const std::string& path);
+
+/** \brief True for the endings of files that may hold a mesh: .ply, .vtp, .vtkhdf, and
+ * those of isMeshOnly(). \param path of a file that need not be there */
+PCL_UVOL_EXPORTS bool
+isMeshPath(const std::string& path);
+
+/** \brief True for the endings .obj, .off and .stl, of files that hold no points
+ * without triangles.
+ * \param path of a file that need not be there */
+PCL_UVOL_EXPORTS bool
+isMeshOnly(const std::string& path);
+
+/** \brief The vertices of a mesh with their normals, as points.
+ * \param mesh whose triangles are left out */
+PCL_UVOL_EXPORTS Dataset
+toDataset(const Mesh& mesh);
+
+/** \brief Values at the points of an axis-aligned grid. */
+struct PCL_UVOL_EXPORTS Volume {
+  std::array<std::size_t, 3> dims{};              ///< points per axis
+  std::array<double, 3> origin{{0.0, 0.0, 0.0}};  ///< position of point (0, 0, 0)
+  std::array<double, 3> spacing{{1.0, 1.0, 1.0}}; ///< distance of points, positive
+  std::vector<float> values;                      ///< x runs fastest, then y, then z
+  std::string name = "intensity";                 ///< of the scalar
+
+  /** \brief Trilinear interpolation; positions outside are taken to the border.
+   * \param position x, y, z in the coordinates of the volume */
+  double
+  sample(const std::array<double, 3>& position) const;
+
+  /** \brief Position of the last point. */
+  std::array<double, 3>
+  upper() const;
+};
+
+/** \brief True if loadVolume is the one to read that file: by the ending of its name
+ * (any case), for .vtk by its header as well.
+ * \param path of the file
+ * \throws IOError for a .vtk file that cannot be opened */
+PCL_UVOL_EXPORTS bool
+isVolumeFile(const std::string& path);
+
+/** \brief Read a scalar volume: .nrrd and .nhdr (raw, ascii, gzip), .mha and .mhd (raw,
+ * ascii, zipped), both with their data attached, beside them or in slices, .vti, and
+ * structured points in .vtk. Axes that descend are turned.
+ * \param path of the file
+ * \throws IOError in one sentence that names the file, also where the axes are not
+ * parallel to x, y and z */
+PCL_UVOL_EXPORTS Volume
+loadVolume(const std::string& path);
 
 } // namespace pcl_uvol

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/render/image.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <cstdint>
 #include <string>

@@ -3,24 +3,188 @@
 // point cloud, no grid, no mesh.
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/isosurface/isosurface_parameters.h>
+#include <pcl_uvol/neighbors/natural_neighbors.h>
 
 #include <Eigen/Core>
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/point_cloud.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief The side that the normals of an isosurface point to. */
+enum class Outside {
+  Lower, ///< where values are lower, as for densities (default)
+  Higher ///< where values are higher: the thesis's v = (f(x) - f(y)) (x - y)
+};
+
+/** \return The words for its values in JSON and options. */
+constexpr std::array<EnumWord<Outside>, 2>
+listWords(Outside)
+{
+  return {{{Outside::Lower, "lower"}, {Outside::Higher, "higher"}}};
+}
+
+/** \brief How isopoints are found between two samples. */
+enum class Interpolation {
+  Linear, ///< thesis 2.4: along the edge, normal along the edge
+  Fit,    ///< the zero level of a local cubic or quadratic fit (default)
+  Auto ///< IsosurfacePipeline decides for each isopoint, its default; as Fit elsewhere
+};
+
+/** \return The words for its values in JSON and options. */
+constexpr std::array<EnumWord<Interpolation>, 4>
+listWords(Interpolation)
+{
+  return {{{Interpolation::Fit, "fit"},
+           {Interpolation::Linear, "linear"},
+           {Interpolation::Auto, "auto"},
+           {Interpolation::Fit, "smooth"}}};
+}
+
+/** \brief Parameters of IsosurfaceExtraction. */
+struct PCL_UVOL_EXPORTS IsosurfaceParameters {
+  /** Any field of the cloud: `density`, `vel[1]`, `|vel|`, `|vx,vy,vz|`, see
+   * ScalarField. */
+  std::string field = "intensity";
+  /** In units of the field, at least one; their isopoints follow one another in this
+   * order. */
+  std::vector<double> isovalues;
+  Outside outside = Outside::Lower;
+  Interpolation interpolation = Interpolation::Fit;
+  /** Where neighbours are looked for: in the kd-tree (thesis 2.2), which is faster and
+   * never sees more than some tens, in a discrete Voronoi diagram (2.1), or in exact
+   * cells. */
+  NeighborSource neighbors = NeighborSource::KdTree;
+  /** Cells of the diagram along the longest side; 0: 4 samples to a cell. */
+  std::uint32_t voronoi_cells = 0;
+  AngleCriterion criterion = AngleCriterion::Kept;
+  /** Factors per axis, finite and positive: neighbours are found in the stretched
+   * space, isopoints lie in the original one. */
+  Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
+
+  /** \return The members under the names that JSON has for them. */
+  static auto
+  listMembers()
+  {
+    using Own = IsosurfaceParameters;
+    return std::make_tuple(Member{"field", &Own::field},
+                           Member{"isovalues", &Own::isovalues},
+                           Member{"outside", &Own::outside},
+                           Member{"interpolation", &Own::interpolation},
+                           Member{"neighbors", &Own::neighbors},
+                           Member{"voronoi_cells", &Own::voronoi_cells},
+                           Member{"criterion", &Own::criterion},
+                           Member{"scale", &Own::scale});
+  }
+
+  /** \return All parameters as an object of JSON. */
+  std::string
+  toJson() const;
+
+  /** \brief Parameters that the text does not name have their defaults.
+   * \param text an object of JSON, as toJson() writes it
+   * \throws InvalidArgument for an unknown name or a value of another type */
+  static IsosurfaceParameters
+  fromJson(const std::string& text);
+};
+
+/** \throws InvalidArgument without an isovalue, for one that is not finite in float and
+ * for factors that are not finite and positive
+ * \param parameters to be checked before samples are there */
+PCL_UVOL_EXPORTS void
+checkParameters(const IsosurfaceParameters& parameters);
+
+/** \brief The edge of one isopoint: two points of the input cloud and the place between
+ * them where the scalar, interpolated linearly, has the isovalue: 0 at the first, 1 at
+ * the second. A smooth isopoint lies beside it, but all fields that are carried along
+ * agree there, the scalar with its isovalue among them. */
+struct IsoEdge {
+  std::uint32_t first, second; ///< indices into the input cloud
+  float t;                     ///< in [0, 1]
+};
+
+/** \brief One edge per isopoint, in the order of the isopoints. */
+using IsoEdges = std::vector<IsoEdge>;
+
+/** \brief Leave only the isopoints, and their edges, that keep says yes to.
+ * \param isopoints of an extraction
+ * \param edges one per isopoint
+ * \param keep asked once for each isopoint
+ * \return how many went
+ * \throws InvalidArgument if sizes disagree */
+PCL_UVOL_EXPORTS std::size_t
+filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
+                IsoEdges& edges,
+                const std::function<bool(const PointIso&)>& keep);
+
+/** \brief Add to a cloud of isopoints every field of the samples' cloud that it lacks,
+ * under its own name, type and count.
+ *
+ * Floating-point fields are interpolated linearly, NaN where a sample that counts is
+ * NaN; integers, labels and packed colours come from the nearer sample.
+ * \param isopoints as many points as edges; comes out without padding fields, and so
+ * that viewOf() takes it
+ * \param threads 0 (default) = all cores
+ * \param samples that the edges join
+ * \param edges one per isopoint
+ * \throws InvalidArgument if sizes disagree or an edge points outside the samples */
+PCL_UVOL_EXPORTS void
+interpolateFields(const CloudView& samples,
+                  const IsoEdges& edges,
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads = 0);
+
+/** \brief The same for a cloud, which needs no positions.
+ * \param samples that the edges join
+ * \param edges one per isopoint
+ * \param isopoints as many points as edges
+ * \param threads 0 (default) = all cores */
+PCL_UVOL_EXPORTS void
+interpolateFields(const pcl::PCLPointCloud2& samples,
+                  const IsoEdges& edges,
+                  pcl::PCLPointCloud2& isopoints,
+                  unsigned threads = 0);
+
+/** \brief The same for points that stand for one point of another cloud each: the
+ * fields that they lack are copied.
+ * \param sources index of the other point, one per point
+ * \param cloud that has the fields
+ * \param points get them
+ * \param threads 0 (default) = all cores
+ * \throws InvalidArgument as interpolateFields */
+PCL_UVOL_EXPORTS void
+copyFields(const pcl::PCLPointCloud2& cloud,
+           const std::vector<std::uint32_t>& sources,
+           pcl::PCLPointCloud2& points,
+           unsigned threads = 0);
+
+/** \brief Warn of every field of the samples that gives way to one of the isopoints, a
+ * column called error, say, before fields are carried along. Coordinates and normals
+ * are meant to.
+ * \param samples fields of the samples
+ * \param isopoints fields of the isopoints
+ * \param report gets the warnings */
+PCL_UVOL_EXPORTS void
+warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
+                     const std::vector<pcl::PCLPointField>& isopoints,
+                     Report& report);
 
 class NeighborCandidates;
 class SampleSet;

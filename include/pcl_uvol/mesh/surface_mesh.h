@@ -3,14 +3,13 @@
 // the cells of the kd-tree: no grid, no Delaunay tetrahedra.
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/common/stage.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
-#include <pcl_uvol/isosurface/isosurface_parameters.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 
 #include <pcl/PolygonMesh.h>
 

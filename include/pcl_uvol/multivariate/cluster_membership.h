@@ -3,7 +3,7 @@
 // the cluster from the rest (thesis 2.6).
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>

@@ -3,7 +3,7 @@
 // HDBSCAN* of Campello, Moulavi and Sander 2013.
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>

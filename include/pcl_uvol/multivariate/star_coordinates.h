@@ -4,7 +4,7 @@
 // (thesis 2.6; Linsen, Long, Rosenthal, Rosswog 2008).
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>

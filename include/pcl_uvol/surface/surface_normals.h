@@ -3,7 +3,7 @@
 // neighbours, oriented by an outside vector (thesis 4.1); never by a spanning tree.
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>

@@ -3,9 +3,9 @@
 // 2.22 to 2.24).
 #pragma once
 
-#include <pcl_uvol/common/cloud_stage.h>
+#include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/mesh.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>
 

@@ -6,9 +6,8 @@
 #include "charts/picture_parameters.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <array>
 #include <string>

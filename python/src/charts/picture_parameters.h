@@ -4,7 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/parameters.h>
-#include <pcl_uvol/render/image_space/settings.h>
+#include <pcl_uvol/render/image_space/backend.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <Eigen/Core>

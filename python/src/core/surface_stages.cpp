@@ -6,7 +6,7 @@
 #include "core/run_stage.h"
 #include "pipeline/zero_level.h"
 #include "render/gaussian_splats.h"
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/surface/splat_generation.h>
 #include <pcl_uvol/surface/surface_normals.h>

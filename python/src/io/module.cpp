@@ -6,8 +6,6 @@
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/io/image_file.h>
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/io/volume.h>
 
 #include <array>
 #include <pybind11/stl.h>

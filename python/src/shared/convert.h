@@ -3,8 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
-#include <pcl_uvol/common/mesh.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 // Long work for Python: without the lock of the interpreter, with progress and Ctrl-C.
 #pragma once
 
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <functional>
 #include <pybind11/pybind11.h>

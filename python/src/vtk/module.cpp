@@ -3,8 +3,8 @@
 #include "shared/convert.h"
 #include "shared/interruptible.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/io/mesh.h>
-#include <pcl_uvol/isosurface/iso_edges.h>
+#include <pcl_uvol/io/dataset.h>
+#include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
 #include <pybind11/stl.h>

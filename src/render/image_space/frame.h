@@ -5,9 +5,8 @@
 
 #include "render/surface_cloud.h"
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/render/camera.h>
 #include <pcl_uvol/render/image_space/backend.h>
-#include <pcl_uvol/render/image_space/settings.h>
+#include <pcl_uvol/render/renderer.h>
 
 namespace pcl_uvol {
 

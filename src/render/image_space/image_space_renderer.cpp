@@ -7,7 +7,6 @@
 #include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
-#include <pcl_uvol/render/image_space/prepared_surface.h>
 
 #include <algorithm>
 #include <cmath>

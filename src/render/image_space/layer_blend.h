@@ -3,8 +3,8 @@
 #pragma once
 
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/render/image.h>
-#include <pcl_uvol/render/lighting.h>
+#include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <vector>
 

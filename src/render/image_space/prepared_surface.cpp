@@ -2,7 +2,7 @@
 #include "render/surface_cloud.h"
 #include "surface/footprints.h"
 #include <pcl_uvol/common/cloud_view.h>
-#include <pcl_uvol/render/image_space/prepared_surface.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <numeric>
 #include <utility>

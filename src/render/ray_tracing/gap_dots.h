@@ -4,7 +4,7 @@
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/render/ray_tracing/scene.h>
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <cstdint>
 #include <vector>

@@ -5,9 +5,9 @@
 
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
-#include <pcl_uvol/render/ray_tracing/scene.h>
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <Eigen/Core>

@@ -7,9 +7,9 @@
 
 #include "render/ray_tracing/splat_tree_kernel.h"
 #include <pcl_uvol/common/point_types.h>
-#include <pcl_uvol/common/report.h>
-#include <pcl_uvol/render/camera.h>
+#include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/color_map.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
 #include <pcl/point_cloud.h>

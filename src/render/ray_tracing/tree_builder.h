@@ -4,7 +4,7 @@
 #pragma once
 
 #include "render/ray_tracing/splat_tree_kernel.h"
-#include <pcl_uvol/common/report.h>
+#include <pcl_uvol/common/stage.h>
 
 #include <cstdint>
 #include <vector>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/ray_tracing/splat_tree.h"
-#include <pcl_uvol/render/camera.h>
-#include <pcl_uvol/render/ray_tracing/scene.h>
+#include <pcl_uvol/render/ray_tracing/ray_tracer.h>
+#include <pcl_uvol/render/renderer.h>
 
 #include <Eigen/Core>
 

@@ -2,7 +2,7 @@
 // Surfaces that are prepared apart from the renderer that draws them.
 #include "render/renderer_setup.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/image_space/prepared_surface.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
