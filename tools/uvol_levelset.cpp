@@ -7,6 +7,7 @@
 #include "expressions/memory_need.h"
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
+#include "levelset/phi_cloud.h"
 #include "pipeline/zero_level.h"
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "isosurface/iso_edges.h"
+
 #include "common/parallel.h"
 #include "common/records.h"
 #include "common/scalar_field.h"

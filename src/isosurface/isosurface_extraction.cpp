@@ -3,6 +3,7 @@
 #include "common/number_range.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
+#include "isosurface/iso_edges.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/piece_isopoints.h"
 #include "neighbors/sample_values.h"

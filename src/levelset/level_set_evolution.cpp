@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/parameter_json.h"
-#include "common/records.h"
-#include <pcl_uvol/common/exceptions.h>
+#include "isosurface/iso_edges.h"
+#include "levelset/phi_cloud.h"
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
 
 #include <pcl/common/io.h>
-
-#include <cstring>
 
 namespace pcl_uvol {
 
@@ -19,7 +17,7 @@ detail::addPhi(const CloudView& cloud,
                Report& report)
 {
   const StepTimer timer(report, "fields");
-  pcl::PCLPointCloud2 points = cloudOfPhi(cloud, phi);
+  pcl::PCLPointCloud2 points = makePhiCloud(cloud, phi);
   if (indices.size() != cloud.count) {
     pcl::PCLPointCloud2 chosen;
     pcl::copyPointCloud(points, indices, chosen);
@@ -46,27 +44,6 @@ LevelSetParameters
 LevelSetParameters::fromJson(const std::string& text)
 {
   return readJson<LevelSetParameters>(text);
-}
-
-pcl::PCLPointCloud2
-cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi)
-{
-  if (phi.size() != cloud.count)
-    throw InvalidArgument(std::to_string(phi.size()) +
-                          " values of phi are not one for "
-                          "each of " +
-                          std::to_string(cloud.count) + " points.");
-  Fields fields;
-  for (const char* const name : {"x", "y", "z", "phi"})
-    appendField(fields, name, pcl::PCLPointField::FLOAT32);
-  pcl::PCLPointCloud2 result = makeRecords(std::move(fields), phi.size());
-  result.is_dense = 0;
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    std::uint8_t* const point = result.data.data() + i * result.point_step;
-    std::memcpy(point, cloud.xyz(i), 3 * sizeof(float));
-    std::memcpy(point + 3 * sizeof(float), &phi[i], sizeof(float));
-  }
-  return result;
 }
 
 } // namespace pcl_uvol

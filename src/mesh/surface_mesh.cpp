@@ -2,6 +2,7 @@
 #include "common/number_range.h"
 #include "common/parameter_json.h"
 #include "common/scalar_field.h"
+#include "isosurface/iso_edges.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/piece_isopoints.h"
 #include "mesh/band_surface.h"

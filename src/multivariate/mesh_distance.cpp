@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "multivariate/mesh_distance.h"
 
+#include "neighbors/site_distances.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -192,7 +193,7 @@ distanceToMesh(const GridShape& shape,
     if (marks[cell] != 0)
       sites.push_back(shape.cellOf(cell));
   FeatureTransform transform;
-  auto distances = siteDistances(
+  auto distances = computeSiteDistances(
       shape, sites, transform.find(shape, sites, threads, report), threads);
   const StepTimer timer(report, "outside");
   const std::vector<std::uint8_t> outside = findOutside(shape, marks);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "neighbors/site_distances.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
@@ -183,19 +184,9 @@ VoronoiGrid::VoronoiGrid(const GridShape& shape,
 }
 
 std::vector<float>
-siteDistances(const GridShape& shape,
-              const std::vector<GridCell>& sites,
-              const std::vector<std::uint32_t>& nearest,
-              unsigned threads)
+VoronoiGrid::computeDistances(unsigned threads) const
 {
-  std::vector<float> distances(nearest.size());
-  parallelBlocks(nearest.size(), shape.cells[0], threads, [&](auto begin, auto end) {
-    GridCell cell = shape.cellOf(begin); // the first one of a row
-    for (std::size_t index = begin; index < end; ++index, ++cell[0])
-      distances[index] =
-          static_cast<float>(shape.distance(cell, sites[nearest[index]]));
-  });
-  return distances;
+  return computeSiteDistances(shape_, sites_, nearest_, threads);
 }
 
 NeighborGraph

@@ -5,6 +5,7 @@
 #include "distributed/fetch_points.h"
 #include "isosurface/edge_ends.h"
 #include "pipeline/extract_from_ranks.h"
+#include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>

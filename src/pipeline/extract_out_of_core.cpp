@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
+#include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/common/exceptions.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints between samples some of which kriging has predicted.
 #include "common/scalar_field.h"
+#include "isosurface/iso_edges.h"
 #include "pipeline/gap_filling.h"
 
 #include <algorithm>

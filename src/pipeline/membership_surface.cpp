@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/membership_surface.h"
 
+#include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
 #include <utility>

@@ -2,6 +2,7 @@
 #include "pipeline/memory_need.h"
 
 #include "levelset/memory_need.h"
+#include "levelset/phi_cloud.h"
 #include "neighbors/exact_neighbors.h"
 #include "pipeline/gap_filling.h"
 #include "surface/memory_need.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/zero_level.h"
 
+#include "levelset/phi_cloud.h"
+#include "pipeline/finish_isosurface.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
@@ -58,7 +60,7 @@ meshZeroLevel(const CloudView& samples,
               unsigned threads,
               Report& report)
 {
-  const auto cloud = cloudOfPhi(samples, phi);
+  const auto cloud = makePhiCloud(samples, phi);
   const CloudView view = viewOf(cloud);
   pcl::Indices all(view.count);
   std::iota(all.begin(), all.end(), 0);
@@ -81,7 +83,7 @@ extractZeroLevel(const CloudView& samples,
                  IsoEdges& edges,
                  Report& report)
 {
-  const auto cloud = cloudOfPhi(samples, phi);
+  const auto cloud = makePhiCloud(samples, phi);
   IsosurfaceExtraction<pcl::PCLPointCloud2> extraction;
   extraction.setInputCloud(pcl::PCLPointCloud2::ConstPtr(&cloud, [](const void*) {}));
   extraction.setParameters(parameters);

@@ -13,6 +13,27 @@
 
 namespace pcl_uvol {
 
+/** \brief The zero level of a level-set function of samples.
+ * \param phi one per point of the cloud, see LevelSetEvolution
+ * \param deviations one per point, see LevelSetEvolution::getDeviations(); without any,
+ * errors are NaN: fits to phi know nothing of what became of the samples' noise
+ * \param parameters of the isosurface that phi stands for; isopoints have its first
+ * isovalue
+ * \param report gets the counts and times of IsosurfaceExtraction
+ * \param samples as LevelSetEvolution got them
+ * \param threads 0: all cores
+ * \param isopoints what is found
+ * \param edges one per isopoint */
+PCL_UVOL_EXPORTS void
+extractZeroLevel(const CloudView& samples,
+                 const std::vector<float>& phi,
+                 const std::vector<float>& deviations,
+                 const IsosurfaceParameters& parameters,
+                 unsigned threads,
+                 pcl::PointCloud<PointIso>& isopoints,
+                 IsoEdges& edges,
+                 Report& report);
+
 /** \brief As extractZeroLevel(), a mesh. */
 SurfaceTriangles
 meshZeroLevel(const CloudView& samples,

@@ -3,6 +3,7 @@
 
 #include "common/records.h"
 #include "render/point_colors.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/surface/splat_generation.h>
 

@@ -2,6 +2,7 @@
 #include "render/stretch_surface.h"
 
 #include "common/scalar_field.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/splat_generation.h>

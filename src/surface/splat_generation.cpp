@@ -2,20 +2,15 @@
 #include "common/parallel.h"
 #include "common/parameter_json.h"
 #include "common/random.h"
-#include "common/scalar_field.h"
 #include "surface/footprints.h"
-#include "surface/splat_fields.h"
 #include "surface/splat_growth.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/surface/splat_generation.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace pcl_uvol {
 
@@ -30,10 +25,6 @@ constexpr std::size_t fewest_at_once = 32, at_once_part = 4;
 constexpr std::size_t blocks_at_once = 16, largest_block = 256;
 /** Splats of a block whose neighbours are looked up in common. */
 constexpr std::size_t run_splats = 16;
-
-/** In parts of the diagonal of all points: somewhat more than half a pixel of a picture
- * of 1000 of them. */
-constexpr float dot_radius = 7e-4f;
 
 /** Extents, in the samples' unit, whose squares, and those of the spacings, are numbers
  * in float. */
@@ -213,37 +204,6 @@ toInput(PointSplat splat, const LengthUnit& unit)
   return splat;
 }
 
-/** \param count splats that there were before some were left out */
-void
-warnOfBadSplats(std::size_t count, const Splats& splats, Report& report)
-{
-  const std::size_t bad = count - splats.cloud.size();
-  if (bad == 0)
-    return;
-  report.setCount("bad_splats", bad);
-  std::ostringstream warning;
-  warning << bad << " of " << count
-          << " splats are left out: they are not finite, have no normal, tangent or "
-             "radius, or are larger or farther away than "
-          << most_splat_reach << '.';
-  report.warnings.push_back(warning.str());
-}
-
-/** Those that rays can meet: splats are generated in any unit, and drawn in that of the
- * input. */
-Splats
-takeDrawable(Splats&& splats, Report& report)
-{
-  Splats drawable;
-  for (std::size_t i = 0; i < splats.cloud.size(); ++i)
-    if (isDrawable(splats.cloud[i])) {
-      drawable.cloud.push_back(splats.cloud[i]);
-      drawable.sources.push_back(splats.sources[i]);
-    }
-  warnOfBadSplats(splats.cloud.size(), drawable, report);
-  return drawable;
-}
-
 } // namespace
 
 Splats
@@ -289,165 +249,6 @@ detail::generateSplats(const CloudView& cloud,
   }
   warnOfBadSplats(accepted.size(), splats, report);
   return splats;
-}
-
-bool
-hasSplats(const CloudView& cloud)
-{
-  return std::all_of(splat_fields.begin(), splat_fields.end(), [&](const char* name) {
-    return findField(cloud.fields, name) != nullptr;
-  });
-}
-
-bool
-isDrawable(const PointSplat& splat)
-{
-  const auto is_within = [](float value) {
-    return std::abs(value) <= most_splat_reach;
-  };
-  return splat.getVector3fMap().unaryExpr(is_within).all() &&
-         splat.getNormalVector3fMap().allFinite() &&
-         !splat.getNormalVector3fMap().isZero(0.0f) && splat.radius > 0.0f &&
-         is_within(splat.radius);
-}
-
-Splats
-readSplats(const CloudView& cloud, Report& report)
-{
-  std::vector<ScalarField> fields;
-  for (const char* name : splat_fields)
-    fields.emplace_back(cloud.fields, name);
-  Splats splats;
-  for (std::uint32_t i = 0; i < cloud.count; ++i) {
-    std::array<float, splat_fields.size()> v;
-    for (std::size_t f = 0; f < fields.size(); ++f)
-      v[f] = static_cast<float>(fields[f].read(cloud.point(i)));
-    PointSplat splat;
-    splat.getVector3fMap() = Eigen::Map<const Eigen::Vector3f>(&v[0]);
-    splat.getNormalVector3fMap() =
-        Eigen::Map<const Eigen::Vector3f>(&v[3]).stableNormalized();
-    splat.getTangentVector3fMap() =
-        Eigen::Map<const Eigen::Vector3f>(&v[6]).stableNormalized();
-    splat.radius = v[9];
-    splat.error = v[10];
-    splat.tilt_u = v[11];
-    splat.tilt_v = v[12];
-    splat.slope_u = v[13];
-    splat.slope_v = v[14];
-    // Perpendicular to the normal, as the fields of normals take it for.
-    splat.getTangentVector3fMap() =
-        (splat.getTangentVector3fMap() -
-         splat.getTangentVector3fMap().dot(splat.getNormalVector3fMap()) *
-             splat.getNormalVector3fMap())
-            .stableNormalized();
-    const bool is_finite = std::all_of(
-        v.begin(), v.end(), [](float value) { return std::isfinite(value); });
-    if (!is_finite || !isDrawable(splat) || splat.getTangentVector3fMap().isZero())
-      continue;
-    splats.cloud.push_back(splat);
-    splats.sources.push_back(i);
-  }
-  report.count("splats", splats.cloud.size());
-  report.count("bad_splats", 0);
-  warnOfBadSplats(cloud.count, splats, report);
-  return splats;
-}
-
-namespace {
-
-float
-findDotRadius(const CloudView& cloud)
-{
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < cloud.count; ++i)
-    if (const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i)); place.allFinite())
-      box.extend(place);
-  return dot_radius * box.diagonal().norm();
-}
-
-/** A disc that a picture shows as a point. \param radius of it */
-PointSplat
-makeDot(const CloudView& cloud,
-        const OrientedPoints& points,
-        std::size_t sample,
-        float radius)
-{
-  PointSplat dot;
-  const std::uint32_t index = points.samples->getInputIndex(sample);
-  dot.getVector3fMap() = Eigen::Map<const Eigen::Vector3f>(cloud.xyz(index));
-  float normal[3];
-  unpackNormal(points.normals[sample], normal);
-  dot.getNormalVector3fMap() = Eigen::Map<const Eigen::Vector3f>(normal).normalized();
-  dot.getTangentVector3fMap() = dot.getNormalVector3fMap().unitOrthogonal();
-  dot.radius = radius;
-  return dot;
-}
-
-/** Splats for points to be drawn: isopoints in gaps of the sampling become dots. */
-Splats
-coverForPicture(const CloudView& cloud,
-                const SplatParameters& parameters,
-                unsigned threads,
-                Report& report)
-{
-  const std::vector<std::uint8_t> bridged = findBridged(cloud);
-  std::vector<std::uint32_t> covered, dots;
-  for (std::uint32_t i = 0; i < cloud.count; ++i)
-    (bridged.empty() || !bridged[i] ? covered : dots).push_back(i);
-  Splats splats;
-  if (!covered.empty() || dots.empty())
-    splats = detail::generateSplats(cloud, covered, parameters, threads, report);
-  if (dots.empty())
-    return splats;
-  Report own; // the points are counted with the others
-  const OrientedPoints points = orientPoints(cloud, dots, threads, own);
-  const float radius = findDotRadius(cloud);
-  for (std::size_t i = 0; i < points.normals.size(); ++i) {
-    splats.cloud.push_back(makeDot(cloud, points, i, radius));
-    splats.sources.push_back(points.samples->getInputIndex(i));
-  }
-  report.count("bridged", dots.size());
-  return splats;
-}
-
-/** Splats of a cloud to be drawn: those of isopoints in gaps become dots, as without
- * splats. */
-Splats
-readForPicture(const CloudView& cloud, Report& report)
-{
-  Splats splats = readSplats(cloud, report);
-  const std::vector<std::uint8_t> bridged = findBridged(cloud);
-  if (bridged.empty())
-    return splats;
-  const float radius = findDotRadius(cloud);
-  std::size_t dots = 0;
-  for (std::size_t i = 0; i < splats.cloud.size(); ++i) {
-    if (!bridged[splats.sources[i]])
-      continue;
-    PointSplat& splat = splats.cloud[i];
-    splat.radius = radius;
-    splat.error = splat.tilt_u = splat.tilt_v = splat.slope_u = splat.slope_v = 0.0f;
-    ++dots;
-  }
-  report.count("bridged", dots);
-  return splats;
-}
-
-} // namespace
-
-Splats
-findSplats(const CloudView& cloud,
-           const SplatParameters& parameters,
-           bool is_asked_for,
-           unsigned threads,
-           Report& report)
-{
-  if (!hasSplats(cloud))
-    return takeDrawable(coverForPicture(cloud, parameters, threads, report), report);
-  if (is_asked_for)
-    report.warnings.push_back("It holds splats, which are drawn as they are: "
-                              "delta and lambda are not used.");
-  return readForPicture(cloud, report);
 }
 
 std::string

@@ -3,6 +3,7 @@
 // 2.6), by the exact transform and by cones on the GL depth test.
 #include "common/random.h"
 #include "gl/conic_sections.h"
+#include "neighbors/site_distances.h"
 
 #include <benchmark/benchmark.h>
 
@@ -70,9 +71,9 @@ cones(benchmark::State& state, const char* context, unsigned triangles)
     nearest = sections.find(shape, sites, 0, report);
   }
   Report report;
-  const auto exact = pcl_uvol::siteDistances(
+  const auto exact = pcl_uvol::computeSiteDistances(
       shape, sites, FeatureTransform().find(shape, sites, 0, report), 0);
-  const auto found = pcl_uvol::siteDistances(shape, sites, nearest, 0);
+  const auto found = pcl_uvol::computeSiteDistances(shape, sites, nearest, 0);
   double hits = 0.0, excess = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     hits += found[i] == exact[i] ? 1.0 : 0.0;

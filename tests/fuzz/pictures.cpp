@@ -3,6 +3,7 @@
 #include "promises.h"
 #include "random_cloud.h"
 #include "surface/splat_fields.h"
+#include "surface/splat_input.h"
 #include "targets.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>

@@ -2,6 +2,7 @@
 // Every field of the samples on the isopoints: numbers interpolated, names of things
 // copied.
 #include "common/scalar_field.h"
+#include "isosurface/iso_edges.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 

@@ -2,6 +2,7 @@
 // Level sets on scattered samples (thesis chapter 3): the laws they obey, the noise
 // they take away, and what they refuse.
 #include "levelset/level_set_setup.h"
+#include "levelset/phi_cloud.h"
 #include "support/noisy_shapes.h"
 #include "support/statistics.h"
 #include <pcl_uvol/common/exceptions.h>
@@ -433,13 +434,13 @@ TEST(LevelSetEvolution, CloudOfPhi)
   Cloud points;
   for (const float x : {1.0f, 2.0f})
     points.emplace_back(x, 5.0f, -x, 0.0f);
-  const auto cloud = pcl_uvol::cloudOfPhi(pcl_uvol::viewOf(points), {0.25f, -4.0f});
+  const auto cloud = pcl_uvol::makePhiCloud(pcl_uvol::viewOf(points), {0.25f, -4.0f});
   const auto view = pcl_uvol::viewOf(cloud);
   ASSERT_EQ(2u, view.count);
   EXPECT_EQ(-2.0f, view.xyz(1)[2]);
   EXPECT_EQ(-4.0f, view.xyz(1)[3]); // phi follows
   EXPECT_EQ("phi", view.fields.back().name);
-  EXPECT_THROW(pcl_uvol::cloudOfPhi(view, {1.0f}), InvalidArgument);
+  EXPECT_THROW(pcl_uvol::makePhiCloud(view, {1.0f}), InvalidArgument);
 }
 
 } // namespace

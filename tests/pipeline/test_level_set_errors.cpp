@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors after smoothing: of where the surface is, not of how well fits follow phi.
 #include "pipeline/run_pipeline.h"
+#include "pipeline/zero_level.h"
 #include "support/noisy_shapes.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
 

@@ -4,6 +4,7 @@
 #include "render/tracer_setup.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/splat_generation.h>
 

@@ -2,6 +2,7 @@
 // What SplatGeneration does with input of every kind, good or bad, and splats that are
 // read again.
 #include "support/environment.h"
+#include "surface/splat_input.h"
 #include "surface/splat_setup.h"
 #include <pcl_uvol/common/exceptions.h>
 

@@ -5,6 +5,7 @@
 #include "render/point_colors.h"
 #include "support/environment.h"
 #include "support/surfaces.h"
+#include "surface/splat_input.h"
 #include "tool_test.h"
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/surface/splat_generation.h>

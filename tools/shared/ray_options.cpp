@@ -4,6 +4,7 @@
 #include "charts/picture_file.h"
 #include "render/point_colors.h"
 #include "render/ray_tracing/gap_dots.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cameras of the window, what it saves, and files that it opens.
 #include "shared/ray_options.h"
+#include "surface/splat_input.h"
 #include "viewer/keys.h"
 #include "viewer/viewer_window.h"
 #include <pcl_uvol/io/image_file.h>

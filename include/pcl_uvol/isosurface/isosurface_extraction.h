@@ -18,7 +18,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -123,17 +122,6 @@ struct IsoEdge {
 /** \brief One edge per isopoint, in the order of the isopoints. */
 using IsoEdges = std::vector<IsoEdge>;
 
-/** \brief Leave only the isopoints, and their edges, that keep says yes to.
- * \param isopoints of an extraction
- * \param edges one per isopoint
- * \param keep asked once for each isopoint
- * \return how many went
- * \throws InvalidArgument if sizes disagree */
-PCL_UVOL_EXPORTS std::size_t
-filterIsopoints(pcl::PointCloud<PointIso>& isopoints,
-                IsoEdges& edges,
-                const std::function<bool(const PointIso&)>& keep);
-
 /** \brief Add to a cloud of isopoints every field of the samples' cloud that it lacks,
  * under its own name, type and count.
  *
@@ -174,17 +162,6 @@ copyFields(const pcl::PCLPointCloud2& cloud,
            const std::vector<std::uint32_t>& sources,
            pcl::PCLPointCloud2& points,
            unsigned threads = 0);
-
-/** \brief Warn of every field of the samples that gives way to one of the isopoints, a
- * column called error, say, before fields are carried along. Coordinates and normals
- * are meant to.
- * \param samples fields of the samples
- * \param isopoints fields of the isopoints
- * \param report gets the warnings */
-PCL_UVOL_EXPORTS void
-warnOfReplacedFields(const std::vector<pcl::PCLPointField>& samples,
-                     const std::vector<pcl::PCLPointField>& isopoints,
-                     Report& report);
 
 class NeighborCandidates;
 class SampleSet;

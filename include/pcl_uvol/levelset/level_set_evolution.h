@@ -47,16 +47,6 @@ addPhi(const CloudView& cloud,
 
 } // namespace detail
 
-/** \brief Bytes of a point of cloudOfPhi(). */
-constexpr std::size_t phi_point_bytes = 4 * sizeof(float);
-
-/** \brief A cloud of the points' coordinates and the field `phi`, of which
- * IsosurfaceExtraction makes the zero level. \param phi one per point
- * \param cloud of the samples
- * \throws InvalidArgument for another number */
-PCL_UVOL_EXPORTS pcl::PCLPointCloud2
-cloudOfPhi(const CloudView& cloud, const std::vector<float>& phi);
-
 /** \brief A smooth level-set function of a scalar field at scattered points.
  *
  * Evolves thesis (3.7), d phi / dt = (mu (f - f_iso - phi) + (1 - mu) kappa) |grad

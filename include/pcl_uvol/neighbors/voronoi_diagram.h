@@ -144,18 +144,6 @@ public:
        Report& report) override;
 };
 
-/** \brief Per cell the distance to its site, between the centres of cells, in units of
- * the coordinates.
- * \param nearest site of every cell, none of them no_site
- * \param shape the grid
- * \param sites cells, in the order of their numbers
- * \param threads 0: all cores */
-PCL_UVOL_EXPORTS std::vector<float>
-siteDistances(const GridShape& shape,
-              const std::vector<GridCell>& sites,
-              const std::vector<std::uint32_t>& nearest,
-              unsigned threads);
-
 /** \brief The discrete Voronoi diagram of samples (Definition 2.2): sites are the cells
  * that hold samples. Memory: 4 bytes per cell and 8 per sample. */
 class PCL_UVOL_EXPORTS VoronoiGrid {
@@ -207,13 +195,11 @@ public:
     return nearest_;
   }
 
-  /** \brief The distance field: siteDistances of the diagram.
+  /** \brief The distance field: per cell the distance to its site, between the centres
+   * of cells, in units of the coordinates.
    * \param threads 0: all cores */
   std::vector<float>
-  computeDistances(unsigned threads) const
-  {
-    return siteDistances(shape_, sites_, nearest_, threads);
-  }
+  computeDistances(unsigned threads) const;
 
   /** \brief Sites whose Voronoi regions share a point, cell against cell: a row per
    * site, ascending, without the site itself.

@@ -400,44 +400,6 @@ private:
   const detail::FilledGaps* gaps_ = nullptr; ///< of the input, which has them filled
 };
 
-/** \brief The second half of the way, for isopoints that were extracted elsewhere, out
- * of core or by another process: normals, filters, fields and warnings.
- * \param samples between which the edges lie; with a box that repeats they count from
- * its low corner, and isopoints outside of it are left out
- * \param parameters with the field and the scale that were taken
- * \param report continued
- * \param isopoints that were extracted
- * \param edges one per isopoint
- * \param threads 0: all cores */
-PCL_UVOL_EXPORTS IsosurfaceResult
-finishIsosurface(const Dataset& samples,
-                 pcl::PointCloud<PointIso>&& isopoints,
-                 IsoEdges&& edges,
-                 const IsosurfacePipelineParameters& parameters,
-                 unsigned threads,
-                 Report&& report);
-
-/** \brief The zero level of a level-set function of samples.
- * \param phi one per point of the cloud, see LevelSetEvolution
- * \param deviations one per point, see LevelSetEvolution::getDeviations(); without any,
- * errors are NaN: fits to phi know nothing of what became of the samples' noise
- * \param parameters of the isosurface that phi stands for; isopoints have its first
- * isovalue
- * \param report gets the counts and times of IsosurfaceExtraction
- * \param samples as LevelSetEvolution got them
- * \param threads 0: all cores
- * \param isopoints what is found
- * \param edges one per isopoint */
-PCL_UVOL_EXPORTS void
-extractZeroLevel(const CloudView& samples,
-                 const std::vector<float>& phi,
-                 const std::vector<float>& deviations,
-                 const IsosurfaceParameters& parameters,
-                 unsigned threads,
-                 pcl::PointCloud<PointIso>& isopoints,
-                 IsoEdges& edges,
-                 Report& report);
-
 /** \brief Extraction, filters and fields in one call, which all processes make.
  *
  * \code

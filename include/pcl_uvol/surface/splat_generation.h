@@ -70,44 +70,6 @@ generateSplats(const CloudView& cloud,
 
 } // namespace detail
 
-/** \brief True if a cloud has the fields of splats.
- * \param cloud whose fields are looked at */
-PCL_UVOL_EXPORTS bool
-hasSplats(const CloudView& cloud);
-
-/** \brief The farthest coordinate and the largest radius of splats: float holds the
- * products of lengths that such coordinates have between them. */
-constexpr float most_splat_reach = 1e18f;
-
-/** \brief True for a splat that rays can meet: it is finite, has a normal and a radius
- * above 0, and lies within most_splat_reach.
- * \param splat of a cloud */
-PCL_UVOL_EXPORTS bool
-isDrawable(const PointSplat& splat);
-
-/** \brief The splats that a cloud holds; those that are not drawable, or without a
- * tangent, are left out, counted as "bad_splats" and named in a warning.
- * \param cloud with the fields of PointSplat
- * \param report gets the count and the warning */
-PCL_UVOL_EXPORTS Splats
-readSplats(const CloudView& cloud, Report& report);
-
-/** \brief The usable splats that a cloud holds, which may be none, else those generated
- * for all its points; isopoints that bridge a gap become dots, a pixel in size in a
- * picture of all points of 1000 by 1000 pixels.
- * \param is_asked_for the user chose parameters: a warning tells where they go unused
- * \param cloud with splats, or points of a surface
- * \param parameters of splats that are generated
- * \param threads 0: all cores
- * \param report gets counts, times and warnings
- * \throws InvalidArgument as SplatGeneration::compute */
-PCL_UVOL_EXPORTS Splats
-findSplats(const CloudView& cloud,
-           const SplatParameters& parameters,
-           bool is_asked_for,
-           unsigned threads,
-           Report& report);
-
 /** \brief Covers a surface with splats.
  *
  * \code

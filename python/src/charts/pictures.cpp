@@ -11,6 +11,7 @@
 #include "render/stretch_surface.h"
 #include "shared/convert.h"
 #include "shared/interruptible.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 

@@ -3,6 +3,7 @@
 #include "render/lighting.h"
 #include "render/ray_tracing/ray_shader.h"
 #include "render/ray_tracing/world.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 #include <pcl_uvol/surface/splat_generation.h>

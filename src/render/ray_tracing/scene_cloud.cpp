@@ -3,6 +3,7 @@
 
 #include "common/printable.h"
 #include "render/point_colors.h"
+#include "surface/splat_input.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From isopoints that were extracted elsewhere to a surface with all fields.
+#pragma once
+
+#include <pcl_uvol/pipeline/isosurface_pipeline.h>
+
+#include <pcl/point_cloud.h>
+
+namespace pcl_uvol {
+
+/** \brief The second half of the way, for isopoints that were extracted elsewhere, out
+ * of core or by another process: normals, filters, fields and warnings.
+ * \param samples between which the edges lie; with a box that repeats they count from
+ * its low corner, and isopoints outside of it are left out
+ * \param parameters with the field and the scale that were taken
+ * \param report continued
+ * \param isopoints that were extracted
+ * \param edges one per isopoint
+ * \param threads 0: all cores */
+IsosurfaceResult
+finishIsosurface(const Dataset& samples,
+                 pcl::PointCloud<PointIso>&& isopoints,
+                 IsoEdges&& edges,
+                 const IsosurfacePipelineParameters& parameters,
+                 unsigned threads,
+                 Report&& report);
+
+} // namespace pcl_uvol
