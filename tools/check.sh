@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that go beyond the tests, on Debian 12; prints what each ran and how long it took.
 # usage: check.sh [STEP...], by default all in this order:
-#   format     clang-format has nothing to change
+#   format     clang-format has nothing to change, and tags of Doxygen begin their lines
 #   layers     includes go downwards only
 #   tidy       clang-tidy finds nothing in any source of the release preset
 #   asan tsan  every test passes under the sanitizers of that preset
@@ -31,8 +31,13 @@ once() { # NAME COMMAND...: runs the command unless it passed on these files
 }
 
 check_format() {
-  bash tools/install_dependencies.sh clang-format &&
-    git ls-files -z '*.h' '*.hpp' '*.cpp' | xargs -0 clang-format --dry-run -Werror
+  bash tools/install_dependencies.sh clang-format || return
+  git ls-files -z '*.h' '*.hpp' '*.cpp' | xargs -0 clang-format --dry-run -Werror || return
+  # It joins lines of comments, tags of Doxygen among them.
+  if git grep -nE '[^ */].*\s\\(brief|t?param|return|throws|copydoc)\b' -- '*.h' '*.hpp' '*.cpp'; then
+    echo "check.sh: a tag of Doxygen begins its line" >&2
+    return 1
+  fi
 }
 
 tidy_file() { # FILE FINGERPRINT_OF_HEADERS

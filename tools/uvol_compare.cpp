@@ -55,7 +55,8 @@ measure(const Surface& from, const Surface& to, unsigned threads)
       {from.vertices, from.triangles}, {to.vertices, to.triangles}, threads);
 }
 
-/** The distances one way. \param name as in "a to b" */
+/** The distances one way.
+ * \param name as in "a to b" */
 void
 describe(const SurfaceDistances& distances, const std::string& name, Facts& facts)
 {

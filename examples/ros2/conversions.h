@@ -39,7 +39,8 @@ toPcl(const Message& message)
   return cloud;
 }
 
-/** \brief The other way round. \param header of the samples */
+/** \brief The other way round.
+ * \param header of the samples */
 template <typename Message, typename Header>
 void
 fromPcl(const pcl::PCLPointCloud2& cloud, const Header& header, Message& message)

@@ -14,7 +14,8 @@ namespace pcl_uvol {
  * listens can end it: some twenty times a second at most. */
 class ProgressReminder {
 public:
-  /** \param progress empty: nobody listens \param step its name */
+  /** \param progress empty: nobody listens
+   * \param step its name */
   ProgressReminder(const ProgressCallback& progress, std::string step)
       : progress_(progress)
       , step_(std::move(step))

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
-/** Of the largest singular value: a smaller one leaves its direction without length. */
+/** A singular value below that part of the largest one leaves its direction without
+ * length. */
 constexpr double least_singular_value = 1e-12;
 
 /** Sine and cosine of an angle in degrees, exact where it is right. */

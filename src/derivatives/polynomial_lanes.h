@@ -111,7 +111,8 @@ evaluateTerms(const Lanes& x, const Lanes& y, const Lanes& z, Lanes* value)
                                                                       : z);
 }
 
-/** Their derivatives along a direction. \param value the terms */
+/** Their derivatives along a direction.
+ * \param value the terms */
 inline void
 differentiateTerms(const Lanes* value,
                    const Lanes& x,

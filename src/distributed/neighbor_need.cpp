@@ -231,7 +231,7 @@ public:
       takeLarger(need_, one.need);
   }
 
-  /** \brief Of the pieces of this process. */
+  /** \brief The need of the pieces of this process. */
   const NeighborNeed&
   getNeed() const
   {

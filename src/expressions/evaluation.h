@@ -32,8 +32,8 @@ struct FormulaPoints {
 /** Compute a formula at all points.
  * \param missing for the formula itself, not for those in it
  * \param undefined gets one more for every number of a point, not of its images, that
- * is not finite although all that it is made of are \param report gets warnings of
- * derivatives */
+ * is not finite although all that it is made of are
+ * \param report gets warnings of derivatives */
 Columns
 evaluateFormula(const Formula& formula,
                 const FormulaPoints& points,

@@ -94,8 +94,9 @@ clusteredAt(std::uint64_t seed, std::uint64_t index, double lower, double upper)
            center + r * z}};
 }
 
-/** Of samples on lines across a cube: with m on each of n / m lines, which make a
- * square, these lie sqrt(m^3 / n) times as far apart as the samples on them. */
+/** How many samples lie on each line across a cube: with m on each of n / m lines,
+ * which make a square, these lie sqrt(m^3 / n) times as far apart as the samples on
+ * them. */
 std::uint64_t
 samplesPerLine(Scatter scatter, std::uint64_t n)
 {

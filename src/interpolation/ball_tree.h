@@ -86,7 +86,7 @@ private:
   const FindReach closer_;
   std::vector<Bucket> buckets_;
   std::vector<Node> nodes_;
-  /** By node, the largest reach of its buckets. Bounds only fall, and of those that
+  /** The largest reach of the buckets of each node. Bounds only fall, and of those that
    * threads write at once any may stay: all of them are bounds. */
   mutable std::vector<std::atomic<double>> reaches_;
   mutable std::vector<std::atomic<bool>> is_close_; ///< by bucket

@@ -35,7 +35,7 @@ const KernelTable<const BlendKernels*> kernel_table{
  * kernels read behind the last one. */
 class Candidates {
 public:
-  /** Of a fit: the bucket's, and its place there. */
+  /** Where a fit is: the fits of its bucket, and its place among them. */
   struct Fit {
     const BucketFits* bucket;
     std::uint32_t place;

@@ -24,7 +24,8 @@ constexpr std::size_t near_samples = 32;
  * the last of them. */
 constexpr int octaves = 11, offset_classes = octaves + 1;
 
-/** Of the spread: pairs that are farther apart along an axis are of strays. */
+/** Pairs that are farther apart along an axis, in parts of the spread, are of strays.
+ */
 constexpr double farthest = 1.5;
 
 /** A class of fewer pairs tells nothing; of so many it counts half. */

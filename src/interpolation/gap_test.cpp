@@ -28,14 +28,15 @@ constexpr std::size_t block_asked = 16;
 /** Nearest samples that lie all around, if not on a line or a sheet. */
 constexpr std::size_t first_around = 8;
 
-/** Of the largest moment of samples about another: with a smallest one below it they
+/** Samples around another whose smallest moment is below that part of the largest one
  * lie on a line or a sheet. */
 constexpr double least_moment = 0.05;
 
 /** Nearest samples that an error is kriged from, and the fewest of them. */
 constexpr std::size_t kriged_samples = 16, least_kriged = 4;
 
-/** Of the largest extent of these: with a smallest one below it they carry no trend. */
+/** These carry no trend where their smallest extent is below that part of the largest
+ * one. */
 constexpr double least_extent = 0.2;
 
 using Near = std::pair<double, std::size_t>; ///< squared distance, sample

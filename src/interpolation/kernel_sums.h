@@ -32,7 +32,8 @@ struct Particles {
 };
 
 /** \brief Read the fields that the parameters name; of coinciding particles the first
- * counts. \throws InvalidArgument for an unknown field */
+ * counts.
+ * \throws InvalidArgument for an unknown field */
 Particles
 readParticles(const CloudView& cloud,
               const SampleSet& samples,

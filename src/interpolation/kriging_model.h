@@ -19,7 +19,8 @@ namespace pcl_uvol::detail {
  * nugget, as in gstat. Memory: nothing per sample. */
 class KrigingModel : public FieldModel {
 public:
-  /** \param frames of the fields \param names of the fields, for messages */
+  /** \param frames of the fields
+   * \param names of the fields, for messages */
   KrigingModel(const SampledFields& sampled,
                const KrigingParameters& parameters,
                const std::vector<ValueFrame>& frames,

@@ -54,7 +54,8 @@ makeLine(const Place& from, const Place& to, std::size_t count);
 
 /** \brief A grid of cubes over a box: so many places along its longest side, along the
  * others as many as fit, in their middle.
- * \param count at least 2 \throws InvalidArgument for an empty or infinite box */
+ * \param count at least 2
+ * \throws InvalidArgument for an empty or infinite box */
 PCL_UVOL_EXPORTS QueryLattice
 makeCubicGrid(const Bounds& box, std::size_t count);
 

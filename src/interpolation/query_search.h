@@ -59,7 +59,8 @@ public:
   void
   start(const double* reference);
 
-  /** \param values of all fields \param gradient of the weight */
+  /** \param values of all fields
+   * \param gradient of the weight */
   void
   add(const double* values, double weight, const std::array<double, 3>& gradient);
 

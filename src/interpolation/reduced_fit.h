@@ -28,8 +28,9 @@ public:
 
   /** \brief The polynomial of the degree up to 3 with the smallest standard error of
    * the value at the origin, a linear one where no degree leaves five degrees of
-   * freedom. \param coefficients set: 20 of them, see PolynomialFit \return that
-   * standard error; NaN if no degree of freedom tells it */
+   * freedom.
+   * \param coefficients set: 20 of them, see PolynomialFit
+   * \return that standard error; NaN if no degree of freedom tells it */
   double
   solve(const Eigen::VectorXd& values, double* coefficients) const;
 

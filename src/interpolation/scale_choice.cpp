@@ -30,8 +30,8 @@ constexpr double tried_powers[] = {0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0};
  * is so many of its standard errors. */
 constexpr double least_gain = 0.9, least_certainty = 4.0;
 
-/** Of powers that are worse than the best one by less than that part of its error, or
- * by fewer standard errors, the lowest is taken. */
+/** The lowest power is taken of those that are worse than the best one by less than that
+ * part of its error, or by fewer standard errors. */
 constexpr double alike = 1.05, alike_errors = 2.0;
 
 double
@@ -41,7 +41,7 @@ meanOf(const std::vector<double>& numbers)
          static_cast<double>(numbers.size());
 }
 
-/** By how many standard errors some numbers are lower than others, pair by pair. */
+/** How many standard errors some numbers are lower than others by, pair by pair. */
 double
 certaintyOf(const std::vector<double>& lower, const std::vector<double>& others)
 {

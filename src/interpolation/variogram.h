@@ -25,7 +25,8 @@ struct PCL_UVOL_EXPORTS Variogram {
   double sill = 0.0;   ///< without the nugget
   double range = 1.0;
 
-  /** \brief The value of the part without the nugget. \param h >= 0 */
+  /** \brief The value of the part without the nugget.
+   * \param h >= 0 */
   double
   covariance(double h) const;
 
@@ -50,7 +51,8 @@ struct EmpiricalVariogram {
 /** \brief What pairs of samples have in all directions, and along single axes. */
 struct EmpiricalVariograms {
   EmpiricalVariogram all;
-  /** Of pairs within 30 degrees of an axis; without classes where there are none. */
+  /** One for each axis, from pairs within 30 degrees of it; without classes where there
+   * are none. */
   std::array<EmpiricalVariogram, 3> along;
 };
 

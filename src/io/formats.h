@@ -80,7 +80,8 @@ Dataset
 readText(const std::string& path, const LoadOptions& options);
 
 /** \brief The polygons of a .vtp as fans of triangles; lines and strips are passed
- * over. \throws IOError for a polygon that names a point that is not there */
+ * over.
+ * \throws IOError for a polygon that names a point that is not there */
 std::vector<Triangle>
 readVtpTriangles(const std::string& path);
 

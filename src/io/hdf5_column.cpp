@@ -60,7 +60,7 @@ struct Storage {
   bool is_packed = false;
   bool can_unpack = false;           ///< by the filters known here
   std::vector<H5Z_filter_t> filters; ///< in the order of packing
-  /** Of the table and of a chunk, at least two: a list has one column. @{ */
+  /** Sizes of the table and of a chunk, at least two: a list has one column. @{ */
   std::vector<hsize_t> sizes{0, 1}, chunk{0, 1};
   /** @} */
 
@@ -73,8 +73,8 @@ struct Storage {
                            std::multiplies<std::uint64_t>());
   }
 
-  /** Of a table in chunks that no filter packs: whether so many bytes can be those of
-   * its chunks. The library reads as many as an index says, which damage may change. */
+  /** Whether so many bytes can be those of the chunks of a table that no filter packs.
+   * The library reads as many as an index says, which damage may change. */
   bool
   mayHold(std::uint64_t bytes) const
   {

@@ -29,8 +29,9 @@ using PutNumbers = std::function<void(
 /** \brief Write a lattice as .vti (slanting ones with a Direction), .vts, .nrrd or
  * .mha, by the ending of the name. Of the last two, which hold one array, the first
  * array goes into the file of that name, others into out_NAME.nrrd beside it. Files
- * appear whole or not at all. \param fill puts all numbers, in any order \throws
- * IOError */
+ * appear whole or not at all.
+ * \param fill puts all numbers, in any order
+ * \throws IOError */
 PCL_UVOL_EXPORTS void
 saveLattice(const std::string& path,
             const detail::QueryLattice& lattice,

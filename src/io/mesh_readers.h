@@ -11,7 +11,8 @@
 namespace pcl_uvol {
 namespace io {
 
-/** Polygons become fans of triangles. \throws IOError @{ */
+/** Polygons become fans of triangles.
+ * \throws IOError @{ */
 
 /** \brief An .obj: its vertices, with normals where every vertex has one and no more.
  * Textures, materials, groups, lines and points are passed over. */

@@ -34,7 +34,8 @@ public:
     info_.box = box;
   }
 
-  /** \brief Tell the time that the file names. \param time no finite number: none */
+  /** \brief Tell the time that the file names.
+   * \param time no finite number: none */
   void
   setTime(double time)
   {

@@ -208,7 +208,8 @@ private:
   std::set<std::string> names_;
 };
 
-/** Read the last of several times. \return what to say of it */
+/** Read the last of several times.
+ * \return what to say of it */
 std::string
 updateAtLastTime(vtkAlgorithm& reader)
 {
@@ -254,7 +255,8 @@ listFiles(const std::string& path)
   return files;
 }
 
-/** Read a file by VTK's own reader. \return what to say of it */
+/** Read a file by VTK's own reader.
+ * \return what to say of it */
 std::string
 addByVtk(const std::string& path, DataPlace place, PointJoiner& points)
 {

@@ -74,7 +74,8 @@ void
 keepInGap(const IsoEdge& edge, PointIso& point);
 
 /** \brief Make an isopoint what its fit says; one that the fit does not serve stays
- * where it is. \param is_smooth whether it serves */
+ * where it is.
+ * \param is_smooth whether it serves */
 void
 setIsopoint(const IsopointInput& input,
             const FitResult& result,

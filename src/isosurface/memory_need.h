@@ -26,8 +26,8 @@ struct SurfaceSize {
  * resolved by the thinned cloud and that the field is smooth: of finer detail and of
  * noise there is more.
  * \param parameters of the extraction; neighbours are those that its criterion leaves
- * of its candidates, of a diagram or the tree of the thinned cloud \return one per
- * isovalue; of size 0 where the field does not tell */
+ * of its candidates, of a diagram or the tree of the thinned cloud
+ * \return one per isovalue; of size 0 where the field does not tell */
 PCL_UVOL_EXPORTS std::vector<SurfaceSize>
 estimateSurfaces(const CloudView& cloud,
                  const IsosurfaceParameters& parameters,

@@ -41,8 +41,8 @@ struct Band {
     return centerPlaces() + others.size();
   }
 
-  /** \brief Continue a distance function from the centres to the others. \param phi by
-   * place */
+  /** \brief Continue a distance function from the centres to the others.
+   * \param phi by place */
   void
   extrapolate(std::vector<float>& phi) const;
 
@@ -58,13 +58,14 @@ struct Band {
   }
 };
 
-/** \brief Spacing s of samples with 1 / s^3 per volume. \param reach distance of the
- * farthest of so many neighbours */
+/** \brief Spacing s of samples with 1 / s^3 per volume.
+ * \param reach distance of the farthest of so many neighbours */
 double
 spacingOf(double reach, double neighbors);
 
 /** \brief The median spacing of the samples around some of them: s of 1 / s^3 samples
- * per volume. \param k neighbours that it is measured by */
+ * per volume.
+ * \param k neighbours that it is measured by */
 double
 medianSpacing(const SampleSet& samples,
               const std::vector<std::uint32_t>& around,

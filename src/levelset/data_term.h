@@ -31,12 +31,14 @@ makeDataTerm(const Band& band,
              Report& report);
 
 /** \brief How far the slope of a function is from that of a distance, 1: the mean over
- * the centres next to its zero level. \param phi by place */
+ * the centres next to its zero level.
+ * \param phi by place */
 double
 measureSlopeError(const Band& band, const std::vector<float>& phi, unsigned threads);
 
 /** \brief A function over its slopes, as those of fields are: a distance at its zero
- * level, which stays where it is. \param phi by place */
+ * level, which stays where it is.
+ * \param phi by place */
 std::vector<float>
 scaleToDistance(const Band& band, std::vector<float> phi, unsigned threads);
 

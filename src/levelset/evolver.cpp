@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t block_groups = 64, block_places = 16384;
 
 /** The rate of the longest steps with which steps of powers of two below take the least
- * work in all. \param rates ascending */
+ * work in all.
+ * \param rates ascending */
 double
 leastWork(const std::vector<double>& rates)
 {

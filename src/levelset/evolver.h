@@ -24,7 +24,7 @@ namespace pcl_uvol {
  * one class. */
 class Evolver {
 public:
-  /** \param band and \param term must outlive the evolver
+  /** \param band, term must outlive the evolver
    * \param spacing the unit of length
    * \param mu in [0, 1]
    * \param phi by place */
@@ -51,8 +51,8 @@ public:
   }
 
   /** \brief Advance all samples by getStep(). Returns what changed; time and
-   * reinitialized are the caller's. \param reminder of the step that this is a part of;
-   * null: there is none */
+   * reinitialized are the caller's.
+   * \param reminder of the step that this is a part of; null: there is none */
   LevelSetStep
   advance(ProgressReminder* reminder = nullptr);
 

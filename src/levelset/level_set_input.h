@@ -33,8 +33,8 @@ turnShape(const InitialFunction& initial, const detail::StretchAxes& axes);
 void
 checkParameters(const LevelSetParameters& parameters);
 
-/** \brief Read what LevelSetEvolution::evolve() takes. \throws InvalidArgument as that
- */
+/** \brief Read what LevelSetEvolution::evolve() takes.
+ * \throws InvalidArgument as that */
 LevelSetInput
 readInput(const CloudView& cloud,
           const pcl::Indices& indices,
@@ -43,8 +43,8 @@ readInput(const CloudView& cloud,
           Report& report);
 
 /** \brief The function at the start where it is a shape or a field, by sample and in
- * the unit of the samples; empty where f itself is. \throws InvalidArgument for a field
- * that is not finite everywhere */
+ * the unit of the samples; empty where f itself is.
+ * \throws InvalidArgument for a field that is not finite everywhere */
 std::vector<float>
 readInitialValues(const CloudView& cloud,
                   const LevelSetInput& input,

@@ -107,7 +107,8 @@ public:
   }
 
 private:
-  /** Gives phi by input index, in the input's unit of length. \param phi by sample */
+  /** Gives phi by input index, in the input's unit of length.
+   * \param phi by sample */
   std::vector<float>
   phiOfCloud(std::vector<float> values) const
   {

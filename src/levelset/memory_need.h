@@ -9,9 +9,9 @@
 
 namespace pcl_uvol {
 
-/** \brief The need of LevelSetEvolution, besides the cloud; see there. \param surface
- * the isosurface that it starts from, which tells how many samples are in the band: a
- * start from a shape counts as one of the same size */
+/** \brief The need of LevelSetEvolution, besides the cloud; see there.
+ * \param surface the isosurface that it starts from, which tells how many samples are
+ * in the band: a start from a shape counts as one of the same size */
 PCL_UVOL_EXPORTS MemoryNeed
 levelSetNeed(double samples,
              const SurfaceSize& surface,

@@ -11,7 +11,8 @@ namespace pcl_uvol {
 constexpr int quadratic_terms = 10;
 
 /** \brief 1, coordinates, and their products, of a sample as seen from a centre; the
- * first coefficient of a fit is then its value at the centre. \param reach length 1 */
+ * first coefficient of a fit is then its value at the centre.
+ * \param reach length 1 */
 inline Eigen::Matrix<double, 1, quadratic_terms>
 quadraticTerms(const Position& center, const Position& sample, double reach)
 {

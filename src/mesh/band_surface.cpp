@@ -226,7 +226,8 @@ private:
   }
 
   /** How many of some cells are joined with the first of them through cells of a set
-   * that holds them. \param cells, set ascending */
+   * that holds them.
+   * \param cells, set ascending */
   std::size_t
   countReached(const std::vector<std::uint32_t>& cells,
                const std::vector<std::uint32_t>& set) const

@@ -11,7 +11,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of the local length: a point of a line that is farther from the middle of an edge
+/** A point of a line that is farther, in local lengths, from the middle of an edge
  * across it belongs to another one. Cells are told apart by their centres, and a
  * surface that leaves the box at a small angle does so some cells away. */
 constexpr double farthest_point = 5.0;

@@ -96,7 +96,8 @@ public:
   integrate(std::array<double, 3>& shares) const;
 
   /** \brief Integrals over the flat triangle; its errors are the difference to the bent
-   * one. \param[out] shares as above */
+   * one.
+   * \param[out] shares as above */
   SurfaceIntegrals
   integrateFlat(std::array<double, 3>& shares) const;
 

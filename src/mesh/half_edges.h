@@ -94,7 +94,8 @@ public:
     } while (edge != first && edge != none);
   }
 
-  /** \brief The vertices that share an edge with one. \param around cleared first */
+  /** \brief The vertices that share an edge with one.
+   * \param around cleared first */
   void
   findAround(std::uint32_t vertex, std::vector<std::uint32_t>& around) const;
 

@@ -36,7 +36,8 @@ struct InnerPoint {
   int turns;
 };
 
-/** The points inside, ascending. \param place_of a point */
+/** The points inside, ascending.
+ * \param place_of a point */
 template <typename PlaceOf>
 std::vector<InnerPoint>
 findInner(const MeshColumns& columns,
@@ -112,7 +113,8 @@ public:
     });
   }
 
-  /** The sums of a field over each piece. \param at_surface value there, by piece */
+  /** The sums of a field over each piece.
+   * \param at_surface value there, by piece */
   std::vector<CellSums>
   sum(const ScalarField& field, const std::vector<double>& at_surface) const
   {

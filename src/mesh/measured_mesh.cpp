@@ -22,8 +22,9 @@ placeOf(const CloudView& vertices, std::size_t vertex)
 }
 
 /** Leaves out triangles that name a vertex twice, gives every fan of triangles a vertex
- * of its own, and finds the pieces. \param sources one per vertex, and then one per
- * copy \throws InvalidArgument */
+ * of its own, and finds the pieces.
+ * \param sources one per vertex, and then one per copy
+ * \throws InvalidArgument */
 PieceList
 findManifoldPieces(std::vector<Triangle>& triangles,
                    std::vector<std::uint32_t>& sources)
@@ -60,7 +61,8 @@ addTriangleNormals(const std::vector<Triangle>& triangles,
     corners[i].normal = Eigen::Vector3d(normals[i][0], normals[i][1], normals[i][2]);
 }
 
-/** Of a triangle of a cap only the normals of its own corners count. */
+/** Whether a triangle looks against the normals of its corners: for one of a cap only
+ * those of the corners on the cap count. */
 bool
 isAgainstNormals(const std::array<SurfaceCorner, 3>& corners)
 {
@@ -129,7 +131,7 @@ private:
     return Eigen::Vector3d::Zero();
   }
 
-  /** Of the edge opposite of a corner. */
+  /** The twin of the edge opposite of a corner. */
   HalfEdge
   twinOf(std::size_t triangle, std::size_t corner) const
   {

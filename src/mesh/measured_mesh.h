@@ -19,7 +19,8 @@
 
 namespace pcl_uvol::detail {
 
-/** \brief \throws InvalidArgument for a vertex that is not finite or not there */
+/** \brief Check that triangles name vertices that are there, and finite.
+ * \throws InvalidArgument for a vertex that is not finite or not there */
 PCL_UVOL_EXPORTS void
 checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles);
 
@@ -43,8 +44,9 @@ struct MeasuredSurface {
   std::vector<SurfaceIntegrals> integrals;
   /** @} */
   std::vector<double> shares; ///< by vertex, in the area
-  /** By vertex: half of the edges there along which the surface ends, or meets a cap,
-   * for each triangle beside them; empty of a surface that is given as points. */
+  /** Half the length of the edges at each vertex along which the surface ends, or meets
+   * a cap, for each triangle beside them; empty of a surface that is given as points.
+   */
   std::vector<double> rim_lengths;
   std::vector<double> cap_areas; ///< by piece; as above
 };

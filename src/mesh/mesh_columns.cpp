@@ -11,8 +11,9 @@ namespace pcl_uvol::detail {
 namespace {
 
 /** Twice the area, in the plane of x and y, of a place and an edge: positive to the
- * left of it. \param low, high its vertices in their order, so that it is the same for
- * both triangles of the edge */
+ * left of it.
+ * \param low, high its vertices in their order, so that it is the same for both
+ * triangles of the edge */
 double
 sideOf(const std::vector<Eigen::Vector3d>& places,
        std::uint32_t low,

@@ -34,7 +34,8 @@ public:
               const std::vector<Triangle>& triangles,
               const std::vector<std::int32_t>& piece_of);
 
-  /** \brief The pieces around a place, ascending. \param found cleared first */
+  /** \brief The pieces around a place, ascending.
+   * \param found cleared first */
   void
   findAround(const Eigen::Vector3d& place, std::vector<Winding>& found) const;
 

@@ -338,7 +338,7 @@ private:
     return agreementOf(mesh_.triangles[edge / 3], edge) < least_agreement;
   }
 
-  /** Of a triangle in the region of an edge. */
+  /** The agreement of a triangle in the region of an edge. */
   double
   agreementOf(const Triangle& triangle, HalfEdge edge) const
   {

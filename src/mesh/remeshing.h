@@ -18,8 +18,9 @@ namespace pcl_uvol::detail {
  * Vertices stay on the surface that the feet around them tell, those of a cap in the
  * plane of their side, and an edge between the two neither moves from it nor vanishes.
  * Nothing is done that turns a triangle by more than 60 degrees from the normals of its
- * vertices. Deterministic. \param mesh comes out without unused vertices \param
- * edge_length about the least one; 0: that of the local sizes
+ * vertices. Deterministic.
+ * \param mesh comes out without unused vertices
+ * \param edge_length about the least one; 0: that of the local sizes
  * \param report gets the time */
 PCL_UVOL_EXPORTS void
 remesh(WorkingMesh& mesh, double edge_length, unsigned threads, Report& report);

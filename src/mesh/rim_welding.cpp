@@ -410,8 +410,8 @@ private:
     return image_of_.count(high) > 0 || images_on_edges_.count(high) > 0;
   }
 
-  /** Go along the low rim from the image of one high vertex to that of another. \return
-   * false if it is not met soon */
+  /** Go along the low rim from the image of one high vertex to that of another.
+   * \return false if it is not met soon */
   bool
   walk(std::uint32_t first,
        std::uint32_t last,

@@ -26,9 +26,10 @@ doIntersect(const std::vector<Eigen::Vector3d>& places,
             const Triangle& b);
 
 /** \brief All pairs of triangles of one surface that intersect, ascending, the lower
- * one first. \param surface_of by vertex: surfaces of several isovalues may touch, as
- * their caps do; empty: all are of one \param report gets the time and progress of
- * "intersections" */
+ * one first.
+ * \param surface_of by vertex: surfaces of several isovalues may touch, as their caps
+ * do; empty: all are of one
+ * \param report gets the time and progress of "intersections" */
 PCL_UVOL_EXPORTS std::vector<std::pair<std::uint32_t, std::uint32_t>>
 findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       const std::vector<Triangle>& triangles,
@@ -36,9 +37,10 @@ findSelfIntersections(const std::vector<Eigen::Vector3d>& places,
                       unsigned threads,
                       Report& report);
 
-/** \brief The same with their places, surface by `isovalue`. \param origin of the
- * vertices \param report gets their count, time and progress as "intersections", and a
- * warning where there are any */
+/** \brief The same with their places, surface by `isovalue`.
+ * \param origin of the vertices
+ * \param report gets their count, time and progress as "intersections", and a warning
+ * where there are any */
 std::vector<TriangleIntersection>
 describeIntersections(const CloudView& vertices,
                       const std::vector<Triangle>& triangles,

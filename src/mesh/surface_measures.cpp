@@ -167,7 +167,8 @@ public:
       figures.vertex_areas[surface_.sources[k]] += surface_.shares[k];
   }
 
-  /** Find the samples within the pieces. \param origin of theirs */
+  /** Find the samples within the pieces.
+   * \param origin of theirs */
   void
   lookInside(const CloudView& samples,
              const std::array<double, 3>& origin,

@@ -22,13 +22,15 @@ struct PieceList {
 void
 sortPieces(PieceList& list);
 
-/** \brief \throws std::logic_error unless the triangles are an oriented manifold */
+/** \brief Find the connected pieces of triangles.
+ * \throws std::logic_error unless the triangles are an oriented manifold */
 PCL_UVOL_EXPORTS PieceList
 findPieces(std::vector<Triangle>& triangles, std::size_t vertices);
 
 /** \brief Give every vertex whose triangles are several rounds or fans a copy for each
- * further one, as rims that touch in a point have. \param source_of gets, behind the
- * other vertices, the one that each copy is of \return how many copies */
+ * further one, as rims that touch in a point have.
+ * \param source_of gets, behind the other vertices, the one that each copy is of
+ * \return how many copies */
 PCL_UVOL_EXPORTS std::size_t
 splitPinchedVertices(std::vector<Triangle>& triangles,
                      std::size_t vertices,

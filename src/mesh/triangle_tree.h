@@ -46,8 +46,8 @@ public:
   Nearest
   find(const Eigen::Vector3d& place) const;
 
-  /** \brief The triangles whose boxes meet a box, in no order. \param found cleared
-   * first */
+  /** \brief The triangles whose boxes meet a box, in no order.
+   * \param found cleared first */
   void
   findOverlapping(const Eigen::AlignedBox3d& box,
                   std::vector<std::uint32_t>& found) const;

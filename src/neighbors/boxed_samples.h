@@ -59,7 +59,7 @@ public:
   float
   getDepth(std::uint32_t sample) const;
 
-  /** \brief Of the samples that get images. */
+  /** \brief Measure the spread of the samples that get images. */
   SampleSpread
   measureSpread() const;
 

@@ -33,9 +33,12 @@ struct CellKernels {
    * origin, behind the last one
    * \param plane see measureHeights: only samples over it count
    * \param sphere its centre, and half the squared length less centre . x of points on
-   * it \param corners three points that do not count \param distances room for count +
-   * cell_padding \param first its place; of equal ones the first one \return how far
-   * the centre moves, in lengths of the normal; infinite: none is met */
+   * it
+   * \param corners three points that do not count
+   * \param distances room for count + cell_padding
+   * \param first its place; of equal ones the first one
+   * \return how far the centre moves, in lengths of the normal; infinite: none is met
+   */
   double (*findFirst)(const double* const* points,
                       std::size_t count,
                       const double* plane,

@@ -8,7 +8,7 @@ namespace pcl_uvol::detail {
 
 namespace {
 
-/** Of vertices: faces of random samples have five. */
+/** Room for vertices: faces of random samples have five. */
 constexpr std::size_t usual_room = 32;
 
 } // namespace

@@ -34,7 +34,8 @@ struct Moments {
 /** \brief One instruction set's versions. */
 struct MetricKernels {
   /** \brief Find squared distances from a point, as the images of positions (x, y, z
-   * one after another) have them. \return the least of them */
+   * one after another) have them.
+   * \return the least of them */
   double (*measure)(const float* positions,
                     std::size_t count,
                     const float* point,

@@ -50,8 +50,9 @@ extractOutOfCore(PointSource& points,
 /** \brief IsosurfacePipeline within a bound of memory.
  *
  * An empty field is filled in; level sets, an automatic scale and candidates of a
- * Voronoi grid, which need all samples at once, are refused. \param points read from
- * the front \throws as extractOutOfCore and IsosurfacePipeline */
+ * Voronoi grid, which need all samples at once, are refused.
+ * \param points read from the front
+ * \throws as extractOutOfCore and IsosurfacePipeline */
 PCL_UVOL_EXPORTS IsosurfaceResult
 runPipelineOutOfCore(PointSource& points,
                      const IsosurfacePipelineParameters& parameters,

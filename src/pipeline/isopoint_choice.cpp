@@ -193,7 +193,8 @@ public:
   }
 
   /** \brief Counts the samples at the ends of edges around that lie on their side of
-   * a plane. \param root, outside in the original space */
+   * a plane.
+   * \param root, outside in the original space */
   std::size_t
   countRightEnds(const Vector3d& root,
                  const Eigen::Vector3f& outside,

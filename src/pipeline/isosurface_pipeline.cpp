@@ -162,7 +162,8 @@ IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
 namespace {
 
 /** Float holds some isovalues, such as 3e50, as infinite or as zero: the field of that
- * name is double then. \param isopoints one per point of the surface */
+ * name is double then.
+ * \param isopoints one per point of the surface */
 void
 keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
               const std::vector<double>& isovalues,
@@ -187,7 +188,8 @@ keepIsovalues(const pcl::PointCloud<PointIso>& isopoints,
   setField(surface, "isovalue", values);
 }
 
-/** See finishIsosurface. \param gaps of the samples; null if they were not filled */
+/** See finishIsosurface.
+ * \param gaps of the samples; null if they were not filled */
 IsosurfaceResult
 finish(const Dataset& samples,
        pcl::PointCloud<PointIso>&& isopoints,

@@ -46,7 +46,8 @@ public:
    *
    * A cell belongs to it where its nodes all have values, on both sides of the
    * isovalue, and one of them at least is asked for. Nodes of such cells and of those
-   * around them are collected. \return false if it has too many nodes */
+   * around them are collected.
+   * \return false if it has too many nodes */
   bool
   follow(const std::vector<LatticeNode>& seeds, double isovalue);
 

@@ -118,7 +118,7 @@ isWithin(const std::vector<OppositeFaces>& cut, const Eigen::Vector3d& place)
   });
 }
 
-/** Of two vertices beside one another on a rim only the nearer one may move into
+/** Only the nearer one of two vertices beside one another on a rim may move into
  * another face: a rim crosses an edge of the box in one vertex.
  *
  * \param faces by vertex, as findFaces() */
@@ -212,7 +212,8 @@ findHeights(const std::vector<OppositeFaces>& cut,
   return heights;
 }
 
-/** Keep what lies on one side of a face. \param sign 1: above the coordinate */
+/** Keep what lies on one side of a face.
+ * \param sign 1: above the coordinate */
 void
 cutAtFace(const std::vector<OppositeFaces>& cut,
           std::size_t axis,
@@ -372,7 +373,8 @@ copyToImages(const std::vector<std::int32_t>& image_of, IsosurfaceResult& result
   }
 }
 
-/** Adds the field image_of. \return the mesh whose images are one vertex */
+/** Adds the field image_of.
+ * \return the mesh whose images are one vertex */
 JoinedMesh
 weldMesh(const std::vector<OppositeFaces>& cut, IsosurfaceResult& result)
 {

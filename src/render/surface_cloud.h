@@ -123,7 +123,8 @@ public:
   setColor(Rgba color);
 
   /** \brief Make the colours of isopoints in gaps of the sampling paler, once after
-   * each change of the colours. \param background what they are mixed with */
+   * each change of the colours.
+   * \param background what they are mixed with */
   void
   fadeBridged(const Color& background);
 

@@ -48,7 +48,8 @@ findDotRadius(const CloudView& cloud)
   return dot_radius * box.diagonal().norm();
 }
 
-/** A disc that a picture shows as a point. \param radius of it */
+/** A disc that a picture shows as a point.
+ * \param radius of it */
 PointSplat
 makeDot(const CloudView& cloud,
         const OrientedPoints& points,

@@ -127,7 +127,8 @@ collectSides(const SampleSet& samples, const Orientation& orientation, unsigned 
  * that is as near as the next points of the own one looks the other way, and a plane
  * through both would be no tangent of either. Outside vectors may graze the surface, so
  * that sides are told apart along the axis that most of them share, whatever their
- * sign. \param found the result, a buffer to use again */
+ * sign.
+ * \param found the result, a buffer to use again */
 void
 findOwnSheet(const std::vector<Eigen::Vector3f>& sides,
              std::uint32_t sample,

@@ -79,7 +79,7 @@ makeMesh(const Solid& solid, const Cloud::Ptr& samples, pcl_uvol::Remeshing reme
   return {std::move(surface.vertices), std::move(surface.triangles)};
 }
 
-/** Of a level set on the samples. */
+/** The mesh of a level set on the samples. */
 PlainMesh
 makeSmoothMesh(const Solid& solid, const Cloud::Ptr& samples)
 {

@@ -45,7 +45,8 @@ printRow(const NoisyCloud& noisy, const std::string& method, const Surface& surf
 }
 
 /** f replaced by the value at each sample of the polynomial that fits it and its k
- * nearest neighbours best, unweighted. \param degree 0 for the mean, or 2 */
+ * nearest neighbours best, unweighted.
+ * \param degree 0 for the mean, or 2 */
 Cloud::Ptr
 localFit(const Cloud& cloud, std::size_t k, int degree)
 {
@@ -152,7 +153,8 @@ averageOf(const Clouds& clouds, const SurfaceOf& surface_of)
   return all;
 }
 
-/** \param mu none: automatic \param length, value units that the samples are given in
+/** \param mu none: automatic
+ * \param length, value units that the samples are given in
  */
 Deviation
 smooth(const Clouds& clouds,

@@ -85,7 +85,8 @@ struct RandomStencils {
                    place % stencil_lanes];
   }
 
-  /** A derivative at a centre. \param value of a neighbour's place */
+  /** A derivative at a centre.
+   * \param value of a neighbour's place */
   template <typename Value>
   double
   derivative(std::size_t place, std::size_t row, const Value& value, double own) const
@@ -158,7 +159,8 @@ struct Problem {
     return phi[place] + static_cast<double>(rate[place]) * step.lines.time;
   }
 
-  /** phi after the step. \param bend mean curvature times slope */
+  /** phi after the step.
+   * \param bend mean curvature times slope */
   double
   after(std::size_t i, double of_slope, double bend, double to_distance) const
   {

@@ -192,7 +192,8 @@ areaOf(const pcl_uvol::SurfaceTriangles& mesh)
 }
 
 /** \brief Every edge is walked once in each direction, but for rims, and the triangles
- * around every vertex are one round or one fan. \return the edges of rims */
+ * around every vertex are one round or one fan.
+ * \return the edges of rims */
 inline std::size_t
 expectManifold(const std::vector<pcl_uvol::Triangle>& triangles, std::size_t vertices)
 {

@@ -80,7 +80,8 @@ public:
   }
 
 private:
-  /** Triangles look to z. \param inward of the face along x */
+  /** Triangles look to z.
+   * \param inward of the face along x */
   void
   add(const std::vector<double>& ys, double x, double inward)
   {

@@ -28,7 +28,8 @@ messageOf(std::size_t from, std::size_t to, std::size_t round)
   return message;
 }
 
-/** In groups by the remainder of the rank, all at once. \return what is wrong */
+/** In groups by the remainder of the rank, all at once.
+ * \return what is wrong */
 std::string
 talkInGroups(MpiCommunicator& communicator, std::size_t groups)
 {
@@ -89,7 +90,8 @@ talk(MpiCommunicator& communicator)
   return "";
 }
 
-/** One process fails within its group. \return what is wrong */
+/** One process fails within its group.
+ * \return what is wrong */
 std::string
 failInGroup(MpiCommunicator& communicator, std::size_t loser)
 {

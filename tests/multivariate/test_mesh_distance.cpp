@@ -113,7 +113,8 @@ centerOf(const GridShape& shape, std::uint64_t cell)
 }
 
 /** Each cell outside as far as it is, the cells well inside 0.
- * \param isInside of a place \param unit side of a cell */
+ * \param isInside of a place
+ * \param unit side of a cell */
 template <typename IsInside>
 void
 expectDistances(const GridShape& shape,

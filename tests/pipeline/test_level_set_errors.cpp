@@ -37,7 +37,8 @@ makeParameters(const std::optional<double>& mu)
   return parameters;
 }
 
-/** \param factor of all coordinates \param stretch of z, which the scale undoes */
+/** \param factor of all coordinates
+ * \param stretch of z, which the scale undoes */
 Surface
 smooth(const uvol_test::NoisyCloud& noisy,
        IsosurfacePipelineParameters parameters,

@@ -195,7 +195,8 @@ runWelded(const std::shared_ptr<Dataset>& samples,
 }
 
 /** Images lie one side of the box from their vertices along the axes that repeat, and
- * have the same values. \return how many there are */
+ * have the same values.
+ * \return how many there are */
 std::size_t
 checkImages(const IsosurfaceResult& result, const Eigen::Array3d& sides)
 {

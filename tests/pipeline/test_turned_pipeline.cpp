@@ -23,7 +23,8 @@ using detail::StretchAxes;
 const Eigen::Array3d angles(30.0, 40.0, 15.0);
 
 /** Layers that are level along turned axes, a wave on them, twenty times as wide as
- * they are thick. \param period of the values across the layers; 0: they only grow */
+ * they are thick.
+ * \param period of the values across the layers; 0: they only grow */
 std::shared_ptr<Dataset>
 makeLayers(double period = 0.0)
 {

@@ -79,7 +79,8 @@ TEST(Footprints, CloseWhatLiesBetweenClumps)
 constexpr double room = 1.05;
 
 /** Looks straight at a grid of equilateral triangles that fills the image and more.
- * \param hole radius of its holes in pixels, with room \return pixels seen */
+ * \param hole radius of its holes in pixels, with room
+ * \return pixels seen */
 std::size_t
 drawGrid(double hole, int size, bool with_footprints)
 {

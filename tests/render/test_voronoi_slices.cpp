@@ -58,8 +58,10 @@ public:
   {
   }
 
-  /** Compares a slice with the cells of a plane. \param axes to the right, upwards,
-   * away \param place of the plane \param side of a cell in pixels */
+  /** Compares a slice with the cells of a plane.
+   * \param axes to the right, upwards, away
+   * \param place of the plane
+   * \param side of a cell in pixels */
   void
   expectPlane(const Image& image,
               const std::array<std::size_t, 3>& axes,

@@ -44,7 +44,8 @@ struct NoisyCloud {
   pcl::PointCloud<pcl::PointXYZI>::Ptr cloud;
 };
 
-/** \brief Uniform samples about a shape. \param noise in spacings */
+/** \brief Uniform samples about a shape.
+ * \param noise in spacings */
 NoisyCloud
 makeNoisyCloud(const Shape& shape, double noise, std::uint64_t seed);
 

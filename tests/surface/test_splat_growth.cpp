@@ -63,7 +63,8 @@ struct Patch {
     return {x[0], x[1], x[2]};
   }
 
-  /** \param least_radius of all points \param delta a length */
+  /** \param least_radius of all points
+   * \param delta a length */
   SplatGround
   ground(double least_radius, double delta, double lambda) const
   {

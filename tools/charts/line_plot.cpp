@@ -21,7 +21,7 @@ constexpr double line_width = 2.0;
 constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
 constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
 
-/** Of kinds of dots: the first one is black. */
+/** Colours of kinds of dots: the first one is black. */
 constexpr Ink dot_inks[] = {black, {255, 127, 14}, {44, 160, 44}, {214, 39, 40}};
 
 void

@@ -16,7 +16,8 @@ namespace uvol_tools {
 /** \brief Measure a mesh.
  * \param samples to look for inside; null: none
  * \param isovalues that the vertices hold in single precision; figures have them
- * exactly \param report gets counts, times and warnings */
+ * exactly
+ * \param report gets counts, times and warnings */
 pcl_uvol::SurfaceFigures
 measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
                const std::vector<pcl_uvol::Triangle>& triangles,

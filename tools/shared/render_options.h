@@ -34,8 +34,8 @@ public:
     return !opacities_.empty();
   }
 
-  /** \brief Of the isovalues, the lowest first, or one for all; none: all are opaque.
-   */
+  /** \brief Opacities of the isovalues, the lowest first, or one for all; none: all are
+   * opaque. */
   const std::vector<double>&
   getOpacities() const
   {

@@ -18,7 +18,8 @@ public:
   declare(Options& options);
 
   /** \brief How to mesh; none unless it was asked for, by -mesh or by the ending of the
-   * output. \throws UsageError for options of meshes without one */
+   * output.
+   * \throws UsageError for options of meshes without one */
   std::optional<pcl_uvol::MeshingParameters>
   finish(const Options& options, const std::string& output) const;
 

@@ -43,7 +43,8 @@ struct PipelineOptions : IsosurfaceOptions {
     return mesh_;
   }
 
-  /** \brief The bound of memory, and where samples wait. \throws UsageError */
+  /** \brief The bound of memory, and where samples wait.
+   * \throws UsageError */
   pcl_uvol::OutOfCoreSettings
   makeOutOfCoreSettings(const Options& options) const;
 

@@ -41,7 +41,8 @@ findBoxes(const pcl::PCLPointCloud2& surface)
   return boxes;
 }
 
-/** Of the number next to a value: surfaces may hold isovalues in single precision. */
+/** The index of the number next to a value: surfaces may hold isovalues in single
+ * precision. */
 std::size_t
 findNearest(const std::vector<double>& values, double value)
 {

@@ -74,7 +74,8 @@ public:
   finish();
 
   /** \brief Write what the window shows as a PNG file, once it shows what was asked
-   * for. \throws pcl_uvol::Exception if it could not be drawn, IOError */
+   * for.
+   * \throws pcl_uvol::Exception if it could not be drawn, IOError */
   void
   save(const std::string& path);
 

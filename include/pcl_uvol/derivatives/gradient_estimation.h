@@ -166,9 +166,10 @@ public:
    * coordinates or value gets NaN, as does an only sample, and the output is then not
    * dense. With the quadratic scheme neighbours on a plane give a quadratic in it,
    * where nothing changes across the plane; where there are too few neighbours for a
-   * quadratic the curvature is NaN. \param output a gradient for each point; its width
-   * is that of the indices \throws InvalidArgument without an input cloud, for an
-   * unknown field, no usable sample, or k out of range; the output is then untouched
+   * quadratic the curvature is NaN.
+   * \param output a gradient for each point; its width is that of the indices
+   * \throws InvalidArgument without an input cloud, for an unknown field, no usable
+   * sample, or k out of range; the output is then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
    * conflicting_duplicates, reduced_fits, singular_fits. */

@@ -23,7 +23,8 @@ class PCL_UVOL_EXPORTS Folds {
 public:
   /** \brief Every point at random. Good for evenly spread samples; where samples follow
    * one another closely, as along a track, the others tell too much.
-   * \param count of points \param folds 2 to count
+   * \param count of points
+   * \param folds 2 to count
    * \throws InvalidArgument for folds out of range */
   static Folds
   byRandom(std::size_t count, std::size_t folds);

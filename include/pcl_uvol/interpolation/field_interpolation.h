@@ -102,8 +102,8 @@ public:
   /** \param indices points to take part: a field is interpolated from those of them
    * that have a finite value of it
    * \param report gets the counts "non_finite", "duplicates" and
-   * "conflicting_duplicates" of fields with different samples one after another \throws
-   * InvalidArgument as FieldInterpolation::interpolate */
+   * "conflicting_duplicates" of fields with different samples one after another
+   * \throws InvalidArgument as FieldInterpolation::interpolate */
   FieldInterpolator(const CloudView& cloud,
                     const pcl::Indices& indices,
                     const InterpolationParameters& parameters,
@@ -114,7 +114,8 @@ public:
   operator=(const FieldInterpolator&) = delete;
   ~FieldInterpolator();
 
-  /** \brief Answer queries. \param queries coordinates like those of the cloud
+  /** \brief Answer queries.
+   * \param queries coordinates like those of the cloud
    * \param report gets the counts of FieldInterpolation */
   InterpolatedFields
   interpolate(const std::vector<std::array<double, 3>>& queries,

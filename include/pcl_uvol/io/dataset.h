@@ -27,7 +27,7 @@ struct PCL_UVOL_EXPORTS LoadOptions {
    * bulge, stars, bh, of Phantom boundary, dust) or its number; empty: gas, or the
    * first kind there is. */
   std::string particles;
-  /** Of VTK's files: the centres of cells with the data of cells are read instead of
+  /** The centres of cells in VTK's files, with the data of cells, are read instead of
    * points. VTK's own readers do it, which believe what a file says. */
   bool cells = false;
   /** Told of "read", but not by what VTK reads. Default: nobody is. */
@@ -116,17 +116,22 @@ loadMesh(const std::string& path);
 /** \brief Read the vertices of a .ply, .vtp, .vtkhdf, .obj, .off or .stl with all their
  * fields, and its faces, as saveMesh() writes them; polygons become fans of triangles.
  * Vertices of an .obj have normals where all faces name the same one at each; corners
- * of an .stl at one place become one vertex. \param[out] triangles stay empty for a
- * file of points \param path of the file \throws IOError in one sentence */
+ * of an .stl at one place become one vertex.
+ * \param[out] triangles stay empty for a file of points
+ * \param path of the file
+ * \throws IOError in one sentence */
 PCL_UVOL_EXPORTS Dataset
 loadMesh(const std::string& path, std::vector<Triangle>& triangles);
 
 /** \brief Write a mesh as .ply, .vtp or .vtkhdf with all fields of the vertices, as
  * .obj with their normals, or as .off or .stl, by the ending of the name. STL is
  * written in binary and in single precision, relative to the origin of the vertices;
- * the others hold all digits. The file appears whole or not at all. \param vertices
- * with any fields \param path of the file \param triangles of these vertices \param
- * options text or binary, comments \throws IOError, also for another ending */
+ * the others hold all digits. The file appears whole or not at all.
+ * \param vertices with any fields
+ * \param path of the file
+ * \param triangles of these vertices
+ * \param options text or binary, comments
+ * \throws IOError, also for another ending */
 PCL_UVOL_EXPORTS void
 saveMesh(const std::string& path,
          const Dataset& vertices,
@@ -140,7 +145,8 @@ PCL_UVOL_EXPORTS void
 checkMeshPath(const std::string& path);
 
 /** \brief True for the endings of files that may hold a mesh: .ply, .vtp, .vtkhdf, and
- * those of isMeshOnly(). \param path of a file that need not be there */
+ * those of isMeshOnly().
+ * \param path of a file that need not be there */
 PCL_UVOL_EXPORTS bool
 isMeshPath(const std::string& path);
 

@@ -16,8 +16,10 @@ namespace pcl_uvol {
 using ImageText = std::pair<std::string, std::string>;
 
 /** \brief The bytes of an image as a PNG file, with opacity where a pixel is not
- * opaque. \param image with its colours \param texts kept in it, for those who ask
- * where the picture is from \throws InvalidArgument for an image without pixels */
+ * opaque.
+ * \param image with its colours
+ * \param texts kept in it, for those who ask where the picture is from
+ * \throws InvalidArgument for an image without pixels */
 PCL_UVOL_EXPORTS std::vector<std::uint8_t>
 encodePng(const Image& image, const std::vector<ImageText>& texts = {});
 

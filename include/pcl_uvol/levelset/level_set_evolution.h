@@ -62,8 +62,8 @@ addPhi(const CloudView& cloud,
  * evolution.evolve(phi);
  * \endcode
  * Memory: 60 bytes per sample and, per sample of the band, 616 for the stencil with the
- * quadratic scheme (288 linear) and 60. \tparam PointT any registered point type with
- * x, y, z, or pcl::PCLPointCloud2 */
+ * quadratic scheme (288 linear) and 60.
+ * \tparam PointT any registered point type with x, y, z, or pcl::PCLPointCloud2 */
 template <typename PointT>
 class LevelSetEvolution : public CloudStage<PointT>,
                           public ParameterStage<LevelSetParameters> {

@@ -58,8 +58,8 @@ struct PCL_UVOL_EXPORTS InitialFunction {
   static InitialFunction
   sphere(const Eigen::Vector3d& center, double radius);
 
-  /** \param low, high opposite corners, low < high along every axis \throws
-   * InvalidArgument */
+  /** \param low, high opposite corners, low < high along every axis
+   * \throws InvalidArgument */
   static InitialFunction
   box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
@@ -226,8 +226,8 @@ struct PCL_UVOL_EXPORTS LevelSetParameters {
   /** Factors per axis, finite and positive: neighbours, curvature and phi belong to the
    * stretched space. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
-  /** Of the axes that these factors belong to, see InterpolationParameters::rotation.
-   */
+  /** Turns the axes that these factors belong to, see
+   * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
   /** Nearest neighbours of a stencil: at least 3, with the quadratic scheme 9. */
   std::size_t k = 26;

@@ -176,9 +176,10 @@ public:
    *
    * Warnings of the report name pieces that are open, whose volume is not known,
    * figures with large errors, a surface that looks inwards, and triangles that
-   * intersect. \throws InvalidArgument without a surface, for a vertex of a triangle
-   * that is not finite or not there, for triangles that are no oriented manifold, and
-   * without triangles for points that have no normals, or with samples */
+   * intersect.
+   * \throws InvalidArgument without a surface, for a vertex of a triangle that is not
+   * finite or not there, for triangles that are no oriented manifold, and without
+   * triangles for points that have no normals, or with samples */
   SurfaceFigures
   compute();
 

@@ -112,8 +112,8 @@ struct PCL_UVOL_EXPORTS SurfaceTriangles {
   /** Counter-clockwise as seen from outside. */
   std::vector<Triangle> triangles;
   std::vector<std::int32_t> piece_of; ///< by vertex, among pieces
-  /** By vertex, 1 where it closes the box and is not on the surface: triangles with
-   * such a vertex are the caps. */
+  /** 1 for each vertex that closes the box and is not on the surface, else 0: triangles
+   * with such a vertex are the caps. */
   std::vector<std::uint8_t> is_on_cap;
   /** They are sorted by isovalue in their order, then by falling number of triangles.
    */
@@ -143,7 +143,8 @@ makeSurfaceMesh(const CloudView& cloud,
 } // namespace detail
 
 /** \brief The mesh in PCL's own type, with every field of the samples, see
- * interpolateFields(). \param samples that it was made of
+ * interpolateFields().
+ * \param samples that it was made of
  * \param report gets a warning for every field of the samples that is replaced
  * \param surface as extract() gives it
  * \param threads 0: all cores */

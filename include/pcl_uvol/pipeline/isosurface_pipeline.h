@@ -130,7 +130,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Take the scale from the samples instead of isosurface.scale: from how fast the
    * field changes along each axis. */
   bool automatic_scale = false;
-  /** Of the axes that the factors of the scale belong to, see
+  /** Turns the axes that the factors of the scale belong to, see
    * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
   /** Smooth noisy or uneven samples by a level set first. */
@@ -261,8 +261,8 @@ struct GapFilling {
    * measured one. */
   double range = 0.0;
   double nugget = 0.0, sill = 0.0; ///< of the variogram, in squared units of the field
-  /** Of each predicted sample, the index of the nearest measured one, whose other
-   * fields it has. */
+  /** The index of the measured sample next to each predicted one, which has the other
+   * fields of it. */
   std::vector<std::uint32_t> sources;
 };
 
@@ -374,16 +374,16 @@ private:
   pcl::Indices
   listPoints() const;
 
-  /** Of samples as they are and those that are predicted in their gaps.
+  /** Extracts from samples as they are and those that are predicted in their gaps.
    * \param parameters with the field and the scale that are taken */
   IsosurfaceResult
   runFilled(IsosurfacePipelineParameters parameters);
 
-  /** Along axes that are not those of the coordinates. */
+  /** Extracts along axes that are not those of the coordinates. */
   IsosurfaceResult
   runTurned();
 
-  /** Of samples that were made from the input.
+  /** Extracts from samples that were made from the input.
    * \param gaps that were filled in them; null: none */
   IsosurfaceResult
   runOther(const std::shared_ptr<const Dataset>& samples,

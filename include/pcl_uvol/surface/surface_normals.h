@@ -36,8 +36,8 @@ struct PCL_UVOL_EXPORTS SurfaceNormalParameters {
   /** Factors per axis, finite and positive: neighbours and covariance belong to the
    * stretched space, normals to the original one. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
-  /** Of the axes that these factors belong to, see InterpolationParameters::rotation.
-   */
+  /** Turns the axes that these factors belong to, see
+   * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
   /** Where points without a normal of their own are seen from. */
   Eigen::Array3f view_point{0.0f, 0.0f, 0.0f};

@@ -46,8 +46,8 @@ struct PCL_UVOL_EXPORTS ClusterSurfaceParameters {
   double distance = 0.0;
   /** Factors per axis, > 0: distances are measured in the stretched space. */
   Eigen::Array3f scale{1.0f, 1.0f, 1.0f};
-  /** Of the axes that these factors belong to, see InterpolationParameters::rotation.
-   */
+  /** Turns the axes that these factors belong to, see
+   * InterpolationParameters::rotation. */
   Eigen::Array3d rotation{0.0, 0.0, 0.0};
 
   /** \return The members under the names that JSON has for them. */

@@ -212,7 +212,7 @@ public:
   }
 
 private:
-  /** Of a place and the answer there. */
+  /** The numbers of a place and of the answer there. */
   std::size_t
   countNumbers() const
   {

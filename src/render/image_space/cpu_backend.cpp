@@ -38,7 +38,8 @@ public:
   }
 
   /** Fill until nothing changes, at most so often; returns the iterations that filled
-   * something. \param step of the iterations */
+   * something.
+   * \param step of the iterations */
   std::uint64_t
   run(int most, StepTimer& step)
   {

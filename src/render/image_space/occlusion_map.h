@@ -12,7 +12,8 @@ namespace pcl_uvol {
 /** \brief Openness of all cells. Memory: at most 2 bytes per pixel. */
 class OcclusionMap {
 public:
-  /** \brief Of the filled pixels of a frame, whose settings may want none.
+  /** \brief Find the openness around the filled pixels of a frame, whose settings may
+   * want none.
    * \param report gets the time of "occlusion" */
   OcclusionMap(const Frame& frame,
                const PixelBuffer& buffer,

@@ -16,7 +16,8 @@ public:
 
   /** \brief Clear the buffer and project all points into it, as pixels and as discs;
    * blocks of points that the image does not show are left out. Sets the buffer's
-   * bounds. \param step of the rows of the buffer */
+   * bounds.
+   * \param step of the rows of the buffer */
   void
   project(StepTimer& step);
 

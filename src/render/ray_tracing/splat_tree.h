@@ -50,7 +50,8 @@ struct SplatSurfaceHit {
 /** \brief Built once. Memory: about 200 bytes per splat. */
 class SplatTree {
 public:
-  /** \param colors by splat; empty: all have this one color \param step of the splats
+  /** \param colors by splat; empty: all have this one color
+   * \param step of the splats
    */
   SplatTree(const pcl::PointCloud<PointSplat>& splats,
             const std::vector<Rgba>& colors,

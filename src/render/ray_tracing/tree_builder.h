@@ -25,7 +25,8 @@ struct WideTree {
 };
 
 /** \brief The tree does not depend on the number of threads. Its depth is at most 32.
- * \param boxes at least one \param step of the items */
+ * \param boxes at least one
+ * \param step of the items */
 WideTree
 buildWideTree(const std::vector<ItemBox>& boxes, unsigned threads, StepTimer& step);
 
