@@ -187,7 +187,7 @@ forecastMemory(const Arguments& arguments, double fields, const QuerySize& queri
 pcl_uvol::detail::Bounds
 findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 {
-  auto bounds = pcl_uvol::detail::boundsOf(pcl_uvol::viewOf(samples.cloud));
+  auto bounds = pcl_uvol::detail::findBounds(pcl_uvol::viewOf(samples.cloud));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sides[axis] > 0.0) {
       bounds.low[axis] = 0.0;

@@ -57,10 +57,10 @@ struct Part {
 };
 
 CloudFingerprint
-fingerprintOfBlock(const CloudView& cloud,
-                   const std::vector<Part>& parts,
-                   std::size_t begin,
-                   std::size_t end)
+fingerprintBlock(const CloudView& cloud,
+                 const std::vector<Part>& parts,
+                 std::size_t begin,
+                 std::size_t end)
 {
   constexpr std::size_t plane_bytes = 2 * sizeof(float); // x and y
   CloudFingerprint sum; // in any order, so that points need not wait for one another
@@ -92,7 +92,7 @@ computeFingerprint(const CloudView& cloud, const ScalarField& field, unsigned th
   std::vector<CloudFingerprint> blocks((cloud.count + block_points - 1) / block_points);
   parallelBlocks(
       cloud.count, block_points, threads, [&](std::size_t begin, std::size_t end) {
-        blocks[begin / block_points] = fingerprintOfBlock(cloud, parts, begin, end);
+        blocks[begin / block_points] = fingerprintBlock(cloud, parts, begin, end);
       });
   for (const CloudFingerprint& block : blocks) {
     all.positions += block.positions;

@@ -148,7 +148,7 @@ public:
     std::size_t together = usual_group;
     for (std::size_t begin = 0; begin < count;) {
       together = std::min(together, count - begin);
-      const auto [low, high] = boxOf(begin, begin + together);
+      const auto [low, high] = findBox(begin, begin + together);
       const std::size_t most =
           together == 1 ? std::numeric_limits<std::size_t>::max() : most_buckets;
       buckets_.clear();
@@ -169,7 +169,7 @@ private:
   using Corner = std::array<double, 3>;
 
   std::pair<Corner, Corner>
-  boxOf(std::size_t begin, std::size_t end) const
+  findBox(std::size_t begin, std::size_t end) const
   {
     Corner low, high;
     for (std::size_t axis = 0; axis < 3; ++axis) {

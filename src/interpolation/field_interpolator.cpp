@@ -409,7 +409,7 @@ FieldInterpolator::findVariogram(std::size_t field) const
 }
 
 std::vector<std::array<double, 3>>
-placesOf(const CloudView& cloud)
+readPlaces(const CloudView& cloud)
 {
   std::vector<std::array<double, 3>> places(cloud.count);
   for (std::size_t i = 0; i < cloud.count; ++i) {

@@ -162,7 +162,7 @@ QueryLattice::spacing(std::size_t axis) const
 }
 
 Bounds
-boundsOf(const CloudView& cloud)
+findBounds(const CloudView& cloud)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Bounds box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};

@@ -44,7 +44,7 @@ struct Bounds {
 /** \brief The box of the points with finite coordinates.
  * \throws InvalidArgument if there are none */
 PCL_UVOL_EXPORTS Bounds
-boundsOf(const CloudView& cloud);
+findBounds(const CloudView& cloud);
 
 /** \brief Places from one point to another, both included.
  * \param count at least 2

@@ -30,12 +30,12 @@ constexpr double tried_powers[] = {0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0};
  * is so many of its standard errors. */
 constexpr double least_gain = 0.9, least_certainty = 4.0;
 
-/** The lowest power is taken of those that are worse than the best one by less than that
- * part of its error, or by fewer standard errors. */
+/** The lowest power is taken of those that are worse than the best one by less than
+ * that part of its error, or by fewer standard errors. */
 constexpr double alike = 1.05, alike_errors = 2.0;
 
 double
-meanOf(const std::vector<double>& numbers)
+computeMean(const std::vector<double>& numbers)
 {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0) /
          static_cast<double>(numbers.size());
@@ -43,9 +43,9 @@ meanOf(const std::vector<double>& numbers)
 
 /** How many standard errors some numbers are lower than others by, pair by pair. */
 double
-certaintyOf(const std::vector<double>& lower, const std::vector<double>& others)
+measureCertainty(const std::vector<double>& lower, const std::vector<double>& others)
 {
-  const double mean = meanOf(others) - meanOf(lower);
+  const double mean = computeMean(others) - computeMean(lower);
   double squares = 0.0;
   for (std::size_t i = 0; i < lower.size(); ++i) {
     const double rest = others[i] - lower[i] - mean;
@@ -82,20 +82,22 @@ choosePower(const detail::GapTest& test,
     return test.computeErrors((power * log_factors - log_spread).exp(), threads);
   };
   const std::vector<double> before = errorsOf(0.0);
-  const double mean_before = meanOf(before);
+  const double mean_before = computeMean(before);
   std::vector<std::vector<double>> tried;
   std::size_t best = 0;
   for (const double power : tried_powers) {
     tried.push_back(errorsOf(power));
-    if (meanOf(tried.back()) < meanOf(tried[best]))
+    if (computeMean(tried.back()) < computeMean(tried[best]))
       best = tried.size() - 1;
   }
   std::size_t lowest = 0;
-  while (lowest < best && meanOf(tried[lowest]) > alike * meanOf(tried[best]) &&
-         certaintyOf(tried[best], tried[lowest]) > alike_errors)
+  while (lowest < best &&
+         computeMean(tried[lowest]) > alike * computeMean(tried[best]) &&
+         measureCertainty(tried[best], tried[lowest]) > alike_errors)
     ++lowest;
-  const double ratio = meanOf(tried[lowest]) / mean_before;
-  if (!(ratio < least_gain) || !(certaintyOf(tried[lowest], before) > least_certainty))
+  const double ratio = computeMean(tried[lowest]) / mean_before;
+  if (!(ratio < least_gain) ||
+      !(measureCertainty(tried[lowest], before) > least_certainty))
     return 0.0;
   error_ratio = ratio;
   return tried_powers[lowest];

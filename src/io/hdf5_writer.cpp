@@ -36,7 +36,7 @@ rotated(std::uint32_t x, int bits)
 
 /** Jenkins' lookup3, which headers end with. */
 std::uint32_t
-checksumOf(const std::string& bytes)
+computeChecksum(const std::string& bytes)
 {
   constexpr std::size_t words = 3, block = 12;
   std::array<std::uint32_t, words> sum;
@@ -75,7 +75,7 @@ checksumOf(const std::string& bytes)
 std::string
 sealed(std::string bytes)
 {
-  appendLittle(bytes, checksumOf(bytes));
+  appendLittle(bytes, computeChecksum(bytes));
   return bytes;
 }
 

@@ -161,7 +161,7 @@ public:
       else if (words[0] == "f")
         takeFace(words);
     }
-    return builder_.build(normalsOfVertices());
+    return builder_.build(collectNormals());
   }
 
 private:
@@ -211,7 +211,7 @@ private:
   }
 
   std::vector<float>
-  normalsOfVertices() const
+  collectNormals() const
   {
     std::vector<float> numbers;
     if (!has_normals_ || normals_.empty())

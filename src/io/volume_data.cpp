@@ -288,7 +288,7 @@ besideFile(const std::string& path, std::string_view name)
 }
 
 std::vector<std::string>
-filesOfPattern(const std::string& path, const std::vector<std::string_view>& words)
+expandPattern(const std::string& path, const std::vector<std::string_view>& words)
 {
   const std::string_view pattern = words[0];
   const std::size_t start = pattern.find('%'), end = pattern.find('d', start);

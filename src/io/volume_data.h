@@ -50,7 +50,7 @@ besideFile(const std::string& path, std::string_view name);
  * \param words pattern, first, last, step
  * \throws IOError for files that are not there, and for any other pattern */
 std::vector<std::string>
-filesOfPattern(const std::string& path, const std::vector<std::string_view>& words);
+expandPattern(const std::string& path, const std::vector<std::string_view>& words);
 
 /** \brief Read the numbers; nothing larger than the files allow is ever held.
  * \param volume has its sizes

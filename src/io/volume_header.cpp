@@ -20,7 +20,7 @@ VolumeHeader::takeFiles(std::string_view value)
         data_.files.push_back(besideFile(path_, trimmed(line)));
   }
   else if (value.find('%') != value.npos)
-    data_.files = filesOfPattern(path_, words_);
+    data_.files = expandPattern(path_, words_);
   else
     data_.files = {besideFile(path_, value)};
 }

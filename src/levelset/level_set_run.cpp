@@ -94,14 +94,14 @@ public:
         told = done;
         reminder.setDone(static_cast<double>(told) / progress_parts);
         if (snapshot_steps_ > 0 && summary_.steps.size() % snapshot_steps_ == 0)
-          snapshot_(summary_, phiOfCloud(current()));
+          snapshot_(summary_, expandToCloud(current()));
       }
       timer.advance(progress_parts - told);
     }
     finish();
     report_.count("steps", summary_.steps.size());
     report_.count("band_samples", band_->centers.size());
-    LevelSet level_set{phiOfCloud(phi_), deviationOfCloud(), {}, summary_};
+    LevelSet level_set{expandToCloud(phi_), computeDeviations(), {}, summary_};
     level_set.sources = std::move(input_.sources);
     return level_set;
   }
@@ -110,7 +110,7 @@ private:
   /** Gives phi by input index, in the input's unit of length.
    * \param phi by sample */
   std::vector<float>
-  phiOfCloud(std::vector<float> values) const
+  expandToCloud(std::vector<float> values) const
   {
     for (float& value : values)
       value = static_cast<float>(samples_.getUnit().toInput(value));
@@ -124,15 +124,15 @@ private:
   }
 
   std::vector<float>
-  deviationOfCloud() const
+  computeDeviations() const
   {
     std::vector<float> deviations(samples_.size(),
                                   std::numeric_limits<float>::quiet_NaN());
     const std::vector<float> of_band =
-        findDeviations(*band_, phiOfBand(), term_, shares_, threads_);
+        findDeviations(*band_, gatherPhi(), term_, shares_, threads_);
     for (std::size_t i = 0; i < of_band.size(); ++i)
       deviations[band_->centers[i]] = of_band[i];
-    return phiOfCloud(std::move(deviations));
+    return expandToCloud(std::move(deviations));
   }
 
   /** The band, its data term, the weights and the values it starts with. */
@@ -231,7 +231,7 @@ private:
 
   /** The function by place of the band. */
   std::vector<float>
-  phiOfBand() const
+  gatherPhi() const
   {
     std::vector<float> phi(band_->places(), 0.0f);
     band_->forPlaces(
@@ -243,7 +243,7 @@ private:
   makeEvolver()
   {
     evolver_.emplace(
-        *band_, parameters_, threads_, spacing_, summary_.mu, phiOfBand(), term_);
+        *band_, parameters_, threads_, spacing_, summary_.mu, gatherPhi(), term_);
   }
 
   void
@@ -331,13 +331,13 @@ private:
     if (parameters_.reinitialization != Reinitialization::Eikonal)
       return distanceToZeroLevel(*band_, samples_, phi_, spacing_, threads_, report_);
     if (parameters_.scheme == FitScheme::Quadratic)
-      return relaxToDistance(*band_, phiOfBand(), spacing_, threads_);
+      return relaxToDistance(*band_, gatherPhi(), spacing_, threads_);
     // Its viscosity needs second derivatives, of the same samples at the same places.
     if (!relaxation_band_) {
       Report ignored;
       relaxation_band_ = makeBandOf(FitScheme::Quadratic, crossing_, ignored);
     }
-    return relaxToDistance(*relaxation_band_, phiOfBand(), spacing_, threads_);
+    return relaxToDistance(*relaxation_band_, gatherPhi(), spacing_, threads_);
   }
 
   /** Where the slope of phi_ is off by more, take another function with its zero level.
@@ -347,7 +347,7 @@ private:
   makeDistance(double most_slope_error, const MakeDistance& make_distance)
   {
     if (parameters_.reinitialization == Reinitialization::None ||
-        measureSlopeError(*band_, phiOfBand(), threads_) <= most_slope_error)
+        measureSlopeError(*band_, gatherPhi(), threads_) <= most_slope_error)
       return;
     const std::vector<float> distance = make_distance();
     band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
@@ -420,7 +420,7 @@ private:
       return; // the field as it is
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,
-                 [&] { return scaleToDistance(*band_, phiOfBand(), threads_); });
+                 [&] { return scaleToDistance(*band_, gatherPhi(), threads_); });
   }
 
   /** What the weight that was given leaves of the noise, where some of the samples next

@@ -95,7 +95,7 @@ ClusterSeparation::ascend(const MatrixXd& start, unsigned steps) const
   if (separable_.empty())
     return start;
   MatrixXd best = start, basis = start;
-  double best_ratio = smallestOfSeparable(start);
+  double best_ratio = findSmallestSeparable(start);
   for (const double sharpness : sharpnesses) {
     SoftMinimum here = softMinimum(basis, sharpness);
     double length = first_move / std::max(here.gradient.norm(), first_move);

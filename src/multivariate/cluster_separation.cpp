@@ -90,7 +90,7 @@ ClusterSeparation::toFunctionals(const MatrixXd& basis) const
 }
 
 MatrixXd
-ClusterSeparation::covarianceOfCentres() const
+ClusterSeparation::computeCentreCovariance() const
 {
   const Index m = root_.rows();
   const VectorXd zero = VectorXd::Zero(m);
@@ -140,7 +140,7 @@ ClusterSeparation::smallestRatio(const MatrixXd& basis) const
 }
 
 double
-ClusterSeparation::smallestOfSeparable(const MatrixXd& basis) const
+ClusterSeparation::findSmallestSeparable(const MatrixXd& basis) const
 {
   return findSmallestRatio(separable_, basis);
 }

@@ -55,7 +55,7 @@ public:
 
   /** \brief The smallest ratio of the other pairs; infinite if there are none. */
   double
-  smallestOfSeparable(const Eigen::MatrixXd& basis) const;
+  findSmallestSeparable(const Eigen::MatrixXd& basis) const;
 
   /** \brief The directions along which the centres differ most, as columns; 0 where
    * there are fewer than three.
@@ -74,7 +74,7 @@ public:
 
   /** \brief Covariance of the centres in attributes, each cluster counting alike. */
   Eigen::MatrixXd
-  covarianceOfCentres() const;
+  computeCentreCovariance() const;
 
 private:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;

@@ -118,7 +118,7 @@ bestAxes(const ClusterSeparation& separation,
   std::vector<double> ratios(starts.size());
   parallelBlocks(starts.size(), 1, threads, [&](std::size_t s, std::size_t) {
     ends[s] = separation.ascend(separation.toBasis(starts[s]), parameters.steps);
-    ratios[s] = separation.smallestOfSeparable(ends[s]);
+    ratios[s] = separation.findSmallestSeparable(ends[s]);
   });
   std::size_t best = 0;
   for (std::size_t s = 1; s < ends.size(); ++s)
@@ -200,7 +200,7 @@ starCoordinates(const AttributeTable& table,
   const MatrixXd axes =
       optimizedAxes(separation, covariance, all.covariance(), parameters, threads);
   const MatrixXd frame =
-      perUnitTrace(separation.covarianceOfCentres()) + weight_of_rows * covariance;
+      perUnitTrace(separation.computeCentreCovariance()) + weight_of_rows * covariance;
   return makeProjection(table, all.mean, turned(axes, frame));
 }
 

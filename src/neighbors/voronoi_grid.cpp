@@ -80,7 +80,9 @@ constexpr std::array<std::array<int, 3>, 13> later_cells = {{{{1, 0, 0}},
 
 /** Pairs of regions that meet at the cells of a plane, or behind it. */
 std::vector<RegionPair>
-pairsOfPlane(const GridShape& shape, const std::vector<std::uint32_t>& nearest, int z)
+findRegionPairs(const GridShape& shape,
+                const std::vector<std::uint32_t>& nearest,
+                int z)
 {
   const std::array<int, 3> cells{{static_cast<int>(shape.cells[0]),
                                   static_cast<int>(shape.cells[1]),
@@ -194,7 +196,7 @@ VoronoiGrid::findAdjacentRegions(unsigned threads) const
 {
   auto pairs = parallelGather<RegionPair>(
       shape_.cells[2], 1, threads, [&](auto z, auto, auto& found) {
-        found = pairsOfPlane(shape_, nearest_, static_cast<int>(z));
+        found = findRegionPairs(shape_, nearest_, static_cast<int>(z));
       });
   parallelSort(pairs.begin(), pairs.end(), threads, std::less<RegionPair>());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 using pcl_uvol::FitScheme;
-using uvol_test::meanOf;
+using uvol_test::computeMean;
 
 constexpr double side = 100.0;
 constexpr std::size_t neighbors = 26;
@@ -175,7 +175,7 @@ private:
         errors[i] = (exact - gradient(i)).norm() / exact.norm();
       }
     });
-    return meanOf(errors);
+    return computeMean(errors);
   }
 
   pcl::PointCloud<pcl::PointXYZI>::Ptr cloud_;

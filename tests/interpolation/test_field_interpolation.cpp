@@ -353,7 +353,7 @@ TEST(FieldInterpolation, AnswersBecomeFieldsOfTheQueries)
   const auto samples = sampleFunctions(randomPlaces(1000, 19), {franke});
   pcl::PCLPointCloud2 points =
       sampleFunctions(randomPlaces(30, 20), {[](const Vector3d& x) { return x[0]; }});
-  const auto result = interpolate(samples, {}, detail::placesOf(viewOf(points)));
+  const auto result = interpolate(samples, {}, detail::readPlaces(viewOf(points)));
   // The points have another f0 of their own.
   EXPECT_EQ(
       appendFields(result, points),

@@ -30,7 +30,7 @@ valuesOf(const SampleSet& samples, const std::function<double(const Position&)>&
 }
 
 double
-meanOf(const std::vector<double>& numbers)
+computeMean(const std::vector<double>& numbers)
 {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0) /
          static_cast<double>(numbers.size());
@@ -81,16 +81,16 @@ TEST(GapTest, SamplesOfTheOwnLineAreLeftOut)
     return std::sin(1e4 * static_cast<double>(x[0])) > 0.0 ? 1.0 : 0.0;
   });
   const GapTest test(*samples, values, 3, 0);
-  EXPECT_GT(meanOf(test.computeErrors(Array3d::Ones(), 0)), 0.15);
+  EXPECT_GT(computeMean(test.computeErrors(Array3d::Ones(), 0)), 0.15);
   // A field of depth alone is told by other lines if depth counts, and not if it does
   // not.
   const auto depth = valuesOf(*samples, [](const Position& x) {
     return std::sin(9.0 * static_cast<double>(x[2]));
   });
   const GapTest of_depth(*samples, depth, 3, 0);
-  const double with = meanOf(of_depth.computeErrors(Array3d(1, 1, 100), 0));
+  const double with = computeMean(of_depth.computeErrors(Array3d(1, 1, 100), 0));
   EXPECT_LT(with, 0.15);
-  EXPECT_GT(meanOf(of_depth.computeErrors(Array3d(1, 1, 0.1), 0)), 4.0 * with);
+  EXPECT_GT(computeMean(of_depth.computeErrors(Array3d(1, 1, 0.1), 0)), 4.0 * with);
 }
 
 TEST(GapTest, SheetsAndLinesAreSpacesOfTheirOwn)
@@ -100,12 +100,12 @@ TEST(GapTest, SheetsAndLinesAreSpacesOfTheirOwn)
   const auto linear = [](const Position& x) { return static_cast<double>(x[0]); };
   // With two dimensions neighbours in the sheet lie all around, and tell the value.
   const GapTest test(*sheet, valuesOf(*sheet, linear), 2, 0);
-  EXPECT_LT(meanOf(test.computeErrors(Array3d::Ones(), 0)), 0.15);
+  EXPECT_LT(computeMean(test.computeErrors(Array3d::Ones(), 0)), 0.15);
   for (auto& point : *planar)
     point.y = 0.0f;
   const auto line = uvol_test::buildSamples(*planar);
   const GapTest of_line(*line, valuesOf(*line, linear), 1, 0);
-  EXPECT_LT(meanOf(of_line.computeErrors(Array3d::Ones(), 0)), 0.1);
+  EXPECT_LT(computeMean(of_line.computeErrors(Array3d::Ones(), 0)), 0.1);
 }
 
 TEST(GapTest, AFewSamplesAreNoTrouble)

@@ -150,11 +150,11 @@ TEST(QueryLattice, BoundsAreThoseOfTheFinitePoints)
     point.getVector3fMap() << x, y, z;
     cloud.push_back(point);
   }
-  const Bounds found = boundsOf(viewOf(cloud));
+  const Bounds found = findBounds(viewOf(cloud));
   expectPlace(found.low, {-3.0, 4.0, -2.0});
   expectPlace(found.high, {1.0, 5.0, 0.0});
   cloud.resize(0);
-  EXPECT_THROW(boundsOf(viewOf(cloud)), InvalidArgument);
+  EXPECT_THROW(findBounds(viewOf(cloud)), InvalidArgument);
 }
 
 TEST(QueryLattice, BlocksGiveWhatSingleQueriesGet)

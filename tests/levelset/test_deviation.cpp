@@ -41,7 +41,7 @@ struct MovedPlane {
 
 /** The root mean square of deviations, in spacings, away from x = 0 and the rim. */
 double
-meanOf(const std::vector<float>& deviations, double side)
+computeMean(const std::vector<float>& deviations, double side)
 {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -62,12 +62,12 @@ TEST(Deviation, IsWhatIsLeftOfTheNoiseAroundIt)
       findDeviations(band().band, setup.phi, setup.term, {0.2, 1.0}, 1);
   ASSERT_EQ(band().band.centers.size(), deviations.size());
   // Part of the shift that the mean of 27 residuals shows by chance is added.
-  EXPECT_NEAR(0.02 * std::sqrt(2.0), meanOf(deviations, -1.0), 0.004);
-  EXPECT_NEAR(0.08 * std::sqrt(2.0), meanOf(deviations, 1.0), 0.016);
+  EXPECT_NEAR(0.02 * std::sqrt(2.0), computeMean(deviations, -1.0), 0.004);
+  EXPECT_NEAR(0.08 * std::sqrt(2.0), computeMean(deviations, 1.0), 0.016);
   const auto half = findDeviations(band().band, setup.phi, setup.term, {0.5, 1.0}, 1);
-  EXPECT_NEAR(0.05 * std::sqrt(2.0), meanOf(half, -1.0), 0.006);
+  EXPECT_NEAR(0.05 * std::sqrt(2.0), computeMean(half, -1.0), 0.006);
   const auto more = findDeviations(band().band, setup.phi, setup.term, {0.2, 0.5}, 1);
-  EXPECT_GT(meanOf(more, 1.0), 1.8 * meanOf(deviations, 1.0));
+  EXPECT_GT(computeMean(more, 1.0), 1.8 * computeMean(deviations, 1.0));
 }
 
 TEST(Deviation, KnowsWhereSmoothingHasMovedTheSurface)
@@ -75,7 +75,7 @@ TEST(Deviation, KnowsWhereSmoothingHasMovedTheSurface)
   const MovedPlane setup(0.1, 0.1, 0.15);
   const auto deviations =
       findDeviations(band().band, setup.phi, setup.term, {0.1, 1.0}, 1);
-  EXPECT_NEAR(0.15, meanOf(deviations, 1.0), 0.01);
+  EXPECT_NEAR(0.15, computeMean(deviations, 1.0), 0.01);
   const MovedPlane exact(0.0, 0.0, 0.15);
   for (const float deviation :
        findDeviations(band().band, exact.phi, exact.term, {0.1, 1.0}, 1))
@@ -92,7 +92,8 @@ TEST(Deviation, IsLeftToFitsWhereNearlyNothingWasTakenAway)
          findDeviations(band().band, setup.phi, setup.term, shares, 1))
       EXPECT_EQ(0.0f, deviation);
   EXPECT_GT(
-      meanOf(findDeviations(band().band, setup.phi, setup.term, {0.6, 0.21}, 1), 1.0),
+      computeMean(findDeviations(band().band, setup.phi, setup.term, {0.6, 0.21}, 1),
+                  1.0),
       0.1);
 }
 

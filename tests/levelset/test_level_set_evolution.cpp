@@ -28,10 +28,10 @@ using pcl_uvol::Integration;
 using pcl_uvol::Interpolation;
 using pcl_uvol::InvalidArgument;
 using pcl_uvol::Reinitialization;
+using uvol_test::computeMean;
 using uvol_test::Evolution;
 using uvol_test::evolve;
 using uvol_test::makeBall;
-using uvol_test::meanOf;
 using uvol_test::withValues;
 using Cloud = uvol_test::LevelSetCloud;
 using Vector = Eigen::Vector3d;
@@ -76,7 +76,7 @@ TEST(LevelSetEvolution, SphereShrinksByItsCurvature_long)
       if (sq_radius < 0.25 * start * start)
         return;
       last = std::sqrt(sq_radius);
-      EXPECT_NEAR(last, meanOf(radiiOf(*cloud, phi)), 0.02 * last)
+      EXPECT_NEAR(last, computeMean(radiiOf(*cloud, phi)), 0.02 * last)
           << summary.steps.size();
       ++checked;
     });
@@ -147,7 +147,7 @@ TEST(LevelSetEvolution, ReinitializationRestoresTheSlopeAndKeepsTheSurface)
     EXPECT_LT(run.summary.steps.front().slope_error, 0.1);
     EXPECT_LT(run.summary.steps.back().slope_error, 0.05);
     EXPECT_EQ(1u, run.report.getCount("reinitializations"));
-    EXPECT_LT(meanOf(run.deviations), 0.1);
+    EXPECT_LT(computeMean(run.deviations), 0.1);
     if (way == Reinitialization::Distance) {
       EXPECT_LT(largestDeviation(run.deviations, 0.0), 0.1);
     }
@@ -233,7 +233,7 @@ TEST(LevelSetEvolution, AnyProfileOfTheFieldKeepsTheSurface_long)
       evolution.setBandWidth(band);
       const auto radii = radiiOf(*cloud, evolve(evolution, cloud));
       EXPECT_TRUE(evolution.getSummary().converged) << name << ' ' << band;
-      EXPECT_NEAR(10.0, meanOf(radii), 0.05) << name << ' ' << band;
+      EXPECT_NEAR(10.0, computeMean(radii), 0.05) << name << ' ' << band;
       EXPECT_LT(largestDeviation(radii, 10.0), 0.3) << name << ' ' << band;
       if (band > 0.0)
         noise = evolution.getSummary().noise;
@@ -298,7 +298,7 @@ TEST(LevelSetEvolution, AsynchronousStepsSpareThoseOfAFewSamples_long)
     const auto phi = evolve(evolution, cloud);
     EXPECT_TRUE(evolution.getSummary().converged);
     updates[static_cast<int>(integration)] = evolution.getReport().getCount("updates");
-    radius[static_cast<int>(integration)] = meanOf(radiiOf(*cloud, phi));
+    radius[static_cast<int>(integration)] = computeMean(radiiOf(*cloud, phi));
   }
   constexpr auto synchronous = static_cast<int>(Integration::Synchronous),
                  asynchronous = static_cast<int>(Integration::Asynchronous);

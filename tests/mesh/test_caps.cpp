@@ -22,7 +22,7 @@ using Cloud = pcl::PointCloud<pcl::PointXYZI>;
 using Box = Eigen::AlignedBox3d;
 
 Box
-boxOf(const Cloud& cloud)
+findBox(const Cloud& cloud)
 {
   Box box;
   for (const auto& point : cloud)
@@ -99,7 +99,7 @@ octantField()
 TEST(Caps, CloseASlabToABox)
 {
   const auto cloud = sampleField(slabField(), 2);
-  const Box box = boxOf(*cloud);
+  const Box box = findBox(*cloud);
   for (const Remeshing remeshing : {Remeshing::Even, Remeshing::None}) {
     MeshingParameters meshing;
     meshing.remesh = remeshing;
@@ -130,7 +130,7 @@ TEST(Caps, CloseASlabToABox)
 TEST(Caps, OpenSurfacesReachTheBorder)
 {
   const auto cloud = sampleField(slabField(), 2);
-  const Box box = boxOf(*cloud);
+  const Box box = findBox(*cloud);
   MeshingParameters meshing;
   meshing.open = true;
   for (const Remeshing remeshing : {Remeshing::Even, Remeshing::None}) {
@@ -152,7 +152,7 @@ TEST(Caps, MeetASphereInItsCorner)
   const MeshRun run = runMesh(cloud);
   ASSERT_EQ(1u, run.mesh.pieces.size());
   EXPECT_EQ(0u, run.mesh.pieces[0].genus);
-  const Box box = boxOf(*cloud);
+  const Box box = findBox(*cloud);
   const double volume = integrateVolume(octantField(), box);
   EXPECT_NEAR(1.0, volume / (M_PI / 6.0 * std::pow(14.0, 3)), 0.01);
   // The box begins a little beside the corner.
@@ -178,7 +178,7 @@ TEST(Caps, CloseAGyroid)
   const MeshField field = gyroidField();
   const auto cloud = sampleField(field, 1);
   const PieceMeasures gyroid = measureRun(runMesh(cloud));
-  expectMeasure(gyroid.volume, integrateVolume(field, boxOf(*cloud)), 2e-4);
+  expectMeasure(gyroid.volume, integrateVolume(field, findBox(*cloud)), 2e-4);
 }
 
 /** The triangle between three vertices, and its mirror image, so that they are closed.

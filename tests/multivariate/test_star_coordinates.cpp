@@ -22,7 +22,9 @@ using namespace uvol_test;
 
 /** Places of the rows of a cluster, as columns. */
 MatrixXd
-placesOf(const LabelledTable& planted, const Projection& projection, std::int32_t label)
+collectPlaces(const LabelledTable& planted,
+              const Projection& projection,
+              std::int32_t label)
 {
   std::vector<std::array<float, 3>> places;
   for (std::size_t row = 0; row < planted.labels.size(); ++row)
@@ -48,7 +50,7 @@ ratioOfPlaces(const LabelledTable& planted, const Projection& projection)
       Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
       Eigen::Vector3d offset = Eigen::Vector3d::Zero();
       for (const std::int32_t label : {a, b}) {
-        const MatrixXd places = placesOf(planted, projection, label);
+        const MatrixXd places = collectPlaces(planted, projection, label);
         const Eigen::Vector3d centre = places.rowwise().mean();
         spread += computeScatter(places) / static_cast<double>(places.cols());
         offset += label == a ? centre : Eigen::Vector3d(-centre);
@@ -166,7 +168,7 @@ TEST(StarCoordinates, FirstAxisCarriesMostOfTheCentres)
     MatrixXd centres(3, static_cast<Index>(labels.size()));
     for (std::size_t c = 0; c < labels.size(); ++c)
       centres.col(static_cast<Index>(c)) =
-          placesOf(planted, projection, labels[c]).rowwise().mean();
+          collectPlaces(planted, projection, labels[c]).rowwise().mean();
     const MatrixXd spread = computeScatter(centres);
     EXPECT_GE(spread(0, 0), spread(1, 1)) << planted.name;
     EXPECT_GE(spread(1, 1), spread(2, 2)) << planted.name;

@@ -196,7 +196,7 @@ TEST(InterruptedWork, ModelsAndTheirAnswers)
   const CloudView view = viewOf(ball.samples->cloud);
   pcl::Indices all(view.count);
   std::iota(all.begin(), all.end(), 0);
-  const auto places = detail::placesOf(viewOf(ball.surface->cloud));
+  const auto places = detail::readPlaces(viewOf(ball.surface->cloud));
   for (const auto model : {InterpolationModel::Fit,
                            InterpolationModel::Sibson,
                            InterpolationModel::Kriging,

@@ -7,7 +7,7 @@
 namespace uvol_test {
 
 inline double
-meanOf(const std::vector<double>& values)
+computeMean(const std::vector<double>& values)
 {
   return std::accumulate(values.begin(), values.end(), 0.0) /
          static_cast<double>(values.size());

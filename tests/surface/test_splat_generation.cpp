@@ -237,7 +237,7 @@ TEST(SplatGeneration, FieldsOnASphereAreItsNormals)
     for (const double lambda : {0.2, 1.0}) {
       const auto errors = fieldErrors(makeSplats(cloud, delta, lambda));
       ASSERT_GE(errors.size(), 1000u); // every place is covered
-      EXPECT_LT(meanOf(errors), 0.02) << delta;
+      EXPECT_LT(computeMean(errors), 0.02) << delta;
       EXPECT_LT(*std::max_element(errors.begin(), errors.end()), 0.2) << delta;
     }
 }
@@ -257,7 +257,7 @@ TEST(SplatGeneration, FieldsAverageNoisyNormals)
   }
   const auto errors = fieldErrors(makeSplats(cloud, 4e-3, 0.5));
   ASSERT_GE(errors.size(), 1000u);
-  EXPECT_LT(meanOf(errors), 0.25 * meanOf(noise));
+  EXPECT_LT(computeMean(errors), 0.25 * computeMean(noise));
 }
 
 TEST(SplatGeneration, SlopesAreThePrincipalCurvatures)

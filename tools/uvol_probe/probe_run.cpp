@@ -149,7 +149,7 @@ Runner::probePoints()
     points = loadPoints(path, report_, load);
   }
   std::vector<Place> queries =
-      pcl_uvol::detail::placesOf(pcl_uvol::viewOf(points.cloud));
+      pcl_uvol::detail::readPlaces(pcl_uvol::viewOf(points.cloud));
   for (Place& query : queries)
     query = toSamples(query, points.origin);
   const InterpolatedFields answers = answer(queries);

@@ -167,7 +167,7 @@ private:
 
 /** \brief Places of the points of a cloud. */
 PCL_UVOL_EXPORTS std::vector<std::array<double, 3>>
-placesOf(const CloudView& cloud);
+readPlaces(const CloudView& cloud);
 
 } // namespace detail
 
@@ -250,13 +250,13 @@ public:
   void
   interpolate(const pcl::PointCloud<QueryT>& queries, InterpolatedFields& result)
   {
-    interpolateAt(detail::placesOf(viewOf(queries)), result);
+    interpolateAt(detail::readPlaces(viewOf(queries)), result);
   }
 
   void
   interpolate(const pcl::PCLPointCloud2& queries, InterpolatedFields& result)
   {
-    interpolateAt(detail::placesOf(viewOf(queries)), result);
+    interpolateAt(detail::readPlaces(viewOf(queries)), result);
   }
   /** @} */
 

@@ -110,7 +110,7 @@ public:
   probe(const Dataset& points, unsigned threads, const py::object& progress) const
   {
     auto result = std::make_shared<Dataset>(points);
-    std::vector<Place> places = detail::placesOf(viewOf(points.cloud));
+    std::vector<Place> places = detail::readPlaces(viewOf(points.cloud));
     for (Place& place : places) {
       for (std::size_t axis = 0; axis < 3; ++axis)
         place[axis] += points.origin[axis] - samples_->origin[axis];
@@ -263,7 +263,7 @@ private:
 py::tuple
 findBounds(const Dataset& samples, const std::array<double, 3>& sides)
 {
-  Bounds bounds = detail::boundsOf(viewOf(samples.cloud));
+  Bounds bounds = detail::findBounds(viewOf(samples.cloud));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sides[axis] > 0.0) {
       bounds.low[axis] = 0.0;

@@ -139,10 +139,10 @@ equalScale(const Dataset& dataset, const std::array<double, 3>& rotation)
 }
 
 std::array<float, 3>
-scaleOfField(const Dataset& dataset,
-             const std::string& field,
-             const std::array<double, 3>& rotation,
-             unsigned threads)
+chooseFieldScale(const Dataset& dataset,
+                 const std::string& field,
+                 const std::array<double, 3>& rotation,
+                 unsigned threads)
 {
   const py::gil_scoped_release unlocked;
   Report own;
@@ -181,7 +181,7 @@ bindSamplingStages(py::module_& module)
   module.def("describe_places", &describePlaces);
   module.def("with_sampling", &withSampling);
   module.def("equalizing_scale", &equalScale);
-  module.def("scale_of_field", &scaleOfField);
+  module.def("scale_of_field", &chooseFieldScale);
   module.def("split_map", &splitMap);
 }
 

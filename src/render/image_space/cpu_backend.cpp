@@ -5,7 +5,7 @@
 #include "common/parallel.h"
 #include "render/image_space/fill_kernel.h"
 #include "render/image_space/projector.h"
-#include "render/image_space/tile_finisher.h"
+#include "render/image_space/tile_shader.h"
 
 #include <algorithm>
 #include <utility>
@@ -210,7 +210,7 @@ CpuBackend::render(const Frame& frame, Image& image, Report& report)
     projector.blend(step);
   }
   PassClock clock;
-  finishTiles(frame, pixels, buffers_->scratch, image, clock, report);
+  shadeTiles(frame, pixels, buffers_->scratch, image, clock, report);
   // What the threads spent, shared out: they work side by side.
   constexpr const char* names[PassClock::Passes] = {
       "shade", "smooth", "lines", "anti_alias", "output"};

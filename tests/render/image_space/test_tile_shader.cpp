@@ -3,7 +3,7 @@
 // too short leaves seams.
 #include "pixel_setup.h"
 #include "src/render/image_space/shading_setup.h"
-#include "src/render/image_space/tile_finisher.h"
+#include "src/render/image_space/tile_shader.h"
 
 #include <gtest/gtest.h>
 #include <pcl/point_cloud.h>
@@ -204,7 +204,7 @@ private:
   std::array<std::array<std::vector<float>, plane_count>, 2> planes_;
 };
 
-TEST(TileFinisher, TilesAreTheWholeImage)
+TEST(TileShader, TilesAreTheWholeImage)
 {
   const SurfaceCloud cloud = makeCloud();
   const View view(Camera::fit(cloud.getBounds(), "iso", 30.0, 3.0),
@@ -245,7 +245,7 @@ TEST(TileFinisher, TilesAreTheWholeImage)
     image.color.resize(4 * image.pixels());
     PassClock clock;
     Report report;
-    finishTiles(frame, buffer, pool, image, clock, report);
+    shadeTiles(frame, buffer, pool, image, clock, report);
     const auto expected = WholeImage(frame, buffer).finish({2.0f, 12.0f});
     std::size_t different = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {

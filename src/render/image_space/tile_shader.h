@@ -35,14 +35,14 @@ private:
   std::vector<std::shared_ptr<TileScratch>> free_;
 };
 
-/** \brief Finish all tiles of an image, whose planes have their sizes.
+/** \brief Shade all tiles of an image, whose planes have their sizes.
  * \param report gets the time and progress of "finish" */
 void
-finishTiles(const Frame& frame,
-            PixelBuffer& buffer,
-            TileScratchPool& pool,
-            Image& image,
-            PassClock& clock,
-            Report& report);
+shadeTiles(const Frame& frame,
+           PixelBuffer& buffer,
+           TileScratchPool& pool,
+           Image& image,
+           PassClock& clock,
+           Report& report);
 
 } // namespace pcl_uvol

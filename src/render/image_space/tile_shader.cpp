@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/image_space/tile_finisher.h"
+#include "render/image_space/tile_shader.h"
 
 #include "common/dispatch.h"
 #include "common/parallel.h"
@@ -75,17 +75,18 @@ private:
   std::chrono::steady_clock::time_point start_;
 };
 
-/** One tile after another; one object per thread. Rows and columns are those of the
- * tile, which may be negative around it. */
-class TileFinisher {
+/** Shades the pixels of one tile after another, smooths them, draws lines and writes
+ * them to the image; one object per thread. Rows and columns are those of the tile,
+ * which may be negative around it. */
+class TileShader {
 public:
-  TileFinisher(const Frame& frame,
-               PixelBuffer& buffer,
-               const Shading& shading,
-               const OcclusionMap& occlusion,
-               Image& image,
-               PassClock& clock,
-               TileScratch& scratch)
+  TileShader(const Frame& frame,
+             PixelBuffer& buffer,
+             const Shading& shading,
+             const OcclusionMap& occlusion,
+             Image& image,
+             PassClock& clock,
+             TileScratch& scratch)
       : frame_(frame)
       , buffer_(buffer)
       , shading_(shading)
@@ -115,7 +116,7 @@ public:
 
   /** The tile that begins at a pixel of the image. */
   void
-  finish(int row, int column)
+  drawTile(int row, int column)
   {
     first_row_ = row;
     first_column_ = column;
@@ -372,12 +373,12 @@ private:
 } // namespace
 
 void
-finishTiles(const Frame& frame,
-            PixelBuffer& buffer,
-            TileScratchPool& pool,
-            Image& image,
-            PassClock& clock,
-            Report& report)
+shadeTiles(const Frame& frame,
+           PixelBuffer& buffer,
+           TileScratchPool& pool,
+           Image& image,
+           PassClock& clock,
+           Report& report)
 {
   const ShadingSetup setup(frame);
   const int columns = (frame.view.width + tile_columns - 1) / tile_columns;
@@ -387,10 +388,10 @@ finishTiles(const Frame& frame,
   parallelBlocks(
       static_cast<std::size_t>(rows), 1, frame.threads, [&](auto begin, auto) {
         const auto scratch = pool.take();
-        TileFinisher finisher(
+        TileShader shader(
             frame, buffer, setup.get(), occlusion, image, clock, *scratch);
         for (int column = 0; column < columns; ++column)
-          finisher.finish(static_cast<int>(begin) * tile_rows, column * tile_columns);
+          shader.drawTile(static_cast<int>(begin) * tile_rows, column * tile_columns);
         pool.giveBack(scratch);
         step.advance(1);
       });
