@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters of all stages: they survive JSON, and equality sees every member.
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>
 #include <pcl_uvol/multivariate/cluster_membership.h>
 #include <pcl_uvol/multivariate/density_clustering.h>

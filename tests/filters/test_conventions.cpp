@@ -2,6 +2,7 @@
 // What every VTK filter does: missing and wrong arrays, empty input, progress, abort,
 // execution only when something was modified, the same bytes every time.
 #include "vtk_setup.h"
+#include <pcl_uvol/filters/vtkUvolFilter.h>
 #include <pcl_uvol/filters/vtkUvolIsosurface.h>
 #include <pcl_uvol/filters/vtkUvolLevelSet.h>
 #include <pcl_uvol/filters/vtkUvolSplats.h>
