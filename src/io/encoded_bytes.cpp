@@ -123,12 +123,18 @@ readCount(EncodedBytes& source, const ArrayEncoding& encoding)
   return value;
 }
 
-void
-readPacked(const std::string& path,
-           EncodedBytes& source,
-           const ArrayEncoding& encoding,
-           std::uint64_t count,
-           std::uint8_t* bytes)
+/** The numbers in front of packed blocks. */
+struct PackedSizes {
+  std::uint64_t block = 0;          ///< bytes of one that is unpacked
+  std::vector<std::uint64_t> sizes; ///< of the blocks as they are packed
+};
+
+/** \param count bytes of all blocks */
+PackedSizes
+readSizes(const std::string& path,
+          EncodedBytes& source,
+          const ArrayEncoding& encoding,
+          std::uint64_t count)
 {
   const std::uint64_t blocks = readCount(source, encoding);
   const std::uint64_t block = readCount(source, encoding);
@@ -139,9 +145,20 @@ readPacked(const std::string& path,
                       (count - 1) % block + 1 != (last == 0 ? block : last))) ||
       (blocks == 0 && count > 0))
     throwTruncated(path);
-  std::vector<std::uint64_t> sizes(static_cast<std::size_t>(blocks));
-  for (auto& size : sizes)
+  PackedSizes packed{block, std::vector<std::uint64_t>(blocks)};
+  for (auto& size : packed.sizes)
     size = readCount(source, encoding);
+  return packed;
+}
+
+void
+readPacked(const std::string& path,
+           EncodedBytes& source,
+           const ArrayEncoding& encoding,
+           std::uint64_t count,
+           std::uint8_t* bytes)
+{
+  const auto [block, sizes] = readSizes(path, source, encoding, count);
   std::vector<unsigned char> packed;
   for (const std::uint64_t size : sizes) {
     if (size > source.left())
@@ -171,6 +188,26 @@ readBlocks(const std::string& path,
   if (readCount(source, encoding) != count)
     throwTruncated(path);
   source.read(bytes, count);
+}
+
+void
+checkBlocks(const std::string& path,
+            EncodedBytes& source,
+            const ArrayEncoding& encoding,
+            std::uint64_t count)
+{
+  if (!encoding.compressor) {
+    if (readCount(source, encoding) != count || count > source.left())
+      throwTruncated(path);
+    return;
+  }
+  const PackedSizes packed = readSizes(path, source, encoding, count);
+  std::uint64_t left = source.left();
+  for (const std::uint64_t size : packed.sizes) {
+    if (size > left)
+      throwTruncated(path);
+    left -= size;
+  }
 }
 
 } // namespace io

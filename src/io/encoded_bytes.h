@@ -70,5 +70,14 @@ readBlocks(const std::string& path,
            std::uint64_t count,
            std::uint8_t* bytes);
 
+/** \brief Look at the numbers in front of the bytes only.
+ * \param count of the bytes that the array has
+ * \throws IOError unless that many are there */
+void
+checkBlocks(const std::string& path,
+            EncodedBytes& source,
+            const ArrayEncoding& encoding,
+            std::uint64_t count);
+
 } // namespace io
 } // namespace pcl_uvol

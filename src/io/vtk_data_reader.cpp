@@ -3,6 +3,7 @@
 
 #include "common/printable.h"
 #include "io/cell_centers.h"
+#include "io/child_process.h"
 #include "io/files.h"
 #include "io/vtk_messages.h"
 #include "io/xml_scanner.h"
@@ -139,8 +140,9 @@ takePoints(vtkDataSet& data)
 /** All points, or centres of cells, behind one another. */
 class PointJoiner {
 public:
-  explicit PointJoiner(DataPlace place)
-      : place_(place)
+  PointJoiner(const std::string& path, DataPlace place)
+      : path_(path)
+      , place_(place)
   {
   }
 
@@ -149,6 +151,8 @@ public:
   add(vtkDataObject& object)
   {
     if (auto* const data = vtkDataSet::SafeDownCast(&object)) {
+      if (place_ == DataPlace::Cells)
+        checkCells(path_, *data);
       // Centres are asked of data, not of points that are left.
       addBlock(place_ == DataPlace::Points ? takePoints(*data)
                                            : takeCellCenters(*data));
@@ -170,13 +174,26 @@ public:
     }
   }
 
+  /** Add points that were made of a file. */
+  void
+  addPoints(vtkPolyData& points)
+  {
+    addBlock(&points);
+  }
+
+  bool
+  isEmpty() const
+  {
+    return blocks_.empty();
+  }
+
   /** \throws IOError without a point */
   VtkContent
-  join(const std::string& path) const
+  join() const
   {
-    if (blocks_.empty())
+    if (isEmpty())
       throwUnreadable(
-          path, place_ == DataPlace::Points ? "it has no points" : "it has no cells");
+          path_, place_ == DataPlace::Points ? "it has no points" : "it has no cells");
     vtkNew<vtkAppendFilter> append;
     append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
     for (const auto& block : blocks_)
@@ -203,6 +220,7 @@ private:
     blocks_.push_back(points);
   }
 
+  std::string path_;
   DataPlace place_;
   std::vector<vtkSmartPointer<vtkPolyData>> blocks_;
   std::set<std::string> names_;
@@ -255,19 +273,66 @@ listFiles(const std::string& path)
   return files;
 }
 
-/** Read a file by VTK's own reader.
- * \return what to say of it */
-std::string
-addByVtk(const std::string& path, DataPlace place, PointJoiner& points)
+/** Bytes of a file, or of the folder of a file that names others. */
+std::uint64_t
+countBytes(const std::string& path)
 {
-  const VtkMessages messages;
+  namespace fs = std::filesystem;
+  const std::string ending = getEnding(path);
+  if (ending != ".foam" && ending != ".case" && ending != ".vthb")
+    return InputFile(path).getSize();
+  std::uint64_t bytes = 0;
+  std::error_code error;
+  const fs::path folder = fs::absolute(path).parent_path();
+  for (fs::recursive_directory_iterator
+           entry(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && entry != end;
+       entry.increment(error))
+    if (entry->is_regular_file(error))
+      bytes += entry->file_size(error);
+  return bytes;
+}
+
+/** Read a file by VTK's own reader. */
+VtkContent
+readHere(const std::string& path, DataPlace place, const VtkMessages& messages)
+{
+  const std::string ending = getEnding(path);
+  if (ending == ".vtk")
+    checkVtkLegacy(path);
+  else if (ending.rfind(".vt", 0) == 0 && !isAmong(cell_endings, ending))
+    checkVtkXml(path);
+  const auto check = [&] {
+    if (!messages.getError().empty())
+      throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
+  };
   const auto reader = makeReader(path, place);
   const std::string note = updateAtLastTime(*reader);
+  check();
+  PointJoiner points(path, place);
   if (vtkDataObject* const output = reader->GetOutputDataObject(0))
     points.add(*output);
-  if (!messages.getError().empty())
-    throwUnreadable(path, "VTK says " + quoteText(messages.getError()));
-  return note;
+  check();
+  if (points.isEmpty()) {
+    vtkNew<vtkPolyData> none;
+    none->SetPoints(vtkNew<vtkPoints>());
+    return {none, {}};
+  }
+  VtkContent content = points.join();
+  if (!note.empty())
+    content.notes.push_back(note);
+  return content;
+}
+
+/** The same in a process of its own: VTK believes what a damaged file says. No other
+ * thread has VTK's messages meanwhile, so that the child finds them free. */
+VtkContent
+readApart(const std::string& path, DataPlace place)
+{
+  const VtkMessages messages;
+  return readInChild(
+      path, countBytes(path), [&] { return readHere(path, place, messages); });
 }
 
 /** The lists that are read. */
@@ -308,7 +373,7 @@ addFiles(const std::string& path,
       continue;
     }
     if (place == DataPlace::Cells) {
-      addByVtk(file.path, place, points);
+      points.addPoints(*vtkPolyData::SafeDownCast(readApart(file.path, place).data));
       continue;
     }
     const VtkContent content = getEnding(file.path) == ".vtk" ? readVtkLegacy(file.path)
@@ -334,11 +399,10 @@ readByVtk(const std::string& path, DataPlace place)
   checkBeginning(path);
   if (isAmong(cell_endings, getEnding(path)))
     place = DataPlace::Cells;
-  PointJoiner points(place);
-  const std::string note = addByVtk(path, place, points);
-  VtkContent content = points.join(path);
-  if (!note.empty())
-    content.notes.push_back(note);
+  VtkContent content = readApart(path, place);
+  if (content.data->GetNumberOfPoints() == 0)
+    throwUnreadable(
+        path, place == DataPlace::Points ? "it has no points" : "it has no cells");
   return content;
 }
 
@@ -351,11 +415,11 @@ isFileList(const std::string& path)
 VtkContent
 readFileList(const std::string& path, DataPlace place)
 {
-  PointJoiner points(place);
+  PointJoiner points(path, place);
   ReadLists lists{path};
   std::vector<std::string> notes;
   addFiles(path, place, lists, points, notes);
-  VtkContent content = points.join(path);
+  VtkContent content = points.join();
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
   return content;
 }

@@ -21,7 +21,7 @@ isReadByVtk(const std::string& path);
  * have; of adaptive meshes and octrees the centres of cells. Centres of cells are read
  * of VTK's XML and legacy files as well.
  *
- * VTK believes what the file says: not for files of strangers.
+ * VTK believes what the file says: it reads in a child process with limits.
  *
  * \throws IOError */
 VtkContent

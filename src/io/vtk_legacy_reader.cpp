@@ -93,6 +93,10 @@ public:
   VtkContent
   read();
 
+  /** Takes all that the file holds. */
+  void
+  scan();
+
 private:
   enum class Data { None, Points, Cells };
 
@@ -518,8 +522,8 @@ LegacyReader::makeGeometry() const
   return set;
 }
 
-VtkContent
-LegacyReader::read()
+void
+LegacyReader::scan()
 {
   header_ = takeHeader(path_, cursor_);
   constexpr std::string_view kinds[] = {"structured_points",
@@ -542,6 +546,12 @@ LegacyReader::read()
     else if (!takeGeometry(key) && !takeCells(key) && !takeAttribute(key))
       fail(quoteText(words_[0]) + " is no keyword of its data");
   }
+}
+
+VtkContent
+LegacyReader::read()
+{
+  scan();
   VtkContent content{makeGeometry(), std::move(notes_)};
   auto& point_data = *content.data->GetPointData();
   for (const Array& array : arrays_)
@@ -562,6 +572,12 @@ VtkContent
 readVtkLegacy(const std::string& path)
 {
   return LegacyReader(path).read();
+}
+
+void
+checkVtkLegacy(const std::string& path)
+{
+  LegacyReader(path).scan();
 }
 
 std::string

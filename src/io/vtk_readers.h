@@ -25,10 +25,22 @@ struct VtkContent {
 VtkContent
 readVtkXml(const std::string& path);
 
+/** \brief Hold what a .vtp, .vtu, .vts, .vti or .vtr promises of its points, its cells
+ * and their data against the bytes that are there, before VTK's reader believes it.
+ * \throws IOError */
+void
+checkVtkXml(const std::string& path);
+
 /** \brief The same of a .vtk: images and rectilinear grids as such.
  * \throws IOError */
 VtkContent
 readVtkLegacy(const std::string& path);
+
+/** \brief Hold what a .vtk promises against the bytes that are there, as far as its
+ * points are read here.
+ * \throws IOError */
+void
+checkVtkLegacy(const std::string& path);
 
 /** \brief The note on an array that holds no numbers. */
 std::string

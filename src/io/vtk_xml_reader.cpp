@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads .vtp, .vtu, .vts and .vti: the numbers that their tags promise.
+// Reads .vtp, .vtu, .vts and .vti: the numbers that their tags promise. Of files whose
+// cells are asked for it checks what they promise.
 #include "common/printable.h"
 #include "common/scalar_field.h"
 #include "io/encoded_bytes.h"
@@ -46,6 +47,10 @@ public:
   /** Before memory is taken for them. */
   void
   check(const ArrayTag& array, std::uint64_t tuples) const;
+
+  /** Before another reader believes it: the numbers in front of the bytes as well. */
+  void
+  checkThoroughly(const ArrayTag& array, std::uint64_t tuples);
 
 private:
   void
@@ -137,6 +142,31 @@ ArrayReader::read(const ArrayTag& array, std::uint64_t tuples, std::uint8_t* byt
     swapBytes(bytes, size, count);
 }
 
+void
+ArrayReader::checkThoroughly(const ArrayTag& array, std::uint64_t tuples)
+{
+  if (!array.type || tuples == 0)
+    return;
+  check(array, tuples);
+  const std::uint64_t count = array.components * tuples;
+  if (array.format == "ascii") {
+    cursor_.seek({beginOf(array), 0});
+    std::string_view word;
+    for (std::uint64_t i = 0; i < count; ++i)
+      if (!cursor_.nextWord(word) ||
+          cursor_.tell().offset - word.size() >= endOf(array))
+        throwUnreadable(path_,
+                        "the array " + quoteText(array.name) + " has too few numbers");
+    return;
+  }
+  EncodedBytes source(path_,
+                      cursor_.getFile(),
+                      beginOf(array),
+                      endOf(array),
+                      array.format != "appended" || tags_.appended_base64);
+  checkBlocks(path_, source, encoding_, count * datatypeSize(array.type->datatype));
+}
+
 /** The whole numbers of an array of the polygons of a piece.
  * \param count of them */
 std::vector<double>
@@ -191,6 +221,26 @@ checkEnd(const std::string& path)
                     "it is truncated or no VTK file: it does not end with </VTKFile>");
 }
 
+/** Calls visit(first point in the whole, number of points) for the rows of a part of a
+ * grid, in its order. */
+template <typename Visit>
+void
+forRows(const Extent& whole, const Extent& part, const Visit& visit)
+{
+  const auto size = [](const Extent& extent, std::size_t axis) {
+    return static_cast<std::size_t>(std::int64_t(extent[2 * axis + 1]) -
+                                    extent[2 * axis] + 1);
+  };
+  const auto shift = [&](std::size_t axis) {
+    return static_cast<std::size_t>(std::int64_t(part[2 * axis]) - whole[2 * axis]);
+  };
+  for (std::size_t z = 0; z < size(part, 2); ++z)
+    for (std::size_t y = 0; y < size(part, 1); ++y)
+      visit(((z + shift(2)) * size(whole, 1) + y + shift(1)) * size(whole, 0) +
+                shift(0),
+            size(part, 0));
+}
+
 /** Makes data of VTK from the pieces of a file. */
 class Assembler {
 public:
@@ -217,9 +267,6 @@ private:
   {
     return tags_.kind == "ImageData" || tags_.kind == "StructuredGrid";
   }
-  template <typename Visit>
-  void
-  forRows(const Piece& piece, const Visit& visit) const;
   void
   gatherGrid(ArrayReader& reader,
              const std::vector<const ArrayTag*>& arrays,
@@ -273,27 +320,6 @@ Assembler::checkPieces()
   points_ = countOf(tags_.whole);
 }
 
-/** Calls visit(first point in the whole, number of points) for the rows of a piece of a
- * grid, in its order. */
-template <typename Visit>
-void
-Assembler::forRows(const Piece& piece, const Visit& visit) const
-{
-  const Extent &whole = tags_.whole, &part = piece.extent;
-  const auto size = [](const Extent& extent, std::size_t axis) {
-    return static_cast<std::size_t>(std::int64_t(extent[2 * axis + 1]) -
-                                    extent[2 * axis] + 1);
-  };
-  const auto shift = [&](std::size_t axis) {
-    return static_cast<std::size_t>(std::int64_t(part[2 * axis]) - whole[2 * axis]);
-  };
-  for (std::size_t z = 0; z < size(part, 2); ++z)
-    for (std::size_t y = 0; y < size(part, 1); ++y)
-      visit(((z + shift(2)) * size(whole, 1) + y + shift(1)) * size(whole, 0) +
-                shift(0),
-            size(part, 0));
-}
-
 /** Reads an array of all pieces of a grid, which may share the points between them. */
 void
 Assembler::gatherGrid(ArrayReader& reader,
@@ -308,7 +334,7 @@ Assembler::gatherGrid(ArrayReader& reader,
     part.resize(piece.points * tuple_bytes);
     reader.read(*arrays[i], piece.points, part.data());
     const std::uint8_t* from = part.data();
-    forRows(piece, [&](std::size_t first, std::size_t count) {
+    forRows(tags_.whole, piece.extent, [&](std::size_t first, std::size_t count) {
       std::copy_n(from, count * tuple_bytes, to + first * tuple_bytes);
       std::fill_n(covered.begin() + static_cast<std::ptrdiff_t>(first), count, true);
       from += count * tuple_bytes;
@@ -420,6 +446,43 @@ readVtpTriangles(const std::string& path)
     first += piece.points;
   }
   return triangles;
+}
+
+void
+checkVtkXml(const std::string& path)
+{
+  checkEnd(path);
+  TagCollector tags(path, true);
+  tags.collect();
+  ArrayReader reader(path, tags);
+  for (const Piece& piece : tags.pieces) {
+    for (const ArrayTag& array : piece.cell_arrays)
+      reader.checkThoroughly(array, piece.cells);
+    for (const ArrayTag& array : piece.arrays)
+      reader.checkThoroughly(array, piece.points);
+    for (const ArrayTag& array : piece.coordinates)
+      reader.checkThoroughly(array, piece.points);
+  }
+  if (tags.kind == "PolyData" || tags.kind == "UnstructuredGrid")
+    return;
+  const Extent whole = cellsOf(tags.whole);
+  std::uint64_t cells = 0;
+  for (const Piece& piece : tags.pieces)
+    cells += piece.cells;
+  const auto refuse = [&] {
+    throwUnreadable(path, "its pieces do not hold all cells of the grid");
+  };
+  if (cells < countOf(whole))
+    refuse();
+  if (tags.pieces.size() < 2)
+    return;
+  std::vector<bool> covered(countOf(whole));
+  for (const Piece& piece : tags.pieces)
+    forRows(whole, cellsOf(piece.extent), [&](std::size_t first, std::size_t count) {
+      std::fill_n(covered.begin() + static_cast<std::ptrdiff_t>(first), count, true);
+    });
+  if (std::find(covered.begin(), covered.end(), false) != covered.end())
+    refuse();
 }
 
 VtkContent

@@ -21,6 +21,16 @@ countOf(const Extent& extent)
   return count;
 }
 
+Extent
+cellsOf(const Extent& extent)
+{
+  Extent cells = extent;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (cells[2 * axis] < cells[2 * axis + 1])
+      --cells[2 * axis + 1];
+  return cells;
+}
+
 template <std::size_t N>
 void
 TagCollector::takeNumbers(const std::string* text, std::array<double, N>& numbers) const
@@ -83,6 +93,8 @@ TagCollector::takeRoot(const XmlTag& tag)
        {"PolyData", "UnstructuredGrid", "StructuredGrid", "ImageData"})
     if (kind == known)
       return;
+  if (with_cells_ && kind == "RectilinearGrid")
+    return;
   throwUnreadable(path_, "it holds no points but " + quoteText(kind));
 }
 
@@ -100,13 +112,14 @@ void
 TagCollector::takePiece(const XmlTag& tag)
 {
   Piece piece;
-  const bool grid = kind == "StructuredGrid" || kind == "ImageData";
+  const bool grid = kind != "PolyData" && kind != "UnstructuredGrid";
   if (const std::string* const extent = tag.find("Extent"); grid && extent) {
     piece.extent = extentIn(*extent);
     for (std::size_t i = 0; i < 6; i += 2)
       if (piece.extent[i] < whole[i] || piece.extent[i + 1] > whole[i + 1])
         throwUnreadable(path_, "a piece lies outside of the whole extent");
     piece.points = countOf(piece.extent);
+    piece.cells = countOf(cellsOf(piece.extent));
   }
   else if (grid)
     throwUnreadable(path_, "a piece has no extent");
@@ -114,6 +127,19 @@ TagCollector::takePiece(const XmlTag& tag)
     piece.points = countIn(tag, "NumberOfPoints", 0);
   if (kind == "PolyData")
     piece.polygon_count = countIn(tag, "NumberOfPolys", 0);
+  if (with_cells_ && !grid)
+    for (const char* const kind_of_cells : {"NumberOfCells",
+                                            "NumberOfVerts",
+                                            "NumberOfLines",
+                                            "NumberOfStrips",
+                                            "NumberOfPolys"}) {
+      const std::uint64_t cells = countIn(tag, kind_of_cells, 0);
+      if (cells > std::uint64_t(1) << 40) // more than memory holds, with a byte each
+        throwUnreadable(path_,
+                        "it promises " + std::to_string(cells) +
+                            " cells, more than there can be");
+      piece.cells += cells;
+    }
   pieces.push_back(std::move(piece));
 }
 
@@ -122,7 +148,8 @@ TagCollector::takeArray(const XmlTag& tag)
 {
   const std::string& section = scanner_.getOpen()[3];
   has_cell_data = has_cell_data || section == "CellData";
-  if (section != "PointData" && section != "Points" && section != "Polys")
+  const bool of_cells = with_cells_ && section == "CellData";
+  if (section != "PointData" && section != "Points" && section != "Polys" && !of_cells)
     return;
   // Of several steps of time the first one counts.
   if (const std::string* const step = tag.find("TimeStep"); step && *step != "0")
@@ -143,6 +170,7 @@ TagCollector::takeArray(const XmlTag& tag)
   Piece& piece = pieces.back();
   auto& arrays = section == "Points"  ? piece.coordinates
                  : section == "Polys" ? piece.polygons
+                 : of_cells           ? piece.cell_arrays
                                       : piece.arrays;
   arrays.push_back(std::move(array));
   if (!tag.empty)

@@ -24,6 +24,11 @@ constexpr std::uint64_t tail_bytes = 256;
 std::uint64_t
 countOf(const Extent& extent);
 
+/** \brief The cells between the points of an extent: an axis of one point has cells
+ * without that side. */
+Extent
+cellsOf(const Extent& extent);
+
 /** \brief A tag DataArray, and where its numbers are. */
 struct ArrayTag {
   std::string name;
@@ -42,13 +47,17 @@ struct Piece {
   std::vector<ArrayTag> coordinates; ///< one
   std::uint64_t polygon_count = 0;
   std::vector<ArrayTag> polygons; ///< "connectivity" and "offsets"
+  std::uint64_t cells = 0;
+  std::vector<ArrayTag> cell_arrays; ///< of its cells; only where they are asked for
 };
 
 /** \brief Takes the tags of a file. */
 class TagCollector {
 public:
-  explicit TagCollector(const std::string& path)
+  /** \param with_cells takes the data of cells, and rectilinear grids, too */
+  explicit TagCollector(const std::string& path, bool with_cells = false)
       : path_(path)
+      , with_cells_(with_cells)
       , scanner_(path)
   {
   }
@@ -91,6 +100,7 @@ private:
   skipToAppended(const XmlTag& tag);
 
   const std::string& path_;
+  const bool with_cells_;
   XmlScanner scanner_;
   ArrayTag* array_ = nullptr; ///< the one that is open
 };

@@ -8,6 +8,7 @@
 #include <pcl_uvol/io/dataset.h>
 
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 
 using namespace pcl_uvol;
@@ -42,6 +43,14 @@ std::string
 pointsOf(const std::string& path)
 {
   return sentenceOf(path, [&] { loadDataset(path); });
+}
+
+std::string
+cellsOf(const std::string& path)
+{
+  LoadOptions options;
+  options.cells = true;
+  return sentenceOf(path, [&] { loadDataset(path, options); });
 }
 
 std::string
@@ -337,6 +346,84 @@ TEST(BrokenFiles, ManyNamesAndLongCells)
   EXPECT_EQ(std::string(1000000, '"'), quotes.cloud.fields.back().name);
 }
 
+std::string
+writeCells(const std::string& attributes,
+           const std::string& connectivity,
+           const std::string& offsets,
+           const std::string& types,
+           const std::string& values)
+{
+  const auto array = [](const std::string& name, const std::string& text) {
+    return "<DataArray type=\"Int64\" Name=\"" + name + "\" format=\"ascii\">" + text +
+           "</DataArray>";
+  };
+  return "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid>"
+         "<Piece NumberOfPoints=\"4\" " +
+         attributes +
+         "><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+         "format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>" +
+         array("connectivity", connectivity) + array("offsets", offsets) +
+         array("types", types) + "</Cells><CellData>" + array("s", values) +
+         "</CellData></Piece></UnstructuredGrid></VTKFile>";
+}
+
+TEST(BrokenFiles, CellsOfVtk)
+{
+  const std::string one = "NumberOfCells=\"1\"";
+  const TemporaryFolder folder;
+  writeFile(folder / "good.vtu", writeCells(one, "0 1 2 3", "4", "10", "7"));
+  EXPECT_EQ("", cellsOf(folder / "good.vtu"));
+  expectRefused(
+      {{"a.vtu", writeCells(one, "0 1 2 4", "4", "10", "7")},
+       {"a.vtu", writeCells(one, "0 1 2 -1", "4", "10", "7")},
+       {"a.vtu", writeCells(one, "0 1 2 99999999", "4", "10", "7")},
+       {"a.vtu", writeCells(one, "0 1 2", "3", "12", "7")},
+       {"a.vtu", writeCells(one, "0 1 2 3", "400", "10", "7")},
+       {"a.vtu", writeCells(one, "0 1 2 3", "4", "250", "7")},
+       {"a.vtu", writeCells(one, "0 1 2 3", "4", "10", "")},
+       {"a.vtu", writeCells("NumberOfCells=\"3\"", "0 1 2 3", "4", "10", "7")},
+       {"a.vtu",
+        writeCells(
+            "NumberOfCells=\"9223372036854775807\"", "0 1 2 3", "4", "10", "7")}},
+      cellsOf);
+}
+
+/** Data of cells that end early are no values. */
+TEST(BrokenFiles, CellsWithShortAppendedData)
+{
+  const TemporaryFolder folder;
+  const auto image = [](std::uint32_t bytes, const std::string& data) {
+    std::string length(4, '\0');
+    std::memcpy(length.data(), &bytes, 4);
+    return "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" version=\"0.1\">"
+           "<ImageData WholeExtent=\"0 2 0 1 0 1\"><Piece Extent=\"0 2 0 1 0 1\">"
+           "<CellData><DataArray type=\"Float32\" Name=\"s\" format=\"appended\" "
+           "offset=\"0\"/></CellData></Piece></ImageData><AppendedData "
+           "encoding=\"raw\">_" +
+           length + data + "</AppendedData></VTKFile>";
+  };
+  writeFile(folder / "good.vti", image(8, std::string(8, '\1')));
+  EXPECT_EQ("", cellsOf(folder / "good.vti"));
+  expectRefused({{"a.vti", image(4, std::string(4, '\1'))},
+                 {"a.vti", image(4, std::string(8, '\1'))},
+                 {"a.vti", image(8, std::string(4, '\1'))}},
+                cellsOf);
+}
+
+/** The corpora of our own readers are read by VTK's here. */
+TEST(BrokenFiles, CellsOfEveryFileOfTheCorpora)
+{
+  const TemporaryFolder folder;
+  for (const auto& [corpus, ending] :
+       {std::pair<std::string, std::string>{"legacy_vtk", ".vtk"}, {"xml_vtk", ".vtu"}})
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::string(PCL_UVOL_SOURCE_DIR) + "/tests/fuzz/corpus/" + corpus)) {
+      const std::string path = folder / entry.path().filename().string() + ending;
+      writeFile(path, readFile(entry.path().string()));
+      cellsOf(path);
+    }
+}
+
 /** The files that fooled readers once. */
 TEST(BrokenFiles, EveryOneEverFound)
 {
@@ -352,6 +439,8 @@ TEST(BrokenFiles, EveryOneEverFound)
     const auto before = static_cast<double>(residentMemory());
     const bool refused = pointsOf(path) != "" && makeVolume(path) != "";
     sentenceOf(path, [&] { loadMesh(path); });
+    if (ending.rfind(".vt", 0) == 0)
+      cellsOf(path);
     if (refused && measured) {
       EXPECT_LT(static_cast<double>(peakMemory()) - before,
                 10.0 * static_cast<double>(entry.file_size()) + 20e6)
