@@ -53,10 +53,10 @@ declare(Options& options, Arguments& arguments)
                   std::numeric_limits<std::int32_t>::max(),
                   "of samples: leave out pieces of fewer triangles");
   options.group("Input");
-  options.text("samples",
-               "file",
-               arguments.samples,
-               "of a mesh: the samples to look for inside of it");
+  options.input("samples",
+                "file",
+                arguments.samples,
+                "of a mesh: the samples to look for inside of it");
   options.group("Measures");
   options.flag(
       "pieces", arguments.with_pieces, "rows of the table for every piece as well");

@@ -95,8 +95,6 @@ check(const Options& options, Arguments& arguments)
   }
   if (arguments.output.empty())
     throw UsageError("The argument <out> is missing: where the values go.");
-  if (!arguments.queries.getPoints().empty())
-    uvol_tools::checkDistinct({arguments.queries.getPoints()}, {arguments.output});
   if (!uvol_tools::isWrittenInParts(arguments.queries, arguments.output))
     pcl_uvol::checkSavePath(arguments.output);
 }

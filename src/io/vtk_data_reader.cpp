@@ -7,6 +7,7 @@
 #include "io/files.h"
 #include "io/vtk_messages.h"
 #include "io/xml_scanner.h"
+#include <pcl_uvol/io/dataset.h>
 
 #include <vtkAMRUtilities.h>
 #include <vtkAppendFilter.h>
@@ -32,6 +33,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -340,14 +342,17 @@ struct ReadLists {
   std::string first;
   std::size_t open = 0; ///< each named by the one before
   std::size_t all = 0;
+  std::set<std::string> files; ///< that are no lists
+  std::size_t repeats = 0;     ///< of these
 };
 
+/** Goes through the files that a list names, and the lists in it.
+ * \param take called once for each file that is no list */
 void
-addFiles(const std::string& path,
-         DataPlace place,
-         ReadLists& lists,
-         PointJoiner& points,
-         std::vector<std::string>& notes)
+visitFiles(const std::string& path,
+           ReadLists& lists,
+           std::vector<std::string>& notes,
+           const std::function<void(const std::string& file)>& take)
 {
   if (lists.open == most_open_lists)
     throwUnreadable(lists.first, "its lists name one another without end");
@@ -367,20 +372,46 @@ addFiles(const std::string& path,
   if (files.size() < all)
     notes.push_back("Of the times that " + quoteText(path) + " lists the first one, " +
                     printable(first) + ", is read.");
-  for (const ListedFile& file : files) {
-    if (isFileList(file.path)) {
-      addFiles(file.path, place, lists, points, notes);
-      continue;
-    }
-    if (place == DataPlace::Cells) {
-      points.addPoints(*vtkPolyData::SafeDownCast(readApart(file.path, place).data));
-      continue;
-    }
-    const VtkContent content = getEnding(file.path) == ".vtk" ? readVtkLegacy(file.path)
-                                                              : readVtkXml(file.path);
-    points.add(*content.data);
-  }
+  for (const ListedFile& file : files)
+    if (isFileList(file.path))
+      visitFiles(file.path, lists, notes, take);
+    else if (std::error_code error;
+             lists.files
+                 .insert(std::filesystem::weakly_canonical(file.path, error).string())
+                 .second)
+      take(file.path);
+    else
+      ++lists.repeats;
   --lists.open;
+}
+
+/** Adds the names that a list has, of files and lists of all times, each list once. */
+void
+addNames(const std::string& path,
+         std::vector<std::string>& files,
+         std::set<std::string>& lists)
+{
+  if (lists.size() == most_lists || !lists.insert(path).second)
+    return;
+  for (const ListedFile& file : listFiles(path)) {
+    files.push_back(file.path);
+    if (isFileList(file.path))
+      addNames(file.path, files, lists);
+  }
+}
+
+std::vector<std::string>
+findNames(const std::string& path)
+{
+  std::vector<std::string> files;
+  std::set<std::string> lists;
+  try {
+    addNames(path, files, lists);
+  }
+  catch (const IOError&) {
+    // Whoever reads the list tells what is wrong with it.
+  }
+  return files;
 }
 
 } // namespace
@@ -416,13 +447,31 @@ VtkContent
 readFileList(const std::string& path, DataPlace place)
 {
   PointJoiner points(path, place);
-  ReadLists lists{path};
+  ReadLists lists;
+  lists.first = path;
   std::vector<std::string> notes;
-  addFiles(path, place, lists, points, notes);
+  visitFiles(path, lists, notes, [&](const std::string& file) {
+    if (place == DataPlace::Cells)
+      points.addPoints(*vtkPolyData::SafeDownCast(readApart(file, place).data));
+    else
+      points.add(
+          *(getEnding(file) == ".vtk" ? readVtkLegacy(file) : readVtkXml(file)).data);
+  });
+  if (lists.repeats > 0)
+    notes.push_back("The list " + quoteText(path) + " names files again " +
+                    std::to_string(lists.repeats) +
+                    " times: each of them is read once.");
   VtkContent content = points.join();
   content.notes.insert(content.notes.begin(), notes.begin(), notes.end());
   return content;
 }
 
 } // namespace io
+
+std::vector<std::string>
+listNamedFiles(const std::string& path)
+{
+  return io::isFileList(path) ? io::findNames(path) : std::vector<std::string>();
+}
+
 } // namespace pcl_uvol

@@ -3,6 +3,7 @@
 #include "random_dataset.h"
 #include <pcl_uvol/common/exceptions.h>
 
+#include <algorithm>
 #include <filesystem>
 
 using namespace pcl_uvol;
@@ -80,6 +81,21 @@ TEST_F(FileLists, OfSeveralTimesTheFirstIsRead)
   EXPECT_EQ(12u, first.cloud.width);
   ASSERT_FALSE(first.notes.empty());
   EXPECT_NE(std::string::npos, first.notes[0].find("0.5, is read"));
+}
+
+TEST_F(FileLists, ReadAFileOnce)
+{
+  std::string content = "<DataSet file=\"parts/1.vtp\"/>";
+  for (int i = 0; i < 10000; ++i)
+    content += "<DataSet file=\"parts/../parts/0.vtp\"/>";
+  const Dataset once = loadDataset(save("many.pvd", content));
+  EXPECT_EQ(11u, once.cloud.width);
+  EXPECT_NE(once.notes.end(),
+            std::find(once.notes.begin(),
+                      once.notes.end(),
+                      "The list '" + folder_.operator/("many.pvd") +
+                          "' names files again 9999 times: each of them is read "
+                          "once."));
 }
 
 TEST_F(FileLists, SayWhatIsWrong)

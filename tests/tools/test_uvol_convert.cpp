@@ -34,6 +34,22 @@ TEST_F(Convert, KeepsNamesTypesAndNumbers)
   EXPECT_EQ("x,y,z,rho\n4,5,6,1.5\n7,8,9.25,2.5\n", readFile(folder_ / "g.csv"));
 }
 
+TEST_F(Convert, WhatAListNamesIsNotWritten)
+{
+  write("a.csv", table);
+  ASSERT_EQ(0, run("a.csv p.vtp").exit_code);
+  write("l.pvd",
+        "<VTKFile><Collection><DataSet timestep=\"0\" file=\"p.vtp\"/><DataSet "
+        "timestep=\"1\" file=\"q.vtp\"/></Collection></VTKFile>");
+  write("m.vtm", "<VTKFile><DataSet file=\"l.pvd\"/></VTKFile>");
+  const std::string before = readFile(folder_ / "p.vtp");
+  for (const char* const line :
+       {"l.pvd p.vtp", "l.pvd q.vtp", "l.pvd ./p.vtp", "m.vtm p.vtp"})
+    EXPECT_EQ(2, run(line).exit_code) << line;
+  EXPECT_EQ(before, readFile(folder_ / "p.vtp"));
+  EXPECT_EQ(0, run("l.pvd other.csv").exit_code);
+}
+
 TEST_F(Convert, StandardInputAndOutputAreFiles)
 {
   write("a.csv", table);

@@ -374,6 +374,10 @@ TEST_F(ProbeTool, RefusesNonsense)
   expectFailure(line + "-validate-by random", 2, "-validate-by needs -validate");
   expectFailure(line + "-validate 21 -validate-by hole", 1, "2 to 20");
   expectFailure("-field wave -points " + out_, 2, "would be read and written");
+  expectFailure("-field wave -model kriging -points " + in_ + "2.csv -variogram-csv " +
+                    in_ + "2.csv",
+                2,
+                "would be read and written");
   expectFailure("-field wave -points " + (folder_ / "none.csv"), 1, "none.csv");
   EXPECT_EQ(2, runCommand(tool_ + " " + in_ + " " + in_ + " " + line).exit_code);
   EXPECT_EQ(2, runCommand(tool_ + " " + in_ + " " + line).exit_code);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace {
@@ -170,6 +171,20 @@ TEST_F(RaytraceTool, RefusesWhatIsWrong)
   expectRefused((folder_ / "bad.scene") + " " + picture_, 1, "bad.scene:2:1: ");
   uvol_test::writeFile(folder_ / "none.csv", "x,y,z\n");
   expectRefused((folder_ / "none.csv") + " " + picture_, 1, "none.csv");
+}
+
+TEST_F(RaytraceTool, TellsEqualWarningsOnce)
+{
+  uvol_test::writeFile(folder_ / "c.csv",
+                       "x,y,z,rho\n0,0,0,1\n1,0,0,2\n0,1,0,3\n1,1,0,4\n");
+  std::string scene = "size 40 30\ncamera eye 0 -9 0 at 0 0 0\n";
+  for (int i = 0; i < 30; ++i)
+    scene += "cloud c.csv at " + std::to_string(i) + " 0 0\n";
+  uvol_test::writeFile(folder_ / "many.scene", scene);
+  const CommandResult result = run((folder_ / "many.scene") + " " + picture_);
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
+  EXPECT_NE(std::string::npos, result.err.find("(30 times)")) << result.err;
 }
 
 TEST_F(RaytraceTool, EstimatesNormalsAndSaysSo)

@@ -3,23 +3,22 @@
 #include "shared/options.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <algorithm>
+#include <set>
+#include <string>
 #include <sys/stat.h>
 
 namespace uvol_tools {
 
 namespace {
 
-bool
-isSameFile(const std::string& a, const std::string& b)
+/** What a file is; its name where it is not there. */
+std::string
+identify(const std::string& path)
 {
-  struct stat status_a {
-  }, status_b{};
-  const bool a_exists = ::stat(a.c_str(), &status_a) == 0,
-             b_exists = ::stat(b.c_str(), &status_b) == 0;
-  if (a_exists && b_exists)
-    return status_a.st_dev == status_b.st_dev && status_a.st_ino == status_b.st_ino;
-  return pcl_uvol::resolveLinks(a) == pcl_uvol::resolveLinks(b);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0)
+    return std::to_string(status.st_dev) + ':' + std::to_string(status.st_ino);
+  return '/' + pcl_uvol::resolveLinks(path);
 }
 
 } // namespace
@@ -28,15 +27,21 @@ void
 checkDistinct(const std::vector<std::string>& inputs,
               const std::vector<std::string>& outputs)
 {
-  for (auto output = outputs.begin(); output != outputs.end(); ++output) {
-    const auto is_same = [&](const std::string& other) {
-      return isSameFile(*output, other);
-    };
-    if (std::any_of(inputs.begin(), inputs.end(), is_same))
-      throw UsageError("'" + *output +
+  if (outputs.empty())
+    return; // lists can be long
+  std::set<std::string> read, written;
+  for (const std::string& input : inputs) {
+    read.insert(identify(input));
+    for (const std::string& named : pcl_uvol::listNamedFiles(input))
+      read.insert(identify(named));
+  }
+  for (const std::string& output : outputs) {
+    const std::string file = identify(output);
+    if (read.count(file) > 0)
+      throw UsageError("'" + output +
                        "' would be read and written: give the output another name.");
-    if (std::any_of(outputs.begin(), output, is_same))
-      throw UsageError("'" + *output +
+    if (!written.insert(file).second)
+      throw UsageError("'" + output +
                        "' would be written twice: give the outputs different names.");
   }
 }

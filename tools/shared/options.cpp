@@ -171,6 +171,17 @@ Options::text(const std::string& name,
 }
 
 Options&
+Options::input(const std::string& name,
+               const std::string& placeholder,
+               std::string& target,
+               const std::string& help)
+{
+  text(name, placeholder, target, help);
+  options_.back().read = &target;
+  return *this;
+}
+
+Options&
 Options::output(const std::string& name,
                 const std::string& placeholder,
                 std::string& target,
@@ -398,9 +409,12 @@ Options::checkFiles(const std::vector<std::string>& files) const
       outputs.push_back(files.back());
     inputs.pop_back();
   }
-  for (const Option& option : options_)
+  for (const Option& option : options_) {
+    if (option.given && option.read)
+      inputs.push_back(*option.read);
     if (option.given && option.written)
       outputs.push_back(*option.written);
+  }
   checkDistinct(inputs, outputs);
   for (const std::string& output : outputs)
     if (!shares_outputs_ && isOfAll(output))

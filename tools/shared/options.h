@@ -57,6 +57,12 @@ public:
        const std::string& placeholder,
        std::string& target,
        const std::string& help);
+  /** \brief A file to be read. */
+  Options&
+  input(const std::string& name,
+        const std::string& placeholder,
+        std::string& target,
+        const std::string& help);
   /** \brief A file to be written. */
   Options&
   output(const std::string& name,
@@ -184,7 +190,8 @@ private:
     bool* flag = nullptr;
     bool flag_value = true;
     bool given = false;
-    const std::string* written = nullptr; // the target that names a file to be written
+    // The targets that name a file to be read, or to be written.
+    const std::string *read = nullptr, *written = nullptr;
     std::size_t group = 0;
     bool is_rare = false;
   };
@@ -259,7 +266,7 @@ private:
 };
 
 /** \brief No file may be read and written, or written twice, by whatever names: links
- * and ways to a folder are followed.
+ * and ways to a folder are followed, and the files that lists name are read.
  * \throws UsageError that names the file */
 void
 checkDistinct(const std::vector<std::string>& inputs,

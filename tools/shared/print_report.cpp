@@ -8,13 +8,34 @@
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <unistd.h>
+#include <unordered_map>
+#include <vector>
 
 namespace uvol_tools {
 
 namespace {
 
 using pcl_uvol::printable;
+
+/** Equal warnings, which a scene of many clouds has, once and with their number. */
+std::vector<std::string>
+countEqual(const std::vector<std::string>& warnings)
+{
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (const std::string& warning : warnings)
+    ++numbers[warning];
+  std::vector<std::string> told;
+  for (const std::string& warning : warnings) {
+    std::size_t& number = numbers[warning];
+    if (number > 0)
+      told.push_back(number == 1 ? warning
+                                 : warning + " (" + std::to_string(number) + " times)");
+    number = 0;
+  }
+  return told;
+}
 
 /** Switches the terminal's colour for its lifetime; nothing in a pipe. */
 class Colour {
@@ -100,7 +121,7 @@ printReport(const Options& options,
       object["counts"][name] = value;
     for (const auto& [step, value] : report.milliseconds)
       object["milliseconds"][step] = value;
-    object["warnings"] = report.warnings;
+    object["warnings"] = countEqual(report.warnings);
     // File names need not be UTF-8.
     std::cout << object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
@@ -115,7 +136,7 @@ printReport(const Options& options,
     printAll(report, in_colour);
   else
     printCounts(report, in_colour);
-  for (const std::string& warning : report.warnings) {
+  for (const std::string& warning : countEqual(report.warnings)) {
     const std::string line = "Warning: " + printable(warning) + '\n';
     const Colour colour(
         std::cerr, !plain && isatty(STDERR_FILENO) != 0, warning_colour);

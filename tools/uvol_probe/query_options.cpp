@@ -44,11 +44,11 @@ placeOf(const std::vector<double>& numbers, std::size_t first)
 void
 QueryOptions::declare(Options& options)
 {
-  options.text("points",
-               "file",
-               points_,
-               "at the points of a file, or the vertices of a mesh: the values become "
-               "further fields of theirs");
+  options.input("points",
+                "file",
+                points_,
+                "at the points of a file, or the vertices of a mesh: the values become "
+                "further fields of theirs");
   options.numbers("line", "x,y,z,x,y,z", 6, line_, "along a line, from end to end");
   options.integer("n", line_points_, 2, 100000000, "with -line: so many points");
   options.text("plane",

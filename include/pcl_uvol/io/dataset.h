@@ -107,6 +107,12 @@ removeUnfinishedFiles();
 PCL_UVOL_EXPORTS std::string
 resolveLinks(const std::string& path);
 
+/** \brief The files that a list (.pvd, .vtm, .pvtu, .pvtp, .pvts) names, and those that
+ * lists in it name; none for another file, and those before a list that cannot be read.
+ * \param path may name no file */
+PCL_UVOL_EXPORTS std::vector<std::string>
+listNamedFiles(const std::string& path);
+
 /** \brief Read a mesh as the other loadMesh() does, places and faces only.
  * \param path of the file
  * \throws IOError in one sentence, also for a file without faces */
