@@ -388,6 +388,13 @@ TEST(BrokenFiles, CellsOfVtk)
       cellsOf);
 }
 
+/** libexodus prints, before we say a sentence. */
+TEST(BrokenFiles, ExodusEndsInASentenceAlone)
+{
+  const std::string head("CDF\1\0\0\0\0", 8);
+  expectRefused({{"a.ex2", head}, {"a.e", head + std::string(300, '\x7f')}}, pointsOf);
+}
+
 /** Data of cells that end early are no values. */
 TEST(BrokenFiles, CellsWithShortAppendedData)
 {
