@@ -141,6 +141,15 @@ TEST(Options, HelpRefusesHeadingsThatAreNotThereAndListsThose)
   EXPECT_EQ(Line().help({"-h"}), Line().help({"-h", "-json"}));
 }
 
+TEST(Options, AreDeclaredOnce)
+{
+  Line line;
+  EXPECT_THROW(line.options.text("zoom", "name", line.field, ""), std::logic_error);
+  EXPECT_THROW(line.options.series("zoom", "", ""), std::logic_error);
+  bool is_json = false;
+  EXPECT_THROW(line.options.flag("json", is_json, ""), std::logic_error);
+}
+
 TEST(Options, NameTheValueThatIsMissing)
 {
   try {

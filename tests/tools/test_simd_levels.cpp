@@ -52,8 +52,8 @@ TEST(SimdLevels, SameBytes)
     EXPECT_EQ(pixels, fileOf("avx2", draw, picture)) << size;
     EXPECT_EQ(pixels, fileOf("avx512", draw, picture)) << size;
   }
-  const std::string trace =
-      "uvol_raytrace " + out + " " + picture + " -reflect 0.3 -occlusion 8 -size 200";
+  const std::string trace = "uvol_raytrace " + out + " " + picture +
+                            " -reflect 0.3 -occlusion-rays 8 -size 200";
   const std::string pixels = fileOf("baseline", trace, picture);
   EXPECT_GT(pixels.size(), 5000u);
   EXPECT_EQ(pixels, fileOf("avx2", trace, picture));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -61,6 +62,21 @@ TEST(Uvol, ToolsExplainEveryOptionBelowAHeading)
     if (const std::string name = entry.path().filename(); name.rfind("uvol_", 0) == 0) {
       const std::string help = runCommand(entry.path().string() + " -h all").out;
       EXPECT_THAT(help, Not(HasSubstr("\nOptions:\n"))) << name;
+    }
+}
+
+TEST(Uvol, ToolsExplainEveryOptionOnce)
+{
+  for (const auto& entry : std::filesystem::directory_iterator(tool_folder))
+    if (const std::string name = entry.path().filename(); name.rfind("uvol_", 0) == 0) {
+      std::istringstream help(runCommand(entry.path().string() + " -h all").out);
+      std::set<std::string> options;
+      for (std::string line; std::getline(help, line);)
+        if (line.rfind("  -", 0) == 0) {
+          const std::string option = line.substr(2, line.find(' ', 2) - 2);
+          EXPECT_TRUE(options.insert(option).second) << name << ' ' << option;
+        }
+      EXPECT_THAT(options, testing::Contains("-threads")) << name;
     }
 }
 

@@ -149,6 +149,16 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.out.find("picture_trace")) << result.out;
   EXPECT_EQ(50u, read(picture_).width);
+  const std::string bare = folder_ / "bare.png",
+                    small =
+                        extract + "-size 50 -no-shadows -color none -raytrace -png ";
+  ASSERT_EQ(0, runCommand(small + bare).exit_code);
+  ASSERT_EQ(0, runCommand(small + picture_ + " -occlusion-rays 16").exit_code);
+  EXPECT_NE(read(bare).color, read(picture_).color);
+  const CommandResult wrong = runCommand(small + picture_ + " -occlusion 0.5");
+  EXPECT_EQ(2, wrong.exit_code);
+  EXPECT_NE(std::string::npos, wrong.err.find("-raytrace has -occlusion-rays"))
+      << wrong.err;
 }
 
 TEST_F(RaytraceTool, RefusesWhatIsWrong)

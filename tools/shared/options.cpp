@@ -132,6 +132,10 @@ Options::group(const std::string& title, bool is_rare)
 Options&
 Options::add(Option option)
 {
+  if (std::any_of(options_.begin(), options_.end(), [&](const Option& known) {
+        return known.name == option.name;
+      }))
+    throw std::logic_error("The option -" + option.name + " is declared twice.");
   option.group = current_group_;
   option.is_rare = groups_[current_group_].is_rare;
   options_.push_back(std::move(option));
@@ -312,7 +316,8 @@ Options::series(const std::string& name,
   option.name = name;
   option.placeholder = placeholder;
   option.help = help;
-  options_.push_back(option);
+  add(std::move(option));
+  options_.back().group = 0; // "Run"
   return *this;
 }
 

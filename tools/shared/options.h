@@ -216,6 +216,7 @@ private:
          const std::string& help,
          const std::function<void(const std::string&)>& assign);
 
+  /** \throws std::logic_error for a name that another option has */
   Options&
   add(Option option);
 

@@ -24,7 +24,7 @@ RayOptions::declareRays(Options& options)
                4096,
                "shadow rays to a light that has a radius")
       .rare();
-  options.integer("occlusion",
+  options.integer("occlusion-rays",
                   settings_.occlusion_samples,
                   0,
                   4096,
@@ -74,7 +74,7 @@ RayOptions::apply(const Options& options, pcl_uvol::RayTracingSettings& settings
     settings.shadows = shadows_;
   if (options.given("light-samples"))
     settings.light_samples = settings_.light_samples;
-  if (options.given("occlusion"))
+  if (options.given("occlusion-rays"))
     settings.occlusion_samples = settings_.occlusion_samples;
   if (options.given("occlusion-distance"))
     settings.occlusion_distance = settings_.occlusion_distance;

@@ -39,6 +39,9 @@ SurfacePicture::check(const Options& options)
   if (is_ray_traced_ && options.given("opacity"))
     throw UsageError("-opacity is for pictures in image space; -raytrace has "
                      "-transparent.");
+  if (is_ray_traced_ && options.given("occlusion"))
+    throw UsageError("-occlusion is for pictures in image space; -raytrace has "
+                     "-occlusion-rays.");
   look_.check(options);
   rays_.check(options);
   if (!path_.empty())
