@@ -107,12 +107,7 @@ traceCloud(const Options& options, Arguments& arguments, Report& report)
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
   arguments.view.addColor(options, dataset, report);
   arguments.view.exaggerate(dataset);
-  arguments.rays.traceCloud(options,
-                            arguments.view,
-                            pcl_uvol::viewOf(dataset.cloud),
-                            dataset.origin,
-                            arguments.output,
-                            report);
+  arguments.rays.traceCloud(options, arguments.view, dataset, arguments.output, report);
 }
 
 int

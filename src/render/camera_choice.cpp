@@ -34,18 +34,35 @@ turnedUpwards(Camera camera, const Eigen::Vector3d& up)
   return camera;
 }
 
+/** The discs of points are found only if they are to be seen: from where all points
+ * are. */
+Camera
+fittedTo(const SeenSurface& seen,
+         const Camera& camera,
+         double aspect,
+         const CameraChoice& choice)
+{
+  const auto fit = [&](const std::vector<FittedDisc>& discs) {
+    return fitToPoints(camera, {*seen.cloud, discs, choice.turns}, aspect, choice.fill);
+  };
+  const Camera fitted = fit({});
+  if (!seen.find_discs)
+    return fitted;
+  const std::vector<FittedDisc> discs = seen.find_discs(fitted);
+  return discs.empty() ? fitted : fit(discs);
+}
+
 } // namespace
 
 Camera
 chooseCamera(const CameraChoice& choice,
-             const BoundingSphere& bounds,
+             const SeenSurface& seen,
              const std::array<double, 3>& origin,
-             double aspect,
-             const CloudView* cloud)
+             double aspect)
 {
   const Eigen::Vector3d shift(origin.data());
   const bool is_far = choice.is_parallel && !choice.eye;
-  Camera camera = Camera::fit(bounds,
+  Camera camera = Camera::fit(seen.bounds,
                               choice.view,
                               is_far ? Camera::parallel_fov : choice.fov,
                               aspect,
@@ -61,8 +78,8 @@ chooseCamera(const CameraChoice& choice,
   else {
     if (choice.up)
       camera = turnedUpwards(camera, *choice.up);
-    if (cloud != nullptr)
-      camera = fitToPoints(camera, *cloud, aspect, choice.fill);
+    if (seen.cloud != nullptr)
+      camera = fittedTo(seen, camera, aspect, choice);
   }
   return zoomed(camera, choice.zoom);
 }

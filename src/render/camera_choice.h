@@ -9,8 +9,10 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -28,20 +30,30 @@ struct CameraChoice {
   bool is_parallel = false;
   double zoom = 1.0; ///< of the middle of the picture
   double fill = 0.9; ///< part of the picture that a view fills
+  /** The camera turns all around: a view fills the picture from everywhere. */
+  bool turns = false;
+};
+
+/** \brief What a camera sees. */
+struct SeenSurface {
+  BoundingSphere bounds;
+  /** That fills the picture where only a view is chosen; null: the bounds do. */
+  const CloudView* cloud = nullptr;
+  /** Gives the discs of the points as a camera sees them; none: all points count, and
+   * have no discs. */
+  std::function<std::vector<FittedDisc>(const Camera&)> find_discs = nullptr;
 };
 
 /** \brief The camera of a choice.
- * \param bounds of what is seen
+ * \param seen what it is chosen for
  * \param origin what was subtracted from its coordinates
  * \param aspect width / height
- * \param cloud that fills the picture where only a view is chosen; null: the bounds do
  * \throws InvalidArgument for another view, and for an upward direction of no length */
 PCL_UVOL_EXPORTS Camera
 chooseCamera(const CameraChoice& choice,
-             const BoundingSphere& bounds,
+             const SeenSurface& seen,
              const std::array<double, 3>& origin,
-             double aspect,
-             const CloudView* cloud);
+             double aspect);
 
 /** \brief The same camera with the middle of its picture enlarged. */
 PCL_UVOL_EXPORTS Camera

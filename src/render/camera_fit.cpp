@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/camera_fit.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,61 +14,147 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/** Largest values of linear functions over points in the directions of a camera. */
-struct Extremes {
-  double right, left, below, above; ///< beyond planes that lie aslant by a slope
-  double nearest, farthest;
+/** Right, left, below and above of the image. */
+constexpr std::size_t sides = 4;
 
-  Extremes()
-      : right(-std::numeric_limits<double>::infinity())
-      , left(right)
-      , below(right)
-      , above(right)
-      , nearest(-right)
-      , farthest(right)
+/** Largest values of linear functions over discs in the directions of a camera. */
+class Extremes {
+public:
+  /** \param slopes of the image's planes, to its right and below */
+  explicit Extremes(const std::array<double, 2>& slopes)
+      : sq_lengths_{1.0 + slopes[0] * slopes[0], 1.0 + slopes[1] * slopes[1]}
   {
+    for (std::size_t side = 0; side < sides; ++side) {
+      const auto axis = static_cast<Eigen::Index>(side / 2);
+      planes_[side] = Eigen::Vector3d(0.0, 0.0, -slopes[side / 2]);
+      planes_[side][axis] = side % 2 == 0 ? 1.0 : -1.0;
+    }
+    beyond_.fill(-std::numeric_limits<double>::infinity());
   }
 
+  /** \param normal of length 1 */
   void
-  add(const Eigen::Vector3d& point, double slope_x, double slope_y)
+  add(const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& normal)
   {
-    right = std::max(right, point.x() - slope_x * point.z());
-    left = std::max(left, -point.x() - slope_x * point.z());
-    below = std::max(below, point.y() - slope_y * point.z());
-    above = std::max(above, -point.y() - slope_y * point.z());
-    nearest = std::min(nearest, point.z());
-    farthest = std::max(farthest, point.z());
+    for (std::size_t side = 0; side < sides; ++side) {
+      const double across = planes_[side].dot(normal);
+      const double sq_within = sq_lengths_[side / 2] - across * across;
+      extend(side,
+             planes_[side].dot(center) + radius * std::sqrt(std::max(sq_within, 0.0)));
+    }
+    nearest_ = std::min(nearest_, center.z() - radius);
+    farthest_ = std::max(farthest_, center.z() + radius);
   }
+
+  /** The ring that a ball around a disc describes about an axis of length 1 through 0:
+   * over a circle a linear function is largest where it points to. */
+  void
+  addRing(const Eigen::Vector3d& center, double radius, const Eigen::Vector3d& axis)
+  {
+    const double height = center.dot(axis);
+    const double distance = (center - height * axis).norm();
+    const auto largest = [&](const Eigen::Vector3d& plane) {
+      const double along = plane.dot(axis);
+      return height * along + distance * (plane - along * axis).norm();
+    };
+    for (std::size_t side = 0; side < sides; ++side)
+      extend(side, largest(planes_[side]) + radius * std::sqrt(sq_lengths_[side / 2]));
+    const Eigen::Vector3d forward = Eigen::Vector3d::UnitZ();
+    nearest_ = std::min(nearest_, -largest(-forward) - radius);
+    farthest_ = std::max(farthest_, largest(forward) + radius);
+  }
+
+  /** Beyond a plane through 0. */
+  double
+  beyond(std::size_t side) const
+  {
+    return beyond_[side];
+  }
+
+  double
+  nearest() const
+  {
+    return nearest_;
+  }
+
+  double
+  middle() const
+  {
+    return 0.5 * (nearest_ + farthest_);
+  }
+
+private:
+  void
+  extend(std::size_t side, double value)
+  {
+    beyond_[side] = std::max(beyond_[side], value);
+  }
+
+  std::array<double, 2> sq_lengths_; ///< of planes_
+  std::array<Eigen::Vector3d, sides> planes_;
+  std::array<double, sides> beyond_;
+  double nearest_ = std::numeric_limits<double>::infinity(), farthest_ = -nearest_;
 };
+
+/** Calls with the place and the disc of every point that counts. */
+template <typename Function>
+void
+forPoints(const FittedPoints& points, const Function& call)
+{
+  constexpr FittedDisc none{0.0f, {0.0f, 0.0f, 1.0f}};
+  for (std::size_t i = 0; i < points.cloud.count; ++i) {
+    const Eigen::Vector3f point =
+        Eigen::Map<const Eigen::Vector3f>(points.cloud.xyz(i));
+    const FittedDisc& disc = points.discs.empty() ? none : points.discs[i];
+    if (point.allFinite() && !std::isnan(disc.radius))
+      call(point.cast<double>(), disc);
+  }
+}
 
 } // namespace
 
 Camera
-fitToPoints(const Camera& camera, const CloudView& cloud, double aspect, double fill)
+fitToPoints(const Camera& camera,
+            const FittedPoints& points,
+            double aspect,
+            double fill)
 {
   // A point x is in the image of a camera at e if |x - e|_x <= slope (x - e)_z: all of
   // them are if e lies behind four planes that touch the points from outside.
   const Eigen::Matrix3d turn = camera.rotation();
   const double slope_y = fill * std::tan(camera.vertical_fov * pi / 360.0);
   const double slope_x = slope_y * aspect;
-  Extremes most;
-  for (std::size_t i = 0; i < cloud.count; ++i) {
-    const Eigen::Vector3f point = Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i));
-    if (point.allFinite())
-      most.add(turn * (point.cast<double>() - camera.at), slope_x, slope_y);
+  const Eigen::Vector3d axis = (turn * camera.up).normalized();
+  Eigen::Vector3d center = camera.at;
+  if (points.turn) {
+    Eigen::AlignedBox3d box;
+    forPoints(points, [&](const Eigen::Vector3d& point, const FittedDisc&) {
+      box.extend(point);
+    });
+    if (!box.isEmpty())
+      center = box.center();
   }
-  const double behind = std::max((most.right + most.left) / (2.0 * slope_x),
-                                 (most.below + most.above) / (2.0 * slope_y));
-  if (!(behind + most.nearest > 0.0) || !std::isfinite(behind))
+  Extremes most({slope_x, slope_y});
+  forPoints(points, [&](const Eigen::Vector3d& point, const FittedDisc& disc) {
+    const Eigen::Vector3d seen = turn * (point - center);
+    if (points.turn)
+      most.addRing(seen, disc.radius, axis);
+    else
+      most.add(
+          seen, disc.radius, turn * Eigen::Vector3f(disc.normal.data()).cast<double>());
+  });
+  const double behind = std::max((most.beyond(0) + most.beyond(1)) / (2.0 * slope_x),
+                                 (most.beyond(2) + most.beyond(3)) / (2.0 * slope_y));
+  if (!(behind + most.nearest() > 0.0) || !std::isfinite(behind))
     return camera;
-  const Eigen::Vector3d eye(
-      0.5 * (most.right - most.left), 0.5 * (most.below - most.above), -behind);
+  const Eigen::Vector3d eye(0.5 * (most.beyond(0) - most.beyond(1)),
+                            0.5 * (most.beyond(2) - most.beyond(3)),
+                            -behind);
+  // What a turning camera looks at stays on the axis.
+  const double depth = points.turn ? eye.y() / axis.y() * axis.z() : most.middle();
   Camera fitted = camera;
-  fitted.eye = camera.at + turn.transpose() * eye;
-  fitted.at =
-      camera.at +
-      turn.transpose() *
-          Eigen::Vector3d(eye.x(), eye.y(), 0.5 * (most.nearest + most.farthest));
+  fitted.eye = center + turn.transpose() * eye;
+  fitted.at = center + turn.transpose() * Eigen::Vector3d(eye.x(), eye.y(), depth);
   return fitted;
 }
 

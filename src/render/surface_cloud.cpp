@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pcl_uvol {
@@ -192,6 +193,27 @@ Footprints
 SurfaceCloud::findFootprints(unsigned threads, Report& report) const
 {
   return pcl_uvol::computeFootprints(points_, threads, report);
+}
+
+std::vector<FittedDisc>
+SurfaceCloud::listFittedDiscs(const Footprints& footprints,
+                              std::size_t input_count) const
+{
+  const std::vector<float>& radii = footprints.radii;
+  const auto dots =
+      static_cast<std::size_t>(std::count(radii.begin(), radii.end(), 0.0f));
+  constexpr float uncounted = std::numeric_limits<float>::quiet_NaN();
+  const float of_dots = 2 * dots > radii.size() ? 0.0f : uncounted;
+  const LengthUnit& unit = points_.samples->getUnit();
+  std::vector<FittedDisc> discs(input_count, {uncounted, {}});
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    FittedDisc& disc = discs[input_indices_[i]];
+    disc.radius = radii[i] > 0.0f
+                      ? static_cast<float>(unit.toInput(static_cast<double>(radii[i])))
+                      : of_dots;
+    unpackNormal(points_.normals[i], disc.normal.data());
+  }
+  return discs;
 }
 
 void

@@ -10,10 +10,12 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace {
 
 using pcl_uvol::Camera;
+using pcl_uvol::FittedDisc;
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 /** Random points of a box. */
@@ -53,6 +55,12 @@ struct Ends {
   }
 };
 
+Camera
+fitToAll(const Camera& camera, const Cloud& cloud, double aspect, double fill)
+{
+  return pcl_uvol::fitToPoints(camera, {pcl_uvol::viewOf(cloud), {}}, aspect, fill);
+}
+
 TEST(CameraFit, PointsFillTheImageAndLieInItsMiddle)
 {
   for (const Eigen::Vector3f& half : {Eigen::Vector3f(1.0f, 0.1f, 0.05f),
@@ -64,8 +72,7 @@ TEST(CameraFit, PointsFillTheImageAndLieInItsMiddle)
         cloud[5].x = std::numeric_limits<float>::quiet_NaN();
         const Camera ball =
             Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
-        const Camera camera =
-            pcl_uvol::fitToPoints(ball, pcl_uvol::viewOf(cloud), aspect, 0.8);
+        const Camera camera = fitToAll(ball, cloud, aspect, 0.8);
         EXPECT_LT((camera.rotation() - ball.rotation()).norm(), 1e-9);
         const Ends ends(camera, cloud);
         const double width = std::max(ends.right, -ends.left) / aspect,
@@ -81,11 +88,94 @@ TEST(CameraFit, LeavesTheCameraOfASinglePlaceAlone)
 {
   const Camera camera = Camera::fit({{1.0, 2.0, 3.0}, 1.0}, "iso", 30.0, 1.0);
   Cloud cloud;
-  EXPECT_EQ(camera.eye,
-            pcl_uvol::fitToPoints(camera, pcl_uvol::viewOf(cloud), 1.0).eye);
+  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, 0.9).eye);
   cloud.push_back({1.0f, 2.0f, 3.0f});
-  EXPECT_EQ(camera.eye,
-            pcl_uvol::fitToPoints(camera, pcl_uvol::viewOf(cloud), 1.0).eye);
+  EXPECT_EQ(camera.eye, fitToAll(camera, cloud, 1.0, 0.9).eye);
+}
+
+/** Points of the borders of discs about points. */
+Cloud
+makeBorders(const Cloud& centers, const std::vector<FittedDisc>& discs)
+{
+  constexpr int steps = 3600;
+  Cloud borders;
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const Eigen::Vector3f normal(discs[i].normal.data()),
+        across = normal.unitOrthogonal(), up = normal.cross(across);
+    for (int step = 0; step < steps; ++step) {
+      const auto angle = static_cast<float>(2.0 * M_PI * step / steps);
+      pcl::PointXYZ point = centers[i];
+      point.getVector3fMap() +=
+          discs[i].radius * (std::cos(angle) * across + std::sin(angle) * up);
+      borders.push_back(point);
+    }
+  }
+  return borders;
+}
+
+TEST(CameraFit, DiscsAreInTheImage)
+{
+  Cloud cloud;
+  cloud.push_back({0.0f, 0.0f, 0.0f});
+  cloud.push_back({4.0f, 1.0f, 0.5f});
+  cloud.push_back({1.0f, 3.0f, 2.0f});
+  const std::vector<FittedDisc> discs = {{0.5f, {0.0f, 0.0f, 1.0f}},
+                                         {1.0f, {0.6f, 0.0f, 0.8f}},
+                                         {0.2f, {0.0f, -1.0f, 0.0f}}};
+  for (const std::string& view : Camera::viewNames())
+    for (const double aspect : {0.5, 2.0}) {
+      const Camera camera = pcl_uvol::fitToPoints(
+          Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9),
+          {pcl_uvol::viewOf(cloud), discs},
+          aspect,
+          0.8);
+      const Ends ends(camera, makeBorders(cloud, discs));
+      const double width = std::max(ends.right, -ends.left) / aspect,
+                   height = std::max(ends.bottom, -ends.top);
+      EXPECT_NEAR(0.8, std::max(width, height), 1e-5) << view << ' ' << aspect;
+    }
+}
+
+TEST(CameraFit, PointsThatDoNotCountMoveNoCamera)
+{
+  Cloud cloud = makeBox({1.0f, 2.0f, 3.0f}, {3.0f, 2.0f, 1.0f});
+  const Camera ball = Camera::fit({{0.0, 0.0, 0.0}, 1.0}, "iso", 30.0, 1.0);
+  const Camera before = fitToAll(ball, cloud, 1.0, 0.9);
+  cloud.push_back({500.0f, -300.0f, 20.0f});
+  std::vector<FittedDisc> discs(cloud.size(), {0.0f, {0.0f, 0.0f, 1.0f}});
+  discs.back().radius = std::numeric_limits<float>::quiet_NaN();
+  for (const bool turn : {false, true}) {
+    Cloud counted = cloud;
+    counted.resize(cloud.size() - 1);
+    const Camera expected =
+        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(counted), {}, turn}, 1.0);
+    const Camera camera =
+        pcl_uvol::fitToPoints(ball, {pcl_uvol::viewOf(cloud), discs, turn}, 1.0);
+    EXPECT_EQ(expected.eye, camera.eye);
+    EXPECT_EQ(expected.at, camera.at);
+  }
+  EXPECT_NE(before.eye, fitToAll(ball, cloud, 1.0, 0.9).eye);
+}
+
+TEST(CameraFit, EveryFrameOfATurnIsFitted)
+{
+  const Cloud cloud = makeBox({100.0f, -20.0f, 7.0f}, {5.0f, 0.5f, 1.0f});
+  const std::vector<FittedDisc> discs(cloud.size(), {0.1f, {0.0f, 0.0f, 1.0f}});
+  for (const char* const view : {"front", "left", "iso"})
+    for (const double aspect : {0.5, 2.0}) {
+      Camera camera = Camera::fit({{0.0, 0.0, 0.0}, 1.0}, view, 40.0, aspect, 0.9);
+      camera = pcl_uvol::fitToPoints(
+          camera, {pcl_uvol::viewOf(cloud), discs, true}, aspect, 0.8);
+      double largest = 0.0;
+      for (int degree = 0; degree < 360; ++degree) {
+        const Ends ends(camera.orbited(degree), cloud);
+        largest = std::max({largest,
+                            std::max(ends.right, -ends.left) / aspect,
+                            std::max(ends.bottom, -ends.top)});
+      }
+      EXPECT_LE(largest, 0.8) << view << ' ' << aspect;
+      EXPECT_GE(largest, 0.75) << view << ' ' << aspect;
+    }
 }
 
 } // namespace

@@ -89,6 +89,46 @@ TEST(SurfaceCloud, TakesOneAndTwoPoints)
   }
 }
 
+TEST(SurfaceCloud, TellsCamerasOfItsDiscsButNotOfLonelyPoints)
+{
+  auto cloud = *uvol_test::makeSphere(4000, 1);
+  for (auto& point : cloud)
+    point.getVector3fMap() *= 1024.0f; // discs are in the unit of the input
+  const std::size_t on_sphere = cloud.size();
+  cloud.push_back(cloud[0]);
+  cloud.back().getVector3fMap() *= 30.0f;
+  cloud.push_back(cloud[1]);
+  cloud.back().x = nan_value;
+  Report report;
+  const SurfaceCloud surface = prepare(cloud, report);
+  const auto discs =
+      surface.listFittedDiscs(surface.findFootprints(1, report), cloud.size());
+  ASSERT_EQ(cloud.size(), discs.size());
+  const double spacing = 1024.0 * std::sqrt(4.0 * M_PI / 4000.0);
+  for (std::size_t i = 0; i < on_sphere; ++i) {
+    EXPECT_GT(discs[i].radius, 0.2 * spacing);
+    EXPECT_LT(discs[i].radius, 3.0 * spacing);
+    const Eigen::Vector3f normal(discs[i].normal.data());
+    EXPECT_GT(normal.dot(cloud[i].getNormalVector3fMap()), 0.9999f);
+  }
+  EXPECT_TRUE(std::isnan(discs[on_sphere].radius));
+  EXPECT_TRUE(std::isnan(discs[on_sphere + 1].radius));
+}
+
+TEST(SurfaceCloud, OfDotsAloneTellsCamerasOfDots)
+{
+  Report report;
+  const auto cloud = *uvol_test::makeSphere(2, 1);
+  const SurfaceCloud surface = prepare(cloud, report);
+  pcl_uvol::Footprints footprints = surface.findFootprints(1, report);
+  footprints.radii = {0.0f, 0.0f};
+  for (const auto& disc : surface.listFittedDiscs(footprints, 2))
+    EXPECT_EQ(0.0f, disc.radius);
+  footprints.radii = {1.0f, 0.0f};
+  const auto half = surface.listFittedDiscs(footprints, 2);
+  EXPECT_NE(std::isnan(half[0].radius), std::isnan(half[1].radius));
+}
+
 TEST(SurfaceCloud, RefusesNothing)
 {
   Report report;

@@ -109,12 +109,18 @@ findCameraOf(const Subject& subject,
              const PictureCell& cell,
              const FindCamera& find_camera)
 {
-  if (!subject.box)
-    return find_camera(subject.bounds, cell, subject.cloud);
+  if (!subject.box) {
+    pcl_uvol::SeenSurface seen{subject.bounds, &subject.cloud};
+    if (subject.find_discs)
+      seen.find_discs = [&](const pcl_uvol::Camera& camera) {
+        return subject.find_discs(camera, cell);
+      };
+    return find_camera(seen, cell);
+  }
   const auto corners = cornersOf(*subject.box);
-  return find_camera({subject.box->center(), 0.5 * subject.box->diagonal().norm()},
-                     cell,
-                     pcl_uvol::viewOf(corners));
+  const pcl_uvol::CloudView box = pcl_uvol::viewOf(corners);
+  return find_camera(
+      {{subject.box->center(), 0.5 * subject.box->diagonal().norm()}, &box}, cell);
 }
 
 bool

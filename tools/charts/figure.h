@@ -4,6 +4,7 @@
 #pragma once
 
 #include "charts/data_box.h"
+#include "render/camera_choice.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/renderer.h>
@@ -31,6 +32,11 @@ struct Subject {
   std::array<double, 3> origin; ///< of its coordinates
   /** What cameras see and marks show, in its coordinates; none: the cloud. */
   std::optional<Eigen::AlignedBox3d> box = std::nullopt;
+  /** Gives the discs that a camera is fitted to, see SeenSurface; none: all points
+   * count, and have no discs. */
+  std::function<std::vector<pcl_uvol::FittedDisc>(const pcl_uvol::Camera&,
+                                                  const PictureCell&)>
+      find_discs = nullptr;
 };
 
 /** \brief The box around the points of a cloud that have a place. */
@@ -38,12 +44,9 @@ Eigen::AlignedBox3d
 boxAround(const pcl_uvol::CloudView& cloud);
 
 /** \brief Gives the camera of a view.
- * \param bounds of what it has to see
- * \param cloud that it has to see */
-using FindCamera =
-    std::function<pcl_uvol::Camera(const pcl_uvol::BoundingSphere& bounds,
-                                   const PictureCell& cell,
-                                   const pcl_uvol::CloudView& cloud)>;
+ * \param seen what it has to see */
+using FindCamera = std::function<pcl_uvol::Camera(const pcl_uvol::SeenSurface& seen,
+                                                  const PictureCell& cell)>;
 
 /** \brief The camera that sees a subject, or its box if it has one. */
 pcl_uvol::Camera

@@ -6,6 +6,7 @@
 #include "render/ray_tracing/gap_dots.h"
 #include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <algorithm>
 
@@ -85,6 +86,7 @@ RayOptions::makeScene(const Options& options,
                       const ViewOptions& view,
                       const pcl_uvol::CloudView& cloud,
                       std::array<double, 2>& range,
+                      std::vector<pcl_uvol::FittedDisc>& discs,
                       pcl_uvol::Report& report) const
 {
   pcl_uvol::Splats splats = pcl_uvol::findSplats(cloud,
@@ -92,6 +94,7 @@ RayOptions::makeScene(const Options& options,
                                                  splats_.isGiven(options),
                                                  options.threads(),
                                                  report);
+  discs = pcl_uvol::listSplatDiscs(splats, cloud.count);
   std::vector<pcl_uvol::Rgba> colors;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
@@ -151,10 +154,9 @@ traceScene(const Options& options,
   const pcl_uvol::Camera first =
       camera ? view.adjusted(options, *camera)
              : view.makeCamera(
-                   tracer.getBounds(),
+                   {tracer.getBounds()},
                    origin,
-                   ViewOptions::wholePicture(tracer.getWidth(), tracer.getHeight()),
-                   nullptr);
+                   ViewOptions::wholePicture(tracer.getWidth(), tracer.getHeight()));
   pcl_uvol::Report tracing;
   for (std::uint64_t frame = 0; frame < view.countFrames(); ++frame) {
     tracer.setCamera(view.turned(first, frame));
@@ -170,14 +172,15 @@ traceScene(const Options& options,
 void
 RayOptions::traceCloud(const Options& options,
                        const ViewOptions& view,
-                       const pcl_uvol::CloudView& cloud,
-                       const std::array<double, 3>& origin,
+                       const pcl_uvol::Dataset& surface,
                        const std::string& output,
                        pcl_uvol::Report& report) const
 {
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
   std::array<double, 2> range{};
+  std::vector<pcl_uvol::FittedDisc> discs;
   pcl_uvol::RayTracer tracer;
-  tracer.setScene(makeScene(options, view, cloud, range, report));
+  tracer.setScene(makeScene(options, view, cloud, range, discs, report));
   apply(options, tracer.settings());
   tracer.setSupersampling(view.getRaySupersampling());
   tracer.setNumberOfThreads(options.threads());
@@ -185,7 +188,15 @@ RayOptions::traceCloud(const Options& options,
   pcl_uvol::Report tracing;
   view.drawFrames(
       options,
-      {cloud, tracer.getBounds(), origin},
+      {cloud,
+       tracer.getBounds(),
+       surface.origin,
+       std::nullopt,
+       [&](const pcl_uvol::Camera& camera, const PictureCell& cell) {
+         pcl_uvol::PreparedSurface prepared(surface.cloud, options.threads());
+         return pcl_uvol::leaveOutLonely(
+             discs, prepared.findFittedDiscs(camera, cell.width, cell.height));
+       }},
       [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
         tracer.setSize(cell.width, cell.height);
         tracer.setCamera(camera);

@@ -5,6 +5,7 @@
 #include "shared/splat_options.h"
 #include "shared/view_options.h"
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 #include <pcl_uvol/render/renderer.h>
@@ -36,13 +37,11 @@ public:
   void
   apply(const Options& options, pcl_uvol::RayTracingSettings& settings) const;
 
-  /** \brief Draw all frames of one cloud, covered by splats unless it has them.
-   * \param origin of its coordinates */
+  /** \brief Draw all frames of one cloud, covered by splats unless it has them. */
   void
   traceCloud(const Options& options,
              const ViewOptions& view,
-             const pcl_uvol::CloudView& cloud,
-             const std::array<double, 3>& origin,
+             const pcl_uvol::Dataset& surface,
              const std::string& output,
              pcl_uvol::Report& report) const;
 
@@ -51,12 +50,14 @@ public:
   surfaceOptions();
 
 private:
-  /** \param range set to the values at the ends of its colours */
+  /** \param range set to the values at the ends of its colours
+   * \param discs set to what a camera is fitted to */
   pcl_uvol::Scene
   makeScene(const Options& options,
             const ViewOptions& view,
             const pcl_uvol::CloudView& cloud,
             std::array<double, 2>& range,
+            std::vector<pcl_uvol::FittedDisc>& discs,
             pcl_uvol::Report& report) const;
 
   SplatOptions splats_;

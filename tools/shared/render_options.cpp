@@ -7,10 +7,12 @@
 #include "render/surface_cloud.h"
 #include "shared/fallback_backend.h"
 #include "web/surface_page.h"
+#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace uvol_tools {
 
@@ -172,11 +174,19 @@ RenderOptions::drawCloud(const Options& options,
   renderer.settings().background = getBackgroundOfViews();
   renderer.setOpacities(opacities_);
   renderer.setBackend(makeBackend(backend_));
+  const auto prepared = std::make_shared<pcl_uvol::PreparedSurface>(
+      surface.cloud, options.threads(), report.progress);
+  renderer.setPreparedSurface(prepared);
   renderer.setSupersampling(getSupersampling());
+  Subject subject{cloud, prepared->getBounds(), surface.origin};
+  if (settings_.footprints)
+    subject.find_discs = [&](const pcl_uvol::Camera& camera, const PictureCell& cell) {
+      return prepared->findFittedDiscs(camera, cell.width, cell.height);
+    };
   pcl_uvol::Report drawing;
   drawFrames(
       options,
-      {cloud, renderer.getBounds(), surface.origin},
+      subject,
       [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
         renderer.setSize(cell.width, cell.height);
         renderer.setCamera(camera);
@@ -200,17 +210,21 @@ RenderOptions::writePage(const Options& options,
   std::vector<std::uint32_t> all(cloud.count);
   std::iota(all.begin(), all.end(), 0u);
   pcl_uvol::SurfaceCloud points(cloud, all, options.threads(), report);
-  if (settings_.footprints)
-    points.computeFootprints(options.threads(), report);
+  Subject subject{cloud, points.getBounds(), surface.origin};
+  if (settings_.footprints) {
+    pcl_uvol::Footprints discs = points.findFootprints(options.threads(), report);
+    subject.find_discs = [fitted = points.listFittedDiscs(discs, cloud.count)](
+                             const auto&, const auto&) { return fitted; };
+    points.setFootprints(std::move(discs));
+  }
   SurfacePage page;
   page.title = std::filesystem::path(output).stem().string();
-  page.camera = findCameraOf(withSharedBox({cloud, points.getBounds(), surface.origin}),
-                             wholePicture(getHeight(), getHeight()),
-                             [&](const pcl_uvol::BoundingSphere& bounds,
-                                 const PictureCell& cell,
-                                 const pcl_uvol::CloudView& seen) {
-                               return makeCamera(bounds, surface.origin, cell, &seen);
-                             });
+  page.camera =
+      findCameraOf(withSharedBox(subject),
+                   wholePicture(getHeight(), getHeight()),
+                   [&](const pcl_uvol::SeenSurface& seen, const PictureCell& cell) {
+                     return makeCamera(seen, surface.origin, cell);
+                   });
   page.material = getMaterial();
   page.lights = getLights();
   page.background = getBackground().color;

@@ -315,10 +315,9 @@ ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
 }
 
 pcl_uvol::Camera
-ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
+ViewOptions::makeCamera(const pcl_uvol::SeenSurface& seen,
                         const std::array<double, 3>& origin,
-                        const PictureCell& cell,
-                        const pcl_uvol::CloudView* cloud) const
+                        const PictureCell& cell) const
 {
   const auto direction = [](const std::vector<double>& numbers) {
     return numbers.empty() ? std::nullopt : std::optional(toVector(numbers));
@@ -336,11 +335,11 @@ ViewOptions::makeCamera(const pcl_uvol::BoundingSphere& bounds,
                                  fov_,
                                  is_parallel_,
                                  zoom_,
-                                 figure_.get().getFill(cell)},
-                                bounds,
+                                 figure_.get().getFill(cell),
+                                 frames_ > 1},
+                                seen,
                                 origin,
-                                static_cast<double>(cell.width) / cell.height,
-                                frames_ == 1 ? cloud : nullptr);
+                                static_cast<double>(cell.width) / cell.height);
 }
 
 pcl_uvol::Camera

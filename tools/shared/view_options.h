@@ -4,6 +4,7 @@
 #pragma once
 
 #include "common/memory.h"
+#include "render/camera_choice.h"
 #include "render/point_colors.h"
 #include "shared/color_options.h"
 #include "shared/figure_options.h"
@@ -79,16 +80,14 @@ public:
   exaggerate(pcl_uvol::Dataset& surface) const;
 
   /** \brief
+   * \param seen what fills the image, unless the camera has its place
    * \param origin what was subtracted from the coordinates of the cloud: places on the
    * command line are meant before that
-   * \param cell what the camera draws into
-   * \param cloud that fills the image, unless the camera has its place or turns around;
-   * null: the bounds do */
+   * \param cell what the camera draws into */
   pcl_uvol::Camera
-  makeCamera(const pcl_uvol::BoundingSphere& bounds,
+  makeCamera(const pcl_uvol::SeenSurface& seen,
              const std::array<double, 3>& origin,
-             const PictureCell& cell,
-             const pcl_uvol::CloudView* cloud) const;
+             const PictureCell& cell) const;
 
   /** \brief False if options say all that pictures of a series would have in common. */
   bool

@@ -116,10 +116,9 @@ ViewOptions::drawFrame(const Subject& surface,
   if (isExaggerated())
     ground.factors = Eigen::Vector3d(exaggeration_.data());
   const DataBox data{{}, Eigen::Vector3d(surface.origin.data()), ground.factors, ""};
-  const auto findCamera = [&](const pcl_uvol::BoundingSphere& bounds,
-                              const PictureCell& cell,
-                              const pcl_uvol::CloudView& cloud) {
-    auto camera = turned(makeCamera(bounds, surface.origin, cell, &cloud), frame);
+  const auto findCamera = [&](const pcl_uvol::SeenSurface& seen,
+                              const PictureCell& cell) {
+    auto camera = turned(makeCamera(seen, surface.origin, cell), frame);
     texts.emplace_back("Camera", describeCamera(camera, data));
     return camera;
   };

@@ -97,12 +97,7 @@ SurfacePicture::draw(const Options& options,
   drawing.progress = report.progress;
   std::string backend = "ray tracing";
   if (is_ray_traced_)
-    rays_.traceCloud(options,
-                     look_,
-                     pcl_uvol::viewOf(surface.cloud),
-                     surface.origin,
-                     path_,
-                     drawing);
+    rays_.traceCloud(options, look_, surface, path_, drawing);
   else
     backend = look_.drawCloud(options, surface, path_, drawing);
   for (const auto& [pass, milliseconds] : drawing.milliseconds)

@@ -209,10 +209,9 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->AddRenderer(renderer_);
 
   setCamera(
-      look_.makeCamera(surface_.getBounds(),
+      look_.makeCamera({surface_.getBounds()},
                        surface_.getOrigin(),
-                       ViewOptions::wholePicture(look_.getWidth(), look_.getHeight()),
-                       nullptr));
+                       ViewOptions::wholePicture(look_.getWidth(), look_.getHeight())));
 
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,6 +28,12 @@ struct BoundingSphere {
  * \param bounds of the cloud */
 PCL_UVOL_EXPORTS double
 chooseLengthUnit(const BoundingSphere& bounds);
+
+/** \brief The disc of a point, as cameras are fitted to it. */
+struct FittedDisc {
+  float radius;                ///< NaN: the point does not count
+  std::array<float, 3> normal; ///< of length 1
+};
 
 /** \brief Perspective projection from a point, in the coordinates of the cloud.
  *

@@ -134,10 +134,9 @@ makeFigure(const PictureParameters& parameters)
 
 Camera
 makeCamera(const PictureParameters& parameters,
-           const BoundingSphere& bounds,
+           const SeenSurface& seen,
            const std::array<double, 3>& origin,
-           const uvol_tools::PictureCell& cell,
-           const CloudView* cloud)
+           const uvol_tools::PictureCell& cell)
 {
   const auto direction = [](const std::optional<Eigen::Array3d>& numbers) {
     return numbers ? std::optional<Eigen::Vector3d>(numbers->matrix()) : std::nullopt;
@@ -156,8 +155,9 @@ makeCamera(const PictureParameters& parameters,
   choice.is_parallel = parameters.parallel;
   choice.zoom = parameters.zoom;
   choice.fill = makeFigure(parameters).getFill(cell);
+  choice.turns = parameters.frames > 1;
   return chooseCamera(
-      choice, bounds, origin, static_cast<double>(cell.width) / cell.height, cloud);
+      choice, seen, origin, static_cast<double>(cell.width) / cell.height);
 }
 
 std::string

@@ -4,6 +4,7 @@
 
 #include "charts/figure.h"
 #include "charts/picture_parameters.h"
+#include "render/camera_choice.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/color_map.h>
@@ -38,14 +39,13 @@ uvol_tools::Figure
 makeFigure(const PictureParameters& parameters);
 
 /** \brief The camera of a view.
- * \param origin what was subtracted from the coordinates
- * \param cloud that fills the view where only a side is chosen; null: the bounds do */
+ * \param seen what fills the view where only a side is chosen
+ * \param origin what was subtracted from the coordinates */
 Camera
 makeCamera(const PictureParameters& parameters,
-           const BoundingSphere& bounds,
+           const SeenSurface& seen,
            const std::array<double, 3>& origin,
-           const uvol_tools::PictureCell& cell,
-           const CloudView* cloud);
+           const uvol_tools::PictureCell& cell);
 
 /** \brief The field that colours a cloud; "" for the colour of the surface. */
 std::string

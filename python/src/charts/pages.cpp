@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol::python {
@@ -43,12 +44,16 @@ writePage(const std::string& path,
     std::vector<std::uint32_t> all(cloud.count);
     std::iota(all.begin(), all.end(), 0u);
     SurfaceCloud discs(cloud, all, threads, report);
-    if (parameters.footprints)
-      discs.computeFootprints(threads, report);
+    SeenSurface seen{discs.getBounds(), &cloud};
+    if (parameters.footprints) {
+      Footprints found = discs.findFootprints(threads, report);
+      seen.find_discs = [fitted = discs.listFittedDiscs(found, cloud.count)](
+                            const Camera&) { return fitted; };
+      discs.setFootprints(std::move(found));
+    }
     uvol_tools::SurfacePage page;
     page.title = std::filesystem::path(path).stem().string();
-    page.camera = makeCamera(
-        parameters, discs.getBounds(), points.origin, {0, 0, 1, 1, ""}, &cloud);
+    page.camera = makeCamera(parameters, seen, points.origin, {0, 0, 1, 1, ""});
     page.material = makeMaterial(parameters);
     page.lights = makeLights(parameters);
     page.background = makeBackground(parameters).color;

@@ -16,10 +16,12 @@
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
+#include <vector>
 
 namespace pcl_uvol::python {
 
@@ -164,6 +166,11 @@ private:
     const int largest = std::max(look_.width, look_.height);
     const int usual = 2 * largest <= View::largest_size ? 2 : 1;
     renderer_.setSupersampling(look_.supersample > 0 ? look_.supersample : usual);
+    if (look_.footprints) {
+      prepared_ = std::make_shared<PreparedSurface>(
+          points_->cloud, threads_, preparation_.progress);
+      renderer_.setPreparedSurface(prepared_);
+    }
   }
 
   void
@@ -195,6 +202,7 @@ private:
                                      preparation_);
     if (splats.cloud.empty())
       throw InvalidArgument("None of the splats is usable.");
+    splat_discs_ = listSplatDiscs(splats, cloud_.count);
     SplatObject object;
     if (!field_.empty()) {
       const auto colored = colorPoints(cloud_, field_, mapping_);
@@ -231,14 +239,16 @@ private:
     if (look_.exaggerate)
       ground.factors = look_.exaggerate->matrix();
     Image picture = makeFigure(look_).drawViews(
-        {cloud_, renderer.getBounds(), points_->origin},
+        {cloud_,
+         renderer.getBounds(),
+         points_->origin,
+         std::nullopt,
+         [&](const Camera& camera, const auto& cell) {
+           return findFittedDiscs(camera, cell.width, cell.height);
+         }},
         ground,
-        [&](const BoundingSphere& bounds, const auto& cell, const CloudView& cloud) {
-          return makeCamera(look_,
-                            bounds,
-                            points_->origin,
-                            cell,
-                            look_.frames == 1 ? &cloud : nullptr)
+        [&](const SeenSurface& seen, const auto& cell) {
+          return makeCamera(look_, seen, points_->origin, cell)
               .orbited(360.0 * frame / look_.frames);
         },
         [&](const Camera& camera, const auto& cell, Image& image) {
@@ -248,6 +258,18 @@ private:
         });
     report.merge(renderer.getReport());
     return picture;
+  }
+
+  std::vector<FittedDisc>
+  findFittedDiscs(const Camera& camera, int width, int height) const
+  {
+    if (prepared_)
+      return prepared_->findFittedDiscs(camera, width, height);
+    if (rays_)
+      return leaveOutLonely(splat_discs_,
+                            PreparedSurface(points_->cloud, threads_)
+                                .findFittedDiscs(camera, width, height));
+    return {};
   }
 
   Background
@@ -267,7 +289,9 @@ private:
   std::array<double, 2> range_{{0.0, 1.0}};
   Report preparation_;
   ImageSpaceRenderer<pcl::PCLPointCloud2> renderer_;
+  std::shared_ptr<PreparedSurface> prepared_; // null: points without discs, or rays
   RayTracer tracer_;
+  std::vector<FittedDisc> splat_discs_; // that it draws
 };
 
 } // namespace

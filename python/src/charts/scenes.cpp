@@ -53,11 +53,8 @@ findCamera(const PictureParameters& look,
            RayTracer& tracer)
 {
   if (!file.camera || has(given, "view") || has(given, "eye"))
-    return makeCamera(look,
-                      tracer.getBounds(),
-                      file.origin,
-                      {0, 0, look.width, look.height, ""},
-                      nullptr);
+    return makeCamera(
+        look, {tracer.getBounds()}, file.origin, {0, 0, look.width, look.height, ""});
   Camera camera = *file.camera;
   if (look.up)
     camera.up = look.up->matrix();

@@ -2,6 +2,7 @@
 #include "common/parallel.h"
 #include "common/scalar_field.h"
 #include "render/image_space/cpu_backend.h"
+#include "render/image_space/footprint_need.h"
 #include "render/image_space/layer_blend.h"
 #include "render/lighting.h"
 #include "render/point_colors.h"
@@ -17,10 +18,6 @@
 namespace pcl_uvol {
 
 namespace {
-
-/** Blocks whose points lie closer, in pixels, need no footprints: the masks close what
- * is left open. Random points then have 4 in a pixel. */
-constexpr float dense_spacing = 0.5f;
 
 constexpr int largest_thickness = 7;
 
@@ -68,21 +65,6 @@ scaledSettings(ImageSpaceSettings settings, int supersampling)
   settings.silhouette_thickness = std::min(thickness, largest_thickness);
   settings.smallest_disc *= supersampling;
   return settings;
-}
-
-/** True if points of some block in front of the eye lie too far apart on the screen. */
-bool
-needsFootprints(const SurfaceCloud& cloud, const View& view)
-{
-  const auto& blocks = cloud.getBlocks();
-  return std::any_of(blocks.begin(), blocks.end(), [&](const SurfaceBlock& block) {
-    float z = view.translation[2];
-    for (int axis = 0; axis < 3; ++axis)
-      z += view.rotation[6 + axis] * block.center[axis];
-    const float nearest = std::max(z - block.radius, view.near);
-    return z + block.radius > view.near &&
-           block.mean_spacing * view.focal > dense_spacing * nearest;
-  });
 }
 
 /** Mean of factor x factor pixels, weighted by their opacity. */

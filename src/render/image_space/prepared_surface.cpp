@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "render/image_space/footprint_need.h"
 #include "render/surface_cloud.h"
 #include "surface/footprints.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -38,6 +40,31 @@ PreparedSurface::findFootprints(const ProgressCallback& progress)
   const std::lock_guard<std::mutex> lock(mutex_);
   footprints_ = std::move(found);
   footprints_report_ = std::move(report);
+}
+
+const std::vector<FittedDisc>&
+PreparedSurface::findFittedDiscs(const Camera& camera, int width, int height)
+{
+  static const std::vector<FittedDisc> none;
+  // In the usual number of samples per pixel: cameras do not depend on it.
+  constexpr int supersampling = 2;
+  const int factor =
+      std::max(width, height) * supersampling <= View::largest_size ? supersampling : 1;
+  const View view(camera, surface_->getBounds(), width * factor, height * factor);
+  if (!needsFootprints(*surface_, view))
+    return none;
+  if (fitted_discs_.empty()) {
+    findFootprints();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fitted_discs_ = surface_->listFittedDiscs(*footprints_, count_);
+  }
+  return fitted_discs_;
+}
+
+const BoundingSphere&
+PreparedSurface::getBounds() const
+{
+  return surface_->getBounds();
 }
 
 bool

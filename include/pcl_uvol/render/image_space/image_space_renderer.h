@@ -58,6 +58,20 @@ public:
   void
   findFootprints(const ProgressCallback& progress = {});
 
+  /** \brief What a camera is fitted to: the discs of the points, of radius NaN for
+   * points that are lonely, lie in gaps of the sampling or are not drawn, unless these
+   * are most. Finds the discs, once.
+   * \param camera that sees all points
+   * \param width of the picture, pixels
+   * \param height of the picture, pixels
+   * \return none if the points are too dense for discs in that picture */
+  const std::vector<FittedDisc>&
+  findFittedDiscs(const Camera& camera, int width, int height);
+
+  /** \brief A ball around the points. */
+  const BoundingSphere&
+  getBounds() const;
+
 private:
   friend class ImageSpaceRendererBase;
 
@@ -72,6 +86,7 @@ private:
   Report report_; // of the points
   std::mutex mutex_;
   std::unique_ptr<Footprints> footprints_; // that wait to be applied
+  std::vector<FittedDisc> fitted_discs_;   // of findFittedDiscs(), once it found some
   Report footprints_report_;
 };
 
