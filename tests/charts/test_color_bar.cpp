@@ -102,6 +102,18 @@ TEST(AxisLabels, TellValuesApart)
   const auto stamps = labelValues({1.6e9, 1.6e9 + 30.0, 1.6e9 + 60.0});
   EXPECT_EQ((Texts{"0", "30", "60"}), stamps.texts);
   EXPECT_EQ("+ 1600000000", stamps.offset);
+  const auto around = labelValues({1599999950.0, 1.6e9, 1600000050.0});
+  EXPECT_EQ((Texts{"-50", "0", "50"}), around.texts);
+  EXPECT_EQ("+ 1600000000", around.offset);
+  const auto near_one = labelValues({0.99999999, 1.0, 1.00000001});
+  EXPECT_EQ((Texts{"-1e-08", "0", "1e-08"}), near_one.texts);
+  EXPECT_EQ("+ 1", near_one.offset);
+  const auto later = labelValues({1234567801.0, 1234567831.0, 1234567861.0});
+  EXPECT_EQ((Texts{"1", "31", "61"}), later.texts);
+  EXPECT_EQ("+ 1234567800", later.offset);
+  const auto below = labelValues({-1600000050.0, -1.6e9});
+  EXPECT_EQ((Texts{"-50", "0"}), below.texts);
+  EXPECT_EQ("- 1600000000", below.offset);
   EXPECT_EQ("", labelValues({60.0, 180.0}).offset);
   EXPECT_EQ((Texts{"7"}), labelValues({7.0}).texts);
 }

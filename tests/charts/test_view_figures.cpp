@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes, axes, directions and lengths in pictures of surfaces.
 #include "charts/data_box.h"
+#include "charts/figure.h"
 #include "charts/view_marks.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
@@ -193,6 +194,45 @@ TEST(Triad, PointsRightAndUp)
   EXPECT_GT(z[2], z[0] + 100);
   EXPECT_EQ(paper, inkAt(170, 200));
   EXPECT_EQ(paper, inkAt(200, 230));
+}
+
+TEST(Triad, LeavesLettersOfAxesAlone)
+{
+  pcl::PointCloud<pcl::PointXYZ> corners;
+  corners.push_back({0.0f, 0.0f, 0.0f});
+  corners.push_back({1.0f, 1.0f, 1.0f});
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(corners);
+  const uvol_tools::Subject subject{cloud, {{0.5, 0.5, 0.5}, 0.9}, {}};
+  const auto draw = [&](bool has_triad, double fill) {
+    uvol_tools::Figure figure;
+    figure.has_ticks = true;
+    figure.has_triad = has_triad;
+    return figure.drawViews(
+        subject,
+        {{}, side, side, side},
+        [&](const pcl_uvol::SeenSurface& seen, const auto&) {
+          pcl_uvol::CameraChoice choice;
+          choice.view = "front";
+          choice.fill = fill;
+          return pcl_uvol::chooseCamera(choice, seen, {}, 1.0);
+        },
+        [](const Camera&, const auto& cell, Image& image) {
+          image = makePaper();
+          EXPECT_EQ(side, cell.width);
+          std::fill(image.color.begin(), image.color.end(), std::uint8_t{0});
+        });
+  };
+  for (const double fill : {0.5, 0.7}) {
+    const Image axes = draw(false, fill), both = draw(true, fill);
+    std::size_t added = 0;
+    for (std::size_t i = 0; i < axes.pixels(); ++i) {
+      const auto pixel = axes.color.begin() + static_cast<std::ptrdiff_t>(4 * i);
+      const bool is_same = std::equal(pixel, pixel + 4, &both.color[4 * i]);
+      EXPECT_TRUE(is_same || pixel[0] == 255) << fill << ' ' << i;
+      added += is_same ? 0 : 1;
+    }
+    EXPECT_GT(added, 100u) << fill;
+  }
 }
 
 TEST(ScaleBar, HasARoundLengthOfTheUnit)

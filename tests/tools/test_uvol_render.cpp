@@ -147,6 +147,12 @@ TEST_F(RenderTool, FiguresExplainThePicture)
     EXPECT_EQ(plain.size(), pixels().size()) << options;
     EXPECT_TRUE(plain != pixels()) << options;
   }
+  ASSERT_EQ(0, run("-size 256x200 -color normal_z").exit_code);
+  const auto named_by_field = pixels();
+  ASSERT_EQ(0, run("-size 256x200 -color normal_z -label 'slope (1)'").exit_code);
+  EXPECT_TRUE(named_by_field != pixels());
+  ASSERT_EQ(0, run("-size 256x200 -color normal_z -label normal_z").exit_code);
+  EXPECT_TRUE(named_by_field == pixels());
   for (const char* options :
        {"-views nowhere",
         "-views iso,,top",

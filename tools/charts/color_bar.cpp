@@ -275,14 +275,15 @@ drawLegend(Image& image,
            const pcl_uvol::LabelNames& labels,
            const std::string& field,
            const pcl_uvol::ColorMapping& mapping,
-           const std::array<double, 2>& range)
+           const std::array<double, 2>& range,
+           const std::string& title)
 {
   const auto categories = listNamedCategories(cloud, labels, field, mapping.map);
   if (categories.empty())
     drawColorBar(
-        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, field);
+        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, title);
   else
-    drawCategories(image, categories, field);
+    drawCategories(image, categories, title);
 }
 
 } // namespace uvol_tools

@@ -79,14 +79,16 @@ drawCategories(pcl_uvol::Image& image,
 
 /** \brief Draw what the colours of a picture stand for at its right border: categories,
  * or a bar.
- * \param range values at the ends of its colours */
+ * \param range values at the ends of its colours
+ * \param title what the values are called */
 void
 drawLegend(pcl_uvol::Image& image,
            const pcl_uvol::CloudView& cloud,
            const pcl_uvol::LabelNames& labels,
            const std::string& field,
            const pcl_uvol::ColorMapping& mapping,
-           const std::array<double, 2>& range);
+           const std::array<double, 2>& range,
+           const std::string& title);
 
 /** \brief A value beside a bar. */
 struct BarLabel {

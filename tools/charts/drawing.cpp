@@ -253,6 +253,23 @@ countDigits(const std::vector<double>& values)
   return 3 + static_cast<int>(std::floor(std::log10(largest / range) + 1e-9));
 }
 
+/** The roundest number near the lower end of a range: the multiple of the largest power
+ * of ten that lies within the range or as far below it. */
+double
+findOffset(double low, double high)
+{
+  const double range = high - low;
+  double power = std::ceil(std::log10(std::max(std::abs(low), std::abs(high))));
+  for (;; power -= 1.0) {
+    const double unit = std::pow(10.0, power);
+    const double below = std::floor(low / unit) * unit, above = below + unit;
+    if (below >= low - range)
+      return below;
+    if (above <= high)
+      return above;
+  }
+}
+
 } // namespace
 
 AxisLabels
@@ -263,22 +280,20 @@ labelValues(const std::vector<double>& values)
   const int digits = countDigits(values);
   double offset = 0.0;
   if (digits > most_digits) {
-    const double range = values.back() - values.front();
-    const double round = std::pow(10.0, std::ceil(std::log10(range)));
-    offset = std::floor(values.front() / round) * round;
+    offset = findOffset(values.front(), values.back());
     labels.offset =
         (offset < 0.0 ? "- " : "+ ") + formatNumber(std::abs(offset), offset_digits);
   }
   const double tiny = 1e-9 * (values.back() - values.front());
   for (double value : values) {
+    value -= offset;
     if (std::abs(value) <= tiny)
       value = 0.0; // and not "-0" by rounding
     // Thousands are written out.
-    const int whole =
-        static_cast<int>(std::ceil(std::log10(std::abs(value - offset) + 1.0)));
+    const int whole = static_cast<int>(std::ceil(std::log10(std::abs(value) + 1.0)));
     const int wanted = digits > most_digits ? 4 : std::max(digits, 3);
-    labels.texts.push_back(formatNumber(
-        value - offset, whole > most_digits ? wanted : std::max(whole, wanted)));
+    labels.texts.push_back(
+        formatNumber(value, whole > most_digits ? wanted : std::max(whole, wanted)));
   }
   return labels;
 }

@@ -9,6 +9,9 @@
 #include <pcl/point_types.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
 
 namespace uvol_tools {
 
@@ -76,6 +79,46 @@ layOver(const pcl_uvol::Image& view, const PictureCell& cell, pcl_uvol::Image& p
               {pixel[0], pixel[1], pixel[2]},
               pixel[3] / 255.0);
     }
+}
+
+/** Where a mark covers least of what is drawn already: its centre in one of the corners
+ * of a view, the lower left one if others are no better.
+ * \param ground what is behind all
+ * \param margin between the mark and the view's borders, pixels */
+Pixel
+findFreeCorner(const pcl_uvol::Image& image,
+               const pcl_uvol::Image& ground,
+               const PictureCell& cell,
+               const MarkBox& mark,
+               int margin)
+{
+  const int left = cell.left + margin - mark.left,
+            right = cell.left + cell.width - 1 - margin - mark.right,
+            top = cell.top + margin - mark.top,
+            bottom = cell.top + cell.height - 1 - margin - mark.bottom;
+  const auto isDrawn = [&](int column, int row) {
+    if (column < 0 || row < 0 || column >= static_cast<int>(image.width) ||
+        row >= static_cast<int>(image.height))
+      return false;
+    const auto at = 4 * (std::ptrdiff_t{row} * image.width + column);
+    const auto pixel = image.color.begin() + at;
+    return !std::equal(pixel, pixel + 4, ground.color.begin() + at);
+  };
+  std::array<int, 2> best{};
+  int least = std::numeric_limits<int>::max();
+  for (const auto& center :
+       {std::array<int, 2>{left, bottom}, {left, top}, {right, top}, {right, bottom}}) {
+    int covered = 0;
+    for (int row = center[1] + mark.top; row <= center[1] + mark.bottom; ++row)
+      for (int column = center[0] + mark.left; column <= center[0] + mark.right;
+           ++column)
+        covered += isDrawn(column, row) ? 1 : 0;
+    if (covered < least) {
+      least = covered;
+      best = center;
+    }
+  }
+  return {static_cast<double>(best[0]), static_cast<double>(best[1])};
 }
 
 pcl::PointCloud<pcl::PointXYZ>
@@ -206,6 +249,7 @@ Figure::drawBehind(pcl_uvol::Image& image,
 
 void
 Figure::drawBefore(pcl_uvol::Image& image,
+                   const pcl_uvol::Image& ground,
                    const PictureCell& cell,
                    const pcl_uvol::Camera& camera,
                    const DataBox& box) const
@@ -216,13 +260,6 @@ Figure::drawBefore(pcl_uvol::Image& image,
   if (has_box)
     drawBoxBefore(image, perspective, box, style);
   const double length = std::min(3.0 * font, 0.12 * std::min(cell.width, cell.height));
-  const double margin = length + 1.5 * font;
-  if (has_triad)
-    drawTriad(image,
-              perspective,
-              {cell.left + margin, cell.top + cell.height - margin},
-              length,
-              style);
   if (has_scale_bar) {
     constexpr double longest = 0.25; // of the view's width
     const double distance = perspective.seenFromEye(box.box.center()).z();
@@ -234,6 +271,14 @@ Figure::drawBefore(pcl_uvol::Image& image,
         box.unit,
         style);
   }
+  if (has_triad)
+    drawTriad(
+        image,
+        perspective,
+        findFreeCorner(
+            image, ground, cell, findTriadBox(perspective, length, font), font / 2),
+        length,
+        style);
 }
 
 pcl_uvol::Image
@@ -242,8 +287,9 @@ Figure::drawViews(const Subject& subject,
                   const FindCamera& find_camera,
                   const DrawView& draw) const
 {
-  pcl_uvol::Image picture = makeGround(ground.background, ground.width, ground.height),
-                  image;
+  const pcl_uvol::Image empty =
+      makeGround(ground.background, ground.width, ground.height);
+  pcl_uvol::Image picture = empty, image;
   DataBox box{{}, Eigen::Vector3d(subject.origin.data()), ground.factors, unit};
   if (drawsMarks())
     box.box = subject.box ? *subject.box : boxAround(subject.cloud);
@@ -256,7 +302,7 @@ Figure::drawViews(const Subject& subject,
     if (drawsMarks()) {
       drawBehind(picture, cell, camera, box);
       layOver(image, cell, picture);
-      drawBefore(picture, cell, camera, box);
+      drawBefore(picture, empty, cell, camera, box);
     }
     else
       place(image, cell, picture);

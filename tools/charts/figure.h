@@ -123,9 +123,11 @@ private:
              const pcl_uvol::Camera& camera,
              const DataBox& box) const;
 
-  /** Draw what lies before it. */
+  /** Draw what lies before it.
+   * \param ground the picture before anything was drawn */
   void
   drawBefore(pcl_uvol::Image& image,
+             const pcl_uvol::Image& ground,
              const PictureCell& cell,
              const pcl_uvol::Camera& camera,
              const DataBox& box) const;

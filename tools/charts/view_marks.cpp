@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/view_marks.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +42,43 @@ roundedDown(double length)
   return power;
 }
 
+/** The tip of an axis of a triad, and its letter, which stands beyond the tip, also of
+ * an axis along the line of sight: from the centre. */
+struct TriadAxis {
+  double depth;
+  Pixel tip, letter;
+
+  TriadAxis(const Perspective& perspective, int axis, double length, int font)
+  {
+    const Eigen::Vector3d direction = perspective.turned(Eigen::Vector3d::Unit(axis));
+    const double across = std::max(std::hypot(direction.x(), direction.y()), 1e-9);
+    const double beyond = 0.8 * font / across;
+    depth = direction.z();
+    for (std::size_t k = 0; k < 2; ++k) {
+      tip[k] = length * direction[static_cast<Eigen::Index>(k)];
+      letter[k] = tip[k] + beyond * direction[static_cast<Eigen::Index>(k)];
+    }
+  }
+};
+
 } // namespace
+
+MarkBox
+findTriadBox(const Perspective& perspective, double length, int font)
+{
+  constexpr double half_letter = 0.6; // of the font's size
+  Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const TriadAxis seen(perspective, axis, length, font);
+    const Eigen::Vector2d letter(seen.letter.data());
+    for (const double side : {-half_letter * font, half_letter * font})
+      box.extend(letter + Eigen::Vector2d::Constant(side));
+  }
+  return {rounded(box.min().x()),
+          rounded(box.max().x()),
+          rounded(box.min().y()),
+          rounded(box.max().y())};
+}
 
 void
 drawTriad(Image& image,
@@ -53,25 +91,24 @@ drawTriad(Image& image,
   constexpr std::array<Ink, 3> inks = {{{204, 51, 51}, {38, 140, 51}, {51, 89, 217}}};
   std::array<int, 3> order = {0, 1, 2};
   const auto seen = [&](int axis) {
-    return perspective.turned(Eigen::Vector3d::Unit(axis));
+    return TriadAxis(perspective, axis, length, style.font);
   };
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return seen(a).z() > seen(b).z();
+    return seen(a).depth > seen(b).depth;
   });
   for (const int axis : order) {
-    const Eigen::Vector3d direction = seen(axis);
-    const Pixel tip{center[0] + length * direction.x(),
-                    center[1] + length * direction.y()};
+    const TriadAxis drawn = seen(axis);
     const Ink& ink = inks[static_cast<std::size_t>(axis)];
-    drawArrow(image, center, tip, style.font / 7.0, ink);
-    // The letter stands beyond the tip, also of an axis along the line of sight.
-    const double across = std::max(std::hypot(direction.x(), direction.y()), 1e-9);
-    const double beyond = 0.8 * style.font / across;
+    drawArrow(image,
+              center,
+              {center[0] + drawn.tip[0], center[1] + drawn.tip[1]},
+              style.font / 7.0,
+              ink);
     writeText(image,
               std::string(1, static_cast<char>('x' + axis)),
               style.font,
-              rounded(tip[0] + beyond * direction.x()),
-              rounded(tip[1] + beyond * direction.y()),
+              rounded(center[0] + drawn.letter[0]),
+              rounded(center[1] + drawn.letter[1]),
               TextAnchor::Center,
               ink);
   }

@@ -10,6 +10,15 @@
 
 namespace uvol_tools {
 
+/** \brief The pixels around a mark, from its centre. */
+struct MarkBox {
+  int left, right, top, bottom;
+};
+
+/** \brief Where drawTriad() draws. */
+MarkBox
+findTriadBox(const Perspective& perspective, double length, int font);
+
 /** \brief Draw the directions of x, y and z from a pixel on, the nearest one on top.
  * \param length of an axis that lies across the line of sight, pixels */
 void

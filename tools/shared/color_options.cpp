@@ -18,6 +18,13 @@ ColorOptions::declare(Options& options)
                "tab10 for up to ten isovalues or whole numbers)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
   options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
+  options
+      .text("label",
+            "text",
+            label_,
+            "what the values are called beside their colours, such as 'T (K)' "
+            "(default: the field)")
+      .rare();
 }
 
 void

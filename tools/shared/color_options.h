@@ -13,7 +13,7 @@
 
 namespace uvol_tools {
 
-/** \brief -colormap, -range and -log. */
+/** \brief -colormap, -range, -log and -label. */
 class ColorOptions {
 public:
   void
@@ -50,8 +50,15 @@ public:
     return is_logarithmic_;
   }
 
+  /** \brief What the values of a field are called. */
+  const std::string&
+  getLabel(const std::string& field) const
+  {
+    return label_.empty() ? field : label_;
+  }
+
 private:
-  std::string map_ = "auto";
+  std::string map_ = "auto", label_;
   std::vector<double> range_;
   bool is_logarithmic_ = false;
 };

@@ -236,7 +236,7 @@ RenderOptions::writePage(const Options& options,
     const pcl_uvol::PointColors colors = colorPoints(cloud, field, mapping);
     points.setColors(colors.colors);
     if (drawsBar(cloud)) {
-      page.field = field;
+      page.field = getColors().getLabel(field);
       page.map = mapping.map;
       page.scale = colors.scale;
       page.categories = listNamedCategories(cloud, getLabels(), field, mapping.map);

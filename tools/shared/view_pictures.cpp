@@ -144,7 +144,8 @@ ViewOptions::drawFrames(const Options& options,
                  labels_,
                  colorField(surface.cloud),
                  colorMapping(surface.cloud),
-                 range());
+                 range(),
+                 colors_.getLabel(colorField(surface.cloud)));
     figure_.get().drawTitle(picture);
     const pcl_uvol::StepTimer timer(report, "write");
     file.save(picture, texts);

@@ -81,8 +81,6 @@ ProbePicture::declare(Options& options)
               std::numeric_limits<double>::max(),
               "draw the samples that are so near to the plane, in their colours")
       .rare();
-  options.text("label", "text", label_, "beside the values (default: the field)")
-      .rare();
   options.text("unit", "text", unit_, "of the coordinates, such as km").rare();
 }
 
@@ -115,7 +113,7 @@ ProbePicture::drawLine(const std::string& field,
                          values,
                          errors,
                          withUnit("distance", unit_),
-                         label_.empty() ? field : label_}));
+                         colors_.getLabel(field)}));
 }
 
 void
@@ -136,7 +134,7 @@ ProbePicture::drawSlice(const std::string& field,
   plot.up = up.scale;
   plot.across_label = withUnit(across.name, unit_);
   plot.up_label = withUnit(up.name, unit_);
-  plot.title = label_.empty() ? field : label_;
+  plot.title = colors_.getLabel(field);
   plot.map = colors_.getMap();
   const auto range = colors_.getRange();
   plot.scale =

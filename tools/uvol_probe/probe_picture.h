@@ -56,7 +56,7 @@ public:
             PictureSeries* series) const;
 
 private:
-  std::string path_, label_, unit_;
+  std::string path_, unit_;
   ColorOptions colors_;
   std::vector<double> contours_;
   double near_ = -1.0; ///< samples so near to the plane are drawn

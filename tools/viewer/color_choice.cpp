@@ -34,7 +34,9 @@ fill(vtkLookupTable& table,
     table.SetNumberOfTableValues(count);
     table.IndexedLookupOn();
     for (vtkIdType i = 0; i < count; ++i) {
-      const pcl_uvol::CategoryColor& category = categories[static_cast<std::size_t>(i)];
+      // The first one is on top there, and the lowest one below in pictures.
+      const pcl_uvol::CategoryColor& category =
+          categories[static_cast<std::size_t>(count - 1 - i)];
       table.SetAnnotation(category.value, describeCategory(category));
       set(i, category.color);
     }
@@ -126,7 +128,7 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     vtkNew<vtkLookupTable> table;
     fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);
-    bar.SetTitle(field.c_str());
+    bar.SetTitle(look_.getColors().getLabel(field).c_str());
     const bool has_range = scale.low < scale.high || !legend_.categories.empty();
     bar.SetVisibility(look_.hasBar() && has_range);
   }
@@ -148,10 +150,11 @@ ColorChoice::drawLegend(pcl_uvol::Image& image) const
 {
   if (!isScalar(getField()) || !look_.hasBar())
     return;
+  const std::string& title = look_.getColors().getLabel(getField());
   if (legend_.categories.empty())
-    drawColorBar(image, legend_.mapping.map, legend_.scale, getField());
+    drawColorBar(image, legend_.mapping.map, legend_.scale, title);
   else
-    drawCategories(image, legend_.categories, getField());
+    drawCategories(image, legend_.categories, title);
 }
 
 void

@@ -87,7 +87,7 @@ public:
       picture = drawPoints(frame, callback, report);
       if (has_legend_)
         uvol_tools::drawLegend(
-            picture, cloud_, points_->labels, field_, mapping_, range_);
+            picture, cloud_, points_->labels, field_, mapping_, range_, field_);
       makeFigure(look_).drawTitle(picture);
     });
     const auto height = static_cast<py::ssize_t>(picture.height);
