@@ -135,8 +135,8 @@ class Drawable:
         color : str
             A field (of one with several numbers their length) or an expression, "rgb",
             "none", or "auto": rgb if there, else isovalue if there are several.
-        colormap : {"auto", "viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "tab10"}
-            "auto": tab10 for up to ten whole numbers, else viridis. With "_r" behind the
+        colormap : {"auto", "viridis", "cividis", "inferno", "magma", "plasma", "turbo", "gray", "coolwarm", "RdBu", "PuOr", "twilight", "OkabeIto", "tab10"}
+            "auto": OkabeIto for up to eight whole numbers, tab10 for ten, else viridis. With "_r" behind the
             name it runs backwards.
         range : pair of float, optional
             Values at the ends of the colours; by default those of the field.

@@ -15,7 +15,8 @@ namespace {
  * lies between is within 3 of 255. Viridis, inferno, magma and plasma are by S. van der
  * Walt and N. Smith, cividis by Nunez, Anderton and Renslow 2018, turbo by Mikhailov
  * 2019, coolwarm by Moreland 2009, RdBu and PuOr by C. Brewer, twilight by B. Bechtold,
- * tab10 by Tableau. */
+ * tab10 by Tableau. OkabeIto is the palette of Okabe and Ito 2008, which people of all
+ * kinds of colour vision tell apart, with its black last: light does not show on it. */
 constexpr std::uint32_t viridis[] = {
     0x440154, 0x470d60, 0x48186a, 0x482374, 0x472d7b, 0x453781, 0x424086,
     0x3e4989, 0x3b528b, 0x375b8d, 0x33638d, 0x2f6b8e, 0x2c728e, 0x297a8e,
@@ -99,6 +100,8 @@ constexpr std::uint32_t twilight[] = {
     0x6786be, 0x647dbc, 0x6275ba, 0x606cb8, 0x5f62b4, 0x5f59b1, 0x5e4fac,
     0x5e46a6, 0x5d3ca0, 0x5b3298, 0x59298e, 0x562182, 0x511a75, 0x4b1668,
     0x44135a, 0x3d114e, 0x371144, 0x33113c, 0x2f1436};
+constexpr std::uint32_t okabe_ito[] = {
+    0xe69f00, 0x56b4e9, 0x009e73, 0xf0e442, 0x0072b2, 0xd55e00, 0xcc79a7, 0x000000};
 constexpr std::uint32_t tab10[] = {0x1f77b4,
                                    0xff7f0e,
                                    0x2ca02c,
@@ -136,6 +139,7 @@ constexpr NamedMap maps[] = {
     shades("RdBu", rdbu),
     shades("PuOr", puor),
     shades("twilight", twilight),
+    {"OkabeIto", okabe_ito, std::size(okabe_ito), true},
     {"tab10", tab10, std::size(tab10), true},
 };
 

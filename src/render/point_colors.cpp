@@ -178,13 +178,21 @@ colorCategories(const CloudView& cloud,
   return categories;
 }
 
+ColorMap
+usualCategoryMap(const CloudView& cloud, const std::string& field)
+{
+  const ColorMap few("OkabeIto");
+  return listCategories(cloud, field, few.size()).empty() ? ColorMap("tab10") : few;
+}
+
 ColorMapping
 usualColorMapping(const CloudView& cloud, const std::string& field)
 {
-  const ColorMap categories("tab10");
-  const bool has_values = field != "rgb" && field != "rgba" && !field.empty();
-  if (has_values && listCategories(cloud, field, categories.size()).size() > 1)
-    return {categories, std::nullopt, false};
+  const ColorMap map = field == "rgb" || field == "rgba" || field.empty()
+                           ? ColorMap()
+                           : usualCategoryMap(cloud, field);
+  if (map.isCategorical() && listCategories(cloud, field, map.size()).size() > 1)
+    return {map, std::nullopt, false};
   return {ColorMap(), std::nullopt, false};
 }
 

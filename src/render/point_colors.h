@@ -71,6 +71,12 @@ struct ColorMapping {
   bool is_logarithmic = false;
 };
 
+/** \brief The colours of categories where nobody says: OkabeIto for as many as it has,
+ * else tab10.
+ * \throws InvalidArgument for an unknown field */
+PCL_UVOL_EXPORTS ColorMap
+usualCategoryMap(const CloudView& cloud, const std::string& field);
+
 /** \brief How a field is coloured where nobody says: a few whole numbers as categories,
  * others by shades from their lowest to their highest value.
  * \throws InvalidArgument for an unknown field */

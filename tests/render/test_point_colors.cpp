@@ -274,6 +274,25 @@ TEST(PointColors, OfIsovaluesAreThoseOfTheirOrder)
   EXPECT_EQ(2u, pcl_uvol::listCategories(view, "isovalue", 10).size());
 }
 
+TEST(PointColors, OfFewCategoriesAreThoseOfOkabeAndIto)
+{
+  for (const std::size_t count : {2, 8, 9, 10, 11}) {
+    std::vector<float> values(count);
+    std::iota(values.begin(), values.end(), 0.0f);
+    const auto dataset = makeScalar(values);
+    const auto view = pcl_uvol::viewOf(dataset.cloud);
+    const ColorMap map = pcl_uvol::usualColorMapping(view, "q").map;
+    EXPECT_EQ(count <= 10, map.isCategorical()) << count;
+    if (count <= 10) {
+      EXPECT_EQ(count <= 8 ? 8u : 10u, map.size()) << count;
+    }
+  }
+  const ColorMap map("OkabeIto");
+  EXPECT_EQ(0xff009fe6u, pcl_uvol::toRgba(map.ofCategory(0.0))); // 0xaabbggrr of orange
+  EXPECT_EQ(0xffe9b456u, pcl_uvol::toRgba(map.ofCategory(1.0)));
+  EXPECT_EQ(0xff000000u, pcl_uvol::toRgba(map.ofCategory(7.0)));
+}
+
 TEST(PointColors, RefuseAFieldThatIsUnknownOrWithoutANumber)
 {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();

@@ -195,7 +195,7 @@ mapUsually(const pcl_uvol::CloudView& cloud,
 {
   pcl_uvol::ColorMapping mapping = pcl_uvol::usualColorMapping(cloud, field);
   if (pcl_uvol::findLabels(cloud.fields, labels, field))
-    mapping.map = ColorMap("tab10");
+    mapping.map = pcl_uvol::usualCategoryMap(cloud, field);
   return mapping;
 }
 

@@ -15,7 +15,7 @@ ColorOptions::declare(Options& options)
                names,
                map_,
                "colours of values, backwards with _r behind the name (default viridis, "
-               "tab10 for up to ten isovalues or whole numbers)");
+               "OkabeIto for up to eight isovalues or whole numbers, tab10 for ten)");
   options.numbers("range", "low,high", 2, range_, "values at the ends of the colours");
   options.flag("log", is_logarithmic_, "colours by the logarithm of the values");
   options

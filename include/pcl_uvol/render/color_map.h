@@ -85,8 +85,8 @@ class PCL_UVOL_EXPORTS ColorMap {
 public:
   /** \param name of names(): viridis and cividis (perceptually uniform, also for the
    * colour-blind), inferno, magma, plasma, turbo, gray, coolwarm, RdBu and PuOr
-   * (diverging), twilight (cyclic), or tab10 (ten categories); with "_r" behind it the
-   * map runs backwards
+   * (diverging), twilight (cyclic), OkabeIto (eight categories, also for the
+   * colour-blind) or tab10 (ten); with "_r" behind it the map runs backwards
    * \throws InvalidArgument for another name */
   explicit ColorMap(const std::string& name = "viridis");
 
