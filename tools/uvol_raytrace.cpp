@@ -7,7 +7,6 @@
 #include "shared/ray_options.h"
 #include <pcl_uvol/io/dataset.h>
 
-#include <algorithm>
 #include <filesystem>
 
 namespace {
@@ -29,14 +28,6 @@ isScene(const std::string& path)
 {
   const std::string ending = std::filesystem::path(path).extension().string();
   return ending == ".txt" || ending == ".scene";
-}
-
-bool
-givesAny(const Options& options, const std::vector<std::string>& names)
-{
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    return options.given(name);
-  });
 }
 
 /** What belongs to one kind of input only. */
@@ -90,8 +81,10 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
     tracer.setSize((*file.size)[0], (*file.size)[1]);
   else
     tracer.setSize(arguments.view.getWidth(), arguments.view.getHeight());
-  if (givesAny(options, {"view", "eye"}))
+  if (options.given("view"))
     file.camera.reset();
+  if (!file.camera && options.given("at") && !options.given("eye"))
+    throw UsageError("-at needs -eye where the scene has no camera.");
   uvol_tools::traceScene(options,
                          arguments.view,
                          tracer,
@@ -134,7 +127,7 @@ run(int argc, char** argv)
   arguments.view.declareLighting(options);
   if (!options.parse(argc, argv))
     return 0;
-  arguments.view.check(options);
+  arguments.view.check(options, isScene(arguments.input));
   arguments.rays.check(options);
   checkInput(options, arguments);
   uvol_tools::checkPicturePath(arguments.output);

@@ -393,7 +393,7 @@ def raytrace(scene, *, folder="", size=None, view=None, eye=None, at=None, up=No
         as seen from above: the frames of a full turn have those of `np.arange(0, 360, 10)`.
     size, view, eye, at, up, fov, parallel, zoom, background, lights, supersample, depth, shadows, light_samples, occlusion, occlusion_distance
         As those of `Surface.raytrace`, instead of what the scene says; the camera is
-        that of the scene unless `view` or `eye` is given.
+        that of the scene unless `view` is given; eye, at, up and fov change it one by one.
     threads, progress
         As those of `isosurface`.
 

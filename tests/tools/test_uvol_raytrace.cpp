@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace {
 
@@ -101,6 +102,35 @@ TEST_F(RaytraceTool, TheCommandLineComesBeforeTheScene)
     red += image.color[4 * pixel] > 128 ? 1 : 0;
   EXPECT_GT(red, 1);
   EXPECT_LT(red, 12);
+}
+
+TEST_F(RaytraceTool, OptionsChangeTheCameraOfASceneOneByOne)
+{
+  const std::string scene = folder_ / "view.scene";
+  uvol_test::writeFile(scene,
+                       "size 40 30\n"
+                       "camera eye 0 -9 0 at 0.5 0 0.2 up 1 0 1 fov 20\n"
+                       "sphere 0 0 0 1\n");
+  const auto draw = [&](const std::string& options) {
+    const CommandResult result = run(scene + " " + picture_ + " -no-shadows" + options);
+    EXPECT_EQ(0, result.exit_code) << options << ": " << result.err;
+    return read(picture_).color;
+  };
+  const std::string eye = " -eye 0,-9,0", at = " -at 0.5,0,0.2", up = " -up 1,0,1",
+                    fov = " -fov 20";
+  const auto plain = draw("");
+  EXPECT_EQ(plain, draw(eye + at + up + fov));
+  for (const auto& [changed, others] :
+       {std::pair(std::string(" -eye 4,-8,1"), at + up + fov),
+        std::pair(std::string(" -at 0,0,0"), eye + up + fov),
+        std::pair(std::string(" -up 0,0,1"), eye + at + fov),
+        std::pair(std::string(" -fov 35"), eye + at + up)}) {
+    EXPECT_EQ(draw(changed + others), draw(changed)) << changed;
+    EXPECT_NE(plain, draw(changed)) << changed;
+  }
+  uvol_test::writeFile(scene, "size 40 30\nsphere 0 0 0 1\n");
+  std::filesystem::remove(picture_);
+  expectRefused(scene + " " + picture_ + " -at 0,0,0", 2, "-at needs -eye");
 }
 
 TEST_F(RaytraceTool, DrawsPointsAndSplatsAlike)

@@ -152,7 +152,7 @@ traceScene(const Options& options,
   tracer.setNumberOfThreads(options.threads());
   tracer.setProgressCallback(report.progress);
   const pcl_uvol::Camera first =
-      camera ? view.adjusted(options, *camera)
+      camera ? view.adjusted(options, *camera, origin)
              : view.makeCamera(
                    {tracer.getBounds()},
                    origin,

@@ -193,7 +193,7 @@ ViewOptions::parseLights()
 }
 
 void
-ViewOptions::check(const Options& options)
+ViewOptions::check(const Options& options, bool may_have_camera)
 {
   constexpr int most = pcl_uvol::View::largest_size;
   if (!parseSize(size_text_, width_, height_))
@@ -208,7 +208,7 @@ ViewOptions::check(const Options& options)
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (is_parallel_ && options.given("fov"))
     throw UsageError("-parallel has no field of view: -zoom enlarges the picture.");
-  if (!options.given("eye") && options.given("at"))
+  if (!options.given("eye") && options.given("at") && !may_have_camera)
     throw UsageError("-at needs -eye.");
   if (!up_.empty() && toVector(up_).isZero(0.0))
     throw UsageError("-up takes a direction, and 0,0,0 is none.");
@@ -343,8 +343,15 @@ ViewOptions::makeCamera(const pcl_uvol::SeenSurface& seen,
 }
 
 pcl_uvol::Camera
-ViewOptions::adjusted(const Options& options, pcl_uvol::Camera camera) const
+ViewOptions::adjusted(const Options& options,
+                      pcl_uvol::Camera camera,
+                      const std::array<double, 3>& origin) const
 {
+  const Eigen::Vector3d shift(origin.data());
+  if (!eye_.empty())
+    camera.eye = toVector(eye_) - shift;
+  if (!at_.empty())
+    camera.at = toVector(at_) - shift;
   if (!up_.empty())
     camera.up = toVector(up_);
   if (options.given("fov"))

@@ -62,9 +62,10 @@ public:
 
   /** \brief What only some combinations allow, and what must parse: to be called before
    * work whose result would be lost.
+   * \param may_have_camera the input may say a place of the camera
    * \throws UsageError */
   void
-  check(const Options& options);
+  check(const Options& options, bool may_have_camera = false);
 
   /** \brief True if the axes of pictures have factors. */
   bool
@@ -110,10 +111,12 @@ public:
     shared_ = shared;
   }
 
-  /** \brief A camera with what options say in the place of what it says. Not for -view
-   * and -eye. */
+  /** \brief A camera with what options say in the place of what it says, one by one.
+   * Not for -view. \param origin what was subtracted from its places */
   pcl_uvol::Camera
-  adjusted(const Options& options, pcl_uvol::Camera camera) const;
+  adjusted(const Options& options,
+           pcl_uvol::Camera camera,
+           const std::array<double, 3>& origin) const;
 
   /** \brief Frames of a full turn; 1 without -orbit. */
   std::uint64_t

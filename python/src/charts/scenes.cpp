@@ -45,17 +45,23 @@ applyRays(const RayParameters& rays, const Given& given, RayTracingSettings& set
     settings.occlusion_distance = rays.occlusion_distance;
 }
 
-/** The camera of a file, unless another side or place is asked for. */
+/** The camera of a file, unless another side is asked for: with what is asked for in
+ * the place of what it says. */
 Camera
 findCamera(const PictureParameters& look,
            const Given& given,
            const SceneFile& file,
            RayTracer& tracer)
 {
-  if (!file.camera || has(given, "view") || has(given, "eye"))
+  if (!file.camera || has(given, "view"))
     return makeCamera(
         look, {tracer.getBounds()}, file.origin, {0, 0, look.width, look.height, ""});
   Camera camera = *file.camera;
+  const Eigen::Vector3d shift(file.origin.data());
+  if (look.eye)
+    camera.eye = look.eye->matrix() - shift;
+  if (look.at)
+    camera.at = look.at->matrix() - shift;
   if (look.up)
     camera.up = look.up->matrix();
   if (has(given, "fov"))
