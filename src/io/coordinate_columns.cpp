@@ -58,7 +58,8 @@ isVertical(const std::string& word)
   return words.count(word) > 0;
 }
 
-/** What a column is an axis of; verticals are those of every system of the earth. */
+/** What a column is an axis of; verticals are those of every system but the plainest.
+ */
 std::vector<Axis>
 listAxes(const std::string& name)
 {
@@ -80,10 +81,23 @@ listAxes(const std::string& name)
   else if (word == "lat" || word == "latitude")
     axes.push_back({Geographic, 1});
   if (isVertical(word)) {
+    if (word != "z" && (isLength(unit) || unit.empty()))
+      axes.push_back({WithUnit, 2});
     axes.push_back({Projected, 2});
     axes.push_back({Geographic, 2});
   }
   return axes;
+}
+
+/** Of several columns that may be an axis the lowest is taken: beside x and y a height
+ * stands behind z in a unit of length, and before any other z, which may be a speed. */
+int
+rankOf(const std::string& name, System system)
+{
+  if (system != WithUnit)
+    return 0;
+  const auto [word, unit] = splitName(name);
+  return word.size() > 1 ? 1 : isLength(unit) || unit.empty() ? 0 : 2;
 }
 
 } // namespace
@@ -92,9 +106,12 @@ std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names)
 {
   std::array<std::array<std::optional<std::size_t>, 3>, systems> found;
-  for (std::size_t i = names.size(); i-- > 0;) // the first of each counts
-    for (const auto& [system, axis] : listAxes(names[i]))
-      found[system][axis] = i;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (const auto& [system, axis] : listAxes(names[i])) {
+      auto& taken = found[system][axis];
+      if (!taken || rankOf(names[i], system) < rankOf(names[*taken], system))
+        taken = i;
+    }
   for (std::size_t system = 0; system < systems; ++system) {
     const auto& [x, y, z] = found[system];
     if (!x || !y || !z)
@@ -108,6 +125,47 @@ recognizeCoordinates(const std::vector<std::string>& names)
     return columns;
   }
   return std::nullopt;
+}
+
+bool
+mayBeCoordinate(const std::string& name)
+{
+  return !listAxes(name).empty();
+}
+
+bool
+saysTime(const std::string& name)
+{
+  static const std::set<std::string> words{"t",
+                                           "date",
+                                           "datetime",
+                                           "day",
+                                           "days",
+                                           "year",
+                                           "month",
+                                           "hour",
+                                           "hours",
+                                           "minute",
+                                           "minutes",
+                                           "second",
+                                           "seconds",
+                                           "utc",
+                                           "epoch",
+                                           "unix"};
+  const std::string time = "time", lower = lowerCase(name);
+  std::string word;
+  for (const char c : lower + " ") {
+    if (std::string_view("_-. ([/)]").find(c) == std::string_view::npos) {
+      word += c;
+      continue;
+    }
+    const bool ends = word.size() >= time.size() &&
+                      word.compare(word.size() - time.size(), time.size(), time) == 0;
+    if (ends || word.compare(0, time.size(), time) == 0 || words.count(word) > 0)
+      return true;
+    word.clear();
+  }
+  return false;
 }
 
 std::array<std::size_t, 3>

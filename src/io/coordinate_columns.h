@@ -18,13 +18,23 @@ struct CoordinateColumns {
 
 /** \brief Find coordinates by the names of columns.
  *
- * In this order: x, y, z; the same with a unit of length, as x_km, "y (m)", z[ft];
- * where z may have any ending (z_minus_dbar); easting, northing and a vertical
- * (elevation, altitude, height, depth); longitude, latitude and a vertical, with a
- * note. Upper and lower case are the same, and of several columns the first counts.
+ * In this order: x, y, z; the same with a unit of length, as x_km, "y (m)", z[ft], or
+ * without one, where a vertical (elevation, altitude, height, depth) is as good as z,
+ * and z may have any ending (z_minus_dbar); easting, northing and a vertical;
+ * longitude, latitude and a vertical, with a note. Upper and lower case are the same,
+ * and of several columns the first counts.
  * \return nothing if the names tell no coordinates */
 std::optional<CoordinateColumns>
 recognizeCoordinates(const std::vector<std::string>& names);
+
+/** \brief Whether a name tells an axis of any of these systems, alone or not. */
+bool
+mayBeCoordinate(const std::string& name);
+
+/** \brief Whether a name tells a time, as time_s, timestamp and "date (UTC)" do: such a
+ * column is no coordinate unless it is chosen. */
+bool
+saysTime(const std::string& name);
 
 /** \brief The columns that a user chose.
  * \param chosen names, or numbers from 0

@@ -239,17 +239,27 @@ TextTable::findCoordinates()
                     "it has " + std::to_string(columns_.size()) +
                         " columns, and coordinates need three, separated by "
                         "comma, semicolon, tab or blanks");
-  if (std::any_of(names.begin(), names.end(), [](const std::string& name) {
-        return axisOf(lowerCase(name)) >= 0;
-      }))
+  if (const auto named = std::find_if(names.begin(), names.end(), mayBeCoordinate);
+      named != names.end())
     throwUnreadable(path_,
-                    "its header names only some of x, y and z: choose the columns of "
+                    "its header names only some of x, y and z, as by " +
+                        quoteText(*named) +
+                        ": choose the columns of the coordinates by their names or "
+                        "numbers (-xyz)");
+  std::vector<std::size_t> guess;
+  for (std::size_t i = 0; i < names.size() && guess.size() < 3; ++i)
+    if (!saysTime(names[i]))
+      guess.push_back(i);
+  if (guess.size() < 3)
+    throwUnreadable(path_,
+                    "its header names no coordinates but times: choose the columns of "
                     "the coordinates by their names or numbers (-xyz)");
   are_guessed_ = has_header_;
-  notes_.push_back("The header names no x, y, z: the first three columns (" +
-                   shortenText(names[0]) + ", " + shortenText(names[1]) + ", " +
-                   shortenText(names[2]) + ") are the coordinates.");
-  return {{0, 1, 2}};
+  notes_.push_back("The header names no x, y, z: the first three columns" +
+                   std::string(guess[2] > 2 ? " that are no times (" : " (") +
+                   shortenText(names[guess[0]]) + ", " + shortenText(names[guess[1]]) +
+                   ", " + shortenText(names[guess[2]]) + ") are the coordinates.");
+  return {{guess[0], guess[1], guess[2]}};
 }
 
 bool

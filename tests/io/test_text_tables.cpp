@@ -156,7 +156,13 @@ TEST(TextTables, CoordinatesHaveUsualNames)
         Case{"lon_deg,lat_deg,x_m,y_m,z_m", 3, 4, 5, 0},
         Case{"x_m,y_m,z_m,x,q", 1, 2, 3, 1},
         Case{"z,y,x,x_m,y_m", 3, 2, 1, 0},
-        Case{"depth_m,latitude,longitude,q,r", 3, 2, 1, 1}}) {
+        Case{"depth_m,latitude,longitude,q,r", 3, 2, 1, 1},
+        Case{"time_s,x_m,y_m,depth_m,q", 2, 3, 4, 0},
+        Case{"timestamp,a,x_m,y_m,alt_m", 3, 4, 5, 0},
+        Case{"Depth,y,x,q,r", 3, 2, 1, 0},
+        Case{"x_m,y_m,depth_m,z_m,q", 1, 2, 4, 0},
+        Case{"x,y,z_vel,height (m),q", 1, 2, 4, 0},
+        Case{"lon,lat,x_m,y_m,depth_m", 3, 4, 5, 0}}) {
     const auto dataset = load(std::string(header) + "\n1,2,3,4,5\n");
     EXPECT_EQ(valueOf(dataset, "x", 0), x) << header;
     EXPECT_EQ(valueOf(dataset, "y", 0), y) << header;
@@ -164,6 +170,40 @@ TEST(TextTables, CoordinatesHaveUsualNames)
     EXPECT_EQ(dataset.notes.size(), notes) << header;
   }
   EXPECT_NE(load("lon,lat,depth\n1,2,3\n").notes[0].find("degrees"), std::string::npos);
+}
+
+TEST(TextTables, WhereAnAxisIsNamedNothingIsGuessed)
+{
+  for (const char* const header : {"time_s,x_m,y_m,q",
+                                   "a,b,c,depth_m",
+                                   "lat,lon,a,b",
+                                   "x_m,y_m,a,elevation_deg"}) {
+    const std::string error = errorOf(std::string(header) + "\n1.5,2.5,3.5,4.5\n");
+    EXPECT_NE(error.find("only some"), std::string::npos) << header;
+    EXPECT_NE(error.find("-xyz"), std::string::npos) << header;
+  }
+  LoadOptions options;
+  options.xyz_columns = {{"x_m", "y_m", "time_s"}}; // a time that is meant
+  EXPECT_EQ(valueOf(load("time_s,x_m,y_m,q\n1.5,2.5,3.5,4.5\n", options), "z", 0), 1.5);
+}
+
+TEST(TextTables, TimesAreNoCoordinates)
+{
+  for (const char* const time : {"time",
+                                 "Time_s",
+                                 "timestamp",
+                                 "gps_time",
+                                 "DateTime",
+                                 "t",
+                                 "t (s)",
+                                 "unix.ms"}) {
+    const auto guessed = load(std::string(time) + ",u,v,w\n1.5,2.5,3.5,4.5\n");
+    EXPECT_EQ(valueOf(guessed, "x", 0), 2.5) << time;
+    EXPECT_NE(guessed.notes.at(0).find("(u, v, w)"), std::string::npos) << time;
+  }
+  EXPECT_EQ(valueOf(load("u,date,v,w\n1.5,2.5,3.5,4.5\n"), "z", 0), 4.5);
+  EXPECT_EQ(valueOf(load("temp,u,tide\n1.5,2.5,3.5\n"), "x", 0), 1.5);
+  EXPECT_NE(errorOf("time,u,v\n1.5,2.5,3.5\n").find("but times"), std::string::npos);
 }
 
 TEST(TextTables, WholeNumbersAreNoCoordinatesUnlessNamed)
