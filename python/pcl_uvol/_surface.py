@@ -94,8 +94,8 @@ class Surface(Drawable, Points):
         if self._samples is None:
             raise ValueError("This surface has lost its samples, as pickled ones do: extract it with mesh=True.")
         meshing = dict(remesh=remesh, edge_length=edge_length, open=open, drop_pieces=drop_pieces)
-        parameters = dict(self.parameters, mesh=meshing, max_error=None, drop_bridged=False,
-                          validation={"folds": 0})
+        parameters = dict(self.parameters, mesh=meshing, max_error=None, automatic_max_error=False,
+                          drop_bridged=False, validation={"folds": 0})
         return _extract(_core.Extractor(), self._samples, parameters, threads, progress)
 
     @_parameters.with_proposals
@@ -335,7 +335,8 @@ class Extractor:
             "level_set": {**_parameters.mapping(level_set, "level_set"), **({} if mu is None else {"mu": mu})},
             "normals": normals,
             "normal_neighbors": normal_neighbors,
-            "max_error": max_error,
+            "max_error": None if _is_auto(max_error) else max_error,
+            "automatic_max_error": _is_auto(max_error),
             "drop_bridged": drop_bridged,
             "fill_gaps": fill_gaps,
             "validation": _validation(validate, validate_by),
@@ -352,6 +353,11 @@ class Extractor:
 
     def __repr__(self):
         return f"Extractor of {self.samples!r}"
+
+
+def _is_auto(max_error):
+    """Whether the bound of the error is to be found from the samples."""
+    return isinstance(max_error, str) and max_error == "auto"
 
 
 def _meshing(mesh):
@@ -423,8 +429,9 @@ def isosurface(points, fields=None, **options):
         set in the dictionary `level_set`.
     normals : {"auto", "fit", "pca", "edge"}
         How isopoints are oriented; pca takes `normal_neighbors` (default 30).
-    max_error : float, optional
-        Leave out isopoints of a larger estimated error, in units of length.
+    max_error : float or "auto", optional
+        Leave out isopoints of a larger estimated error, in units of length; "auto":
+        larger than half the distance of the two samples that an isopoint lies between.
     drop_bridged : bool
         Leave out isopoints in gaps of the sampling.
     fill_gaps : bool

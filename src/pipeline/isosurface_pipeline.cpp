@@ -35,6 +35,16 @@ shareCloud(const std::shared_ptr<const Dataset>& samples)
   return {samples, &samples->cloud};
 }
 
+/** Part of an edge that an isopoint's error must not exceed for max_error to keep it
+ * when it is automatic. An edge alone, whose ends lie on both sides of the surface,
+ * tells as much or less: errors of isopoints without a fit begin there. Of 64,000 dense
+ * samples with known truth, also clustered or in cells of 1:100, it keeps 99.7 % or
+ * more of the isopoints, of noisy ones after a level set 93 %; on lines of samples it
+ * keeps what lies near them: 8 % on the drill holes, 29 % on the seaglider's dives. A
+ * quarter leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything
+ * between the lines: 95 and 98 %. */
+constexpr float known_part = 0.5f;
+
 /** Leaves out what belongs to images, and what max_error and drop_bridged do not want.
  */
 void
@@ -57,6 +67,10 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
   if (parameters.max_error)
     drop("removed_by_error",
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
+  if (parameters.automatic_max_error)
+    drop("removed_by_error", [](const PointIso& point) {
+      return point.error <= known_part * point.edge_length;
+    });
   if (parameters.drop_bridged)
     drop("removed_bridged", [](const PointIso& point) {
       return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);

@@ -39,6 +39,8 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
     throw InvalidArgument("The largest error is " +
                           std::to_string(*parameters.max_error) +
                           ": it must be a length from 0.");
+  if (parameters.max_error && parameters.automatic_max_error)
+    throw InvalidArgument("The largest error is a length or automatic, not both.");
   const bool is_turned = detail::StretchAxes(parameters.rotation).areTurned();
   checkPeriodic(sidesOf(parameters));
   if (isPeriodic(sidesOf(parameters)) && is_turned)
@@ -57,7 +59,7 @@ checkParameters(const IsosurfacePipelineParameters& parameters)
   if (!parameters.mesh)
     return;
   checkParameters(SurfaceMeshParameters{parameters.isosurface, *parameters.mesh});
-  if (parameters.max_error || parameters.drop_bridged)
+  if (parameters.max_error || parameters.automatic_max_error || parameters.drop_bridged)
     throw InvalidArgument(
         "A mesh keeps all of its vertices: leave out the bound of the "
         "error and bridged points, or the mesh.");

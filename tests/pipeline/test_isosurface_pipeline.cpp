@@ -139,6 +139,45 @@ TEST(IsosurfacePipeline, OrientsAsItIsTold)
   }
 }
 
+namespace {
+
+/** Isopoints whose error is no more than half of their edge. */
+std::size_t
+countKnown(const IsosurfaceResult& result)
+{
+  const auto errors = readColumn(result.surface, "error");
+  const auto edges = readColumn(result.surface, "edge_length");
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    known += errors[i] <= 0.5f * edges[i];
+  return known;
+}
+
+} // namespace
+
+TEST(IsosurfacePipeline, LeavesOutWhatIsKnownNoBetterThanByItsEdge)
+{
+  const auto samples = makeSamples();
+  IsosurfacePipelineParameters parameters = makeParameters();
+  for (const bool smooth : {false, true}) {
+    parameters.smooth = smooth;
+    parameters.automatic_max_error = false;
+    const IsosurfaceResult all = uvol_test::runPipeline(samples, parameters);
+    parameters.automatic_max_error = true;
+    const IsosurfaceResult known = uvol_test::runPipeline(samples, parameters);
+    EXPECT_EQ(countKnown(all), known.surface.cloud.width);
+    EXPECT_EQ(all.surface.cloud.width - known.surface.cloud.width,
+              known.report.getCount("removed_by_error"));
+    EXPECT_GT(known.surface.cloud.width, 0.9 * all.surface.cloud.width);
+  }
+  // Isopoints on their edges have the errors that fits tell.
+  parameters.smooth = false;
+  parameters.isosurface.interpolation = Interpolation::Linear;
+  const IsosurfaceResult linear = uvol_test::runPipeline(samples, parameters);
+  EXPECT_GT(linear.surface.cloud.width, 0u);
+  EXPECT_EQ(countKnown(linear), linear.surface.cloud.width);
+}
+
 TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)
 {
   const auto samples = makeSamples();
@@ -151,6 +190,10 @@ TEST(IsosurfacePipeline, LeavesOutWhatIsNotWanted)
             some.surface.cloud.width + some.report.getCount("removed_by_error"));
   EXPECT_LE(some.errors->largest, static_cast<float>(*parameters.max_error));
   parameters.max_error.reset();
+  parameters.automatic_max_error = true;
+  EXPECT_EQ(countKnown(all),
+            uvol_test::runPipeline(samples, parameters).surface.cloud.width);
+  parameters.automatic_max_error = false;
   parameters.drop_bridged = true;
   const IsosurfaceResult measured = uvol_test::runPipeline(samples, parameters);
   EXPECT_EQ(all.report.getCount("bridged"),
@@ -401,6 +444,10 @@ TEST(IsosurfacePipeline, RefusesWhatItCannotDo)
   expect_bad([](Parameters& p) { p.normal_neighbors = 1; });
   expect_bad([](Parameters& p) { p.max_error = -1.0; });
   expect_bad([](Parameters& p) { p.max_error = std::nan(""); });
+  expect_bad([](Parameters& p) {
+    p.max_error = 1.0;
+    p.automatic_max_error = true;
+  });
   expect_bad([](Parameters& p) {
     p.isosurface.interpolation = Interpolation::Linear;
     p.normals = NormalMethod::Fit;

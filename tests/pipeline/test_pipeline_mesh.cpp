@@ -115,6 +115,7 @@ TEST(PipelineMesh, ParametersAreChecked)
 {
   const std::vector<std::function<void(IsosurfacePipelineParameters&)>> changes = {
       [](auto& p) { p.max_error = 1.0; },
+      [](auto& p) { p.automatic_max_error = true; },
       [](auto& p) { p.drop_bridged = true; },
       [](auto& p) { p.normals = NormalMethod::Pca; },
       [](auto& p) { p.isosurface.interpolation = Interpolation::Linear; },

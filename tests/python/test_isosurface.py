@@ -44,6 +44,7 @@ OPTIONS = [
     (dict(iso=0.3, smooth=True, mu=0.4), ["-iso", "0.3", "-smooth", "-mu", "0.4"]),
     (dict(iso=0.3, scale="auto", max_error=0.001, neighbors="voronoi", voronoi_cells=30),
      ["-iso", "0.3", "-scale", "auto", "-max-error", "0.001", "-neighbors", "voronoi", "-grid", "30"]),
+    (dict(iso=0.3, max_error="auto"), ["-iso", "0.3", "-max-error", "auto"]),
     (dict(iso=0.3, periodic=(1.5, 0, 1)), ["-iso", "0.3", "-periodic", "1.5,0,1"]),
     (dict(iso=0.09, field="r*r"), ["-iso", "0.09", "-field", "r*r"]),
 ]

@@ -47,6 +47,7 @@ TEST_F(MaxMemory, WritesTheSameFile)
   for (const std::string options : {"",
                                     "-interpolation linear -criterion all",
                                     "-scale 1,2,0.5 -outside higher -normals pca",
+                                    "-max-error auto -threads 1",
                                     "-max-error 0.001 -drop-bridged -threads 1"}) {
     expectSuccess(iso_ + options);
     const std::string expected = uvol_test::readFile(out_);

@@ -194,6 +194,8 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
   EXPECT_GT(bridged, 0u);
 
   for (const char* right : {"-interpolation linear -max-error 1",
+                            "-max-error auto",
+                            "-interpolation linear -max-error auto",
                             "-interpolation linear -drop-bridged",
                             "-normals edge",
                             "-validate 3 -validate-by blocks"})
@@ -202,6 +204,7 @@ TEST_F(Isosurface, FiltersByErrorAndSupport)
                             "-validate 1",
                             "-validate-by blocks",
                             "-interpolation cubic",
+                            "-max-error automatic",
                             "-max-error -1"})
     EXPECT_EQ(2, run(base + wrong).exit_code) << wrong;
 }

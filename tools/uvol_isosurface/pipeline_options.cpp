@@ -22,6 +22,16 @@ isTurned(const pcl_uvol::IsosurfacePipelineParameters& parameters)
   return (parameters.rotation != 0.0).any();
 }
 
+/** The largest error, a length. */
+double
+parseMaxError(const std::string& text)
+{
+  const double length = parseNumbers("max-error", text, 1).front();
+  if (length < 0.0)
+    throw UsageError("-max-error takes auto or a length from 0, but got " + text + ".");
+  return length;
+}
+
 } // namespace
 
 void
@@ -68,11 +78,12 @@ PipelineOptions::declare(Options& options)
   options.integer("k", k_, 2, 1000, "isopoints that a normal by pca is fitted to")
       .rare();
   options
-      .number("max-error",
-              max_error_,
-              0.0,
-              std::numeric_limits<double>::max(),
-              "leave out isopoints of a larger estimated error, in units of length")
+      .text(
+          "max-error",
+          "v|auto",
+          max_error_,
+          "leave out isopoints of a larger estimated error, in units of length; auto: "
+          "larger than half the distance of the samples that they lie between")
       .rare();
   options.flag("drop-bridged",
                parameters.drop_bridged,
@@ -211,8 +222,9 @@ PipelineOptions::finish(const Options& options)
   parameters.normal_neighbors = k_;
   parameters.level_set.mu = parseMu(mu_);
   parameters.level_set.max_steps = steps_;
-  if (options.given("max-error"))
-    parameters.max_error = max_error_;
+  parameters.automatic_max_error = max_error_ == "auto";
+  if (options.given("max-error") && !parameters.automatic_max_error)
+    parameters.max_error = parseMaxError(max_error_);
   parameters.validation.by = validate_by_ == "random"   ? pcl_uvol::ValidateBy::Random
                              : validate_by_ == "blocks" ? pcl_uvol::ValidateBy::Blocks
                                                         : pcl_uvol::ValidateBy::Field;

@@ -57,10 +57,9 @@ private:
   checkCombinations(const Options& options) const;
 
   MeshOptions mesh_;
-  std::string mu_ = "auto", max_memory_, scratch_, validate_by_ = "random";
+  std::string mu_ = "auto", max_error_, max_memory_, scratch_, validate_by_ = "random";
   std::uint64_t grid_ = 0, k_ = parameters.normal_neighbors,
                 steps_ = parameters.level_set.max_steps;
-  double max_error_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace uvol_tools

@@ -143,6 +143,9 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
   /** Leave out isopoints of a larger estimated error, or without an estimate, in units
    * of length. None: no bound. */
   std::optional<double> max_error;
+  /** Take the bound of the error from the samples instead: half the distance of the two
+   * samples that an isopoint lies between, its `edge_length`. */
+  bool automatic_max_error = false;
   /** Leave out isopoints in gaps of the sampling, see IsoSupport::Bridged. */
   bool drop_bridged = false;
   /** Predict samples in gaps of the sampling, between lines of samples above all, and
@@ -177,6 +180,7 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
                            Member{"normals", &Own::normals},
                            Member{"normal_neighbors", &Own::normal_neighbors},
                            Member{"max_error", &Own::max_error},
+                           Member{"automatic_max_error", &Own::automatic_max_error},
                            Member{"drop_bridged", &Own::drop_bridged},
                            Member{"fill_gaps", &Own::fill_gaps},
                            Member{"validation", &Own::validation},
@@ -199,10 +203,10 @@ struct PCL_UVOL_EXPORTS IsosurfacePipelineParameters {
 /** \throws InvalidArgument for what can be told without samples: see
  * checkParameters(IsosurfaceParameters); normals by fits with linear interpolation;
  * fewer than 2 neighbours of a normal; a bound of the error that is negative or no
- * number; a hold-out test of one fold, or in a box that repeats; sides of such a box
- * that are negative or not finite; welding without such a box or a mesh; a mesh with a
- * bound of the error, without bridged points, with other normals than those of the
- * fits, and as checkParameters(SurfaceMeshParameters)
+ * number, or given beside an automatic one; a hold-out test of one fold, or in a box
+ * that repeats; sides of such a box that are negative or not finite; welding without
+ * such a box or a mesh; a mesh with a bound of the error, without bridged points, with
+ * other normals than those of the fits, and as checkParameters(SurfaceMeshParameters)
  *
  * \param parameters to be checked before samples are there */
 PCL_UVOL_EXPORTS void
