@@ -8,6 +8,7 @@
 #include "io/table_file.h"
 #include "levelset/memory_need.h"
 #include "levelset/phi_cloud.h"
+#include "neighbors/sampling.h"
 #include "pipeline/zero_level.h"
 #include "shared/level_set.h"
 #include "shared/memory_guard.h"
@@ -15,6 +16,7 @@
 #include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/sampling_fact.h"
 #include "shared/scale_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -27,6 +29,7 @@
 #include <iomanip>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 
 namespace {
@@ -238,6 +241,14 @@ forecastMemory(const LevelSetParameters& parameters,
       };
 }
 
+pcl::Indices
+listAll(std::size_t points)
+{
+  pcl::Indices all(points);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 /** out.ply becomes out_00010.ply. */
 std::string
 snapshotPath(const std::string& output, std::size_t steps)
@@ -323,6 +334,13 @@ run(int argc, char** argv)
           parameters,
           has_snapshots,
           pcl_uvol::estimateSurfaces(view, at_start, options.threads()).front()));
+  const uvol_tools::Fact sampling =
+      uvol_tools::describeSampling(pcl_uvol::summarizeSampling(view,
+                                                               listAll(view.count),
+                                                               parameters.field,
+                                                               parameters.scale,
+                                                               parameters.rotation,
+                                                               options.threads()));
   pcl_uvol::LevelSetEvolution<pcl::PCLPointCloud2> evolution;
   evolution.setInputCloud(
       pcl::PCLPointCloud2::ConstPtr(&dataset.cloud, [](const void*) {}));
@@ -360,6 +378,7 @@ run(int argc, char** argv)
                              {"field", parameters.field}};
   uvol_tools::tellBox(boxed, facts);
   facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+  facts.push_back(sampling);
   for (const auto& fact : uvol_tools::describe(summary, !parameters.mu))
     facts.push_back(fact);
   facts.push_back(memory.describe());

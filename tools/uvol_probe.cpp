@@ -4,11 +4,13 @@
 #include "interpolation/answer_summary.h"
 #include "interpolation/memory_need.h"
 #include "io/memory_need.h"
+#include "neighbors/sampling.h"
 #include "shared/memory_guard.h"
 #include "shared/options.h"
 #include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/sampling_fact.h"
 #include "shared/series.h"
 #include "uvol_probe/interpolation_options.h"
 #include "uvol_probe/probe_picture.h"
@@ -260,6 +262,13 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   if (!arguments.output.empty())
     facts.emplace_back("output", arguments.output);
   facts.insert(facts.end(), of_scale.begin(), of_scale.end());
+  facts.push_back(uvol_tools::describeSampling(
+      pcl_uvol::summarizeSampling(view,
+                                  indices,
+                                  parameters.fields.front(),
+                                  parameters.scale,
+                                  parameters.rotation,
+                                  options.threads())));
   if (parameters.model == InterpolationModel::Auto) {
     const StepTimer timer(report, "choice");
     const auto choice = arguments.model.chooseModel(

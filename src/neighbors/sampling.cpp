@@ -2,6 +2,8 @@
 #include "neighbors/sampling.h"
 
 #include "common/parallel.h"
+#include "common/stretch_axes.h"
+#include "neighbors/sample_values.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -157,6 +159,27 @@ summarizeSampling(const SampleSet& samples, unsigned threads)
   summary.along = median(&LocalSampling::along);
   summary.across = median(&LocalSampling::across);
   return summary;
+}
+
+SamplingSummary
+summarizeSampling(const CloudView& cloud,
+                  const pcl::Indices& indices,
+                  const std::string& field,
+                  const Eigen::Array3f& scale,
+                  const Eigen::Array3d& rotation,
+                  unsigned threads)
+{
+  const detail::StretchAxes axes(rotation);
+  const CloudView turned = axes.turn(cloud);
+  const ScalarField scalar(turned.fields, field);
+  const ValueFrame frame = findValueRange(turned, scalar, threads).findFrame();
+  const auto use =
+      pointsWithValue(readValues(turned, scalar, frame, threads), indices, scalar);
+  Report own; // whoever takes the samples counts them
+  return summarizeSampling(
+      *SampleSet::build(
+          turned.xyz(0), turned.stride(), use, toPosition(scale), threads, own),
+      threads);
 }
 
 } // namespace pcl_uvol

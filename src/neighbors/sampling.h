@@ -6,12 +6,17 @@
 #include "neighbors/local_metric.h"
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_set.h"
+#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/neighbors/neighbor_graph.h>
 
+#include <Eigen/Core>
+#include <pcl/types.h>
+
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_uvol {
@@ -53,5 +58,16 @@ diagnoseSampling(const SampleSet& samples,
  * Deterministic, and good to 3 %. */
 PCL_UVOL_EXPORTS SamplingSummary
 summarizeSampling(const SampleSet& samples, unsigned threads);
+
+/** \brief The same where there is no tree over the samples: it is built, and given
+ * back. \param field that samples have a finite value of \param scale,rotation as those
+ * of InterpolationParameters \throws InvalidArgument if no sample has one */
+PCL_UVOL_EXPORTS SamplingSummary
+summarizeSampling(const CloudView& cloud,
+                  const pcl::Indices& indices,
+                  const std::string& field,
+                  const Eigen::Array3f& scale,
+                  const Eigen::Array3d& rotation,
+                  unsigned threads);
 
 } // namespace pcl_uvol

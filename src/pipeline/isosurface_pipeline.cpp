@@ -308,8 +308,7 @@ IsosurfacePipeline::runFilled(IsosurfacePipelineParameters parameters)
   report_.merge(result.report);
   result.report = std::move(report_);
   result.gaps = gaps.getSummary();
-  if (!parameters.smooth && !parameters.mesh)
-    result.sampling = gaps.getSampling();
+  result.sampling = gaps.getSampling();
   if (parameters.validation.folds > 0)
     result.validation = validate(parameters, result.report);
   report_ = result.report;
@@ -362,6 +361,17 @@ IsosurfacePipeline::runOnSamples(IsosurfacePipelineParameters parameters)
   if ((parameters.smooth || parameters.mesh) &&
       parameters.isosurface.interpolation == Interpolation::Auto)
     parameters.isosurface.interpolation = Interpolation::Fit;
+  std::optional<SamplingSummary> sampling;
+  if ((parameters.smooth || parameters.mesh) && !gaps_) {
+    // Before these take the memory that the tree needs.
+    const StepTimer timer(report_, "sampling");
+    sampling = summarizeSampling(viewOf(samples_->cloud),
+                                 listPoints(),
+                                 parameters.isosurface.field,
+                                 parameters.isosurface.scale,
+                                 Eigen::Array3d::Zero(),
+                                 threads_);
+  }
   SurfaceTriangles found = parameters.smooth
                                ? extractLevelSets(parameters.isosurface, level_sets)
                                : extract(withErrors(parameters), report_);

@@ -103,6 +103,22 @@ TEST(PipelineMesh, SmoothFieldsHaveSmoothMeshes)
   EXPECT_EQ(0.0, valuesOf(smooth.surface, "isovalue").front());
 }
 
+TEST(PipelineMesh, TellsTheSampling)
+{
+  auto parameters = makeParameters({0.0});
+  const auto of = [&] {
+    const auto sampling = runPipeline(makeSamples(), parameters).sampling;
+    return sampling ? std::pair(sampling->most, sampling->along)
+                    : std::pair(LocalDimension::Isolated, 0.0f);
+  };
+  const auto of_mesh = of();
+  EXPECT_EQ(LocalDimension::Volume, of_mesh.first);
+  parameters.mesh.reset();
+  EXPECT_EQ(of(), of_mesh);
+  parameters.smooth = true;
+  EXPECT_EQ(of(), of_mesh);
+}
+
 TEST(PipelineMesh, NoSurfaceIsNoMesh)
 {
   const IsosurfaceResult result = runPipeline(makeSamples(), makeParameters({1000.0}));

@@ -102,6 +102,7 @@ TEST_F(LevelSetTool, WritesPhiBesideEveryField)
                           path("steps.png") + " -snapshots 5");
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.out.find("converged after"));
+  EXPECT_NE(std::string::npos, result.out.find("sampling: all around"));
   EXPECT_NE(std::string::npos, result.out.find("automatic: by the expected deviation"));
   const auto dataset = pcl_uvol::loadDataset(path("out.ply"));
   EXPECT_EQ(60000u, dataset.cloud.width);

@@ -91,6 +91,7 @@ TEST_F(ProbeTool, PointsKeepTheirRowsAndColumns)
   EXPECT_TRUE(std::isnan(values[2]) && std::isnan(values[3]));
   EXPECT_EQ(support, (Values{1, 1, 6, 4}));
   EXPECT_EQ(fieldOf(result, "wave_error").size(), 4u);
+  EXPECT_GT(report["sampling"]["volume"], 0.9);
   EXPECT_EQ(report["counts"]["invalid"], 1);
   EXPECT_EQ(report["counts"]["outside"], 1);
   EXPECT_EQ(report["appended_fields"],
