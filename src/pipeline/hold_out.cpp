@@ -316,7 +316,8 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   ValidationScore score;
   score.tested = samples.size();
   std::size_t above = 0, nearest = 0, field = 0, side_everywhere = 0;
-  std::size_t side = 0, above_near = 0, nearest_near = 0, field_near = 0, sure = 0;
+  std::size_t side = 0, differ = 0, above_near = 0, nearest_near = 0, field_near = 0,
+              sure = 0;
   for (const HeldOutSample& sample : samples) {
     above += sample.is_above;
     nearest += sample.is_nearest_above == sample.is_above;
@@ -327,6 +328,7 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
       continue;
     ++score.covered;
     side += is_right;
+    differ += sample.is_side_above != sample.is_nearest_above;
     above_near += sample.is_above;
     nearest_near += sample.is_nearest_above == sample.is_above;
     field_near += sample.is_field_above == sample.is_above;
@@ -344,6 +346,10 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   score.side = {share(side, score.covered),
                 base(above_near, score.covered),
                 share(nearest_near, score.covered)};
+  // Only samples that one of them tells wrongly speak for the other.
+  const double gain = score.side.predicted - score.side.nearest;
+  score.side_error = std::sqrt(share(differ, score.covered) - gain * gain) /
+                     std::sqrt(static_cast<double>(score.covered));
   score.side_of_field = share(field_near, score.covered);
   score.field = {share(field, score.tested),
                  base(above, score.tested),
@@ -351,6 +357,28 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
   score.side_everywhere = share(side_everywhere, score.tested);
   score.side_beyond_error = share(sure, score.beyond_error);
   return score;
+}
+
+void
+warnOfScores(const std::vector<ValidationScore>& scores, Report& report)
+{
+  const auto warn_where = [&](const auto& holds, const char* sentence) {
+    if (std::any_of(scores.begin(), scores.end(), holds))
+      report.warnings.push_back(sentence);
+  };
+  warn_where(
+      [](const ValidationScore& score) {
+        return score.side.predicted < score.side.base;
+      },
+      "Near the surface, the class of samples that were left out is told no better by "
+      "the surface than by always saying the same: it does not follow the field.");
+  warn_where(
+      [](const ValidationScore& score) {
+        return score.side.nearest - score.side.predicted > score.side_error;
+      },
+      "Near the surface, the nearest sample tells the class of samples that were left "
+      "out better than the surface does: trust where it crosses lines of samples, not "
+      "what lies between; a scale or filled gaps may help (-scale, -fill-gaps).");
 }
 
 Folds

@@ -50,6 +50,12 @@ holdOut(const std::shared_ptr<const Dataset>& samples,
 PCL_UVOL_EXPORTS ValidationScore
 scoreHeldOut(const std::vector<HeldOutSample>& samples);
 
+/** \brief Say so where a surface tells the side of samples that were left out worse
+ * than always saying the same does, or than the nearest sample does by more than the
+ * standard error of the difference. */
+PCL_UVOL_EXPORTS void
+warnOfScores(const std::vector<ValidationScore>& scores, Report& report);
+
 /** \brief Divide points as the parameters say. */
 PCL_UVOL_EXPORTS Folds
 makeFolds(const CloudView& cloud,

@@ -392,7 +392,8 @@ IsosurfacePipeline::runOnSamples(IsosurfacePipelineParameters parameters)
     result.smallest_angle = found.smallest_angle;
   }
   result.level_sets = std::move(level_sets);
-  if (!parameters.smooth && !parameters.mesh && !gaps_) {
+  result.sampling = sampling;
+  if (!sampling && !gaps_) {
     const StepTimer timer(result.report, "sampling");
     result.sampling = summarizeSampling(*extraction_.getSamples(), threads_);
   }
@@ -524,13 +525,7 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
   for (const auto& of_isovalue :
        holdOut(samples_, listPoints(), parameters, folds, threads_, report))
     scores.push_back(scoreHeldOut(of_isovalue));
-  if (std::any_of(scores.begin(), scores.end(), [](const ValidationScore& score) {
-        return score.side.predicted < score.side.base;
-      }))
-    report.warnings.push_back(
-        "Near the surface, the class of samples that were left out is told no better "
-        "by "
-        "the surface than by always saying the same: it does not follow the field.");
+  warnOfScores(scores, report);
   return scores;
 }
 

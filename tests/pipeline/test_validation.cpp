@@ -111,6 +111,8 @@ TEST(Validation, CountsWhatItIsTold)
   EXPECT_DOUBLE_EQ(2.0 / 3.0, score.side.predicted);
   EXPECT_DOUBLE_EQ(1.0, score.side.base);
   EXPECT_DOUBLE_EQ(2.0 / 3.0, score.side.nearest);
+  // The surface and the nearest sample differ by +1, -1 and 0.
+  EXPECT_DOUBLE_EQ(std::sqrt(2.0 / 3.0) / std::sqrt(3.0), score.side_error);
   EXPECT_DOUBLE_EQ(2.0 / 3.0, score.side_of_field);
   EXPECT_DOUBLE_EQ(0.75, score.side_everywhere);
   EXPECT_DOUBLE_EQ(0.75, score.field.predicted);
@@ -119,6 +121,38 @@ TEST(Validation, CountsWhatItIsTold)
   EXPECT_EQ(2u, score.beyond_error);
   EXPECT_DOUBLE_EQ(0.5, score.side_beyond_error);
   EXPECT_TRUE(std::isnan(scoreHeldOut({}).side.predicted));
+}
+
+TEST(Validation, SaysWhoIsBetterThanTheSurface)
+{
+  // 100 samples: the surface tells 70 rightly, the nearest sample so many of the other
+  // 30 and none, or some, of the 70 wrongly; 30 are below.
+  const auto warn = [](int gained, int lost, int below) {
+    std::vector<HeldOutSample> samples;
+    for (int i = 0; i < 100; ++i) {
+      const bool is_above = i >= below, side = i < 70;
+      const bool nearest = side ? i >= lost : i < 70 + gained;
+      samples.push_back(
+          {0, is_above, nearest == is_above, true, side == is_above, true, 1.0f, 0.5f});
+    }
+    Report report;
+    warnOfScores({scoreHeldOut(samples)}, report);
+    return report.warnings;
+  };
+  EXPECT_TRUE(warn(0, 0, 50).empty());
+  EXPECT_TRUE(warn(5, 5, 50).empty());
+  // Of 10 that differ 6 speak for the nearest sample: 0.02 with an error of 0.0316.
+  EXPECT_TRUE(warn(6, 4, 50).empty());
+  // Of 10, 7: 0.04 with one of 0.0314.
+  ASSERT_EQ(1u, warn(7, 3, 50).size());
+  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("nearest sample tells"));
+  EXPECT_LT(warn(7, 3, 50)[0].size(), 300u);
+  ASSERT_EQ(1u, warn(0, 0, 25).size());
+  EXPECT_NE(std::string::npos, warn(0, 0, 25)[0].find("always saying the same"));
+  EXPECT_EQ(2u, warn(7, 3, 25).size());
+  Report none;
+  warnOfScores({scoreHeldOut({})}, none);
+  EXPECT_TRUE(none.warnings.empty());
 }
 
 TEST(Validation, SaysThatNoiseHasNoSurface)

@@ -234,9 +234,11 @@ struct ClassShares {
  * field between the samples, kriged from 16 samples of all octants, and where that has
  * no value by the nearest sample. */
 struct ValidationScore {
-  std::size_t tested = 0;     ///< samples with a value and a place
-  std::size_t covered = 0;    ///< of these, those near the surface
-  ClassShares side{};         ///< of those: by the surface
+  std::size_t tested = 0;  ///< samples with a value and a place
+  std::size_t covered = 0; ///< of these, those near the surface
+  ClassShares side{};      ///< of those: by the surface
+  double side_error = 0; ///< standard error of side.predicted - side.nearest, which are
+                         ///< shares of the same samples; NaN of none
   double side_of_field = 0;   ///< of those: by the field
   ClassShares field{};        ///< of all: by the field
   double side_everywhere = 0; ///< of all: by the side of the nearest isopoint, however

@@ -64,6 +64,7 @@ describe(const ValidationScore& score)
   dict["side"] = score.side.predicted;
   dict["side_of_nearest"] = score.side.nearest;
   dict["side_base"] = score.side.base;
+  dict["side_error"] = score.side_error;
   dict["side_of_field"] = score.side_of_field;
   dict["side_everywhere"] = score.side_everywhere;
   dict["class"] = score.field.predicted;
