@@ -416,8 +416,10 @@ private:
     }
     if (!summary_.converged)
       warnOfStepLimit();
+    if (!summary_.smoothed) // the surface is that of the field itself, whatever phi is
+      makeDistance(level_set.final_slope_error, [&] { return makeDistanceOfBand(); });
     if (stages_.empty())
-      return; // the field as it is
+      return;
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,
                  [&] { return scaleToDistance(*band_, gatherPhi(), threads_); });

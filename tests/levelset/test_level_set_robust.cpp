@@ -95,6 +95,34 @@ TEST(LevelSetRobust, DensitiesOverTenDecadesDoNotDiverge)
   EXPECT_TRUE(evolution.getSummary().converged);
 }
 
+/** 512 - r^3 is 4 spacings inside and outside of its surface 2.3 and 6.3 over slope. */
+TEST(LevelSetRobust, PhiIsADistanceWhereNothingIsSmoothed)
+{
+  const auto cloud = makeBall(8.0, 13.0);
+  std::vector<float> values;
+  for (const auto& point : *cloud)
+    values.push_back(512.0f - std::pow(point.getVector3fMap().norm(), 3.0f));
+  const auto cubes = withValues(*cloud, values);
+  Evolution evolution;
+  const auto phi = evolve(evolution, cubes);
+  EXPECT_FALSE(evolution.getSummary().smoothed);
+  EXPECT_TRUE(evolution.getSummary().converged);
+  const auto deviation = [&](const std::vector<float>& other, float within) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < other.size(); ++i)
+      if (std::abs((*cloud)[i].intensity) < within) {
+        sum += std::abs((*cloud)[i].intensity - other[i]);
+        count += 1.0;
+      }
+    return sum / count;
+  };
+  // Farther out it is the distance to the nearest isopoint, which are a spacing apart.
+  EXPECT_LT(deviation(phi, 1.0f), 0.001);
+  EXPECT_LT(deviation(phi, 4.0f), 0.05);
+  evolution.setReinitialization(Reinitialization::None); // as it is asked for
+  EXPECT_GT(deviation(evolve(evolution, cubes), 4.0f), 0.5);
+}
+
 TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
 {
   for (const auto& [name, size] : {std::pair("sheet", 4.0),
