@@ -123,7 +123,7 @@ findFormula(const Dataset& header,
   const std::string text(trimmed(expression));
   const bool is_name = !text.empty() && endOfName(text, 0) == text.size();
   if (is_name && findComponents(fields, text).empty())
-    throw InvalidArgument(describeUnknown(fields, text));
+    throw InvalidArgument(describeUnknown(header, text));
   Formula formula = parseFormula(header, text);
   if (const std::size_t width = formula.width(); width > 1)
     throw ExpressionError(describeComponents(formula.operands.front()) + ".", text, 0);

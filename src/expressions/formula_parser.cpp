@@ -32,7 +32,8 @@ using Kind = Token::Kind;
 class FormulaParser {
 public:
   FormulaParser(const Dataset& header, const std::string& text)
-      : fields_(header.cloud.fields)
+      : header_(header)
+      , fields_(header.cloud.fields)
       , origin_(header.origin)
       , labels_(header.labels)
       , text_(text)
@@ -304,7 +305,7 @@ private:
   {
     Operand operand = makeFieldOperand(fields_, origin_, name);
     if (operand.components.empty())
-      fail(describeUnknown(fields_, name), at_);
+      fail(describeUnknown(header_, name), at_);
     const std::size_t begin = at_;
     at_ += characters;
     addOperand(draft, std::move(operand), begin);
@@ -473,6 +474,7 @@ private:
       fail(describeComponents(operand), place);
   }
 
+  const Dataset& header_;
   const Fields& fields_;
   const std::array<double, 3>& origin_;
   const LabelNames& labels_;

@@ -148,9 +148,32 @@ findDerivative(const std::string& name)
   return std::nullopt;
 }
 
+namespace {
+
+/** Data of cells, among which a name may be: then it is told first. */
 std::string
-describeUnknown(const Fields& fields, const std::string& name)
+describeCellFields(std::vector<std::string> names, const std::string& name)
 {
+  if (names.empty())
+    return "";
+  std::stable_partition(names.begin(), names.end(), [&](const std::string& other) {
+    return other == name;
+  });
+  constexpr std::size_t most_shown = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most_shown); ++i)
+    list += (i > 0 ? ", " : "") + shortenText(names[i]);
+  if (names.size() > most_shown)
+    list += ", ...";
+  return " The option cells reads data of cells instead: " + list + ".";
+}
+
+} // namespace
+
+std::string
+describeUnknown(const Dataset& header, const std::string& name)
+{
+  const Fields& fields = header.cloud.fields;
   std::vector<std::string> names;
   for (const auto& field : fields)
     if (!isPadding(field))
@@ -158,7 +181,8 @@ describeUnknown(const Fields& fields, const std::string& name)
   const std::string similar = findSimilar(names, name);
   return "There is no field " + quoteText(name) +
          (similar.empty() ? "" : " (did you mean " + quoteText(similar) + "?)") +
-         "; the fields are " + describeFields(fields) + ".";
+         "; the fields are " + describeFields(fields) + "." +
+         describeCellFields(header.cell_fields, name);
 }
 
 std::string

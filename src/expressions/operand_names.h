@@ -41,7 +41,7 @@ findDerivative(const std::string& name);
 
 /** What is said of a name that is no field. */
 std::string
-describeUnknown(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
+describeUnknown(const Dataset& header, const std::string& name);
 
 /** What is said of a function that is none. */
 std::string

@@ -10,6 +10,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
@@ -21,6 +22,7 @@
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -184,6 +186,20 @@ PointCollector::addPointData()
                              "vtkCellCenters, makes samples of them.");
 }
 
+/** Names of the data of cells. */
+std::vector<std::string>
+listCellFields(vtkDataSet& data)
+{
+  vtkCellData& cells = *data.GetCellData();
+  std::vector<std::string> names;
+  for (int i = 0; i < cells.GetNumberOfArrays(); ++i)
+    if (const char* const name = cells.GetArrayName(i);
+        name && *name != '\0' &&
+        std::string(name) != vtkDataSetAttributes::GhostArrayName())
+      names.emplace_back(name);
+  return names;
+}
+
 PointArrays
 PointCollector::collect()
 {
@@ -204,6 +220,7 @@ PointCollector::collect()
     offset += bytes;
   }
   result_.dataset = makeDataset(std::move(records), info_);
+  result_.dataset.cell_fields = listCellFields(data_);
   return std::move(result_);
 }
 

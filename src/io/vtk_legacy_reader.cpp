@@ -10,6 +10,7 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -20,6 +21,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 
 namespace pcl_uvol {
 namespace io {
@@ -164,7 +167,7 @@ private:
   Array coordinates_;
   std::vector<Array> arrays_;
   Array scalars_, normals_;
-  bool has_cell_data_ = false;
+  std::set<std::string> cell_arrays_; ///< names of data of cells
   std::vector<std::string> notes_;
 };
 
@@ -283,7 +286,8 @@ LegacyReader::keep(const Array& array)
 {
   if (data_ == Data::Points)
     arrays_.push_back(array);
-  has_cell_data_ = has_cell_data_ || data_ == Data::Cells;
+  else if (data_ == Data::Cells)
+    cell_arrays_.insert(array->GetName() ? array->GetName() : "");
 }
 
 /** DIMENSIONS, POINTS, ...
@@ -560,8 +564,11 @@ LegacyReader::read()
     point_data.SetScalars(scalars_);
   if (normals_)
     point_data.SetNormals(normals_);
-  if (has_cell_data_)
-    content.data->GetCellData()->AddArray(vtkSmartPointer<vtkFloatArray>::New());
+  for (const std::string& name : cell_arrays_) {
+    vtkNew<vtkFloatArray> array; // its name is all that is asked for
+    array->SetName(name.c_str());
+    content.data->GetCellData()->AddArray(array);
+  }
   checkLattice(path_, *content.data);
   return content;
 }

@@ -15,6 +15,7 @@
 #include <vtkImageData.h>
 #include <vtkLZ4DataCompressor.h>
 #include <vtkLZMADataCompressor.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -422,8 +423,11 @@ Assembler::assemble()
   ArrayReader reader(path_, tags_);
   VtkContent content{makeGeometry(reader), {}};
   addPointData(reader, content);
-  if (tags_.has_cell_data)
-    content.data->GetCellData()->AddArray(vtkSmartPointer<vtkFloatArray>::New());
+  for (const std::string& name : tags_.cell_arrays) {
+    vtkNew<vtkFloatArray> array; // its name is all that is asked for
+    array->SetName(name.c_str());
+    content.data->GetCellData()->AddArray(array);
+  }
   checkLattice(path_, *content.data);
   return content;
 }

@@ -147,7 +147,8 @@ void
 TagCollector::takeArray(const XmlTag& tag)
 {
   const std::string& section = scanner_.getOpen()[3];
-  has_cell_data = has_cell_data || section == "CellData";
+  if (const std::string* const name = tag.find("Name"); section == "CellData")
+    cell_arrays.insert(name ? *name : std::string());
   const bool of_cells = with_cells_ && section == "CellData";
   if (section != "PointData" && section != "Points" && section != "Polys" && !of_cells)
     return;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,8 @@ public:
   std::array<double, 9> direction{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
   std::string scalars, normals; ///< names of active arrays
   std::vector<Piece> pieces;
-  bool has_cell_data = false, has_grid = false;
+  std::set<std::string> cell_arrays; ///< names of data of cells
+  bool has_grid = false;
   bool appended_base64 = false;
   std::uint64_t appended = 0, appended_end = 0; ///< in the file, 0 without
 

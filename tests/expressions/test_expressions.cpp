@@ -170,6 +170,26 @@ TEST(Expressions, UndefinedNumbersAreCounted)
   EXPECT_TRUE(std::isnan(compute("ln(b)", dataset)[0]));
 }
 
+TEST(Expressions, FieldsOfCellsAreNamed)
+{
+  Dataset dataset = load("x,y,z,a\n0,0,0,1\n");
+  dataset.cell_fields = {"b", "c", "d", "e", "f", "g", "h", "i", "EQPS"};
+  Report report;
+  for (const char* const text : {"EQPS", "2*EQPS"})
+    try {
+      addDerivedField(dataset, text, {}, report);
+      ADD_FAILURE() << text;
+    }
+    catch (const InvalidArgument& error) {
+      EXPECT_NE(error.message().find("There is no field 'EQPS'"), std::string::npos);
+      EXPECT_NE(error.message().find(
+                    "The option cells reads data of cells instead: EQPS, b, c, d, e, "
+                    "f, g, h, ..."),
+                std::string::npos)
+          << error.message();
+    }
+}
+
 TEST(Expressions, WrongOnesAreMarked)
 {
   const std::tuple<const char*, const char*, std::size_t> cases[] = {

@@ -20,6 +20,7 @@
 #include <vtkHyperTreeGridNonOrientedGeometryCursor.h>
 #include <vtkNew.h>
 #include <vtkOverlappingAMR.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
@@ -155,6 +156,27 @@ TEST_F(Cells, OfGridsBecomeSamples)
   EXPECT_EQ(6u * 5u * 4u, points.cloud.width);
   ASSERT_EQ(1u, points.notes.size());
   EXPECT_NE(std::string::npos, points.notes[0].find("data of cells only"));
+}
+
+TEST_F(Cells, AreNamedWherePointsAreReadInstead)
+{
+  const auto boxes = toUnstructured(*makeBoxes());
+  vtkNew<vtkDoubleArray> of_points;
+  of_points->SetName("p");
+  for (vtkIdType i = 0; i < boxes->GetNumberOfPoints(); ++i)
+    of_points->InsertNextValue(static_cast<double>(i));
+  boxes->GetPointData()->AddArray(of_points);
+  writeXml(*boxes, folder_ / "boxes.vtu");
+  vtkNew<vtkDataSetWriter> writer;
+  writer->SetInputData(boxes);
+  writer->SetFileName((folder_ / "boxes.vtk").c_str());
+  ASSERT_EQ(1, writer->Write());
+  for (const char* const name : {"boxes.vtu", "boxes.vtk"}) {
+    const Dataset points = pcl_uvol::loadDataset(folder_ / name);
+    EXPECT_EQ(std::vector<std::string>{"f"}, points.cell_fields) << name;
+    EXPECT_TRUE(points.notes.empty()) << name; // who reads points need not know
+    EXPECT_TRUE(load(folder_ / name).cell_fields.empty()) << name;
+  }
 }
 
 TEST_F(Cells, OfListedFilesAreJoined)

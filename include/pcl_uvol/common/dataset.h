@@ -47,6 +47,9 @@ struct PCL_UVOL_EXPORTS Dataset {
   /** One sentence each: what reading had to decide (columns taken as coordinates, list
    * properties left out, ...). */
   std::vector<std::string> notes;
+  /** Data that the cells of a file of VTK have and that were left out, by name: the
+   * centres of cells have them, see LoadOptions::cells. */
+  std::vector<std::string> cell_fields;
 };
 
 /** \brief Put float32 x, y, z relative to a common origin into a dataset, in front of
