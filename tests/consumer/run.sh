@@ -10,6 +10,7 @@ cmake -S "$source_dir" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/
 cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
+test "$("$folder/build/algorithms_consumer")" = "2 clusters, some triangles"
 test "$("$folder/build/window_consumer")" = "bounds from 3"
 if [ -e "$folder/prefix/include/pcl_uvol/mpi" ]; then
   test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
