@@ -77,6 +77,12 @@ vtkUvolIsosurface::PrintSelf(std::ostream& out, vtkIndent indent)
       << indent << "Scale: " << this->Scale[0] << ' ' << this->Scale[1] << ' '
       << this->Scale[2] << '\n'
       << indent << "FillGaps: " << (this->FillGaps ? "On" : "Off") << '\n'
+      << indent << "Smooth: " << (this->Smooth ? "On" : "Off") << '\n'
+      << indent << "MaximumError: " << this->MaximumError << '\n'
+      << indent
+      << "AutomaticMaximumError: " << (this->AutomaticMaximumError ? "On" : "Off")
+      << '\n'
+      << indent << "DropBridged: " << (this->DropBridged ? "On" : "Off") << '\n'
       << indent << "Values:\n";
   this->Values->PrintSelf(out, indent.GetNextIndent());
 }
@@ -128,6 +134,11 @@ vtkUvolIsosurface::Execute(pcl_uvol::FilterRun& run)
                              : pcl_uvol::AngleCriterion::All;
   parameters.fill_gaps = this->FillGaps;
   parameters.automatic_scale = this->FillGaps && (isosurface.scale == 1.0f).all();
+  parameters.smooth = this->Smooth;
+  if (this->MaximumError > 0.0)
+    parameters.max_error = this->MaximumError;
+  parameters.automatic_max_error = this->AutomaticMaximumError;
+  parameters.drop_bridged = this->DropBridged;
   if (this->Mesh)
     parameters.mesh.emplace();
   pcl_uvol::IsosurfacePipeline& pipeline = this->Read->pipeline;

@@ -309,6 +309,9 @@ TEST_P(Convention, PrintsItself)
                                                                  "AngleCriterion: Kept",
                                                                  "Scale: 1 1 1",
                                                                  "FillGaps: Off",
+                                                                 "Smooth: Off",
+                                                                 "MaximumError: 0",
+                                                                 "DropBridged: Off",
                                                                  "Value 0: 5"}
       : GetParam().name == "LevelSet"
           ? std::vector<std::string>{"Isovalue: 5",

@@ -93,6 +93,22 @@ TEST(VtkIsosurface, SamePointsAsTheTool)
          filter.GenerateValues(3, 3.0, 6.0);
          filter.SetOutside(vtkUvolIsosurface::OUTSIDE_HIGHER);
        }},
+      {"-iso 5 -smooth",
+       [](auto& filter) {
+         filter.SetValue(0, 5.0);
+         filter.SmoothOn();
+       }},
+      {"-iso 5 -max-error 0.02 -drop-bridged",
+       [](auto& filter) {
+         filter.SetValue(0, 5.0);
+         filter.SetMaximumError(0.02);
+         filter.DropBridgedOn();
+       }},
+      {"-iso 5 -max-error auto",
+       [](auto& filter) {
+         filter.SetValue(0, 5.0);
+         filter.AutomaticMaximumErrorOn();
+       }},
       {"-iso 5 -interpolation linear -criterion all -scale 1,1,2.5", [](auto& filter) {
          filter.SetValue(0, 5.0);
          filter.SetInterpolation(vtkUvolIsosurface::INTERPOLATION_LINEAR);

@@ -132,6 +132,33 @@ public:
   vtkBooleanMacro(FillGaps, bool);
   /** @} */
 
+  /** \brief Smooth the surface by a level set with default parameters, see
+   * pcl_uvol::LevelSetEvolution; vtkUvolLevelSet has all of them. Default: off. @{ */
+  vtkSetMacro(Smooth, bool);
+  vtkGetMacro(Smooth, bool);
+  vtkBooleanMacro(Smooth, bool);
+  /** @} */
+
+  /** \brief Leave out points of a larger estimated error, or without an estimate, in
+   * units of length; 0 (default): no bound. @{ */
+  vtkSetClampMacro(MaximumError, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumError, double);
+  /** @} */
+
+  /** \brief Take the bound of the error from the samples instead: half of a point's
+   * edge_length. Default: off. @{ */
+  vtkSetMacro(AutomaticMaximumError, bool);
+  vtkGetMacro(AutomaticMaximumError, bool);
+  vtkBooleanMacro(AutomaticMaximumError, bool);
+  /** @} */
+
+  /** \brief Leave out points in gaps of the sampling: those of support 2. Default: off.
+   * @{ */
+  vtkSetMacro(DropBridged, bool);
+  vtkGetMacro(DropBridged, bool);
+  vtkBooleanMacro(DropBridged, bool);
+  /** @} */
+
   /** \return The time of the last change, of the isovalues as well. */
   vtkMTimeType
   GetMTime() override;
@@ -160,6 +187,10 @@ private:
   bool Mesh = false;
   double Scale[3] = {1.0, 1.0, 1.0};
   bool FillGaps = false;
+  bool Smooth = false;
+  double MaximumError = 0.0;
+  bool AutomaticMaximumError = false;
+  bool DropBridged = false;
 
   struct Samples;
   std::unique_ptr<Samples> Read; ///< with the tree
