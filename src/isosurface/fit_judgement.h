@@ -56,6 +56,18 @@ supportOf(const Surroundings& surroundings,
 RootOutcome
 judge(const FitResult& result, std::size_t lane, const Surroundings& surroundings);
 
+/** \brief Whether an edge slips between samples, as through the channels of a lattice:
+ * it is longer than those around are far, and they tell of no surface there, as they
+ * have a fit without one, or lie on one side of it.
+ * \param outcome what the fit is worth
+ * \param samples that it is made from */
+bool
+goesPastSamples(const FitResult& result,
+                std::size_t lane,
+                RootOutcome outcome,
+                const Surroundings& surroundings,
+                const std::vector<FitSample>& samples);
+
 /** \brief Whether a fit in another metric moves its isopoint far from a jump: a short
  * way in a metric may be a long one beside the edge it starts from.
  * \param edge_length in the samples' own space */

@@ -50,6 +50,7 @@ struct DoubtfulFit {
   Position center; ///< the linear root, in the stretched space
   double pivot;
   bool is_in_gap; ///< a wide one, where there was no fit
+  bool is_past;   ///< its edge goes past samples, see goesPastSamples()
 };
 
 /** Fits of consecutive isopoints; one object per thread. */
@@ -127,7 +128,7 @@ private:
         fits[i] = {
             RootOutcome::Far, radius, radius, std::numeric_limits<float>::quiet_NaN()};
         keepInGap(edges[i], points[i]);
-        doubtful_.push_back({i, centers[lane], 0.0, true});
+        doubtful_.push_back({i, centers[lane], 0.0, true, false});
         continue;
       }
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
@@ -137,9 +138,11 @@ private:
                  radius,
                  radius,
                  static_cast<float>(result.value[lane])};
-      if (!has_all && (!(result.pivot[lane] >= good_pivot) ||
+      const bool is_past =
+          goesPastSamples(result, lane, fits[i].outcome, surroundings[lane], samples_);
+      if (!has_all && (is_past || !(result.pivot[lane] >= good_pivot) ||
                        surroundings[lane].support != IsoSupport::Measured))
-        doubtful_.push_back({i, centers[lane], result.pivot[lane], false});
+        doubtful_.push_back({i, centers[lane], result.pivot[lane], false, is_past});
       setIsopoint(input_,
                   result,
                   lane,
@@ -175,7 +178,8 @@ private:
   }
 
   /** Find the metric around an edge.
-   * \param point has the support Bridged afterwards if it lies in a gap in the metric
+   * \param point has the support Bridged afterwards if it lies in a gap in the metric,
+   * or if its edge goes past samples that need none; among stretched ones it is right
    * \param reach is set to the distance of what decides
    * \return false if there is none, or no use in it */
   bool
@@ -202,6 +206,8 @@ private:
                               : metrics_.find(edge.first, least_ratio);
     reach = std::max(
         reach, metrics_.getReach() + distance(positions[edge.first], doubtful.center));
+    if (doubtful.is_past && !is_found && metrics_.isEven(least_ratio))
+      point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
     return is_found && metrics_.reaches(doubtful.center);
   }
 

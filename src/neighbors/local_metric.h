@@ -70,6 +70,15 @@ public:
     return known_ == Known::Searched && !has_metric_;
   }
 
+  /** \brief Whether spacings around the last sample are known, and differ by less than
+   * a ratio. */
+  bool
+  isEven(double ratio) const
+  {
+    return known_ == Known::Refined ? has_metric_ && ratio_ < ratio
+                                    : is_seen_ && first_ratio_ < ratio;
+  }
+
   /** \brief The metric at the last sample: x -> metric * x makes spacings equal. 1
    * where samples lie densest. */
   const Eigen::Matrix3d&

@@ -148,6 +148,60 @@ TEST(FitJudgement, GapsShowByEmptyConesAndFarSamples)
   EXPECT_EQ(IsoSupport::Bridged, findSupport(true, 0.5, 2.01));
 }
 
+/** Samples of lane 0, two and one that only fills it up: the first lies above the
+ * isovalue. */
+std::vector<FitSample>
+makeSamples(float nearest, float second, float second_value)
+{
+  std::vector<FitSample> samples(3);
+  samples[0].x[0] = nearest;
+  samples[0].value[0] = 0.0f;
+  samples[1].x[0] = -0.6f * second;
+  samples[1].y[0] = 0.8f * second;
+  samples[1].value[0] = second_value;
+  samples[2].x[0] = 2.0f;
+  return samples;
+}
+
+TEST(FitJudgement, EdgesThatAreLongerThanAllSamplesAreFarGoPastThem)
+{
+  const auto goesPast = [](double edge_length, RootOutcome outcome) {
+    Surroundings surroundings = makeSurroundings();
+    surroundings.edge_length = edge_length;
+    FitResult fit = makeFit();
+    if (outcome == RootOutcome::Singular)
+      fit.order[0] = fit_failed;
+    return goesPastSamples(
+        fit, 0, outcome, surroundings, makeSamples(0.3f, 0.6f, -1.0f));
+  };
+  EXPECT_TRUE(goesPast(2.01, RootOutcome::Singular));
+  EXPECT_FALSE(goesPast(1.99, RootOutcome::Singular));
+  EXPECT_FALSE(goesPast(2.01, RootOutcome::Quadratic));
+  EXPECT_FALSE(goesPast(2.01, RootOutcome::Step));
+}
+
+/** A fit without a root tells more than one that does not serve, or that is none. */
+TEST(FitJudgement, EdgesGoPastSamplesOnOneSideWhereNoFitServes)
+{
+  const auto goesPast = [](const std::vector<FitSample>& samples) {
+    Surroundings surroundings = makeSurroundings();
+    surroundings.edge_length = 2.01;
+    FitResult none = makeFit();
+    none.order[0] = fit_failed;
+    none.value[0] = std::nan("");
+    const bool is_past =
+        goesPastSamples(none, 0, RootOutcome::Singular, surroundings, samples);
+    EXPECT_EQ(is_past,
+              goesPastSamples(makeFit(), 0, RootOutcome::Step, surroundings, samples));
+    return is_past;
+  };
+  EXPECT_FALSE(goesPast(makeSamples(0.3f, 0.69f, -1.0f)));
+  EXPECT_TRUE(goesPast(makeSamples(0.3f, 0.71f, -1.0f)));
+  EXPECT_FALSE(goesPast(makeSamples(0.69f, 0.3f, -1.0f)));
+  EXPECT_TRUE(goesPast(makeSamples(0.71f, 0.3f, -1.0f)));
+  EXPECT_TRUE(goesPast(makeSamples(0.3f, 0.31f, 1.0f)));
+}
+
 /** A fit to f(m x) has the zero level, the gradient and the Hessian of f. */
 TEST(FitJudgement, MetricsAreLeftAsCoordinatesAre)
 {

@@ -189,6 +189,86 @@ TEST(StretchedSamples, DoNotDependOnTheUnitOfLength)
   }
 }
 
+enum class Packing { Cubic, Dense };
+
+/** Samples of a lattice on one side of the plane x = 0, the nearest ones half a layer
+ * off it.
+ * \param spacing between nearest samples; below 0 for the side of negative x */
+void
+addLattice(Packing packing, double spacing, Cloud& cloud)
+{
+  const bool is_dense = packing == Packing::Dense;
+  const Vector steps =
+      std::abs(spacing) * Vector(1.0,
+                                 is_dense ? std::sqrt(3.0) / 2.0 : 1.0,
+                                 is_dense ? std::sqrt(6.0) / 3.0 : 1.0);
+  constexpr double half_width = 8.0;
+  for (int k = 0; (k + 1) * steps[2] <= 2.0 * half_width; ++k)
+    for (int j = 0; (j + 1) * steps[1] <= 2.0 * half_width; ++j)
+      for (int i = 0; (i + 1) * steps[0] <= 2.0 * half_width; ++i) {
+        Vector x((i + 0.5) * steps[0],
+                 (j + 0.5) * steps[1] - half_width,
+                 (k + 0.5) * steps[2] - half_width);
+        if (is_dense) { // odd rows are shifted by half a step, odd layers to their gaps
+          x[0] += ((j + k) % 2 == 0 ? -0.25 : 0.25) * steps[0];
+          x[1] += k % 2 == 0 ? 0.0 : steps[1] / 3.0;
+        }
+        x[0] = std::copysign(x[0], spacing);
+        pcl::PointXYZI point;
+        point.getVector3fMap() = x.cast<float>();
+        cloud.push_back(point);
+      }
+}
+
+/** How edges through the channels of two lattices that meet look like. */
+class LatticePair : public testing::TestWithParam<std::tuple<Packing, double>> {};
+
+/** Densities on the two sides of a shock: the step between them is smooth over the
+ * given length, 0 for two values only. */
+TEST_P(LatticePair, BridgesWhatIsOffThePlane)
+{
+  const auto [packing, width] = GetParam();
+  constexpr double dense = 1.0, thin = 0.125, isovalue = 0.3;
+  Cloud::Ptr cloud(new Cloud);
+  addLattice(packing, -1.0, *cloud);
+  addLattice(packing, 2.0, *cloud);
+  for (pcl::PointXYZI& point : *cloud) {
+    const double part = width > 0.0 ? 1.0 / (1.0 + std::exp(point.x / width))
+                                    : static_cast<double>(point.x < 0.0f);
+    point.intensity = static_cast<float>(thin + (dense - thin) * part);
+  }
+  // Two values have their step anywhere between the lattices.
+  const double first = packing == Packing::Dense ? 0.25 : 0.5;
+  const double plane = width * std::log((dense - isovalue) / (isovalue - thin));
+  const double low = width > 0.0 ? plane : -first;
+  const double high = width > 0.0 ? plane : 2.0 * first;
+  std::size_t off = 0, right = 0, bridged = 0;
+  for (const pcl_uvol::PointIso& point : extract(cloud, isovalue)) {
+    if (std::max(std::abs(point.y), std::abs(point.z)) > 5.0f)
+      continue; // beside the border of the samples
+    const bool is_bridged =
+        point.support == static_cast<std::uint8_t>(IsoSupport::Bridged);
+    const double deviation = std::max(low - point.x, point.x - high);
+    if (deviation > 1.5) {
+      ++off;
+      EXPECT_TRUE(is_bridged) << point.getVector3fMap().transpose();
+    }
+    else if (deviation < 1.0) {
+      ++right;
+      bridged += is_bridged;
+    }
+  }
+  EXPECT_GT(off, 5u);
+  EXPECT_GT(right, 50u);
+  EXPECT_LT(100 * bridged, right);
+}
+
+INSTANTIATE_TEST_SUITE_P(StretchedSamples,
+                         LatticePair,
+                         testing::Combine(testing::Values(Packing::Cubic,
+                                                          Packing::Dense),
+                                          testing::Values(0.0, 0.3, 0.6, 1.0)));
+
 /** Isopoints that are not the linear root of their edge. */
 std::size_t
 countMoved(const Cloud::Ptr& cloud, const std::vector<double>& isovalues)
@@ -232,6 +312,24 @@ TEST(LabelFields, AreLinearAlways)
     EXPECT_EQ(0u, countMoved(two, {0.4}));
     EXPECT_EQ(0u, countMoved(four, {0.5, 1.5, 2.5}));
   }
+}
+
+/** Long edges between random samples cross jumps as well as others do. */
+TEST(LabelFields, HaveMeasuredIsopointsAtRandomSamples)
+{
+  constexpr std::uint64_t count = 30000;
+  Cloud::Ptr cloud(new Cloud);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto x =
+        pcl_uvol::scatterAt(pcl_uvol::Scatter::Uniform, 1, i, count, -20, 20);
+    pcl::PointXYZI point;
+    point.getVector3fMap() = Vector(x.data()).cast<float>();
+    point.intensity = Vector(x.data()).norm() < 15.0 ? 1.0f : 2.0f;
+    cloud->push_back(point);
+  }
+  const Surface surface = extract(cloud, 1.5);
+  ASSERT_GT(surface.size(), 3000u);
+  EXPECT_GE(partWith(IsoSupport::Measured, surface), 0.985);
 }
 
 TEST(LabelFields, AreNotWhatQuantisedDataAre)

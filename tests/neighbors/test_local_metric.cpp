@@ -14,20 +14,26 @@ using pcl_uvol::LocalMetricFinder;
 using pcl_uvol::Position;
 using pcl_uvol::SampleSet;
 
+SampleSet::ConstPtr
+makeSamples(const std::vector<Position>& places)
+{
+  std::vector<std::uint32_t> all(places.size());
+  std::iota(all.begin(), all.end(), 0u);
+  pcl_uvol::Report report;
+  return SampleSet::build(places[0].x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
+}
+
 /** Random samples, a little stretched: some ratios of spacings are below any bound,
  * some above it. */
 SampleSet::ConstPtr
-makeSamples(std::size_t count)
+makeRandomSamples(std::size_t count)
 {
   std::vector<Position> places;
   for (std::uint64_t i = 0; i < count; ++i)
     places.push_back({{static_cast<float>(pcl_uvol::uniformAt(3, i, 0)),
                        static_cast<float>(pcl_uvol::uniformAt(3, i, 1)),
                        static_cast<float>(0.6 * pcl_uvol::uniformAt(3, i, 2))}});
-  std::vector<std::uint32_t> all(count);
-  std::iota(all.begin(), all.end(), 0u);
-  pcl_uvol::Report report;
-  return SampleSet::build(places[0].x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
+  return makeSamples(places);
 }
 
 void
@@ -39,11 +45,13 @@ expectEqual(bool found,
   EXPECT_EQ(expected, found);
   EXPECT_EQ(alone.getRatio(), metrics.getRatio());
   EXPECT_EQ(alone.getMetric(), metrics.getMetric());
+  for (const double bound : {1.1, LocalMetricFinder::even_ratio, 2.0})
+    EXPECT_EQ(alone.isEven(bound), metrics.isEven(bound));
 }
 
 TEST(LocalMetric, DoesNotDependOnWhatWasAskedBefore)
 {
-  const auto samples = makeSamples(1000);
+  const auto samples = makeRandomSamples(1000);
   LocalMetricFinder used(*samples), group(*samples);
   std::size_t found = 0;
   for (std::uint32_t i = 0; i < 1000; i += 3) {
@@ -59,6 +67,24 @@ TEST(LocalMetric, DoesNotDependOnWhatWasAskedBefore)
   }
   EXPECT_GT(found, 100u);
   EXPECT_LT(found, 600u);
+}
+
+/** A lattice that is stretched twice along an axis, or not at all. */
+TEST(LocalMetric, IsEvenWhereSpacingsAre)
+{
+  for (const bool is_stretched : {false, true}) {
+    std::vector<Position> places;
+    for (int i = 0; i < 1000; ++i)
+      places.push_back({{static_cast<float>(i % 10),
+                         static_cast<float>(i / 10 % 10),
+                         static_cast<float>((is_stretched ? 2 : 1) * (i / 100))}});
+    const auto samples = makeSamples(places);
+    LocalMetricFinder metrics(*samples);
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+      EXPECT_EQ(is_stretched, metrics.find(i)) << i;
+      EXPECT_EQ(!is_stretched, metrics.isEven(LocalMetricFinder::even_ratio)) << i;
+    }
+  }
 }
 
 } // namespace

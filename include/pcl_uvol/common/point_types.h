@@ -18,7 +18,7 @@ namespace pcl_uvol {
 enum class IsoSupport : std::uint8_t {
   Unknown = 0,  ///< not examined: linear interpolation
   Measured = 1, ///< samples all around
-  Bridged = 2,  ///< in a gap of the sampling that its edge reaches across
+  Bridged = 2,  ///< its edge reaches across a gap of the sampling, or past samples
   Rim = 3,      ///< beside a wide cone without samples: border of a gap or of the cloud
   Predicted = 4 ///< in a gap that was filled with predicted samples, see GapFilling
 };
