@@ -265,7 +265,8 @@ Child::Child(const std::string& path,
   }
 }
 
-/** Ends it if it still runs. \return the status */
+/** Ends it if it still runs.
+ * \return the status */
 int
 Child::finish()
 {

@@ -60,8 +60,10 @@ PCL_UVOL_EXPORTS SamplingSummary
 summarizeSampling(const SampleSet& samples, unsigned threads);
 
 /** \brief The same where there is no tree over the samples: it is built, and given
- * back. \param field that samples have a finite value of \param scale,rotation as those
- * of InterpolationParameters \throws InvalidArgument if no sample has one */
+ * back.
+ * \param field that samples have a finite value of
+ * \param scale,rotation as those of InterpolationParameters
+ * \throws InvalidArgument if no sample has one */
 PCL_UVOL_EXPORTS SamplingSummary
 summarizeSampling(const CloudView& cloud,
                   const pcl::Indices& indices,

@@ -112,7 +112,8 @@ public:
   }
 
   /** \brief A camera with what options say in the place of what it says, one by one.
-   * Not for -view. \param origin what was subtracted from its places */
+   * Not for -view.
+   * \param origin what was subtracted from its places */
   pcl_uvol::Camera
   adjusted(const Options& options,
            pcl_uvol::Camera camera,
