@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture of a surface given as points (thesis 4.3).
 #include "charts/picture_file.h"
+#include "shared/memory_guard.h"
 #include "shared/point_files.h"
 #include "shared/render_options.h"
 #include "shared/series.h"
+#include "surface/memory_need.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <filesystem>
@@ -45,6 +47,7 @@ struct Job {
       "picture, or as a web page in one file that turns in any browser."};
   bool is_page = false;
   Report report;
+  uvol_tools::MemoryGuard memory{"Drawing"};
 
   void
   draw(const pcl_uvol::Dataset& surface)
@@ -54,8 +57,12 @@ struct Job {
       look.writePage(options, surface, output, report);
     else
       backend = look.drawCloud(options, surface, output, report);
-    uvol_tools::printReport(
-        options, report, {{"input", input}, {"output", output}, {"backend", backend}});
+    uvol_tools::printReport(options,
+                            report,
+                            {{"input", input},
+                             {"output", output},
+                             {"backend", backend},
+                             memory.describe()});
   }
 };
 
@@ -63,7 +70,7 @@ int
 run(int argc, char** argv, uvol_tools::SeriesStep* step)
 {
   const auto job = std::make_shared<Job>();
-  auto& [input, output, look, options, is_page, report] = *job;
+  auto& [input, output, look, options, is_page, report, memory] = *job;
   options.file("in", input);
   options.file("out", output);
   look.declareView(options);
@@ -82,6 +89,13 @@ run(int argc, char** argv, uvol_tools::SeriesStep* step)
   else
     uvol_tools::checkPicturePath(output);
 
+  memory.checkFile(input, [&job = *job](double points, double size, auto& forecast) {
+    job.look.addColorNeed(points, size, forecast);
+    if (job.is_page) // footprints of all points, as at worst in a picture
+      forecast.run(pcl_uvol::splatsNeed(points, 0.0, true));
+    else
+      job.look.addMemoryNeed(points, 1, forecast);
+  });
   pcl_uvol::Dataset dataset = uvol_tools::loadPoints(input, report);
   look.addColor(options, dataset, report);
   look.exaggerate(dataset);

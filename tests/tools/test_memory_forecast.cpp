@@ -15,7 +15,7 @@ namespace {
 
 using uvol_test::runCommand;
 
-/** A run on "in.pcd" or "in.ply", with "out.ply". */
+/** A run on "in.pcd" or "in.ply", with "out.ply", or "out.png" of what draws. */
 struct ToolRun {
   const char *name, *tool, *input, *options;
 };
@@ -47,6 +47,7 @@ const ToolRun runs[] = {
     {"Normals", "uvol_normals", "in.ply", ""},
     {"ManyNeighborNormals", "uvol_normals", "in.ply", "-k 60 -threads 1"},
     {"Splats", "uvol_splats", "in.ply", ""},
+    {"Rendering", "uvol_render", "in.ply", "-size 1500"},
     {"FewSplats", "uvol_splats", "in.ply", "-delta 0.002 -threads 1"}};
 
 /** Megabytes of a tool that has not begun, which would hide what is wrong. */
@@ -77,8 +78,15 @@ protected:
   {
     const ToolRun& tool = GetParam();
     return runCommand(before + "cd " + (folder_ / "") + " && " + tool.tool + ' ' +
-                      (folder_ / tool.input) + ' ' + (folder_ / "out.ply") + ' ' +
+                      (folder_ / tool.input) + ' ' +
+                      (folder_ / (draws() ? "out.png" : "out.ply")) + ' ' +
                       tool.options);
+  }
+
+  static bool
+  draws()
+  {
+    return GetParam().tool == std::string("uvol_render");
   }
 
   bool

@@ -6,15 +6,6 @@
 
 namespace uvol_tools {
 
-namespace {
-
-/** Bytes of a picture in image space, per pixel; blended discs take memory where they
- * are. Measured on 9 million pixels that an object fills, and as the mean of what a
- * torus and a sphere take to which the camera is fitted. */
-constexpr double full_pixel_bytes = 50.0, fitted_pixel_bytes = 34.0;
-
-} // namespace
-
 void
 SurfacePicture::declare(Options& options)
 {
@@ -114,19 +105,10 @@ SurfacePicture::addMemoryNeed(double points,
 {
   if (path_.empty())
     return;
-  const double scale =
-      is_ray_traced_ ? look_.getRaySupersampling() : look_.getSupersampling();
-  const double pixels = scale * look_.getWidth() * scale * look_.getHeight();
-  constexpr double layer_bytes = 8.0; // colour and depth
-  const double layers = look_.hasOpacities() ? static_cast<double>(surfaces) : 0.0;
-  // At worst a splat per point, or footprints and pixels.
-  if (is_ray_traced_)
+  if (is_ray_traced_) // at worst a splat per point
     forecast.run(pcl_uvol::splatsNeed(points, points, true));
   else
-    forecast.run({(look_.isFitted() ? fitted_pixel_bytes : full_pixel_bytes) * pixels +
-                      layer_bytes * layers * pixels +
-                      pcl_uvol::splatsNeed(points, 0.0, true).peak,
-                  0.0});
+    look_.addMemoryNeed(points, surfaces, forecast);
 }
 
 } // namespace uvol_tools
