@@ -55,6 +55,29 @@ TEST(ImageSpaceRenderer, GivesTheSameBytesWhateverWasDrawnBefore)
   EXPECT_EQ(image.id, expected.id);
 }
 
+TEST(ImageSpaceRenderer, TellsWhatItWasSetTo)
+{
+  Renderer renderer;
+  EXPECT_FALSE(renderer.getCamera());
+  EXPECT_EQ(renderer.getColorField(), "");
+  EXPECT_FALSE(renderer.hasLogarithmicColors());
+  EXPECT_FALSE(renderer.isHasty());
+  Camera camera;
+  camera.vertical_fov = 12.0;
+  renderer.setCamera(camera);
+  renderer.setColorField("T");
+  renderer.setLogarithmicColors(true);
+  renderer.setHasty(true);
+  pcl_uvol::ImagePlanes planes;
+  planes.id = !planes.id;
+  renderer.setPlanes(planes);
+  EXPECT_EQ(renderer.getCamera()->vertical_fov, 12.0);
+  EXPECT_EQ(renderer.getColorField(), "T");
+  EXPECT_TRUE(renderer.hasLogarithmicColors());
+  EXPECT_TRUE(renderer.isHasty());
+  EXPECT_EQ(renderer.getPlanes().id, planes.id);
+}
+
 TEST(ImageSpaceRenderer, IsTheSamePictureFarFromTheOrigin)
 {
   const auto near = uvol_test::makeSphere(20000, 1);

@@ -135,6 +135,13 @@ public:
     camera_ = camera;
   }
 
+  /** \return The camera that was set; none: the default one. */
+  const std::optional<Camera>&
+  getCamera() const
+  {
+    return camera_;
+  }
+
   /** \brief Pixels, each in [1, largest_size], somewhat less in image space; default
    * 1024 x 1024.
    * \param width from left to right

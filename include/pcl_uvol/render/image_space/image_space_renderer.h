@@ -112,6 +112,13 @@ public:
     colored_ = false;
   }
 
+  /** \return What setColorField() was given. */
+  const std::string&
+  getColorField() const
+  {
+    return color_field_;
+  }
+
   /** \brief Colours that somebody else has made, whatever the field is.
    * \param colors one for each point of the cloud, drawn or not; none (default): those
    * of the field */
@@ -128,6 +135,13 @@ public:
   {
     color_map_ = map;
     colored_ = false;
+  }
+
+  /** \return The colour map. */
+  const ColorMap&
+  getColorMap() const
+  {
+    return color_map_;
   }
 
   /** \brief Values of the ends of the colour map; default: those of the field.
@@ -147,6 +161,13 @@ public:
   {
     logarithmic_colors_ = is_logarithmic;
     colored_ = false;
+  }
+
+  /** \return Whether colours go by the logarithm of the values. */
+  bool
+  hasLogarithmicColors() const
+  {
+    return logarithmic_colors_;
   }
 
   /** \brief Let light through surfaces: each isovalue of the cloud (its field
@@ -180,6 +201,13 @@ public:
     is_hasty_ = is_hasty;
   }
 
+  /** \return Whether frames wait for no footprints. */
+  bool
+  isHasty() const
+  {
+    return is_hasty_;
+  }
+
   /** \brief Steps and thresholds. */
   ImageSpaceSettings&
   settings()
@@ -192,6 +220,13 @@ public:
   setPlanes(const ImagePlanes& planes)
   {
     planes_ = planes;
+  }
+
+  /** \return Which planes of a picture are filled in. */
+  const ImagePlanes&
+  getPlanes() const
+  {
+    return planes_;
   }
 
   /** \brief Default: a CpuBackend. */

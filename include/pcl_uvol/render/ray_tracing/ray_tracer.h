@@ -111,6 +111,13 @@ public:
     has_normals_ = has_normals;
   }
 
+  /** \return Whether normals are filled in. */
+  bool
+  hasNormalPlane() const
+  {
+    return has_normals_;
+  }
+
   /** \return What rays do; checked by render(). */
   RayTracingSettings&
   settings()
