@@ -25,27 +25,17 @@ constexpr std::size_t run_points = 16;
  * whose lines lie far apart. */
 constexpr std::size_t few_neighbors = 16, many_neighbors = 64;
 
-/** In parts of the median radius of the nearest points: an outlier gets no more. Of
- * isopoints on a gyroid, a star and a flame, and of scanned points on a dragon, one in
- * a thousand has 2.0 to 2.1 times as much, one in 40,000 has 3.0. */
-constexpr float largest_growth = 2.5f;
-constexpr std::size_t compared_neighbors = 16;
-
-/** In parts of the median distance of the 4th neighbours of the nearest points: a point
- * on a rim gets no more. It is the median radius inside of surfaces (1.0 of it, 0.9 to
- * 1.1), and twice the spacing of points on a line, which no others bound. */
-constexpr float largest_on_rim = 1.0f;
-constexpr std::size_t close_neighbors = 4;
+/** In parts of the largest radius among the nearest points: an outlier gets no more.
+ * Isopoints come in clumps, so that the nearest alone may have much less room than all
+ * around. */
+constexpr float largest_growth = 3.0f;
+constexpr std::size_t compared_neighbors = 8;
 
 /** For the surface's curvature, which takes neighbours out of the tangent plane. */
 constexpr float room = 1.05f;
 
 /** Farther corners, in spacings, are holes in the surface, not in its sampling. */
 constexpr float most_spacings = 4.0f;
-
-/** Nearer corners, in spacings, are not asked whether they lie beyond a rim: the disc
- * stands out from it by as little as rims are known. */
-constexpr float least_spacings = 0.5f;
 
 /** Edges, and parts of all edges that are shorter, that bound the disc of an isopoint:
  * on a surface that goes on all around, where isopoints may lie at the ends of edges
@@ -95,11 +85,11 @@ public:
   }
 
   /** Distances of a point's corners: of all, and of those it is the first for; and of
-   * its 4th and 16th neighbours, or the last one. */
+   * its 16th neighbour, or the last one. */
   struct Reach {
     float all = 0.0f, first = 0.0f;
     bool on_rim = true;
-    float close = 0.0f, around = 0.0f;
+    float around = 0.0f;
   };
 
   /** \param nearest set to the indices of the nearest other points */
@@ -118,8 +108,6 @@ public:
     if (neighbors_.empty())
       return {};
     const float around = std::sqrt(neighbors_.back().first);
-    const float close =
-        std::sqrt(neighbors_[std::min(close_neighbors, neighbors_.size()) - 1].first);
     const std::size_t company = std::min(least_company, neighbors_.size());
     const float to_company = std::sqrt(neighbors_[company - 1].first);
     sortEdges(point);
@@ -128,7 +116,6 @@ public:
       gather(many_.find(position, typical_distance), point);
       reach = reachAmong(point);
     }
-    reach.close = close;
     reach.around = around;
     const float edges = edgesAbout(!reach.on_rim && isMeasured());
     const float most = std::min(around, edges);
@@ -248,8 +235,7 @@ private:
       if (sq_dist <= (is_first ? std::min(sq_all, sq_first) : sq_all))
         return;
       if (sq_dist > most_spacings * most_spacings * sq_spacing ||
-          (sq_dist > least_spacings * least_spacings * sq_spacing &&
-           !isSurrounded(corner))) {
+          (sq_dist > sq_spacing && !isSurrounded(corner))) {
         on_rim = true; // there may be points farther behind the corner
         return;
       }
@@ -257,7 +243,7 @@ private:
       if (is_first)
         sq_first = std::max(sq_first, sq_dist);
     });
-    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim};
+    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim, 0.0f};
   }
 
   /** Bring the next neighbour into the plane; false for one on another side. */
@@ -307,20 +293,17 @@ private:
   detail::PlanarCell cell_;
 };
 
-/** Median of a number of some of the nearest points.
- * \param number of a point */
-template <typename Number>
+/** Median of the distances of the 16th neighbours of points. */
 float
-medianOf(const NearestPoints& points, std::size_t count, const Number& number)
+usualDistance(const NearestPoints& points,
+              const std::vector<FootprintFinder::Reach>& reach)
 {
-  std::array<float, std::tuple_size_v<NearestPoints>> numbers;
-  std::transform(points.begin(),
-                 points.begin() + static_cast<std::ptrdiff_t>(count),
-                 numbers.begin(),
-                 number);
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(
-      numbers.begin(), middle, numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  std::array<float, std::tuple_size_v<NearestPoints>> distances;
+  std::transform(points.begin(), points.end(), distances.begin(), [&](auto point) {
+    return reach[point].around;
+  });
+  const auto middle = distances.begin() + distances.size() / 2;
+  std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
 }
 
@@ -358,34 +341,21 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
-  // What rims and lonely points may have comes first: outliers are compared with it.
-  std::vector<float> most(samples.size());
   parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const NearestPoints& nearest = footprints.nearest[i];
-      most[i] = reach[i].all;
-      if (reach[i].on_rim)
-        most[i] = std::min(most[i],
-                           largest_on_rim *
-                               medianOf(nearest, compared_neighbors, [&](auto j) {
-                                 return reach[j].close;
-                               }));
-      const float usual_distance =
-          medianOf(nearest, nearest.size(), [&](auto j) { return reach[j].around; });
-      const bool is_lonely = reach[i].around > lonely_distance * usual_distance;
-      const bool is_bridged = !points.bridged.empty() && points.bridged[i] != 0;
-      if (is_lonely || is_bridged)
-        most[i] = 0.0f;
+      float most = 0.0f;
+      for (std::size_t k = 0; k < compared_neighbors; ++k)
+        most = std::max(most, largest_growth * reach[nearest[k]].all);
+      const bool is_lonely =
+          reach[i].around > lonely_distance * usualDistance(nearest, reach);
+      if (is_lonely)
+        most = 0.0f;
+      footprints.radii[i] = room * std::min(reach[i].all, most);
+      footprints.fillers[i] = room * std::min(reach[i].first, most);
       footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
-    }
-  });
-  parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float usual = medianOf(
-          footprints.nearest[i], compared_neighbors, [&](auto j) { return most[j]; });
-      const float radius = std::min(most[i], largest_growth * usual);
-      footprints.radii[i] = room * radius;
-      footprints.fillers[i] = room * std::min(reach[i].first, radius);
+      if (!points.bridged.empty() && points.bridged[i])
+        footprints.radii[i] = footprints.fillers[i] = 0.0f;
     }
     step.advance(end - begin);
   });

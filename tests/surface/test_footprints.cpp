@@ -120,54 +120,6 @@ TEST(Footprints, ReachAcrossTheLinesOfAScan)
   EXPECT_LT(surface.medianRadius(), 0.04);
 }
 
-/** Rings of a sensor on a mast: the outer ones lie ever farther apart. */
-TEST(Footprints, OfRingsOfAScanAreAsWideAsTheRingsAreDense)
-{
-  constexpr float step = 0.01f; // between points of a ring, in radians
-  pcl::PointCloud<pcl::PointNormal> rings;
-  std::vector<float> radius_of;
-  std::mt19937_64 engine(9);
-  std::normal_distribution<float> noise(0.0f, 0.01f);
-  for (float radius = 10.0f; radius < 200.0f; radius *= 1.3f)
-    for (float angle = 0.0f; angle < 2.0f; angle += step) {
-      pcl::PointNormal point;
-      point.x = radius * std::cos(angle);
-      point.y = radius * std::sin(angle);
-      point.z = noise(engine);
-      point.normal_z = 1.0f;
-      rings.push_back(point);
-      radius_of.push_back(radius);
-    }
-  const Surface surface(rings);
-  constexpr float room = 1.05f;
-  std::size_t discs = 0;
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    const float radius = radius_of[surface.points.samples->getInputIndex(i)];
-    // Two neighbours on either side.
-    EXPECT_LE(surface.footprints.radii[i],
-              room * 2.0f * step * radius + noise.stddev());
-    discs += surface.footprints.radii[i] > 0.0f ? 1 : 0;
-  }
-  EXPECT_GT(discs, surface.size() / 4);
-}
-
-TEST(Footprints, OfARimEndAtTheRim)
-{
-  const Surface surface(makePlane(4000));
-  const double spacing = std::sqrt(4.0 / 4000);
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < surface.size(); ++i) {
-    const double to_rim = 1.0 - surface.position(i).cwiseAbs().maxCoeff();
-    if (to_rim > 0.5 * spacing)
-      continue;
-    sum += std::max(0.0, surface.footprints.radii[i] - to_rim);
-    ++count;
-  }
-  ASSERT_GT(count, 100u);
-  EXPECT_LT(sum / static_cast<double>(count), 0.3 * spacing);
-}
-
 TEST(Footprints, StayAtTheRimAndAtOutliers)
 {
   auto plane = makePlane(4000);
@@ -194,7 +146,7 @@ TEST(Footprints, StayAtTheRimAndAtOutliers)
 }
 
 /** A point alone in a round hole has a cell as wide as half the hole. */
-TEST(Footprints, OfAPlantedOutlierAreAtMostTwoAndAHalfTimesThoseOfItsNeighbours)
+TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
 {
   constexpr float hole = 12.0f; // radius in spacings
   pcl::PointCloud<pcl::PointNormal> plane;
@@ -218,15 +170,13 @@ TEST(Footprints, OfAPlantedOutlierAreAtMostTwoAndAHalfTimesThoseOfItsNeighbours)
     if (surface.position(i).norm() < surface.position(outlier).norm())
       outlier = i;
   ASSERT_EQ(0.0f, surface.position(outlier).norm());
-  constexpr std::size_t compared = 16;
-  std::vector<float> around;
+  constexpr std::size_t compared = 8;
+  float largest = 0.0f;
   for (std::size_t k = 0; k < compared; ++k)
-    around.push_back(radii[nearest[outlier][k]]);
-  std::sort(around.begin(), around.end());
-  const float usual = around[compared / 2];
-  EXPECT_LT(usual, 1.5f);
-  EXPECT_GT(usual, 0.5f);
-  EXPECT_NEAR(2.5 * usual, radii[outlier], 1e-5 * usual);
+    largest = std::max(largest, radii[nearest[outlier][k]]);
+  EXPECT_LT(largest, 1.5f);
+  EXPECT_GT(largest, 0.5f);
+  EXPECT_NEAR(3.0 * largest, radii[outlier], 1e-5 * largest);
   EXPECT_LE(fillers[outlier], radii[outlier]);
 }
 
