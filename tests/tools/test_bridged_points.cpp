@@ -95,9 +95,9 @@ TEST_P(BridgedPoints, AreSinglePalePixels)
   const CommandResult covered =
       runCommand("uvol_splats " + (folder_ / "s.ply") + " " + (folder_ / "splats.ply"));
   ASSERT_EQ(0, covered.exit_code) << covered.err;
-  const std::string command = std::string(tool) + " '" + (folder_ / drawn) + "' '" +
-                              (folder_ / "s.png") +
-                              "' -size 200x200 -view top -surface-color 0.2,0.2,0.2 ";
+  const std::string command =
+      std::string(tool) + " '" + (folder_ / drawn) + "' '" + (folder_ / "s.png") +
+      "' -size 200x200 -view top -zoom 0.6 -surface-color 0.2,0.2,0.2 ";
   const CommandResult result = runCommand(command + "-json");
   ASSERT_EQ(0, result.exit_code) << result.err;
   EXPECT_EQ(points,

@@ -100,9 +100,8 @@ PipelineOptions::declare(Options& options)
       parameters.validation.folds,
       2,
       1000,
-      "hold-out test: leave out each of n parts of the samples, extract from "
-      "the others, and ask on which side those left out lie (n + 1 times "
-      "the work)");
+      "hold-out test: leave out each of n parts of the samples, and ask on which side "
+      "they lie of what the others give (n + 1 times the work)");
   options
       .text("validate-by",
             "random|blocks|FIELD",
