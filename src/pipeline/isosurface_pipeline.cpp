@@ -2,7 +2,6 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
-#include "isosurface/iso_edges.h"
 #include "levelset/level_set_input.h"
 #include "neighbors/periodic_box.h"
 #include "neighbors/sampling.h"
@@ -10,6 +9,7 @@
 #include "pipeline/gap_filling.h"
 #include "pipeline/hold_out.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/isopoint_filter.h"
 #include "pipeline/periodic_surface.h"
 #include "pipeline/zero_level.h"
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -33,74 +33,6 @@ pcl::PCLPointCloud2::ConstPtr
 shareCloud(const std::shared_ptr<const Dataset>& samples)
 {
   return {samples, &samples->cloud};
-}
-
-/** Part of an edge that an isopoint's error must not exceed for max_error to keep it
- * when it is automatic. An edge alone, whose ends lie on both sides of the surface,
- * tells as much or less: errors of isopoints without a fit begin there. Of 64,000 dense
- * samples with known truth, also clustered or in cells of 1:100, it keeps 99.7 % or
- * more of the isopoints, of noisy ones after a level set 93 %; on lines of samples it
- * keeps what lies near them: 8 % on the drill holes, 29 % on the seaglider's dives. A
- * quarter leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything
- * between the lines: 95 and 98 %. */
-constexpr float known_part = 0.5f;
-
-/** Leaves out what belongs to images, and what max_error and drop_bridged do not want.
- */
-void
-dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
-              IsoEdges& edges,
-              IsopointChoice& choice,
-              const IsosurfacePipelineParameters& parameters,
-              Report& report)
-{
-  const auto filter = [&](const auto& keep) {
-    choice.filter(isopoints, keep);
-    return filterIsopoints(isopoints, edges, keep);
-  };
-  const auto drop = [&](const char* name, const auto& keep) {
-    report.count(name, filter(keep));
-  };
-  const PeriodicBox box{{}, sidesOf(parameters)};
-  if (isPeriodic(box.sides) && !parameters.mesh)
-    filter([&](const PointIso& point) { return box.holds(point.data); });
-  if (parameters.max_error)
-    drop("removed_by_error",
-         [&](const PointIso& point) { return point.error <= *parameters.max_error; });
-  if (parameters.automatic_max_error)
-    drop("removed_by_error", [](const PointIso& point) {
-      return point.error <= known_part * point.edge_length;
-    });
-  if (parameters.drop_bridged)
-    drop("removed_bridged", [](const PointIso& point) {
-      return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
-    });
-}
-
-/** Says so where most isopoints do not rest on samples around them. */
-void
-warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
-              const IsopointChoice& choice,
-              Report& report)
-{
-  std::size_t guesses = 0, known = 0, predicted = 0;
-  for (std::size_t i = 0; i < isopoints.size(); ++i) {
-    const auto support = static_cast<IsoSupport>(isopoints[i].support);
-    known += support != IsoSupport::Unknown;
-    predicted += support == IsoSupport::Predicted;
-    guesses += support == IsoSupport::Bridged || support == IsoSupport::Rim ||
-               choice.orientation[i] == IsoOrientation::Bisector;
-  }
-  if (predicted > 0)
-    report.count("predicted", predicted);
-  if (2 * guesses <= known || known == 0)
-    return;
-  report.warnings.push_back(
-      std::to_string(100 * guesses / known) +
-      " % of the isopoints lie between lines of samples or beside gaps: where the "
-      "surface crosses a line is known, how it runs from there is a guess. A hold-out "
-      "test tells how good it is; a scale, filled gaps, or no bridged isopoints may "
-      "help (-validate, -scale, -fill-gaps, -drop-bridged).");
 }
 
 /** Isopoints follow one another by isovalue. */
@@ -218,9 +150,9 @@ finish(const Dataset& samples,
       chooseIsopoints(view, edges, parameters, threads, isopoints, report);
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
-  if (!parameters.mesh) // which tells of its caps and folds itself
-    warnOfGuesses(isopoints, choice, report);
   dropIsopoints(isopoints, edges, choice, parameters, report);
+  if (!parameters.mesh) // which tells of its caps and folds itself
+    warnOfGuesses(isopoints, choice, parameters, report);
   report.setCount("isopoints", isopoints.size());
   IsosurfaceResult result;
   result.isopoints = countPerIsovalue(isopoints, parameters.isosurface.isovalues);

@@ -74,6 +74,36 @@ isPredicted(const PointIso& point)
   return point.support == static_cast<std::uint8_t>(IsoSupport::Predicted);
 }
 
+/** What is said of isopoints between the lines. */
+std::string
+findGuesses(const IsosurfacePipelineParameters& parameters)
+{
+  for (const std::string& warning :
+       uvol_test::runPipeline(makeProfiles(20), parameters).report.warnings)
+    if (warning.find("lie between lines of samples") != std::string::npos)
+      return warning;
+  return "";
+}
+
+TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
+{
+  const auto advises = [](const std::string& warning, const std::string& advice) {
+    return warning.find("is a guess." + advice) != std::string::npos;
+  };
+  IsosurfacePipelineParameters parameters = makeParameters(false);
+  const std::string test = " A hold-out test tells how good it is (-validate).";
+  EXPECT_TRUE(advises(findGuesses(parameters),
+                      test + " -scale, -fill-gaps or -drop-bridged may help."))
+      << findGuesses(parameters);
+  parameters.isosurface.scale = {1.0f, 1.0f, 2.0f};
+  EXPECT_TRUE(
+      advises(findGuesses(parameters), test + " -fill-gaps or -drop-bridged may help."))
+      << findGuesses(parameters);
+  // What was left out is no guess any more.
+  parameters.drop_bridged = true;
+  EXPECT_EQ(findGuesses(parameters).find("-drop-bridged"), std::string::npos);
+}
+
 TEST(GapFilling, FollowsTheFloorBetweenProfiles)
 {
   const auto samples = makeProfiles(80);
