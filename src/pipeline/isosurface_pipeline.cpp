@@ -2,6 +2,7 @@
 #include "common/records.h"
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
+#include "isosurface/iso_edges.h"
 #include "levelset/level_set_input.h"
 #include "neighbors/periodic_box.h"
 #include "neighbors/sampling.h"
