@@ -3,6 +3,7 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/record_source.h"
+#include "io/vtk_readers.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -112,6 +113,11 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
   io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);
+  if (ending == ".vtp" && fields.size() > io::most_vtk_arrays)
+    io::throwUnwritable(
+        path,
+        std::to_string(fields.size()) + " fields are too many: a .vtp has " +
+            std::to_string(io::most_vtk_arrays) + " at most, a .vtkhdf any number");
 }
 
 } // namespace pcl_uvol

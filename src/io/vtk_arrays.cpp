@@ -79,6 +79,15 @@ makeArray(const VtkType& type,
   return array;
 }
 
+void
+checkArrayCount(const std::string& path, std::size_t arrays)
+{
+  if (arrays > most_vtk_arrays)
+    throwUnreadable(path,
+                    "it has more than " + std::to_string(most_vtk_arrays) +
+                        " arrays, which VTK takes minutes for");
+}
+
 std::string
 describeTexts(const std::string& name)
 {

@@ -288,6 +288,7 @@ LegacyReader::keep(const Array& array)
     arrays_.push_back(array);
   else if (data_ == Data::Cells)
     cell_arrays_.insert(array->GetName() ? array->GetName() : "");
+  checkArrayCount(path_, std::max(arrays_.size(), cell_arrays_.size()));
 }
 
 /** DIMENSIONS, POINTS, ...

@@ -5,6 +5,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,14 @@ readVtkLegacy(const std::string& path);
  * \throws IOError */
 void
 checkVtkLegacy(const std::string& path);
+
+/** \brief Arrays that points or cells of VTK's files have at most: VTK compares the
+ * name of each with those of all others, which takes 4 s with so many. */
+constexpr std::size_t most_vtk_arrays = 20000;
+
+/** \throws IOError for more arrays of a file than that, of one that is read */
+void
+checkArrayCount(const std::string& path, std::size_t arrays);
 
 /** \brief The note on an array that holds no numbers. */
 std::string

@@ -3,6 +3,7 @@
 
 #include "common/numbers.h"
 #include "common/printable.h"
+#include "io/vtk_readers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -174,6 +175,7 @@ TagCollector::takeArray(const XmlTag& tag)
                  : of_cells           ? piece.cell_arrays
                                       : piece.arrays;
   arrays.push_back(std::move(array));
+  checkArrayCount(path_, std::max(arrays.size(), cell_arrays.size()));
   if (!tag.empty)
     array_ = &arrays.back();
 }

@@ -2,6 +2,7 @@
 // Every name of a field through every writer and back.
 #include "common/printable.h"
 #include "random_dataset.h"
+#include <pcl_uvol/common/exceptions.h>
 
 #include <vtkDataSet.h>
 #include <vtkPointData.h>
@@ -90,6 +91,39 @@ TEST(Names, RandomBytesNeverBreakAFile)
       name += static_cast<char>(1.0 + 255.0 * random.uniform());
     for (const char* const ending : {".pcd", ".ply", ".csv", ".vtp"})
       EXPECT_NE("", nameThrough(ending, name));
+  }
+}
+
+/** VTK compares each with all others. */
+TEST(Names, OfVtkAreSoManyAtMost)
+{
+  constexpr int most = 20000;
+  std::vector<FieldSpec> specs;
+  for (int i = 0; i <= most; ++i)
+    specs.push_back({"f" + std::to_string(i), Type::UINT8});
+  const TemporaryFolder folder;
+  const auto dataset = makeDataset(specs, 1, 1);
+  EXPECT_THROW(saveDataset(folder / "a.vtp", dataset), pcl_uvol::IOError);
+  saveDataset(folder / "a.pcd", dataset);
+  EXPECT_EQ(std::vector<std::string>{"a.pcd"}, folder.list());
+  std::string arrays;
+  for (int i = 0; i <= most; ++i)
+    arrays += "<DataArray type=\"UInt8\" Name=\"f" + std::to_string(i) +
+              "\" format=\"ascii\">1</DataArray>\n";
+  writeFile(folder / "b.vtp",
+            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">"
+            "<PolyData><Piece NumberOfPoints=\"1\"><PointData>" +
+                arrays +
+                "</PointData><Points><DataArray type=\"Float32\" "
+                "NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
+                "</Piece></PolyData></VTKFile>");
+  try {
+    loadDataset(folder / "b.vtp");
+    FAIL();
+  }
+  catch (const pcl_uvol::IOError& error) {
+    EXPECT_NE(std::string::npos, error.message().find("more than 20000 arrays"))
+        << error.message();
   }
 }
 
