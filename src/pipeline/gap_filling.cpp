@@ -43,6 +43,10 @@ constexpr double jitter = 0.25;
  * more than the lattice does, whatever lies around. */
 constexpr double sampled_part = 0.5;
 
+/** Share of that spacing: so far outside of the convex hull of the measured samples a
+ * place still counts as between them, or samples on a plane had no gaps. */
+constexpr double hull_tolerance = 0.5;
+
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */
 constexpr double farthest_gaps = 4.0;
@@ -260,6 +264,8 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   filled_ = samples;
   if (!(summary_.spacing > 0.0))
     return;
+  hull_ = std::make_unique<SampleHull>(
+      *measured_, hull_tolerance * summary_.spacing * measured_->getUnit().factor);
   krigeComposites(parameters, threads, report.progress);
   predict(roots, parameters, threads, report);
 }
@@ -405,7 +411,9 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
         const std::size_t i = near[j];
         const bool is_gap = thin[i] != 0 || support[j] != FieldSupport::Measured ||
                             distances[i] > sampled_part * summary_.spacing;
-        values[i] = {field.values[j], is_gap && distances[i] > 0.0};
+        const bool is_between =
+            hull_->contains(measured_->getUnit().apply(toFloat(places[i])));
+        values[i] = {field.values[j], is_gap && is_between && distances[i] > 0.0};
       }
       return values;
     };

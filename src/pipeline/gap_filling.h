@@ -6,6 +6,7 @@
 #include "interpolation/variogram.h"
 #include "neighbors/sample_set.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/sample_hull.h"
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
@@ -48,9 +49,9 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * is kriged from the means of the samples in the lattice's cells, as drill cores are
  * composited (Chiles and Delfiner, Geostatistics, section 2.4, on regularization): what
  * is finer along a line cannot be followed across to the next one. The lattice's nodes
- * around the surface become samples where measured ones lack, no farther from the
- * nearest measured one than the range of the variogram and than a few of these
- * spacings. */
+ * around the surface become samples where measured ones lack, in the convex hull of
+ * these and no farther from the nearest one than the range of the variogram and than a
+ * few of these spacings. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param use the points to take
@@ -97,7 +98,8 @@ public:
    * onto the kriged surface, or back to their edge where this is a short one between
    * measured samples, and have the normals of the kriged field; those that lie far from
    * its surface are removed. Where takesLattice() says so, those in gaps are added
-   * first, and measured samples have no others across gaps. */
+   * first, and measured samples have no others across gaps. None of them lies more than
+   * half a spacing of the lattice outside of the samples' hull. */
   void
   judge(const IsosurfacePipelineParameters& parameters,
         unsigned threads,
@@ -151,6 +153,7 @@ private:
   SampleSet::ConstPtr measured_;
   SamplingSummary sampling_;
   std::unique_ptr<FieldInterpolator> field_;
+  std::unique_ptr<SampleHull> hull_;
   std::unique_ptr<FieldInterpolator> nearest_; ///< tells support of measured samples
   std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample

@@ -217,6 +217,9 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     else
       point.error = std::max(edge.t, 1.0f - edge.t) * point.edge_length;
     point.getArray3fMap() = place.cast<float>();
+    if (is_in_gap &&
+        !hull_->contains(measured_->getUnit().apply({{point.x, point.y, point.z}})))
+      stays[i] = 0;
     point.mean_curvature = std::numeric_limits<float>::quiet_NaN();
     choice.method[i] = is_in_gap ? IsoMethod::Kriging : IsoMethod::Linear;
     if (parameters.normals != NormalMethod::Auto)

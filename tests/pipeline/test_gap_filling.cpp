@@ -127,12 +127,75 @@ TEST(GapFilling, FollowsTheFloorBetweenProfiles)
   const auto count = static_cast<double>(deviations.size());
   std::sort(deviations.begin(), deviations.end());
   EXPECT_LT(deviations[deviations.size() / 2], 0.02);
-  EXPECT_LT(deviations[deviations.size() * 9 / 10], 0.1); // beyond the outer profiles
+  EXPECT_LT(deviations[deviations.size() * 9 / 10], 0.03);
   std::sort(inside.begin(), inside.end());
   EXPECT_LT(inside[inside.size() / 2], 0.005);
   EXPECT_LT(inside[inside.size() * 9 / 10], 0.03);
   EXPECT_GT(static_cast<double>(within) / count, 0.9);
   EXPECT_GT(cosines / count, 0.85); // to lower values, downwards
+}
+
+/** How far a place lies outside of the convex hull of some others, at least; below 0
+ * inside. */
+double
+distanceOutside(const Eigen::Vector2d& place, const std::vector<Eigen::Vector2d>& all)
+{
+  double distance = -1.0;
+  for (const Eigen::Vector2d& a : all)
+    for (const Eigen::Vector2d& b : all) {
+      if (a == b)
+        continue;
+      const Eigen::Vector2d out = Eigen::Vector2d(b - a).unitOrthogonal();
+      const bool is_side =
+          std::all_of(all.begin(), all.end(), [&](const Eigen::Vector2d& other) {
+            return out.dot(other - a) <= 1e-12;
+          });
+      if (is_side)
+        distance = std::max(distance, out.dot(place - a));
+    }
+  return distance;
+}
+
+TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
+{
+  const std::size_t count = 80;
+  const auto samples = makeProfiles(count);
+  std::vector<Eigen::Vector2d> profiles;
+  for (std::size_t profile = 0; profile < count; ++profile)
+    profiles.push_back(
+        Eigen::Map<const Eigen::Vector2f>(viewOf(samples->cloud).xyz(60 * profile))
+            .cast<double>());
+  auto parameters = makeParameters(true);
+  parameters.isosurface.isovalues = {0.0, 0.48}; // the other one leaves by the top
+  const auto result = uvol_test::runPipeline(samples, parameters);
+  const double spacing = result.gaps->spacing;
+  std::size_t at_top = 0;
+  std::vector<Eigen::Vector2d> surface;
+  for (const PointIso& point : uvol_test::toIsopoints(result)) {
+    const Eigen::Vector2d place = Eigen::Vector2f(point.x, point.y).cast<double>();
+    if (point.isovalue == 0.0f)
+      surface.push_back(place);
+    if (!isPredicted(point))
+      continue;
+    at_top += point.z > 0.98f;
+    EXPECT_LE(static_cast<double>(point.z), 1.0 + 0.5 * spacing);
+    EXPECT_LE(distanceOutside(place, profiles), 0.5 * spacing);
+  }
+  EXPECT_GT(at_top, 100u);
+  std::size_t inside = 0, covered = 0;
+  for (int i = 0; i < 40; ++i)
+    for (int j = 0; j < 40; ++j) {
+      const Eigen::Vector2d place(i / 39.0, j / 39.0);
+      if (distanceOutside(place, profiles) > 0.0)
+        continue;
+      ++inside;
+      covered += std::any_of(
+          surface.begin(), surface.end(), [&](const Eigen::Vector2d& point) {
+            return (point - place).norm() < spacing;
+          });
+    }
+  EXPECT_GT(inside, 1000u);
+  EXPECT_EQ(inside, covered);
 }
 
 TEST(GapFilling, TellsProfilesThatWereLeftOut)

@@ -253,7 +253,8 @@ struct ValidationScore {
 
 /** \brief How gaps of the sampling were filled: around the isosurfaces, by samples that
  * ordinary kriging predicts from the means of measured ones in cells as long as the
- * spacing of predicted ones. Lengths are in units of the stretched space; the variogram
+ * spacing of predicted ones. They lie in the convex hull of the measured ones, or half
+ * a spacing outside of it. Lengths are in units of the stretched space; the variogram
  * is that of the means, or of the samples where there was no gap.
  *
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The convex hull of samples: turned boxes and balls, whose hulls are known, and
+// samples without a volume.
+#include "pipeline/sample_hull.h"
+#include "support/environment.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace {
+
+using namespace pcl_uvol;
+using Eigen::Vector3f;
+
+constexpr float tolerance = 0.01f;
+
+/** In units of the places that are asked for, which the samples have a power of two of.
+ */
+class Hull {
+public:
+  explicit Hull(const std::vector<Vector3f>& places)
+  {
+    std::vector<float> xyz;
+    for (const Vector3f& place : places)
+      xyz.insert(xyz.end(), place.data(), place.data() + 3);
+    std::vector<std::uint32_t> all(places.size());
+    std::iota(all.begin(), all.end(), 0);
+    Report report;
+    samples_ = SampleSet::build(xyz.data(), 3, all, {{1.0f, 1.0f, 1.0f}}, 1, report);
+    hull_ = std::make_unique<detail::SampleHull>(
+        *samples_, static_cast<double>(tolerance * samples_->getUnit().factor));
+  }
+
+  bool
+  contains(const Vector3f& place) const
+  {
+    return hull_->contains(samples_->getUnit().apply({{place[0], place[1], place[2]}}));
+  }
+
+private:
+  SampleSet::ConstPtr samples_;
+  std::unique_ptr<detail::SampleHull> hull_;
+};
+
+class Places {
+public:
+  /** In a cube about the origin. */
+  Vector3f
+  next(float half_side)
+  {
+    Vector3f place;
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = half_side * static_cast<float>(2.0 * random_.uniform() - 1.0);
+    return place;
+  }
+
+private:
+  uvol_test::Random random_{7};
+};
+
+TEST(SampleHull, IsThatOfABoxTurnedAnyHow)
+{
+  const Vector3f sides(1.0f, 0.7f, 0.2f), middle(40.0f, -3.0f, 5.0f);
+  Places places;
+  for (int turn = 0; turn < 6; ++turn) {
+    const Vector3f axis = places.next(1.0f).normalized();
+    const Eigen::AngleAxisf turned(0.16f * static_cast<float>(turn), axis);
+    const auto place = [&](const Vector3f& in_box) -> Vector3f {
+      return turned * in_box.cwiseProduct(sides) + middle;
+    };
+    std::vector<Vector3f> samples;
+    for (int x = -4; x <= 4; ++x) // a lattice: many on lines and planes
+      for (int y = -4; y <= 4; ++y)
+        for (int z = -4; z <= 4; ++z)
+          samples.push_back(place(0.25f * Vector3f(static_cast<float>(x),
+                                                   static_cast<float>(y),
+                                                   static_cast<float>(z))));
+    const Hull hull(samples);
+    for (const Vector3f& sample : samples)
+      EXPECT_TRUE(hull.contains(sample));
+    for (int i = 0; i < 4000; ++i) {
+      const Vector3f asked = places.next(1.3f);
+      const float beyond =
+          ((asked.cwiseAbs() - Vector3f::Ones()).cwiseProduct(sides)).maxCoeff();
+      if (std::abs(beyond - tolerance) > 1e-4f) { // rounding of coordinates about 40
+        EXPECT_EQ(beyond < tolerance, hull.contains(place(asked))) << beyond;
+      }
+    }
+  }
+}
+
+TEST(SampleHull, OfABallIsWithinTheToleranceOfIt)
+{
+  Places places;
+  std::vector<Vector3f> samples;
+  while (samples.size() < 20000) {
+    samples.push_back(places.next(1.0f));
+    samples.back() /= std::max(1.0f, samples.back().norm());
+  }
+  const Hull hull(samples);
+  for (const Vector3f& sample : samples)
+    EXPECT_TRUE(hull.contains(sample));
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3f asked = places.next(1.2f);
+    if (asked.norm() > 1.0f + 2.0f * tolerance) {
+      EXPECT_FALSE(hull.contains(asked)) << asked.norm();
+    }
+  }
+}
+
+TEST(SampleHull, OfSamplesOnAPlaneOrALineOrAloneIsThin)
+{
+  Places places;
+  for (int dimension = 0; dimension < 3; ++dimension) {
+    std::vector<Vector3f> samples;
+    for (int i = 0; i < 500; ++i) {
+      samples.push_back(places.next(1.0f));
+      for (int axis = dimension; axis < 3; ++axis)
+        samples.back()[axis] = 0.5f;
+    }
+    const Hull hull(samples);
+    for (const Vector3f& sample : samples) {
+      EXPECT_TRUE(hull.contains(sample));
+      EXPECT_TRUE(hull.contains(sample + 0.5f * tolerance * Vector3f::UnitZ()));
+      EXPECT_FALSE(hull.contains(sample + 3.0f * tolerance * Vector3f::UnitZ()));
+    }
+  }
+}
+
+} // namespace
