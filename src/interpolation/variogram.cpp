@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace pcl_uvol::detail {
 
@@ -33,6 +35,14 @@ constexpr double farthest_part = 1.0 / 3.0;
 
 /** Between the bounds of the nearest class and the farthest one, at least. */
 constexpr double least_spread = 1e-3;
+
+/** Pairs that a class has at least, for its mean to mean something (Journel and
+ * Huijbregts, Mining Geostatistics, 1978, section III.B.3). */
+constexpr double least_pairs = 30.0;
+
+/** Where there are few pairs in all, a class has at least that share of them: six
+ * classes tell nugget, sill and range apart. */
+constexpr double least_share = 1.0 / 6.0;
 
 /** Ranges that are tried, and times that weights are made anew. */
 constexpr int tried_ranges = 64, refinements = 24, rounds = 4;
@@ -142,7 +152,11 @@ findAxis(const Vector3d& offset, double distance)
 
 /** The pairs along an axis, or all for -1, by their distance. */
 EmpiricalVariogram
-classify(const std::vector<Pair>& pairs, double nearest, double farthest, int axis)
+classify(const std::vector<Pair>& pairs,
+         double nearest,
+         double farthest,
+         int axis,
+         VariogramEstimator estimator)
 {
   std::array<double, classes> distance{}, value{}, count{};
   for (const Pair& pair : pairs) {
@@ -153,14 +167,33 @@ classify(const std::vector<Pair>& pairs, double nearest, double farthest, int ax
     const auto index = static_cast<std::size_t>(
         std::clamp(part * classes, 0.0, static_cast<double>(classes - 1)));
     distance[index] += pair.distance;
-    value[index] += pair.half_square;
+    value[index] += estimator == VariogramEstimator::MeanSquare
+                        ? pair.half_square
+                        : std::pow(2.0 * pair.half_square, 0.25);
     count[index] += 1.0;
   }
+  const auto join = [&](std::size_t from, std::size_t to) {
+    for (auto* const sum : {&distance, &value, &count})
+      (*sum)[to] += std::exchange((*sum)[from], 0.0);
+  };
+  // Classes with few pairs join the next one, and the farthest ones the one before.
+  const double all = std::accumulate(count.begin(), count.end(), 0.0);
+  const double least = std::min(least_pairs, least_share * all);
+  for (std::size_t i = 0; i + 1 < classes; ++i)
+    if (count[i] < least)
+      join(i, i + 1);
+  for (std::size_t i = classes; --i > 0;)
+    if (count[i] > 0.0 && count[i] < least)
+      join(i, i - 1);
   EmpiricalVariogram empirical;
   for (std::size_t i = 0; i < classes; ++i)
     if (count[i] > 0.0) {
       empirical.distance.push_back(distance[i] / count[i]);
-      empirical.value.push_back(value[i] / count[i]);
+      const double mean = value[i] / count[i];
+      empirical.value.push_back(estimator == VariogramEstimator::MeanSquare
+                                    ? mean
+                                    : 0.5 * std::pow(mean, 4.0) /
+                                          (0.457 + 0.494 / count[i]));
       empirical.pairs.push_back(count[i]);
     }
   return empirical;
@@ -257,7 +290,8 @@ EmpiricalVariograms
 computeEmpiricalVariograms(const SampledFields& sampled,
                            std::size_t field,
                            const Eigen::Matrix3d& metric,
-                           int trend)
+                           int trend,
+                           VariogramEstimator estimator)
 {
   const SampleSet& samples = *sampled.samples;
   const std::size_t step = (samples.size() + most_centers - 1) / most_centers;
@@ -291,10 +325,10 @@ computeEmpiricalVariograms(const SampledFields& sampled,
   }
   // A few very close pairs should not stretch the classes.
   nearest = std::max(nearest, least_spread * farthest);
-  EmpiricalVariograms empirical{classify(pairs, nearest, farthest, -1), {}};
+  EmpiricalVariograms empirical{classify(pairs, nearest, farthest, -1, estimator), {}};
   for (int axis = 0; axis < 3; ++axis)
     empirical.along[static_cast<std::size_t>(axis)] =
-        classify(pairs, nearest, farthest, axis);
+        classify(pairs, nearest, farthest, axis, estimator);
   return empirical;
 }
 

@@ -44,7 +44,7 @@ struct PCL_UVOL_EXPORTS Variogram {
 /** \brief Classes of distance, and what pairs of samples have in them. */
 struct EmpiricalVariogram {
   std::vector<double> distance; ///< mean of the pairs
-  std::vector<double> value;    ///< half the mean squared difference
+  std::vector<double> value;    ///< half the squared difference, by the estimator
   std::vector<double> pairs;    ///< number
 };
 
@@ -56,16 +56,25 @@ struct EmpiricalVariograms {
   std::array<EmpiricalVariogram, 3> along;
 };
 
+/** \brief How differences of many pairs make one number. */
+enum class VariogramEstimator {
+  MeanSquare, ///< Matheron 1963; a few large values are all that it tells of
+  MeanRoot    ///< from the mean root of absolute differences, robust against these;
+              ///< unbiased for normal differences only (Cressie and Hawkins 1980)
+};
+
 /** \brief Half squared differences of pairs of near samples, and of samples out of all
  * parts of the cloud, up to a third of its size.
  * \param metric from offsets of samples to those whose length and direction count
  * \param trend degree of a polynomial through all samples that is subtracted first: 0,
  * 1 or 2 */
 EmpiricalVariograms
-computeEmpiricalVariograms(const SampledFields& sampled,
-                           std::size_t field,
-                           const Eigen::Matrix3d& metric,
-                           int trend);
+computeEmpiricalVariograms(
+    const SampledFields& sampled,
+    std::size_t field,
+    const Eigen::Matrix3d& metric,
+    int trend,
+    VariogramEstimator estimator = VariogramEstimator::MeanSquare);
 
 /** \brief Fit what a variogram lacks, its NaNs, by least squares weighted with the
  * number of pairs over the squared model (Cressie 1985). */

@@ -48,10 +48,11 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * on a jittered lattice of a quarter of the spacing of the lines or sheets. The field
  * is kriged from the means of the samples in the lattice's cells, as drill cores are
  * composited (Chiles and Delfiner, Geostatistics, section 2.4, on regularization): what
- * is finer along a line cannot be followed across to the next one. The lattice's nodes
- * around the surface become samples where measured ones lack, in the convex hull of
- * these and no farther from the nearest one than the range of the variogram and than a
- * few of these spacings. */
+ * is finer along a line cannot be followed across to the next one. Their variogram is a
+ * robust one, see VariogramEstimator::MeanRoot. The lattice's nodes around the surface
+ * become samples where measured ones lack, in the convex hull of these and no farther
+ * from the nearest one than the range of the variogram and than a few of these
+ * spacings. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param use the points to take

@@ -9,8 +9,11 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace {
 
@@ -203,6 +206,74 @@ TEST(Variogram, PairsAlongAnAxisDifferFromItByThirtyDegreesAtMost)
     // Six caps of 30 degrees are 0.402 of a sphere; of a cube the nearer pairs count.
     EXPECT_NEAR(pairs / all, 6.0 * (1.0 - std::sqrt(0.75)) / 2.0, 0.03);
   }
+}
+
+/** 500 samples of a wave in a unit cube. */
+SampledFields
+sampleWave(std::vector<float> xyz = {})
+{
+  for (std::uint32_t i = 0; i < 1500; ++i)
+    xyz.push_back(static_cast<float>(uniformAt(3, i / 3, i % 3)));
+  std::vector<std::uint32_t> use(xyz.size() / 3);
+  std::iota(use.begin(), use.end(), 0);
+  Report report;
+  SampledFields sampled;
+  sampled.samples =
+      SampleSet::build(xyz.data(), 3, use, {{1.0f, 1.0f, 1.0f}}, 1, report);
+  sampled.fields = 1;
+  const double factor = static_cast<double>(sampled.samples->getUnit().factor);
+  for (const Position& position : sampled.samples->getPositions())
+    sampled.values.push_back(std::sin(6.0 * static_cast<double>(position[0]) / factor));
+  return sampled;
+}
+
+EmpiricalVariogram
+variogramOf(const SampledFields& sampled,
+            VariogramEstimator estimator = VariogramEstimator::MeanSquare)
+{
+  return computeEmpiricalVariograms(
+             sampled, 0, Eigen::Matrix3d::Identity(), 0, estimator)
+      .all;
+}
+
+TEST(EmpiricalVariogram, HasNoClassOfFewPairs)
+{
+  // Two pairs of samples very near to each other, with a wrong value in each.
+  SampledFields sampled = sampleWave(
+      {0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.501f, 0.2f, 0.3f, 0.5f, 0.2f, 0.3f, 0.501f});
+  const std::vector<Position>& positions = sampled.samples->getPositions();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i][2] == 0.501f * sampled.samples->getUnit().factor)
+      sampled.values[i] += 1.0;
+  const EmpiricalVariogram found = variogramOf(sampled);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Variogram fitted =
+      fitVariogram(found, {VariogramKind::Spherical, nan, nan, nan});
+  EXPECT_GE(*std::min_element(found.pairs.begin(), found.pairs.end()), 30.0);
+  EXPECT_GT(fitted.range, 1.0); // not the distance of these pairs
+}
+
+TEST(EmpiricalVariogram, OfRootsIsThatOfSquaresAndBearsSpikes)
+{
+  SampledFields sampled = sampleWave();
+  for (std::size_t i = 0; i < sampled.values.size(); ++i) {
+    double sum = 0.0; // nearly normal, of variance 1
+    for (std::uint64_t j = 0; j < 12; ++j)
+      sum += uniformAt(5, i, j) - 0.5;
+    sampled.values[i] = sum;
+  }
+  const EmpiricalVariogram square = variogramOf(sampled),
+                           root = variogramOf(sampled, VariogramEstimator::MeanRoot);
+  for (std::size_t i = 0; i < sampled.values.size(); i += 50)
+    sampled.values[i] += 30.0;
+  const EmpiricalVariogram spiked = variogramOf(sampled, VariogramEstimator::MeanRoot);
+  const EmpiricalVariogram spiked_square = variogramOf(sampled);
+  for (std::size_t i = 0; i < root.value.size(); ++i)
+    if (root.pairs[i] > 1000.0) {
+      EXPECT_NEAR(root.value[i], square.value[i], 0.06 * square.value[i]);
+      EXPECT_LT(spiked.value[i], 3.0 * root.value[i]);
+      EXPECT_GT(spiked_square.value[i], 10.0 * square.value[i]);
+    }
 }
 
 } // namespace

@@ -373,6 +373,24 @@ TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
   EXPECT_NE(std::string::npos, all.find("confidence")) << all;
 }
 
+/** As grades of ore have: the mean square of differences is that of the spikes. */
+TEST(GapFilling, FindsTheRangeOfAFieldWithSpikes)
+{
+  const auto samples = makeProfiles(80);
+  const auto clean = uvol_test::runPipeline(samples, makeParameters(true));
+  uvol_test::Random random(11);
+  std::vector<float> spiked;
+  const CloudView view = viewOf(samples->cloud);
+  const ScalarField height(view.fields, "intensity");
+  for (std::size_t i = 0; i < view.count; ++i)
+    spiked.push_back(static_cast<float>(height.read(view.point(i)) *
+                                        (random.uniform() < 0.02 ? 40.0 : 1.0)));
+  setField(*samples, "intensity", spiked);
+  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  EXPECT_LT(clean.gaps->nugget, 0.1 * clean.gaps->sill);
+  EXPECT_LT(result.gaps->nugget, 0.1 * result.gaps->sill);
+}
+
 TEST(GapFilling, RefusesWhatItCannotFill)
 {
   auto parameters = makeParameters(true);
