@@ -44,9 +44,10 @@ constexpr double jitter = 0.25;
  * more than the lattice does, whatever lies around. */
 constexpr double sampled_part = 0.5;
 
-/** Share of that spacing: so far outside of the convex hull of the measured samples a
- * place still counts as between them, or samples on a plane had no gaps. */
-constexpr double hull_tolerance = 0.5;
+/** Share of that spacing, half a gap: so far outside of the convex hull of the measured
+ * samples a place still counts as between them. Without, samples on a plane have no
+ * gaps, and a dive at the end of a glider's track that is left out lies around them. */
+constexpr double hull_tolerance = 2.0;
 
 /** Widths of a gap that samples are predicted within of a measured one, at most: gaps
  * are not equally wide, and beyond there is nothing but the variogram. */

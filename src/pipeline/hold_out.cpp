@@ -7,6 +7,7 @@
 #include "neighbors/nearest_finder.h"
 #include "neighbors/sample_values.h"
 #include "pipeline/gap_filling.h"
+#include "pipeline/isopoint_filter.h"
 
 #include <pcl/conversions.h>
 
@@ -360,9 +361,11 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples)
 }
 
 void
-warnOfScores(const std::vector<ValidationScore>& scores, Report& report)
+warnOfScores(const std::vector<ValidationScore>& scores,
+             const IsosurfacePipelineParameters& parameters,
+             Report& report)
 {
-  const auto warn_where = [&](const auto& holds, const char* sentence) {
+  const auto warn_where = [&](const auto& holds, const std::string& sentence) {
     if (std::any_of(scores.begin(), scores.end(), holds))
       report.warnings.push_back(sentence);
   };
@@ -378,7 +381,8 @@ warnOfScores(const std::vector<ValidationScore>& scores, Report& report)
       },
       "Near the surface, the nearest sample tells the class of samples that were left "
       "out better than the surface does: trust where it crosses lines of samples, not "
-      "what lies between; a scale or filled gaps may help (-scale, -fill-gaps).");
+      "what lies between." +
+          adviseRemedies(parameters));
 }
 
 Folds

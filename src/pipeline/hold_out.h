@@ -54,7 +54,9 @@ scoreHeldOut(const std::vector<HeldOutSample>& samples);
  * than always saying the same does, or than the nearest sample does by more than the
  * standard error of the difference. */
 PCL_UVOL_EXPORTS void
-warnOfScores(const std::vector<ValidationScore>& scores, Report& report);
+warnOfScores(const std::vector<ValidationScore>& scores,
+             const IsosurfacePipelineParameters& parameters,
+             Report& report);
 
 /** \brief Divide points as the parameters say. */
 PCL_UVOL_EXPORTS Folds

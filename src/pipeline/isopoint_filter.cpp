@@ -24,13 +24,11 @@ namespace {
  * between the lines: 95 and 98 %. */
 constexpr float known_part = 0.5f;
 
-/** What may help where samples leave much open, of what was not asked for. */
+} // namespace
+
 std::string
-adviseOnGuesses(const IsosurfacePipelineParameters& parameters)
+adviseRemedies(const IsosurfacePipelineParameters& parameters)
 {
-  std::string advice;
-  if (parameters.validation.folds == 0)
-    advice = " A hold-out test tells how good it is (-validate).";
   std::vector<std::string> remedies;
   if (!parameters.automatic_scale && (parameters.isosurface.scale == 1.0f).all())
     remedies.emplace_back("-scale");
@@ -38,12 +36,11 @@ adviseOnGuesses(const IsosurfacePipelineParameters& parameters)
     remedies.emplace_back("-fill-gaps");
   if (!parameters.drop_bridged)
     remedies.emplace_back("-drop-bridged");
+  std::string advice;
   for (std::size_t i = 0; i < remedies.size(); ++i)
     advice += (i == 0 ? " " : i + 1 < remedies.size() ? ", " : " or ") + remedies[i];
-  return advice + (remedies.empty() ? "" : " may help.");
+  return remedies.empty() ? "" : advice + " may help.";
 }
-
-} // namespace
 
 void
 dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
@@ -97,7 +94,10 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
       std::to_string(100 * guesses / known) +
       " % of the isopoints lie between lines of samples or beside gaps: where the "
       "surface crosses a line is known, how it runs from there is a guess." +
-      adviseOnGuesses(parameters));
+      (parameters.validation.folds > 0
+           ? ""
+           : " A hold-out test tells how good it is (-validate).") +
+      adviseRemedies(parameters));
 }
 
 } // namespace pcl_uvol

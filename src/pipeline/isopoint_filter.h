@@ -5,6 +5,8 @@
 #include "pipeline/isopoint_choice.h"
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <string>
+
 namespace pcl_uvol {
 
 /** \brief Leave out what belongs to images, and what max_error and drop_bridged do not
@@ -15,6 +17,11 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
               Report& report);
+
+/** \brief What may help where samples leave much open, of what was not asked for: a
+ * sentence behind a space, empty if it was all. */
+std::string
+adviseRemedies(const IsosurfacePipelineParameters& parameters);
 
 /** \brief Warn where most isopoints do not rest on samples around them, and count those
  * that rest on predicted ones. */

@@ -458,7 +458,7 @@ IsosurfacePipeline::validate(const IsosurfacePipelineParameters& parameters,
   for (const auto& of_isovalue :
        holdOut(samples_, listPoints(), parameters, folds, threads_, report))
     scores.push_back(scoreHeldOut(of_isovalue));
-  warnOfScores(scores, report);
+  warnOfScores(scores, parameters, report);
   return scores;
 }
 

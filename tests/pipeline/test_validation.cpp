@@ -127,7 +127,8 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
 {
   // 100 samples: the surface tells 70 rightly, the nearest sample so many of the other
   // 30 and none, or some, of the 70 wrongly; 30 are below.
-  const auto warn = [](int gained, int lost, int below) {
+  IsosurfacePipelineParameters parameters;
+  const auto warn = [&](int gained, int lost, int below) {
     std::vector<HeldOutSample> samples;
     for (int i = 0; i < 100; ++i) {
       const bool is_above = i >= below, side = i < 70;
@@ -136,7 +137,7 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
           {0, is_above, nearest == is_above, true, side == is_above, true, 1.0f, 0.5f});
     }
     Report report;
-    warnOfScores({scoreHeldOut(samples)}, report);
+    warnOfScores({scoreHeldOut(samples)}, parameters, report);
     return report.warnings;
   };
   EXPECT_TRUE(warn(0, 0, 50).empty());
@@ -147,11 +148,14 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   ASSERT_EQ(1u, warn(7, 3, 50).size());
   EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("nearest sample tells"));
   EXPECT_LT(warn(7, 3, 50)[0].size(), 300u);
+  EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find(". -scale, -fill-gaps or "));
+  parameters.fill_gaps = true; // what was given is not advised
+  EXPECT_EQ(std::string::npos, warn(7, 3, 50)[0].find("-fill-gaps"));
   ASSERT_EQ(1u, warn(0, 0, 25).size());
   EXPECT_NE(std::string::npos, warn(0, 0, 25)[0].find("always saying the same"));
   EXPECT_EQ(2u, warn(7, 3, 25).size());
   Report none;
-  warnOfScores({scoreHeldOut({})}, none);
+  warnOfScores({scoreHeldOut({})}, parameters, none);
   EXPECT_TRUE(none.warnings.empty());
 }
 
