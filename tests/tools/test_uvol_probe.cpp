@@ -275,13 +275,16 @@ TEST_F(ProbeTool, VariogramsAreToldWrittenAndDrawn)
     std::istringstream cells(line);
     std::getline(cells, cell, ',');
     ++rows[cell];
+    const bool is_of_all = cell == "all";
     std::vector<double> numbers;
     while (std::getline(cells, cell, ','))
       numbers.push_back(std::stod(cell));
     ASSERT_EQ(4u, numbers.size());
+    EXPECT_GE(numbers[2], is_of_all ? 30.0 : 1.0); // fewer pairs make no class
     EXPECT_NEAR(numbers[3], 2.5 - 2.0 * std::exp(-numbers[0] / 0.25), 1e-7);
   }
-  EXPECT_EQ(24, rows["all"]);
+  EXPECT_LE(rows["all"], 24);
+  EXPECT_GE(rows["all"], 15);
   EXPECT_EQ(4u, rows.size());
   EXPECT_TRUE(rows.count("x") == 1 && rows.count("y") == 1 && rows.count("z") == 1);
   int channels = 0;
