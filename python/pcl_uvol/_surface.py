@@ -435,10 +435,9 @@ def isosurface(points, fields=None, **options):
     drop_bridged : bool
         Leave out isopoints in gaps of the sampling.
     fill_gaps : bool
-        Predict samples between lines or sheets of samples by kriging, in the convex hull
-        of all samples and up to the range of the variogram, and extract from both:
-        isopoints there have support 4, their
-        `error` is the standard deviation over the slope, and `confidence` the part of
+        Predict samples between lines or sheets of samples by kriging, up to the range of
+        the variogram and half a gap outside of the convex hull of all samples, and extract
+        from both: isopoints there have support 4, their `error` is the standard deviation over the slope, and `confidence` the part of
         the variance that the samples explain. `report["gaps"]` tells what was done.
     validate : int
         Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"

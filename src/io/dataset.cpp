@@ -3,7 +3,6 @@
 #include "io/files.h"
 #include "io/formats.h"
 #include "io/record_source.h"
-#include "io/vtk_readers.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -113,11 +112,8 @@ checkSavePath(const std::string& path, const std::vector<pcl::PCLPointField>& fi
   io::checkWritable(path);
   if (ending == ".ply")
     io::checkPlyFields(path, fields);
-  if (ending == ".vtp" && fields.size() > io::most_vtk_arrays)
-    io::throwUnwritable(
-        path,
-        std::to_string(fields.size()) + " fields are too many: a .vtp has " +
-            std::to_string(io::most_vtk_arrays) + " at most, a .vtkhdf any number");
+  if (ending == ".vtp")
+    io::checkVtpFields(path, fields);
 }
 
 } // namespace pcl_uvol

@@ -199,7 +199,13 @@ writeCsv(const std::string& file,
 void
 writeNpz(const std::string& file, const std::string& path, const Dataset& dataset);
 
-/** \brief Points, or faces over them where there are triangles. */
+/** \brief
+ * \throws IOError for more fields than VTK can tell apart in a few seconds */
+void
+checkVtpFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields);
+
+/** \brief Points, or faces over them where there are triangles.
+ * \throws IOError as checkVtpFields() */
 void
 writeVtp(const std::string& file,
          const std::string& path,

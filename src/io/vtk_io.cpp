@@ -147,11 +147,22 @@ readVtk(const std::string& path, const LoadOptions& options)
 }
 
 void
+checkVtpFields(const std::string& path, const std::vector<pcl::PCLPointField>& fields)
+{
+  if (fields.size() > most_vtk_arrays)
+    throwUnwritable(
+        path,
+        std::to_string(fields.size()) + " fields are too many: a .vtp has " +
+            std::to_string(most_vtk_arrays) + " at most, a .vtkhdf any number");
+}
+
+void
 writeVtp(const std::string& file,
          const std::string& path,
          const Dataset& dataset,
          const std::vector<Triangle>& triangles)
 {
+  checkVtpFields(path, dataset.cloud.fields);
   const auto data = makeWritable(dataset);
   if (!triangles.empty()) {
     vtkNew<vtkCellArray> faces;

@@ -43,11 +43,11 @@ readVtkLegacy(const std::string& path);
 void
 checkVtkLegacy(const std::string& path);
 
-/** \brief Arrays that points or cells of VTK's files have at most: VTK compares the
- * name of each with those of all others, which takes 4 s with so many. */
+/** \brief Arrays that points or cells of VTK's files have at most, read or written: VTK
+ * compares the name of each with those of all others, which takes 4 s with so many. */
 constexpr std::size_t most_vtk_arrays = 20000;
 
-/** \throws IOError for more arrays of a file than that, of one that is read */
+/** \throws IOError for more arrays of a file that is read */
 void
 checkArrayCount(const std::string& path, std::size_t arrays);
 

@@ -148,8 +148,10 @@ void
 TagCollector::takeArray(const XmlTag& tag)
 {
   const std::string& section = scanner_.getOpen()[3];
-  if (const std::string* const name = tag.find("Name"); section == "CellData")
+  if (const std::string* const name = tag.find("Name"); section == "CellData") {
     cell_arrays.insert(name ? *name : std::string());
+    checkArrayCount(path_, cell_arrays.size());
+  }
   const bool of_cells = with_cells_ && section == "CellData";
   if (section != "PointData" && section != "Points" && section != "Polys" && !of_cells)
     return;
@@ -175,7 +177,7 @@ TagCollector::takeArray(const XmlTag& tag)
                  : of_cells           ? piece.cell_arrays
                                       : piece.arrays;
   arrays.push_back(std::move(array));
-  checkArrayCount(path_, std::max(arrays.size(), cell_arrays.size()));
+  checkArrayCount(path_, arrays.size());
   if (!tag.empty)
     array_ = &arrays.back();
 }

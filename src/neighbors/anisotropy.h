@@ -28,7 +28,7 @@ equalizingScale(const CloudView& cloud);
 /** \brief Extent of samples along each axis, between the 5th and the 95th percentile of
  * their coordinates, so that a few strays do not decide.
  * \param use samples, with finite coordinates */
-Eigen::Array3f
+PCL_UVOL_EXPORTS Eigen::Array3f
 findSpread(const CloudView& cloud, const std::vector<std::uint32_t>& use);
 
 /** \brief Factors per axis that make a spread equal. The axis of the largest one has

@@ -50,9 +50,9 @@ takesLattice(const IsosurfacePipelineParameters& parameters);
  * composited (Chiles and Delfiner, Geostatistics, section 2.4, on regularization): what
  * is finer along a line cannot be followed across to the next one. Their variogram is a
  * robust one, see VariogramEstimator::MeanRoot. The lattice's nodes around the surface
- * become samples where measured ones lack, in the convex hull of these and no farther
- * from the nearest one than the range of the variogram and than a few of these
- * spacings. */
+ * become samples where measured ones lack, at most half a gap outside of the hull of
+ * these, and no farther from the nearest one than the range of the variogram and than a
+ * few of these spacings. */
 class PCL_UVOL_EXPORTS FilledGaps {
 public:
   /** \param use the points to take
@@ -100,7 +100,7 @@ public:
    * measured samples, and have the normals of the kriged field; those that lie far from
    * its surface are removed. Where takesLattice() says so, those in gaps are added
    * first, and measured samples have no others across gaps. None of them lies more than
-   * half a spacing of the lattice outside of the samples' hull. */
+   * half a gap outside of the samples' hull. */
   void
   judge(const IsosurfacePipelineParameters& parameters,
         unsigned threads,

@@ -113,6 +113,38 @@ TEST(SphDensity, IsThatOfALattice)
   EXPECT_LT(densities[0], 4.0); // a corner
 }
 
+/** Snapshots of Gadget have the end of the kernel, those of SWIFT a length in units of
+ * its deviation. */
+TEST(SphDensity, LengthsAreWhatTheirNameSays)
+{
+  EXPECT_EQ(0.5, lengthFactorOf("HSML"));
+  EXPECT_EQ(0.5, lengthFactorOf("SmoothingLength"));
+  EXPECT_EQ(0.5 * 1.825742, lengthFactorOf("SmoothingLengths"));
+  EXPECT_EQ(1.0, lengthFactorOf("h"));
+}
+
+/** Far from all others a particle has its own mass alone. */
+TEST(SphDensity, OfThreeAtOnePlaceIsThatOfAllTheirMasses)
+{
+  Dataset dataset = makeParticles(300, 1.0);
+  const std::size_t step = dataset.cloud.point_step;
+  const float far = 50.0f;
+  for (const std::size_t i : {7u, 9u, 11u})
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      std::memcpy(
+          &dataset.cloud.data[i * step + axis * sizeof(float)], &far, sizeof(float));
+  const std::vector<double> densities = densitiesOf(dataset);
+  const double mass =
+      read(dataset, "mass", 7) + read(dataset, "mass", 9) + read(dataset, "mass", 11);
+  bool is_of_one = false;
+  for (const std::size_t i : {7u, 9u, 11u}) {
+    EXPECT_EQ(densities[7], densities[i]);
+    const double expected = mass * cubicSpline(0.0, read(dataset, "h", i));
+    is_of_one |= std::abs(densities[i] - expected) < 1e-5 * expected;
+  }
+  EXPECT_TRUE(is_of_one);
+}
+
 TEST(SphDensity, CoincidingParticlesAddTheirMassesAndMissingOnesHaveNone)
 {
   Dataset dataset = makeParticles(300, 1.0), twice = dataset;

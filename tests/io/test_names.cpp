@@ -102,28 +102,32 @@ TEST(Names, OfVtkAreSoManyAtMost)
   for (int i = 0; i <= most; ++i)
     specs.push_back({"f" + std::to_string(i), Type::UINT8});
   const TemporaryFolder folder;
-  const auto dataset = makeDataset(specs, 1, 1);
+  const auto dataset = makeDataset(specs, 3, 1);
   EXPECT_THROW(saveDataset(folder / "a.vtp", dataset), pcl_uvol::IOError);
+  EXPECT_THROW(saveMesh(folder / "m.vtp", dataset, {{0, 1, 2}}), pcl_uvol::IOError);
   saveDataset(folder / "a.pcd", dataset);
   EXPECT_EQ(std::vector<std::string>{"a.pcd"}, folder.list());
   std::string arrays;
   for (int i = 0; i <= most; ++i)
     arrays += "<DataArray type=\"UInt8\" Name=\"f" + std::to_string(i) +
               "\" format=\"ascii\">1</DataArray>\n";
-  writeFile(folder / "b.vtp",
-            "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">"
-            "<PolyData><Piece NumberOfPoints=\"1\"><PointData>" +
-                arrays +
-                "</PointData><Points><DataArray type=\"Float32\" "
-                "NumberOfComponents=\"3\" format=\"ascii\">0 0 0</DataArray></Points>"
-                "</Piece></PolyData></VTKFile>");
-  try {
-    loadDataset(folder / "b.vtp");
-    FAIL();
-  }
-  catch (const pcl_uvol::IOError& error) {
-    EXPECT_NE(std::string::npos, error.message().find("more than 20000 arrays"))
-        << error.message();
+  const std::string points = "<Points><DataArray type=\"Float32\" "
+                             "NumberOfComponents=\"3\" format=\"ascii\">0 0 0"
+                             "</DataArray></Points>";
+  for (const std::string& data : {"<PointData>" + arrays + "</PointData>" + points,
+                                  points + "<CellData>" + arrays + "</CellData>"}) {
+    writeFile(folder / "b.vtp",
+              "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">"
+              "<PolyData><Piece NumberOfPoints=\"1\">" +
+                  data + "</Piece></PolyData></VTKFile>");
+    try {
+      loadDataset(folder / "b.vtp");
+      FAIL();
+    }
+    catch (const pcl_uvol::IOError& error) {
+      EXPECT_NE(std::string::npos, error.message().find("more than 20000 arrays"))
+          << error.message();
+    }
   }
 }
 

@@ -23,8 +23,12 @@ struct PlaneBand {
   double unit;    ///< length 1 in the unit of the samples
   double spacing; ///< in that unit
 
-  /** \param width of the band; 0: all samples */
-  PlaneBand(const Eigen::Vector3d& half_sides, double width, pcl_uvol::FitScheme scheme)
+  /** \param width of the band; 0: all samples
+   * \param stretch of the samples' space: places are those in the stretched one */
+  PlaneBand(const Eigen::Vector3d& half_sides,
+            double width,
+            pcl_uvol::FitScheme scheme,
+            const pcl_uvol::Position& stretch = {{1.0f, 1.0f, 1.0f}})
   {
     constexpr std::size_t neighbors = 26;
     std::mt19937_64 engine(4);
@@ -35,11 +39,11 @@ struct PlaneBand {
     for (pcl_uvol::Position& place : places)
       for (int axis = 0; axis < 3; ++axis)
         place[axis] = static_cast<float>(
-            half_sides[axis] * (static_cast<double>(engine() % 65536) / 32768.0 - 1.0));
+            half_sides[axis] * (static_cast<double>(engine() % 65536) / 32768.0 - 1.0) /
+            static_cast<double>(stretch[axis]));
     pcl_uvol::Report report;
-    samples = pcl_uvol::SampleSet::build(
-        places.front().x, 3, all, pcl_uvol::Position{{1.0f, 1.0f, 1.0f}}, 1, report);
-    unit = samples->getScale()[0];
+    samples = pcl_uvol::SampleSet::build(places.front().x, 3, all, stretch, 1, report);
+    unit = samples->getScale()[0] / stretch[0];
     std::vector<std::uint32_t> crossing;
     for (std::uint32_t i = 0; i < samples->size(); ++i)
       if (std::abs(place(i)[2]) < 0.8)

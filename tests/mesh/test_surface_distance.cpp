@@ -85,6 +85,32 @@ TEST(TriangleTree, FindsWhatTryingAllFinds)
   }
 }
 
+/** Two squares above a plane: a large one at the height 1, and one of a four-thousandth
+ * of its area at 5. */
+TEST(SurfaceDistance, TrianglesWeighAsMuchAsTheirArea)
+{
+  MeasuredShape plane, squares;
+  const auto add = [](MeasuredShape& shape, double half, double height) {
+    const auto first = static_cast<std::uint32_t>(shape.places.size());
+    for (const auto& [x, y] :
+         {std::pair(-1.0, -1.0), {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+      shape.places.emplace_back(half * x, half * y, height);
+    shape.triangles.push_back({first, first + 1, first + 2});
+    shape.triangles.push_back({first, first + 2, first + 3});
+  };
+  add(plane, 64.0, 0.0);
+  add(squares, 32.0, 1.0);
+  add(squares, 0.5, 5.0);
+  const Dataset of_plane = plane.toDataset(), of_squares = squares.toDataset();
+  const SurfaceDistances distances =
+      measureDistances({of_squares, squares.triangles}, {of_plane, plane.triangles}, 1);
+  constexpr double all = 4096.0 + 1.0;
+  EXPECT_NEAR((4096.0 * 1.0 + 1.0 * 5.0) / all, distances.mean, 1e-9);
+  EXPECT_NEAR(std::sqrt((4096.0 + 25.0) / all), distances.root_mean_square, 1e-9);
+  EXPECT_NEAR(5.0, distances.largest, 1e-9);
+  EXPECT_NEAR(1.0, distances.permille, 1e-9) << "the small one is less than a permille";
+}
+
 TEST(SurfaceDistance, SpheresInEachOther)
 {
   const MeasuredShape large = makeEllipsoid({1.0, 1.0, 1.0}, 5),

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -30,6 +32,21 @@ TEST(EqualizingScale, AnAxisWithoutSpreadKeepsItsLength)
   EXPECT_EQ(1.0f, pcl_uvol::equalizingScale(pcl_uvol::viewOf(*planar))[2]);
   const auto point = uvol_test::makeCloud("uniform", 1, 2);
   EXPECT_TRUE((pcl_uvol::equalizingScale(pcl_uvol::viewOf(*point)) == 1.0f).all());
+}
+
+/** From the 5th to the 95th percentile. */
+TEST(EqualizingScale, SpreadsAreThoseOfNineInTen)
+{
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i <= 100; ++i) {
+    all.push_back(i);
+    cloud.push_back({static_cast<float>(i), static_cast<float>(3 * (100 - i)), 7.0f});
+  }
+  const Eigen::Array3f spread = pcl_uvol::findSpread(pcl_uvol::viewOf(cloud), all);
+  EXPECT_EQ(90.0f, spread[0]);
+  EXPECT_EQ(270.0f, spread[1]);
+  EXPECT_EQ(0.0f, spread[2]);
 }
 
 TEST(EqualizingScale, NeedsAFinitePoint)

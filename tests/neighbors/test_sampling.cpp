@@ -64,6 +64,19 @@ TEST(Sampling, TellsVolumesSheetsAndLines)
   EXPECT_NEAR(12.0, lines.across, 1.5);
 }
 
+/** Cells up to 1:3 are as good as cubes; those of 1:6 lie in sheets or lines. */
+TEST(Sampling, ContrastsAreThoseOfCells)
+{
+  EXPECT_EQ(LocalDimension::Volume,
+            summarize(makeLattice(14, 14, 10, 1.0f, 1.0f, 3.0f)).most);
+  EXPECT_EQ(LocalDimension::Volume,
+            summarize(makeLattice(20, 10, 10, 1.0f, 3.0f, 3.0f)).most);
+  EXPECT_EQ(LocalDimension::Sheet,
+            summarize(makeLattice(20, 20, 8, 1.0f, 1.0f, 6.0f)).most);
+  EXPECT_EQ(LocalDimension::Line,
+            summarize(makeLattice(40, 8, 8, 1.0f, 6.0f, 6.0f)).most);
+}
+
 TEST(Sampling, SpacingsAreThoseOfTheStretchedSpace)
 {
   const auto positions = makeLattice(60, 8, 8, 1.0f, 12.0f, 12.0f);

@@ -153,6 +153,33 @@ TEST(SplatGeneration, LambdaZeroPassesOverNoPoint)
   EXPECT_EQ(makeSplats(cloud, 1e-2, 0.0).size(), cloud->size());
 }
 
+/** Points that no surface surrounds have half the way to the next one, and no more than
+ * is usual where there is a surface. */
+TEST(SplatGeneration, PointsAloneReachHalfWayToTheNext)
+{
+  SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  cloud->push_back(makePoint({0.0, 0.0, 0.0}, Vector3d::UnitZ()));
+  cloud->push_back(makePoint({3.0, 0.0, 4.0}, Vector3d::UnitZ()));
+  const SplatCloud pair = makeSplats(cloud, 1e-3, 0.2);
+  ASSERT_EQ(2u, pair.size());
+  for (const auto& splat : pair)
+    EXPECT_NEAR(2.5, splat.radius, 1e-5);
+
+  const SurfaceCloudPtr plate = makePlate(2500, 0.0, 1);
+  const double spacing = spacingOf(4.0, plate->size());
+  for (auto& point : *cloud)
+    point.getVector3fMap() += Eigen::Vector3f(0.0f, 0.0f, 20.0f);
+  *cloud += *plate;
+  std::size_t alone = 0;
+  for (const auto& splat : makeSplats(cloud, 1e-3, 1.0))
+    if (splat.z > 10.0f) {
+      ++alone;
+      EXPECT_LT(splat.radius, 2.0 * spacing);
+      EXPECT_GT(splat.radius, 0.2 * spacing);
+    }
+  EXPECT_EQ(2u, alone);
+}
+
 TEST(SplatGeneration, EveryPointIsWithinDeltaOfASplatOnItsSide)
 {
   constexpr std::size_t points = 4000;

@@ -3,10 +3,10 @@
 
 #include "charts/picture_file.h"
 #include "render/point_colors.h"
+#include "render/ray_tracing/fitted_splats.h"
 #include "render/ray_tracing/gap_dots.h"
 #include "surface/splat_input.h"
 #include <pcl_uvol/common/exceptions.h>
-#include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <algorithm>
 
@@ -82,19 +82,11 @@ RayOptions::apply(const Options& options, pcl_uvol::RayTracingSettings& settings
 }
 
 pcl_uvol::Scene
-RayOptions::makeScene(const Options& options,
-                      const ViewOptions& view,
+RayOptions::makeScene(const ViewOptions& view,
                       const pcl_uvol::CloudView& cloud,
-                      std::array<double, 2>& range,
-                      std::vector<pcl_uvol::FittedDisc>& discs,
-                      pcl_uvol::Report& report) const
+                      pcl_uvol::Splats&& splats,
+                      std::array<double, 2>& range) const
 {
-  pcl_uvol::Splats splats = pcl_uvol::findSplats(cloud,
-                                                 splats_.parameters(options),
-                                                 splats_.isGiven(options),
-                                                 options.threads(),
-                                                 report);
-  discs = pcl_uvol::listSplatDiscs(splats, cloud.count);
   std::vector<pcl_uvol::Rgba> colors;
   const std::string field = view.colorField(cloud);
   if (!field.empty()) {
@@ -178,9 +170,14 @@ RayOptions::traceCloud(const Options& options,
 {
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(surface.cloud);
   std::array<double, 2> range{};
-  std::vector<pcl_uvol::FittedDisc> discs;
+  pcl_uvol::Splats splats = pcl_uvol::findSplats(cloud,
+                                                 splats_.parameters(options),
+                                                 splats_.isGiven(options),
+                                                 options.threads(),
+                                                 report);
+  pcl_uvol::FittedSplats fitted(splats, surface.cloud, options.threads());
   pcl_uvol::RayTracer tracer;
-  tracer.setScene(makeScene(options, view, cloud, range, discs, report));
+  tracer.setScene(makeScene(view, cloud, std::move(splats), range));
   apply(options, tracer.settings());
   tracer.setSupersampling(view.getRaySupersampling());
   tracer.setNumberOfThreads(options.threads());
@@ -193,9 +190,7 @@ RayOptions::traceCloud(const Options& options,
        surface.origin,
        std::nullopt,
        [&](const pcl_uvol::Camera& camera, const PictureCell& cell) {
-         pcl_uvol::PreparedSurface prepared(surface.cloud, options.threads());
-         return pcl_uvol::leaveOutLonely(
-             discs, prepared.findFittedDiscs(camera, cell.width, cell.height));
+         return fitted.find(camera, cell.width, cell.height);
        }},
       [&](const pcl_uvol::Camera& camera, const PictureCell& cell, auto& image) {
         tracer.setSize(cell.width, cell.height);

@@ -50,15 +50,12 @@ public:
   surfaceOptions();
 
 private:
-  /** \param range set to the values at the ends of its colours
-   * \param discs set to what a camera is fitted to */
+  /** \param range set to the values at the ends of its colours */
   pcl_uvol::Scene
-  makeScene(const Options& options,
-            const ViewOptions& view,
+  makeScene(const ViewOptions& view,
             const pcl_uvol::CloudView& cloud,
-            std::array<double, 2>& range,
-            std::vector<pcl_uvol::FittedDisc>& discs,
-            pcl_uvol::Report& report) const;
+            pcl_uvol::Splats&& splats,
+            std::array<double, 2>& range) const;
 
   SplatOptions splats_;
   pcl_uvol::RayTracingSettings settings_;

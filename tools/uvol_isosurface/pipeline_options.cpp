@@ -91,9 +91,9 @@ PipelineOptions::declare(Options& options)
   options
       .flag("fill-gaps",
             parameters.fill_gaps,
-            "predict samples between lines or sheets of samples by kriging, in "
-            "the convex hull of all samples and up to the range of the variogram, "
-            "and extract from both; with -scale auto unless it is given")
+            "predict samples between lines or sheets of samples by kriging, up to the "
+            "range of the variogram and half a gap outside of the convex hull of all "
+            "samples, and extract from both; with -scale auto unless it is given")
       .rare();
   options.integer(
       "validate",

@@ -7,6 +7,7 @@
 #include "common/memory.h"
 #include "common/parameter_json.h"
 #include "render/image_space/frame.h"
+#include "render/ray_tracing/fitted_splats.h"
 #include "render/ray_tracing/gap_dots.h"
 #include "render/stretch_surface.h"
 #include "shared/convert.h"
@@ -202,7 +203,7 @@ private:
                                      preparation_);
     if (splats.cloud.empty())
       throw InvalidArgument("None of the splats is usable.");
-    splat_discs_ = listSplatDiscs(splats, cloud_.count);
+    fitted_splats_ = std::make_unique<FittedSplats>(splats, points_->cloud, threads_);
     SplatObject object;
     if (!field_.empty()) {
       const auto colored = colorPoints(cloud_, field_, mapping_);
@@ -265,10 +266,8 @@ private:
   {
     if (prepared_)
       return prepared_->findFittedDiscs(camera, width, height);
-    if (rays_)
-      return leaveOutLonely(splat_discs_,
-                            PreparedSurface(points_->cloud, threads_)
-                                .findFittedDiscs(camera, width, height));
+    if (fitted_splats_)
+      return fitted_splats_->find(camera, width, height);
     return {};
   }
 
@@ -291,7 +290,7 @@ private:
   ImageSpaceRenderer<pcl::PCLPointCloud2> renderer_;
   std::shared_ptr<PreparedSurface> prepared_; // null: points without discs, or rays
   RayTracer tracer_;
-  std::vector<FittedDisc> splat_discs_; // that it draws
+  std::unique_ptr<FittedSplats> fitted_splats_; // that it draws
 };
 
 } // namespace

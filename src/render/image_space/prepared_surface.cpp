@@ -37,8 +37,15 @@ PreparedSurface::findFootprints(const ProgressCallback& progress)
   Report report;
   report.progress = progress;
   auto found = std::make_unique<Footprints>(surface_->findFootprints(threads_, report));
+  keepFootprints(std::move(found), std::move(report));
+}
+
+void
+PreparedSurface::keepFootprints(std::unique_ptr<Footprints>&& footprints,
+                                Report&& report)
+{
   const std::lock_guard<std::mutex> lock(mutex_);
-  footprints_ = std::move(found);
+  footprints_ = std::move(footprints);
   footprints_report_ = std::move(report);
 }
 
@@ -54,9 +61,12 @@ PreparedSurface::findFittedDiscs(const Camera& camera, int width, int height)
   if (!needsFootprints(*surface_, view))
     return none;
   if (fitted_discs_.empty()) {
-    findFootprints();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    fitted_discs_ = surface_->listFittedDiscs(*footprints_, count_);
+    // Of its own: another thread may take those that wait.
+    Report report;
+    auto found =
+        std::make_unique<Footprints>(surface_->findFootprints(threads_, report));
+    fitted_discs_ = surface_->listFittedDiscs(*found, count_);
+    keepFootprints(std::move(found), std::move(report));
   }
   return fitted_discs_;
 }

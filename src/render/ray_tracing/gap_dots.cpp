@@ -4,9 +4,6 @@
 #include "render/point_colors.h"
 #include "surface/oriented_points.h"
 
-#include <cmath>
-#include <limits>
-
 namespace pcl_uvol {
 
 void
@@ -43,27 +40,6 @@ addWithDots(SplatObject&& object,
   for (SplatObject* const part : {&surface, &dots})
     if (!part->splats->empty())
       scene.splats.push_back(std::move(*part));
-}
-
-std::vector<FittedDisc>
-listSplatDiscs(const Splats& splats, std::size_t points)
-{
-  std::vector<FittedDisc> discs(points, {std::numeric_limits<float>::quiet_NaN(), {}});
-  for (std::size_t i = 0; i < splats.sources.size(); ++i) {
-    const PointSplat& splat = splats.cloud[i];
-    discs[splats.sources[i]] = {splat.radius,
-                                {splat.normal_x, splat.normal_y, splat.normal_z}};
-  }
-  return discs;
-}
-
-std::vector<FittedDisc>
-leaveOutLonely(std::vector<FittedDisc> discs, const std::vector<FittedDisc>& seen)
-{
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (std::isnan(seen[i].radius))
-      discs[i].radius = seen[i].radius;
-  return discs;
 }
 
 } // namespace pcl_uvol

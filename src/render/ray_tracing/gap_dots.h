@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isopoints in gaps of the sampling in pictures by ray tracing: dots of about a pixel,
-// and what cameras are fitted to.
+// Isopoints in gaps of the sampling in pictures by ray tracing: dots of about a pixel.
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/ray_tracing/ray_tracer.h>
-#include <pcl_uvol/surface/splat_generation.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,16 +25,5 @@ addWithDots(SplatObject&& object,
             const std::vector<std::uint32_t>& sources,
             int side,
             Scene& scene);
-
-/** \brief The splats of a cloud as cameras are fitted to them, by the points that they
- * are grown from; the other points do not count.
- * \param points of the cloud */
-PCL_UVOL_EXPORTS std::vector<FittedDisc>
-listSplatDiscs(const Splats& splats, std::size_t points);
-
-/** \brief The same without those of points that do not count where all have discs.
- * \param seen discs of all points; none: the points are dense, and all count */
-PCL_UVOL_EXPORTS std::vector<FittedDisc>
-leaveOutLonely(std::vector<FittedDisc> discs, const std::vector<FittedDisc>& seen);
 
 } // namespace pcl_uvol

@@ -4,6 +4,7 @@
 #include "pixel_setup.h"
 #include "src/render/image_space/occlusion_grid.h"
 #include "src/render/image_space/occlusion_kernel.h"
+#include "src/render/surface_cloud.h"
 #include "support/simd_levels.h"
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
@@ -14,6 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace {
@@ -105,6 +108,50 @@ private:
 
   std::array<std::vector<float>, 3> position_, normal_;
 };
+
+/** A step leads as far as its square, in parts of the last one, in whole cells. */
+TEST(Occlusion, StepsAreCloserTogetherNearTheCell)
+{
+  pcl::PointCloud<pcl::PointNormal> points;
+  for (int i = 0; i < 400; ++i) {
+    pcl::PointNormal point;
+    point.x = static_cast<float>(i % 20) - 9.5f;
+    point.y = static_cast<float>(i / 20) - 9.5f;
+    point.normal_z = 1.0f;
+    points.push_back(point);
+  }
+  Report report;
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const SurfaceCloud cloud(viewOf(points), all, 1, report);
+  Camera camera;
+  camera.eye = {0.0, 0.0, 40.0};
+  camera.at = {0.0, 0.0, 0.0};
+  camera.up = {0.0, 1.0, 0.0};
+  camera.vertical_fov = 30.0;
+  const View view(camera, cloud.getBounds(), 1000, 1000);
+  ImageSpaceSettings settings;
+  settings.ambient_occlusion = 1.0;
+  const OcclusionGrid grid(Frame{cloud, view, settings, {}, 1});
+  ASSERT_EQ(static_cast<std::size_t>(OcclusionGrid::directions * OcclusionGrid::steps),
+            grid.offsets.size());
+  // A fifth of the ball around the points, as large as it is in its middle.
+  const double radius = cloud.getBounds().radius * view.unit;
+  const double pixels =
+      std::min(0.2 * radius / static_cast<double>(view.translation[2]) * view.focal,
+               0.125 * 1000.0);
+  for (int direction = 0; direction < OcclusionGrid::directions; ++direction)
+    for (int step = 1; step <= OcclusionGrid::steps; ++step) {
+      const double part = static_cast<double>(step * step) /
+                          (OcclusionGrid::steps * OcclusionGrid::steps);
+      const double cells = std::max(1.0, part * pixels / grid.cell);
+      const double angle = 2.0 * M_PI * (direction + 0.5) / OcclusionGrid::directions;
+      const auto& offset = grid.offsets[static_cast<std::size_t>(
+          direction * OcclusionGrid::steps + step - 1)];
+      EXPECT_NEAR(cells * std::cos(angle), offset.column, 0.5 + 1e-3);
+      EXPECT_NEAR(cells * std::sin(angle), offset.row, 0.5 + 1e-3);
+    }
+}
 
 TEST(OcclusionKernel, PlacesTheMiddlesOfCells)
 {

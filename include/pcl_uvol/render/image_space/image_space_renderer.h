@@ -60,7 +60,7 @@ public:
 
   /** \brief What a camera is fitted to: the discs of the points, of radius NaN for
    * points that are lonely, lie in gaps of the sampling or are not drawn, unless these
-   * are most. Finds the discs, once.
+   * are most. Finds the discs, once; not in two threads at a time.
    * \param camera that sees all points
    * \param width of the picture, pixels
    * \param height of the picture, pixels
@@ -74,6 +74,10 @@ public:
 
 private:
   friend class ImageSpaceRendererBase;
+
+  /** Keep footprints that were found until a frame applies them. */
+  void
+  keepFootprints(std::unique_ptr<Footprints>&& footprints, Report&& report);
 
   /** Give footprints that were found to the surface, and what they report.
    * \return false if there are none yet */
