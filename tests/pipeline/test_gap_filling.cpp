@@ -198,6 +198,70 @@ TEST(GapFilling, FillsWhatLiesBetweenProfilesAndNothingAroundThem)
   EXPECT_EQ(inside, covered);
 }
 
+/** Isopoints next to each other lie on each other's tangent planes, as on a surface
+ * that bends over several of their distances: one that is put to the wrong side of the
+ * root of its edge does not. */
+TEST(GapFilling, IsopointsLieOnOneSurface)
+{
+  const auto result = uvol_test::runPipeline(makeProfiles(30), makeParameters(true));
+  std::vector<PointIso> predicted;
+  for (const PointIso& point : uvol_test::toIsopoints(result))
+    if (isPredicted(point))
+      predicted.push_back(point);
+  ASSERT_GT(predicted.size(), 1000u);
+  const auto least = static_cast<float>(0.2 * result.gaps->spacing);
+  std::vector<float> slopes;
+  for (const PointIso& point : predicted) {
+    float nearest = 1e9f, slope = 0.0f;
+    for (const PointIso& other : predicted) {
+      const Eigen::Vector3f offset = other.getVector3fMap() - point.getVector3fMap();
+      if (offset.norm() < least || offset.norm() >= nearest)
+        continue;
+      nearest = offset.norm();
+      slope = std::abs(point.getNormalVector3fMap().dot(offset)) / nearest;
+    }
+    slopes.push_back(slope);
+  }
+  std::sort(slopes.begin(), slopes.end());
+  EXPECT_LT(slopes[slopes.size() / 2], 0.09f);
+  EXPECT_LT(slopes[slopes.size() * 9 / 10], 0.33f);
+}
+
+/** Where values scatter, roots of edges near the hull lie up to a spacing from the
+ * kriged surface, and that is then outside of it. */
+TEST(GapFilling, LeavesOutIsopointsThatAreMovedOutOfTheHull)
+{
+  const std::size_t count = 30;
+  const auto samples = makeProfiles(count);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  pcl::fromPCLPointCloud2(samples->cloud, cloud);
+  uvol_test::Random random(9);
+  std::vector<Eigen::Vector2d> profiles;
+  float top = 0.0f;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud[i].intensity += static_cast<float>(random.uniform() - 0.5);
+    top = std::max(top, cloud[i].z);
+    if (i % 60 == 0)
+      profiles.emplace_back(Eigen::Vector2f(cloud[i].x, cloud[i].y).cast<double>());
+  }
+  pcl::toPCLPointCloud2(cloud, samples->cloud);
+  auto parameters = makeParameters(true);
+  parameters.isosurface.isovalues = {-0.3, 0.0, 0.3};
+  const auto result = uvol_test::runPipeline(samples, parameters);
+  const double most = 2.0 * result.gaps->spacing;
+  std::size_t predicted = 0;
+  for (const PointIso& point : uvol_test::toIsopoints(result)) {
+    if (!isPredicted(point))
+      continue;
+    ++predicted;
+    const Eigen::Vector2d place = Eigen::Vector2f(point.x, point.y).cast<double>();
+    EXPECT_LE(distanceOutside(place, profiles), most);
+    EXPECT_LE(static_cast<double>(point.z - top), most);
+    EXPECT_LE(-static_cast<double>(point.z), most);
+  }
+  EXPECT_GT(predicted, 5000u);
+}
+
 TEST(GapFilling, TellsProfilesThatWereLeftOut)
 {
   const auto samples = makeProfiles(80);
