@@ -180,7 +180,7 @@ makeParameters(const Options& options, const Arguments& arguments)
     throw UsageError("-iso is missing: give one isovalue, as in -iso 0.3.");
   LevelSetParameters parameters = arguments.parameters;
   parameters.isovalue = arguments.iso.front();
-  parameters.mu = uvol_tools::parseMu(arguments.mu);
+  parameters.mu = uvol_tools::parseAutomatic("mu", arguments.mu, 0.0, 1.0);
   parameters.initial = makeInitialFunction(options, arguments);
   parameters.k = arguments.k;
   parameters.max_steps = arguments.steps;

@@ -71,6 +71,9 @@ findErrors(const PlaneBand& block, double radius, double near)
   std::vector<double> errors;
   block.band.forPlaces([&](std::size_t place, std::uint32_t sample) {
     const double expected = block.place(sample).norm() - radius;
+    if (std::abs(expected) > 0.1) {
+      EXPECT_EQ(expected < 0.0, distance[place] < 0.0f) << expected;
+    }
     if (std::abs(expected) < near)
       errors.push_back(std::abs(distance[place] / block.unit - expected));
   });

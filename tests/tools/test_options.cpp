@@ -5,6 +5,8 @@
 #include "shared/options.h"
 
 #include <gmock/gmock.h>
+#include <limits>
+#include <optional>
 
 namespace {
 
@@ -12,6 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using uvol_tools::Options;
+using uvol_tools::parseAutomatic;
 using uvol_tools::parseNumbers;
 using uvol_tools::UsageError;
 
@@ -82,6 +85,24 @@ TEST(Options, KeepEqualSignsBehindOneDashAndInValues)
   EXPECT_TRUE(line.parse({"a", "b", "-field", "x=1"}));
   EXPECT_EQ("x=1", line.field);
   EXPECT_THROW(Line().parse({"a", "b", "-field=rho"}), UsageError);
+}
+
+TEST(Options, NumbersThatMayBeAutomatic)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(std::nullopt, parseAutomatic("mu", "auto", 0.0, 1.0));
+  EXPECT_EQ(0.5, parseAutomatic("mu", "0.5", 0.0, 1.0));
+  EXPECT_EQ(1e300, parseAutomatic("max-error", "1e300", 0.0, infinity));
+  for (const char* const wrong : {"-1", "1.5", "automatic", "", "nan", "0.5,1"})
+    EXPECT_THROW(parseAutomatic("mu", wrong, 0.0, 1.0), UsageError) << wrong;
+  try {
+    parseAutomatic("max-error", "much", 0.0, infinity);
+    FAIL();
+  }
+  catch (const UsageError& error) {
+    EXPECT_STREQ("-max-error takes auto or a number from 0, and 'much' is neither.",
+                 error.what());
+  }
 }
 
 TEST(Options, RefuseWhatIsNoOption)

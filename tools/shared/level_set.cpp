@@ -1,22 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/level_set.h"
 
-#include "shared/options.h"
-
 #include <sstream>
 
 namespace uvol_tools {
-
-std::optional<double>
-parseMu(const std::string& text)
-{
-  if (text == "auto")
-    return std::nullopt;
-  const double mu = parseNumbers("mu", text, 1).front();
-  if (mu < 0.0 || mu > 1.0)
-    throw UsageError("-mu takes auto or a number from 0 to 1, but got " + text + ".");
-  return mu;
-}
 
 Facts
 describe(const pcl_uvol::LevelSetSummary& summary,

@@ -5,17 +5,11 @@
 #include "shared/facts.h"
 #include <pcl_uvol/levelset/level_set_parameters.h>
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace uvol_tools {
-
-/** \brief The value of -mu: a number in [0, 1], or none for "auto".
- * \throws UsageError */
-std::optional<double>
-parseMu(const std::string& text);
 
 /** \brief What an evolution found out, for the report.
  * \param of_isovalue behind the names of the facts, where there are several level sets

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <sstream>
 
 namespace uvol_tools {
 
@@ -131,6 +133,27 @@ parseNumbers(const std::string& option, const std::string& value, std::size_t co
                      " numbers joined by commas, and '" + value + "' has " +
                      std::to_string(numbers.size()) + ".");
   return numbers;
+}
+
+std::optional<double>
+parseAutomatic(const std::string& option,
+               const std::string& value,
+               double low,
+               double high)
+{
+  if (value == "auto")
+    return std::nullopt;
+  double number = 0.0;
+  if (!parseWhole(value, number) || !std::isfinite(number) || number < low ||
+      number > high) {
+    std::ostringstream range;
+    range << "from " << low;
+    if (std::isfinite(high))
+      range << " to " << high;
+    throw UsageError("-" + option + " takes auto or a number " + range.str() +
+                     ", and '" + value + "' is neither.");
+  }
+  return number;
 }
 
 std::uint64_t

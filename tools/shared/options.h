@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -279,6 +280,15 @@ checkDistinct(const std::vector<std::string>& inputs,
  * \throws UsageError that names the option */
 std::vector<double>
 parseNumbers(const std::string& option, const std::string& value, std::size_t count);
+
+/** \brief A number from low to high, as an option's value, or none for "auto".
+ * \param high infinite for no bound
+ * \throws UsageError that names the option and the range */
+std::optional<double>
+parseAutomatic(const std::string& option,
+               const std::string& value,
+               double low,
+               double high);
 
 /** \brief Names joined by commas, as an option's value. Commas that part components, as
  * in |vx,vy,vz|, or arguments, as in atan2(vy,vx), or stand in a quoted name part no

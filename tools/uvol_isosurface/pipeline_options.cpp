@@ -22,16 +22,6 @@ isTurned(const pcl_uvol::IsosurfacePipelineParameters& parameters)
   return (parameters.rotation != 0.0).any();
 }
 
-/** The largest error, a length. */
-double
-parseMaxError(const std::string& text)
-{
-  const double length = parseNumbers("max-error", text, 1).front();
-  if (length < 0.0)
-    throw UsageError("-max-error takes auto or a length from 0, but got " + text + ".");
-  return length;
-}
-
 } // namespace
 
 void
@@ -219,11 +209,13 @@ PipelineOptions::finish(const Options& options)
     parameters.automatic_scale = true;
   parameters.isosurface.voronoi_cells = static_cast<std::uint32_t>(grid_);
   parameters.normal_neighbors = k_;
-  parameters.level_set.mu = parseMu(mu_);
+  parameters.level_set.mu = parseAutomatic("mu", mu_, 0.0, 1.0);
   parameters.level_set.max_steps = steps_;
-  parameters.automatic_max_error = max_error_ == "auto";
-  if (options.given("max-error") && !parameters.automatic_max_error)
-    parameters.max_error = parseMaxError(max_error_);
+  if (options.given("max-error")) {
+    parameters.max_error = parseAutomatic(
+        "max-error", max_error_, 0.0, std::numeric_limits<double>::infinity());
+    parameters.automatic_max_error = !parameters.max_error;
+  }
   parameters.validation.by = validate_by_ == "random"   ? pcl_uvol::ValidateBy::Random
                              : validate_by_ == "blocks" ? pcl_uvol::ValidateBy::Blocks
                                                         : pcl_uvol::ValidateBy::Field;
