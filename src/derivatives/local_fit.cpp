@@ -214,7 +214,7 @@ LocalFit::fitPlane(double least_eigenvalue)
 void
 LocalFit::makeIsotropic()
 {
-  // Of the squared deviations from the plane: less would be none.
+  // A share of the squared deviations from the plane: less would be no curvature.
   constexpr double least_curvature = 0.05;
   std::fill(weights_.begin(), weights_.end(), 0.0);
   fitPlane(smoothing_eigenvalue);

@@ -5,7 +5,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +54,11 @@ bool
 carriesTrend(const MatrixXd& offsets)
 {
   const MatrixXd centered = offsets.rowwise() - offsets.colwise().mean();
-  const Eigen::JacobiSVD<MatrixXd> singular(centered);
-  return singular.singularValues()[2] >= least_extent * singular.singularValues()[0];
+  const Eigen::Matrix3d moments = centered.transpose() * centered;
+  const Vector3d squared =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return squared[0] >= least_extent * least_extent * squared[2];
 }
 
 /** Weights of samples for the value at the origin: kriging with the variogram h.

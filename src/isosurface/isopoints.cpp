@@ -120,7 +120,7 @@ averageNormal(const std::vector<SampleRecord>& order,
               std::size_t end,
               std::vector<Position>& normals)
 {
-  // Of unit vectors: a shorter sum has no direction to speak of.
+  // A shorter sum of unit vectors has no direction to speak of.
   constexpr double smallest_sum = 1e-3;
   double sum[3] = {0.0, 0.0, 0.0};
   for (std::size_t i = begin; i < end; ++i)

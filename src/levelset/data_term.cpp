@@ -202,7 +202,7 @@ findNoiseOfPairs(const Band& band,
   struct Pair {
     double distance, difference;
   };
-  // Of normal deviates, the median size; a pair has two.
+  // Normal deviates have this median size; a pair has two of them.
   constexpr double median_size = 0.6745, of_two = 1.4142135623731;
   const Gradients gradients(band, f, threads);
   const StencilView stencils = band.stencils.view();

@@ -198,7 +198,7 @@ relaxToDistance(const DistanceStep& step, std::size_t first, std::size_t last)
     differentiate<first_derivatives>(step.stencils, group, part, upwind, own, half);
     const Floats slope = normOf(d), per_slope = inverseOf(slope);
     store(step.slope + i, slope);
-    // Of distances it is 0, so that they stay.
+    // Distances stay: for them it is 0.
     const Floats along = alongNormal(d, per_slope);
     const Floats steepness = minimum(slope, most_upwind * normOf(half));
     store(step.next + i,

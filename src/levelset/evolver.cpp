@@ -235,7 +235,8 @@ Evolver::updateReference()
     return;
   if (steps_ == 0)
     evaluate(classes_.front().groups, 0.0f, 0.0);
-  // Of curvature times slope: where the function is flat, its curvature is anything.
+  // Curvature times slope is compared: where the function is flat, its curvature is
+  // anything.
   averageTwice(curvature_, slope_, level_set.least_mean_slope, reference_);
 }
 

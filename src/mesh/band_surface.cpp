@@ -165,7 +165,7 @@ private:
     for (const std::uint32_t cell : values_.getBand()) {
       const std::uint32_t place = values_.placeOf(cell);
       const bool was_turned = !is_turned_.empty() && is_turned_[cell];
-      // Of a crumb the whole surroundings are on the other side: a sphere.
+      // The whole surroundings of a crumb are on the other side: a sphere.
       if ((euler[place] == 0 || euler[place] == 2) && is_smooth[place] && !was_turned &&
           isCrumbOrHandle(cell))
         wrong.emplace_back(

@@ -117,7 +117,7 @@ CellTiling::longestSideAround(std::uint32_t sample) const
 {
   // A single cell may be thin; this many are about two cells wide along every axis.
   constexpr std::uint32_t group = 8;
-  // Of the group's longest side between planes: the tree leaves no side of a cell
+  // In longest sides of the group between planes: the tree leaves no side of a cell
   // longer, but where the samples end.
   constexpr float longest_side = 3.0f;
   TileCell cell = unboundedCell();

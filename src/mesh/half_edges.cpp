@@ -88,7 +88,7 @@ HalfEdges::collapse(HalfEdge edge)
   const HalfEdge other = twins_[edge];
   const std::uint32_t kept = originOf(edge), gone = targetOf(edge);
   const auto closeGap = [&](HalfEdge side) {
-    // Of the triangle's other two edges only their twins stay, as each other's.
+    // Only the twins of the triangle's other two edges stay, as each other's.
     const HalfEdge a = twins_[nextOf(side)], b = twins_[previousOf(side)];
     const std::uint32_t tip = originOf(previousOf(side));
     if (firsts_[tip] == previousOf(side))

@@ -416,7 +416,7 @@ IsosurfacePipeline::extractLevelSets(const IsosurfaceParameters& parameters,
     Report zero_level;
     zero_level.progress = report_.progress;
     if (summaries.back().smoothed) {
-      // Of points at one position only the one that phi was made from: edges name it.
+      // Among points at one position edges name only the one that phi was made from.
       std::vector<float> of_sources(phi.size(),
                                     std::numeric_limits<float>::quiet_NaN());
       for (const std::uint32_t source : evolution.getSources())

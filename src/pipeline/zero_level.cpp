@@ -37,7 +37,8 @@ addDeviations(const std::vector<float>& deviations,
       point.error = std::numeric_limits<float>::quiet_NaN();
       continue;
     }
-    // Of an end far from the surface it is not known: fmax takes the other one.
+    // The deviation of an end far from the surface is not known: fmax takes the other
+    // one.
     const float deviation =
         std::fmax(deviations[edges[i].first], deviations[edges[i].second]);
     if (!(deviation > 0.0f))
