@@ -119,7 +119,7 @@ run(int argc, char** argv)
   arguments.view.declareScene(options);
   arguments.view.declareExaggeration(options);
   arguments.view.declareFigure(options);
-  arguments.view.declareSupersampling(options);
+  arguments.view.declareResolution(options);
   arguments.view.declareOrbit(options);
   options.group("Ray tracing");
   arguments.rays.declareRays(options);

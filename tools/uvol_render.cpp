@@ -25,6 +25,7 @@ checkPage(const uvol_tools::Options& options)
   names.insert(names.end(),
                {"size",
                 "supersample",
+                "dpi",
                 "backend",
                 "orbit",
                 "silhouettes",

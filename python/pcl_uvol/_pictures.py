@@ -48,12 +48,14 @@ class Picture:
         return self.pixels if dtype is None else self.pixels.astype(dtype)
 
     @_parameters.with_proposals
-    def save(self, path):
+    def save(self, path, dpi=0.0):
         """Write a PNG file, as the tools do.
 
         Parameters
         ----------
         path : str or os.PathLike
+        dpi : float
+            Dots per inch that the file says it is printed with; 0: it says nothing.
 
         Examples
         --------
@@ -63,7 +65,7 @@ class Picture:
         >>> picture.save(tempfile.mkdtemp() + "/surface.png")
         """
         from . import _io
-        _io.write_png(os.fsencode(path), self.pixels)
+        _io.write_png(os.fsencode(path), self.pixels, dpi)
 
     def _repr_png_(self):
         with tempfile.TemporaryDirectory() as folder:

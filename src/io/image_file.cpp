@@ -10,6 +10,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <zlib.h>
 
 namespace pcl_uvol {
 
@@ -39,6 +42,47 @@ isOpaque(const Image& image)
   return true;
 }
 
+/** \throws InvalidArgument for a resolution that no file can say */
+void
+checkResolution(double dots_per_inch)
+{
+  constexpr double largest = 1e6;
+  if (!(dots_per_inch >= 0.0 && dots_per_inch <= largest))
+    throw InvalidArgument("A picture has up to a million dots per inch, or 0 where it "
+                          "does not say how many, not " +
+                          std::to_string(dots_per_inch) + ".");
+}
+
+void
+appendBig(std::string& bytes, std::uint32_t number)
+{
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(number >> shift);
+}
+
+/** The chunk of a PNG file that says how large its pixels are printed; VTK writes none.
+ */
+std::string
+makeSizeChunk(double dots_per_inch)
+{
+  constexpr double meters_per_inch = 0.0254;
+  const auto per_meter =
+      static_cast<std::uint32_t>(std::lround(dots_per_inch / meters_per_inch));
+  std::string body = "pHYs";
+  appendBig(body, per_meter);
+  appendBig(body, per_meter);
+  body += '\1'; // the unit is the meter
+  std::string chunk;
+  appendBig(chunk, 9);
+  chunk += body;
+  appendBig(
+      chunk,
+      static_cast<std::uint32_t>(crc32(crc32(0, nullptr, 0),
+                                       reinterpret_cast<const Bytef*>(body.data()),
+                                       static_cast<uInt>(body.size()))));
+  return chunk;
+}
+
 } // namespace
 
 void
@@ -50,8 +94,9 @@ checkPngPath(const std::string& path)
 }
 
 std::vector<std::uint8_t>
-encodePng(const Image& image, const std::vector<ImageText>& texts)
+encodePng(const Image& image, const std::vector<ImageText>& texts, double dots_per_inch)
 {
+  checkResolution(dots_per_inch);
   if (image.color.size() != 4 * image.pixels() || image.pixels() == 0)
     throw InvalidArgument("The image has no pixels.");
   const auto data = toVtk(image, isOpaque(image) ? 3 : 4);
@@ -65,16 +110,24 @@ encodePng(const Image& image, const std::vector<ImageText>& texts)
   vtkUnsignedCharArray* const bytes = writer->GetResult();
   if (bytes == nullptr || !messages.getError().empty())
     throw IOError("VTK could not encode a picture: " + messages.getError());
-  return {bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues()};
+  std::vector<std::uint8_t> file(bytes->GetPointer(0),
+                                 bytes->GetPointer(0) + bytes->GetNumberOfValues());
+  if (dots_per_inch > 0.0) {
+    constexpr std::ptrdiff_t header_bytes = 33; // of the signature and the first chunk
+    const std::string chunk = makeSizeChunk(dots_per_inch);
+    file.insert(file.begin() + header_bytes, chunk.begin(), chunk.end());
+  }
+  return file;
 }
 
 void
 savePng(const std::string& path,
         const Image& image,
-        const std::vector<ImageText>& texts)
+        const std::vector<ImageText>& texts,
+        double dots_per_inch)
 {
   checkPngPath(path);
-  const std::vector<std::uint8_t> bytes = encodePng(image, texts);
+  const std::vector<std::uint8_t> bytes = encodePng(image, texts, dots_per_inch);
   writeAtomically(path, [&](const std::string& file) {
     io::OutputFile target(file, path);
     target.write(bytes.data(), bytes.size());

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace {
@@ -48,6 +49,24 @@ TEST(Png, KeepsEveryPixelInItsPlace)
     EXPECT_EQ(image.height, read.height);
     EXPECT_EQ(image.color, read.color);
   }
+}
+
+TEST(Png, SaysHowLargeItIsPrinted)
+{
+  const uvol_test::TemporaryFolder folder;
+  const std::string path = folder / "out.png";
+  const Image image = makeImage(37, 21, 255);
+  pcl_uvol::savePng(path, image, {{"Title", "of 300 dpi"}}, 300.0);
+  int channels = 0;
+  EXPECT_EQ(image.color, uvol_test::readPng(path, channels).color);
+  // 300 / 0.0254 = 11811 dots per meter, behind the first chunk, with its checksum.
+  const std::string expected("\0\0\0\x09pHYs\0\0\x2e\x23\0\0\x2e\x23\1\x78\xa5\x3f\x76",
+                             21);
+  EXPECT_EQ(33u, uvol_test::readFile(path).find(expected));
+  pcl_uvol::savePng(path, image);
+  EXPECT_EQ(std::string::npos, uvol_test::readFile(path).find("pHYs"));
+  for (const double resolution : {-1.0, 1e7, std::nan("")})
+    EXPECT_THROW(pcl_uvol::encodePng(image, {}, resolution), pcl_uvol::InvalidArgument);
 }
 
 TEST(Png, RefusesOtherNamesFoldersAndNoPixels)

@@ -192,21 +192,39 @@ TEST(HardSurfaces, AStrayNormalMakesNoBlackSquare)
 
 TEST(HardSurfaces, SilhouettesAreAsWideWithSupersampling)
 {
+  // A wall, whose upper half stands before the lower one: the line lies in the middle.
+  const SurfaceCloudPtr wall(new pcl::PointCloud<pcl::PointNormal>);
+  for (int y = -150; y <= 150; ++y)
+    for (int x = -150; x <= 150; ++x) {
+      pcl::PointNormal point;
+      point.x = 0.01f * static_cast<float>(x);
+      point.y = 0.01f * static_cast<float>(y);
+      point.z = y > 0 ? 0.5f : 0.0f;
+      point.normal_z = 1.0f;
+      wall->push_back(point);
+    }
   Renderer renderer;
-  renderer.setInputCloud(makeSphere(60000, 1));
-  renderer.setSize(300, 300);
-  renderer.settings().shading = false;
+  renderer.setInputCloud(wall);
+  renderer.setSize(120, 120);
+  renderer.setCamera(Camera::fit(
+      {{0.0, 0.0, 0.0}, 1.0}, Eigen::Vector3d::UnitZ(), upwards, 30.0, 1.0));
+  renderer.settings().shading = renderer.settings().anti_aliasing = false;
   renderer.settings().silhouettes = true;
-  std::vector<double> dark;
-  for (const int supersampling : {1, 2, 3}) {
-    renderer.setSupersampling(supersampling);
-    Image image;
-    renderer.render(image);
-    dark.push_back(static_cast<double>(countDark(image, 128)));
-  }
-  EXPECT_GT(dark[0], 1000.0);
-  EXPECT_NEAR(1.0, dark[1] / dark[0], 0.35);
-  EXPECT_NEAR(1.0, dark[2] / dark[0], 0.35);
+  for (const int thickness : {1, 2, 7})
+    for (const int supersampling : {1, 2, 3, 8})
+      for (const bool is_clear : {false, true}) {
+        renderer.settings().silhouette_thickness = thickness;
+        renderer.setSupersampling(supersampling);
+        renderer.setOpacities(is_clear ? std::vector<double>{1.0}
+                                       : std::vector<double>());
+        Image image;
+        renderer.render(image);
+        double ink = 0.0; // of a column, in pixels
+        for (std::size_t row = 0; row < image.height; ++row)
+          ink += 1.0 - image.color[4 * (row * image.width + 60)] / 255.0;
+        EXPECT_NEAR(2.0 * thickness - 1.0, ink, 0.3)
+            << thickness << ' ' << supersampling << ' ' << is_clear;
+      }
 }
 
 } // namespace

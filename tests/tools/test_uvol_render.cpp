@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -221,6 +222,34 @@ TEST_F(RenderTool, PicturesSayWhereTheyAreFrom)
   EXPECT_LT(different, pictured.size() / 500);
 }
 
+TEST_F(RenderTool, PicturesHaveTheSizeThatTheyArePrintedWith)
+{
+  const std::string of_300_dpi("pHYs\0\0\x2e\x23\0\0\x2e\x23\1", 13);
+  for (const auto& [options, width, height, says_300] :
+       {std::tuple("-size 25.4x12.7mm", 300, 150, true),
+        std::tuple("-size 2.54x1.27cm -dpi 600", 600, 300, false),
+        std::tuple("-size 1in", 300, 300, true),
+        std::tuple("-size 70x40 -dpi 300", 70, 40, true),
+        std::tuple("-size 70x40", 70, 40, false)}) {
+    const auto result = run(options);
+    ASSERT_EQ(0, result.exit_code) << options << result.err;
+    const PngHeader header(out_);
+    EXPECT_EQ(width, header.width) << options;
+    EXPECT_EQ(height, header.height) << options;
+    EXPECT_EQ(says_300, uvol_test::readFile(out_).find(of_300_dpi) != std::string::npos)
+        << options;
+  }
+  const std::string figure = folder_ / "figure.svg";
+  ASSERT_EQ(0,
+            runCommand("uvol_render " + in_ + " " + figure +
+                       " -size 76.2x50.8mm -color normal_z")
+                .exit_code);
+  const std::string text = uvol_test::readFile(figure);
+  EXPECT_NE(std::string::npos, text.find("width=\"3in\" height=\"2in\""));
+  // 7 points, at 300 dots per inch.
+  EXPECT_NE(std::string::npos, text.find("font-size=\"29\""));
+}
+
 TEST_F(RenderTool, OrbitWritesNumberedFrames)
 {
   const auto result = run("-size 32 -orbit 12");
@@ -257,12 +286,15 @@ TEST_F(RenderTool, PointsWithoutNormalsAreDrawnWithAWarning)
 TEST_F(RenderTool, RefusesWrongCommandLines)
 {
   for (const char* options :
-       {"-size 0x10",    "-size 10x",        "-size 40000",      "-size 10x-3",
-        "-size ten",     "-view above",      "-eye 1,2",         "-eye 1,2,3 -view top",
-        "-at 0,0,0",     "-fov 0",           "-background pink", "-background 1,2,3",
-        "-range 2,1",    "-orbit 0",         "-supersample 9",   "-thickness 8",
-        "-lights 0,0,0", "-lights 1,2",      "-smoothing blur",  "-backend vulkan",
-        "-colormap jet", "-parallel -fov 9", "-nonsense"}) {
+       {"-size 0x10",        "-size 10x",        "-size 10mmx20mm",
+        "-size mm",          "-size nanxinfmm",  "-size -3mm",
+        "-size 40000",       "-size 10x-3",      "-size ten",
+        "-view above",       "-eye 1,2",         "-eye 1,2,3 -view top",
+        "-at 0,0,0",         "-fov 0",           "-background pink",
+        "-background 1,2,3", "-range 2,1",       "-orbit 0",
+        "-supersample 9",    "-thickness 8",     "-lights 0,0,0",
+        "-lights 1,2",       "-smoothing blur",  "-backend vulkan",
+        "-colormap jet",     "-parallel -fov 9", "-nonsense"}) {
     const auto result = run(options);
     EXPECT_EQ(2, result.exit_code) << options << ": " << result.err;
     EXPECT_EQ("", result.out) << options;

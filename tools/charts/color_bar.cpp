@@ -48,8 +48,8 @@ struct Legend {
   int size, length, top, left, right;
   Ink ink;
 
-  explicit Legend(const Image& image)
-      : size(letterSize(static_cast<int>(image.height)))
+  Legend(const Image& image, int least_letters)
+      : size(letterSize(static_cast<int>(image.height), least_letters))
       , length(static_cast<int>(image.height) * 6 / 10)
       , top((static_cast<int>(image.height) - length) / 2)
       , left(static_cast<int>(image.width) - 2 * size)
@@ -83,12 +83,12 @@ shortNumbers(const std::vector<double>& values)
 } // namespace
 
 int
-colorBarWidth(int image_width, int image_height)
+colorBarWidth(int image_width, int image_height, int least_letters)
 {
   constexpr int letters = 8; // of the bar, its margin and the values
   if (std::min(image_width, image_height) < static_cast<int>(smallest_image))
     return 0;
-  return std::min(letters * letterSize(image_height), image_width / 3);
+  return std::min(letters * letterSize(image_height, least_letters), image_width / 3);
 }
 
 int
@@ -155,11 +155,12 @@ void
 drawColorBar(Image& image,
              const ColorMap& map,
              const ColorScale& scale,
-             const std::string& title)
+             const std::string& title,
+             int least_letters)
 {
   if (isTooSmall(image))
     return;
-  const Legend legend(image);
+  const Legend legend(image, least_letters);
   const BarLabels labels =
       labelBar(scale, label_distance * legend.size / legend.length);
   drawBar(image,
@@ -242,11 +243,12 @@ describeCategory(const pcl_uvol::CategoryColor& category)
 void
 drawCategories(Image& image,
                const std::vector<pcl_uvol::CategoryColor>& categories,
-               const std::string& title)
+               const std::string& title,
+               int least_letters)
 {
   if (isTooSmall(image))
     return;
-  const Legend legend(image);
+  const Legend legend(image, least_letters);
   const int count = static_cast<int>(categories.size());
   const int step = std::min(legend.size * 3 / 2, legend.length / std::max(count, 1));
   const int top = legend.top + (legend.length - step * count) / 2;
@@ -276,14 +278,18 @@ drawLegend(Image& image,
            const std::string& field,
            const pcl_uvol::ColorMapping& mapping,
            const std::array<double, 2>& range,
-           const std::string& title)
+           const std::string& title,
+           int least_letters)
 {
   const auto categories = listNamedCategories(cloud, labels, field, mapping.map);
   if (categories.empty())
-    drawColorBar(
-        image, mapping.map, {range[0], range[1], mapping.is_logarithmic}, title);
+    drawColorBar(image,
+                 mapping.map,
+                 {range[0], range[1], mapping.is_logarithmic},
+                 title,
+                 least_letters);
   else
-    drawCategories(image, categories, title);
+    drawCategories(image, categories, title, least_letters);
 }
 
 } // namespace uvol_tools

@@ -18,9 +18,10 @@
 namespace uvol_tools {
 
 /** \brief Columns at the right border of an image of that size that hold a bar and its
- * values; 0 for images too small for it (below 128 pixels). */
+ * values; 0 for images too small for it (below 128 pixels).
+ * \param least_letters see letterSize() */
 int
-colorBarWidth(int image_width, int image_height);
+colorBarWidth(int image_width, int image_height, int least_letters = 0);
 
 /** \brief Draw a bar of colours with its values and a title at the right border of an
  * image; nothing in images too small for it. Both ends have their values; of values
@@ -29,7 +30,8 @@ void
 drawColorBar(pcl_uvol::Image& image,
              const pcl_uvol::ColorMap& map,
              const pcl_uvol::ColorScale& scale,
-             const std::string& title);
+             const std::string& title,
+             int least_letters = 0);
 
 /** \brief Most categories that a legend lists. */
 constexpr std::size_t most_categories = 20;
@@ -75,12 +77,14 @@ describeCategory(const pcl_uvol::CategoryColor& category);
 void
 drawCategories(pcl_uvol::Image& image,
                const std::vector<pcl_uvol::CategoryColor>& categories,
-               const std::string& title);
+               const std::string& title,
+               int least_letters = 0);
 
 /** \brief Draw what the colours of a picture stand for at its right border: categories,
  * or a bar.
  * \param range values at the ends of its colours
- * \param title what the values are called */
+ * \param title what the values are called
+ * \param least_letters see letterSize() */
 void
 drawLegend(pcl_uvol::Image& image,
            const pcl_uvol::CloudView& cloud,
@@ -88,7 +92,8 @@ drawLegend(pcl_uvol::Image& image,
            const std::string& field,
            const pcl_uvol::ColorMapping& mapping,
            const std::array<double, 2>& range,
-           const std::string& title);
+           const std::string& title,
+           int least_letters = 0);
 
 /** \brief A value beside a bar. */
 struct BarLabel {

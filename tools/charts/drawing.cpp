@@ -52,9 +52,9 @@ blend(Image& image, int column, int row, const Ink& ink, double opacity)
 }
 
 int
-letterSize(int height)
+letterSize(int height, int least)
 {
-  return std::clamp(height / 40, 11, 48);
+  return std::max(std::clamp(height / 40, 11, 48), least);
 }
 
 Ink

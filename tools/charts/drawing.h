@@ -35,9 +35,10 @@ rounded(double pixel)
   return static_cast<int>(std::lround(pixel));
 }
 
-/** \brief Size of letters in a picture of that many rows, pixels. */
+/** \brief Size of letters in a picture of that many rows, pixels.
+ * \param least smaller ones could not be read */
 int
-letterSize(int height);
+letterSize(int height, int least = 0);
 
 /** \brief Black or white: what can be read on the image's upper right corner. */
 Ink

@@ -19,15 +19,15 @@ namespace {
 
 /** Titles have larger letters than values. */
 int
-titleSize(int height)
+titleSize(int letters)
 {
-  return letterSize(height) * 4 / 3;
+  return letters * 4 / 3;
 }
 
 int
-titleRows(int height)
+titleRows(int letters)
 {
-  return titleSize(height) * 5 / 2;
+  return titleSize(letters) * 5 / 2;
 }
 
 /** A picture of nothing. */
@@ -182,7 +182,8 @@ Figure::getFill(const PictureCell& cell) const
   if (!has_ticks)
     return usual;
   const double side = std::min(cell.width, cell.height);
-  return std::clamp(1.0 - letters * letterSize(cell.height) / side, least, usual);
+  return std::clamp(
+      1.0 - letters * letterSize(cell.height, least_letters) / side, least, usual);
 }
 
 pcl_uvol::Background
@@ -196,7 +197,7 @@ Figure::getBackgroundOfViews(pcl_uvol::Background background) const
 std::vector<PictureCell>
 Figure::layOut(int width, int height) const
 {
-  const int top = title.empty() ? 0 : titleRows(height);
+  const int top = title.empty() ? 0 : titleRows(letterSize(height, least_letters));
   const int count = std::max(1, static_cast<int>(views.size()));
   // As many columns as leave the largest square for each view.
   int columns = 1, largest = 0;
@@ -233,7 +234,7 @@ Figure::drawBehind(pcl_uvol::Image& image,
                    const DataBox& box) const
 {
   const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
-  const int font = letterSize(cell.height);
+  const int font = letterSize(cell.height, least_letters);
   const MarkStyle style{font, inkOn(image)};
   if (showsBox())
     drawBoxBehind(image, perspective, box, style, has_ticks);
@@ -255,7 +256,7 @@ Figure::drawBefore(pcl_uvol::Image& image,
                    const DataBox& box) const
 {
   const Perspective perspective(camera, cell.width, cell.height, cell.left, cell.top);
-  const int font = letterSize(cell.height);
+  const int font = letterSize(cell.height, least_letters);
   const MarkStyle style{font, inkOn(image)};
   if (has_box)
     drawBoxBefore(image, perspective, box, style);
@@ -315,12 +316,12 @@ Figure::drawTitle(pcl_uvol::Image& image) const
 {
   if (title.empty())
     return;
-  const int height = static_cast<int>(image.height);
+  const int letters = letterSize(static_cast<int>(image.height), least_letters);
   writeText(image,
             title,
-            titleSize(height),
+            titleSize(letters),
             static_cast<int>(image.width) / 2,
-            titleRows(height) / 2,
+            titleRows(letters) / 2,
             TextAnchor::Center,
             inkOn(image));
 }

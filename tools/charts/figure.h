@@ -69,6 +69,7 @@ struct Figure {
   std::string unit; ///< of the coordinates; "": none
   std::string title;
   std::vector<std::string> views; ///< sides; none: one view, as the options say
+  int least_letters = 0;          ///< see letterSize()
 
   /** \brief True if views and a title have room in a picture of that size. */
   bool

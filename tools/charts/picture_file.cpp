@@ -71,16 +71,31 @@ writeLine(const TextLine& line, std::ostream& out)
       << "\">" << escape(line.text) << "</text>\n";
 }
 
+/** As SVG takes it: in pixels, or as long as these are printed. */
+std::string
+lengthOf(std::uint32_t pixels, double dots_per_inch)
+{
+  std::ostringstream text;
+  if (dots_per_inch > 0.0)
+    text << pixels / dots_per_inch << "in";
+  else
+    text << pixels;
+  return text.str();
+}
+
 std::string
 makeSvg(const Image& image,
         const std::vector<TextLine>& lines,
-        const std::vector<pcl_uvol::ImageText>& texts)
+        const std::vector<pcl_uvol::ImageText>& texts,
+        double dots_per_inch)
 {
   const std::vector<std::uint8_t> png = encodePng(image);
   std::ostringstream out;
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << image.width
-      << "\" height=\"" << image.height << "\" viewBox=\"0 0 " << image.width << ' '
-      << image.height << "\" font-family=\"Arial, Helvetica, sans-serif\">\n<desc>";
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\""
+      << lengthOf(image.width, dots_per_inch) << "\" height=\""
+      << lengthOf(image.height, dots_per_inch) << "\" viewBox=\"0 0 " << image.width
+      << ' ' << image.height
+      << "\" font-family=\"Arial, Helvetica, sans-serif\">\n<desc>";
   for (const auto& [keyword, text] : texts)
     out << escape(keyword) << ": " << escape(text) << '\n';
   out << "</desc>\n<image width=\"" << image.width << "\" height=\"" << image.height
@@ -115,8 +130,9 @@ checkPicturePath(const std::string& path)
     pcl_uvol::io::throwUnwritable(path, "pictures are written as .png or .svg");
 }
 
-PictureFile::PictureFile(const std::string& path)
+PictureFile::PictureFile(const std::string& path, double dots_per_inch)
     : path_(path)
+    , dots_per_inch_(dots_per_inch)
 {
   if (isSvg(path))
     letters_.emplace();
@@ -127,10 +143,10 @@ PictureFile::save(const Image& picture,
                   const std::vector<pcl_uvol::ImageText>& texts) const
 {
   if (!letters_) {
-    pcl_uvol::savePng(path_, picture, texts);
+    pcl_uvol::savePng(path_, picture, texts, dots_per_inch_);
     return;
   }
-  const std::string svg = makeSvg(picture, letters_->getLines(), texts);
+  const std::string svg = makeSvg(picture, letters_->getLines(), texts, dots_per_inch_);
   pcl_uvol::writeAtomically(path_, [&](const std::string& file) {
     std::ofstream stream(file, std::ios::binary);
     stream << svg;

@@ -26,8 +26,9 @@ class PictureFile {
 public:
   /** \brief Begin before the picture is drawn: letters of this thread are kept from now
    * on if they stay letters.
-   * \param path ends in .png or .svg */
-  explicit PictureFile(const std::string& path);
+   * \param path ends in .png or .svg
+   * \param dots_per_inch that the file says it is printed with; 0: it says nothing */
+  explicit PictureFile(const std::string& path, double dots_per_inch = 0.0);
 
   /** \brief Write the picture; the file appears whole or not at all.
    * \param texts kept in the file, for those who ask where the picture is from
@@ -38,6 +39,7 @@ public:
 
 private:
   std::string path_;
+  double dots_per_inch_;
   std::optional<TextKeeper> letters_; // of an .svg
 };
 

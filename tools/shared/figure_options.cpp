@@ -2,6 +2,7 @@
 #include "shared/figure_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace uvol_tools {
 
@@ -33,8 +34,14 @@ FigureOptions::names()
 }
 
 void
-FigureOptions::check(const Options& options, int width, int height)
+FigureOptions::check(const Options& options,
+                     int width,
+                     int height,
+                     double dots_per_inch)
 {
+  constexpr double least_points = 7.0, points_per_inch = 72.0; // as journals ask for
+  figure_.least_letters =
+      static_cast<int>(std::lround(least_points / points_per_inch * dots_per_inch));
   if (options.given("unit") && !figure_.has_ticks && !figure_.has_scale_bar)
     throw UsageError("-unit needs -ticks or -scale-bar.");
   for (const char* const other : {"view", "eye"})

@@ -22,9 +22,10 @@ public:
   names();
 
   /** \brief What must parse, and fit together and into a picture of that size.
+   * \param dots_per_inch of a picture that is printed, whose letters can be read; or 0
    * \throws UsageError */
   void
-  check(const Options& options, int width, int height);
+  check(const Options& options, int width, int height, double dots_per_inch);
 
   /** \brief After check(). */
   const Figure&

@@ -156,7 +156,8 @@ traceScene(const Options& options,
     tracer.render(image);
     tracing = tracer.getReport();
     const pcl_uvol::StepTimer timer(report, "write");
-    PictureFile(view.frameName(output, frame)).save(image, describeOrigin(options));
+    PictureFile(view.frameName(output, frame), view.getDotsPerInch())
+        .save(image, describeOrigin(options));
   }
   report.merge(tracing);
 }

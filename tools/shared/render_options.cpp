@@ -51,7 +51,7 @@ void
 RenderOptions::declareView(Options& options)
 {
   declareScene(options);
-  declareSupersampling(options);
+  declareResolution(options);
   options
       .choice("backend",
               {"auto", "cpu", "osmesa", "egl"},

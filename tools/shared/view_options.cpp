@@ -13,6 +13,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <string_view>
+#include <utility>
 
 namespace uvol_tools {
 
@@ -25,8 +28,9 @@ toVector(const std::vector<double>& numbers)
 }
 
 /** "640x480", or one number for a square. */
+template <typename Number>
 bool
-parseSize(const std::string& text, int& width, int& height)
+parsePair(std::string_view text, Number& width, Number& height)
 {
   const char* const end = text.data() + text.size();
   const auto first = std::from_chars(text.data(), end, width);
@@ -39,6 +43,30 @@ parseSize(const std::string& text, int& width, int& height)
     return false;
   const auto second = std::from_chars(first.ptr + 1, end, height);
   return second.ec == std::errc() && second.ptr == end;
+}
+
+/** How many of the unit at the end of a size are an inch, and the unit taken off; 0 for
+ * pixels. */
+double
+takeUnit(std::string_view& size)
+{
+  constexpr std::pair<std::string_view, double> units[] = {
+      {"mm", 25.4}, {"cm", 2.54}, {"in", 1.0}};
+  for (const auto& [unit, per_inch] : units)
+    if (size.size() > unit.size() && size.substr(size.size() - unit.size()) == unit) {
+      size.remove_suffix(unit.size());
+      return per_inch;
+    }
+  return 0.0;
+}
+
+/** Pixels of a length, as far as they can be counted. */
+int
+countPixels(double inches, double dots_per_inch)
+{
+  constexpr double most = 1e6;
+  return static_cast<int>(
+      std::lround(std::min(std::max(0.0, inches * dots_per_inch), most)));
 }
 
 /** True for what -color means by itself. */
@@ -81,7 +109,12 @@ ViewOptions::declareScene(Options& options)
   options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
       .rare();
   options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
-  options.text("size", "WxH", size_text_, "pixels of the picture (default 1024x1024)");
+  options.text(
+      "size",
+      "WxH",
+      size_text_,
+      "pixels of the picture, or what it measures in print, as 85x60mm (also cm, "
+      "in; default 1024x1024)");
   options
       .text("background",
             "r,g,b|name",
@@ -123,7 +156,7 @@ ViewOptions::declareFigure(Options& options)
 }
 
 void
-ViewOptions::declareSupersampling(Options& options)
+ViewOptions::declareResolution(Options& options)
 {
   options.group("Picture");
   options
@@ -132,6 +165,14 @@ ViewOptions::declareSupersampling(Options& options)
                1,
                8,
                "samples per pixel in each direction (default 2, with rays 1)")
+      .rare();
+  options
+      .number("dpi",
+              dots_per_inch_,
+              1.0,
+              1e5,
+              "dots per inch that the picture says it is printed with, in letters of 7 "
+              "points or more (default 300 where -size has a unit)")
       .rare();
 }
 
@@ -154,6 +195,26 @@ ViewOptions::declareLighting(Options& options)
   options.number("diffuse", material_.diffuse, 0.0, 1e3, "of the lights");
   options.number("specular", material_.specular, 0.0, 1e3, "highlights");
   options.number("shininess", material_.shininess, 0.0, 1e4, "exponent of highlights");
+}
+
+void
+ViewOptions::parseSize()
+{
+  constexpr double usual = 300.0;
+  std::string_view size = size_text_;
+  const double per_inch = takeUnit(size);
+  if (per_inch > 0.0 && dots_per_inch_ == 0.0)
+    dots_per_inch_ = usual;
+  double width = 0.0, height = 0.0;
+  if (per_inch > 0.0 ? !parsePair(size, width, height)
+                     : !parsePair(size, width_, height_))
+    throw UsageError("-size is WxH in pixels, as in 1024x768, or in mm, cm or in, as "
+                     "in 85x60mm, not '" +
+                     size_text_ + "'.");
+  if (per_inch > 0.0) {
+    width_ = countPixels(width / per_inch, dots_per_inch_);
+    height_ = countPixels(height / per_inch, dots_per_inch_);
+  }
 }
 
 void
@@ -196,9 +257,7 @@ void
 ViewOptions::check(const Options& options, bool may_have_camera)
 {
   constexpr int most = pcl_uvol::View::largest_size;
-  if (!parseSize(size_text_, width_, height_))
-    throw UsageError("-size is WxH in pixels, as in 1024x768, not '" + size_text_ +
-                     "'.");
+  parseSize();
   for (const int size : {width_, height_})
     if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
@@ -213,7 +272,7 @@ ViewOptions::check(const Options& options, bool may_have_camera)
   if (!up_.empty() && toVector(up_).isZero(0.0))
     throw UsageError("-up takes a direction, and 0,0,0 is none.");
   colors_.check();
-  figure_.check(options, width_, height_);
+  figure_.check(options, width_, height_, dots_per_inch_);
   if (options.given("scale-bar") && isExaggerated() &&
       (exaggeration_[0] != exaggeration_[1] || exaggeration_[0] != exaggeration_[2]))
     throw UsageError(

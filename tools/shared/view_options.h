@@ -51,8 +51,9 @@ public:
   void
   declareFigure(Options& options);
 
+  /** \brief -supersample and -dpi. */
   void
-  declareSupersampling(Options& options);
+  declareResolution(Options& options);
 
   void
   declareOrbit(Options& options);
@@ -234,6 +235,13 @@ public:
   }
   /** @} */
 
+  /** \brief After check(): how fine pictures are printed; 0: nobody says. */
+  double
+  getDotsPerInch() const
+  {
+    return dots_per_inch_;
+  }
+
   /** \brief The whole object is in the picture: nobody has chosen a place for the
    * camera or enlarged the picture. */
   bool
@@ -300,6 +308,9 @@ private:
             std::vector<pcl_uvol::ImageText>& texts) const;
 
   void
+  parseSize();
+
+  void
   parseBackground();
 
   void
@@ -311,7 +322,7 @@ private:
   ColorOptions colors_;
   FigureOptions figure_;
   std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;
-  double fov_ = 30.0, zoom_ = 1.0;
+  double fov_ = 30.0, zoom_ = 1.0, dots_per_inch_ = 0.0; ///< 0: not said
   int width_ = 0, height_ = 0, supersampling_ = 0;
   std::uint64_t frames_ = 1;
   bool has_bar_ = true, is_parallel_ = false;

@@ -72,7 +72,9 @@ ViewOptions::drawsBar(const pcl_uvol::CloudView& cloud) const
 int
 ViewOptions::viewsWidth(const pcl_uvol::CloudView& cloud) const
 {
-  return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(width_, height_) : width_;
+  return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(
+                                        width_, height_, figure_.get().least_letters)
+                         : width_;
 }
 
 void
@@ -136,7 +138,7 @@ ViewOptions::drawFrames(const Options& options,
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
     std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
     addIsovalues(surface.cloud, texts);
-    const PictureFile file(frameName(output, frame));
+    const PictureFile file(frameName(output, frame), dots_per_inch_);
     pcl_uvol::Image picture = drawFrame(surface, frame, draw, texts);
     if (drawsBar(surface.cloud))
       drawLegend(picture,
@@ -145,7 +147,8 @@ ViewOptions::drawFrames(const Options& options,
                  colorField(surface.cloud),
                  colorMapping(surface.cloud),
                  range(),
-                 colors_.getLabel(colorField(surface.cloud)));
+                 colors_.getLabel(colorField(surface.cloud)),
+                 figure_.get().least_letters);
     figure_.get().drawTitle(picture);
     const pcl_uvol::StepTimer timer(report, "write");
     file.save(picture, texts);

@@ -19,20 +19,26 @@ using ImageText = std::pair<std::string, std::string>;
  * opaque.
  * \param image with its colours
  * \param texts kept in it, for those who ask where the picture is from
- * \throws InvalidArgument for an image without pixels */
+ * \param dots_per_inch that the file says it is printed with; 0: it says nothing
+ * \throws InvalidArgument for an image without pixels, or more than 1e6 dots per inch
+ */
 PCL_UVOL_EXPORTS std::vector<std::uint8_t>
-encodePng(const Image& image, const std::vector<ImageText>& texts = {});
+encodePng(const Image& image,
+          const std::vector<ImageText>& texts = {},
+          double dots_per_inch = 0.0);
 
 /** \brief Write the colours of an image as PNG, with opacity where a pixel is not
  * opaque. The file appears whole or not at all.
  * \param path ends in .png
  * \param image with its colours
  * \param texts kept in the file, for those who ask where the picture is from
+ * \param dots_per_inch that the file says it is printed with; 0: it says nothing
  * \throws IOError */
 PCL_UVOL_EXPORTS void
 savePng(const std::string& path,
         const Image& image,
-        const std::vector<ImageText>& texts = {});
+        const std::vector<ImageText>& texts = {},
+        double dots_per_inch = 0.0);
 
 /** \brief Throw IOError unless the name ends in .png and its folder can be written to:
  * to be called before work whose result would be lost.

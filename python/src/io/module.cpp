@@ -116,14 +116,16 @@ writeLattice(const std::string& path,
 }
 
 void
-writePng(const std::string& path, const DenseArray<std::uint8_t>& pixels)
+writePng(const std::string& path,
+         const DenseArray<std::uint8_t>& pixels,
+         double dots_per_inch)
 {
   Image image;
   image.height = static_cast<std::uint32_t>(pixels.shape(0));
   image.width = static_cast<std::uint32_t>(pixels.shape(1));
   image.color.assign(pixels.data(), pixels.data() + pixels.size());
   const py::gil_scoped_release unlocked;
-  savePng(path, image);
+  savePng(path, image, {}, dots_per_inch);
 }
 
 /** \return values with z slowest, origin, spacing and name */

@@ -4,6 +4,7 @@
 #include "render/image_space/cpu_backend.h"
 #include "render/image_space/footprint_need.h"
 #include "render/image_space/layer_blend.h"
+#include "render/image_space/wide_silhouettes.h"
 #include "render/lighting.h"
 #include "render/point_colors.h"
 #include <pcl_uvol/common/point_types.h>
@@ -53,16 +54,11 @@ checkParameters(const ImageSpaceSettings& settings)
   checkLights(settings.lights);
 }
 
-/** Lengths in pixels of the picture in finer ones; lines at most as wide as they can
- * be.
+/** Lengths in pixels of the picture in finer ones; those of lines are WideSilhouettes'.
  */
 ImageSpaceSettings
 scaledSettings(ImageSpaceSettings settings, int supersampling)
 {
-  // A line of thickness t is 2 t - 1 pixels wide.
-  const int thickness =
-      (supersampling * (2 * settings.silhouette_thickness - 1) + 2) / 2;
-  settings.silhouette_thickness = std::min(thickness, largest_thickness);
   settings.smallest_disc *= supersampling;
   return settings;
 }
@@ -319,9 +315,10 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
     };
     const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
     const bool is_fine = supersampling_ > 1;
+    WideSilhouettes fine_backend(*backend_, supersampling_);
     renderLayers(cloud,
                  *indices,
-                 {find_view, settings, *backend_, false},
+                 {find_view, settings, is_fine ? fine_backend : *backend_, false},
                  is_fine ? fine_ : image);
     if (is_fine)
       average(fine_, supersampling_, image);
@@ -333,9 +330,10 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
       return;
     }
     const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
-    backend_->render({frame.cloud, frame.view, settings, frame.planes, frame.threads},
-                     fine_,
-                     report);
+    WideSilhouettes(*backend_, supersampling_)
+        .render({frame.cloud, frame.view, settings, frame.planes, frame.threads},
+                fine_,
+                report);
     average(fine_, supersampling_, image);
     image.depth.clear();
     image.normal.clear();
