@@ -241,11 +241,13 @@ PointPass::blend(const Frame& frame,
   small.setTexture("states", 0, states);
   small.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   small.set("stretch", blend_reach);
+  small.set("away_depth", away_depth);
   drawPoints(visible.sparse.points);
   const Program& large = use(shaders::blend_large, define, frame);
   large.setTexture("states", 0, states);
   large.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
   large.set("stretch", blend_reach);
+  large.set("away_depth", away_depth);
   drawLargeDiscs(large, visible.sparse.large_discs);
   gl_.Disable(GL_BLEND);
 }

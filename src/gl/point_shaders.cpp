@@ -22,7 +22,7 @@ vec2 placeOf(vec3 c)
 // Side and surface, as the plain C++ backend numbers them.
 uint sideOf(uint color, bool looks_away)
 {
-  return (color >> 24 & 127u) << 1 | uint(looks_away);
+  return (color >> 24 & 63u) << 2 | uint(looks_away);
 }
 
 float depthOf(vec3 c)
@@ -271,12 +271,17 @@ void main()
 }
 )";
 
-// The weight of a disc falls smoothly to zero at its rim.
+// The weight of a disc falls smoothly to zero at its rim. Discs of the other side of a
+// pixel that is seen nearly edge-on only say how much farther their centres are.
 const char* const blend_fragment = R"(
 uniform usampler2DRect states;
 uniform usamplerBuffer looks; // packed normal, colour
 uniform mat3 rotation;
 uniform bool has_sides;
+uniform float stretch;
+uniform float away_depth;
+
+const float edge_on_cosine = 0.5; // as in the plain C++ backend
 
 flat in vec3 disc_normal;
 flat in vec3 disc_color;
@@ -292,13 +297,22 @@ void main()
   float seen = uintBitsToFloat(state.x);
   uvec2 look = texelFetch(looks, state.x != background_bits ? int(state.y) : 0).xy;
   vec3 ray = vec3((gl_FragCoord.xy - margin - center) * per_focal, 1.0);
-  bool looks_away = has_sides && dot(unpackDirection(look.x), ray * rotation) > 0.0;
-  if (!is_covered || abs(depth - seen) > disc_center.w * per_far ||
-      sideOf(look.y, looks_away) != disc_side)
+  vec3 direction = unpackDirection(look.x);
+  float along = dot(direction, ray * rotation);
+  bool looks_away = has_sides && along > 0.0;
+  bool is_edge_on = has_sides && along * along < edge_on_cosine * edge_on_cosine *
+                                                     dot(direction, direction) *
+                                                     dot(ray, ray);
+  float room = disc_center.w * per_far;
+  uint difference = sideOf(look.y, looks_away) ^ disc_side;
+  if (!is_covered || abs(depth - seen) > room || difference > uint(is_edge_on))
     discard;
   float weight = (1.0 - part) * (1.0 - part);
-  normal_weight = weight * vec4(disc_normal, 1.0);
-  color = weight * vec4(disc_color, 1.0);
+  float pixel_shift = looks_away ? room * away_depth / stretch : 0.0;
+  float vote = weight * (depthOf(disc_center.xyz) - (seen - pixel_shift));
+  bool is_same = difference == 0u;
+  normal_weight = is_same ? weight * vec4(disc_normal, 1.0) : vec4(0.0);
+  color = is_same ? vec4(weight * disc_color, 0.0) : vec4(0.0, 0.0, 0.0, vote);
 }
 )";
 

@@ -48,6 +48,38 @@ TEST(HardSurfaces, ABallWithNormalsThatPointInwardsLooksLikeTheOther)
               0.005 * static_cast<double>(seenPixels(front)));
 }
 
+/** Pixels of a ball of few points, in light from the left, that are darker than the
+ * left half of it can be. */
+std::size_t
+countDarkAtTheLitOutline(const Image& image)
+{
+  std::size_t dark = 0;
+  for (std::size_t row = image.height / 3; row < 2 * image.height / 3; ++row)
+    for (std::size_t column = 0; column < image.width / 3; ++column)
+      dark += image.color[4 * (row * image.width + column)] < 100 ? 1 : 0;
+  return dark;
+}
+
+TEST(HardSurfaces, DiscsThatStandOutAtOutlinesAreLitAsTheSideAroundThem)
+{
+  const auto outward = makeSphere(700, 1);
+  const SurfaceCloudPtr inward(new pcl::PointCloud<pcl::PointNormal>(*outward));
+  for (auto& point : *inward)
+    point.getNormalVector3fMap() *= -1.0f;
+  for (const auto& cloud : {outward, inward}) {
+    Renderer renderer;
+    prepare(renderer, cloud, 300, 300);
+    pcl_uvol::Light light;
+    light.position = {-1.0, 0.0, 0.3};
+    renderer.settings().lights = {light};
+    renderer.settings().material.ambient = 0.0;
+    renderer.settings().material.specular = 0.0;
+    Image image;
+    renderer.render(image);
+    EXPECT_LE(countDarkAtTheLitOutline(image), 3u) << (cloud == inward);
+  }
+}
+
 /** Random points of the square of side 2 at a height. */
 template <typename PointT>
 void

@@ -189,13 +189,11 @@ public:
   bool
   mayBeSeen(const PixelBand& band, const float* deepest, float room) const
   {
-    const Vector& c = disc_.center;
-    const float distance = squareRoot(c.x * c.x + c.y * c.y + c.z * c.z)[0];
     const float facing = __builtin_fabsf(disc_.facing[0]);
-    if (facing < least_cosine * distance)
+    if (facing < least_cosine * distance())
       return true;
     const float nearest =
-        ((1.0f - depth_error) * distance - 2.0f * radius()) * projection_.per_far -
+        ((1.0f - depth_error) * distance() - 2.0f * radius()) * projection_.per_far -
         room;
     const int cells = cellsInRow(band.width);
     for (int row = (first_row_ - band.first_row) / cell_rows;
@@ -224,6 +222,14 @@ public:
   radius() const
   {
     return disc_.radius[0];
+  }
+
+  /** Distance of its centre to the eye. */
+  float
+  distance() const
+  {
+    const Vector& c = disc_.center;
+    return squareRoot(c.x * c.x + c.y * c.y + c.z * c.z)[0];
   }
 
   bool
@@ -505,16 +511,42 @@ addToRow(const BlendSums& blended,
   }
 }
 
-/** A bit for every pixel of a patch that is of a side. */
-std::uint32_t
-lanesOfSide(const std::uint8_t* first, const std::uint8_t* second, std::uint8_t side)
-{
-  alignas(64) std::int32_t sides[lanes];
-  for (int lane = 0; lane < patch_columns; ++lane) {
-    sides[lane] = first[lane];
-    sides[patch_columns + lane] = second[lane];
+/** The last of a pixel's sums, see blended_values. */
+constexpr int vote_value = blended_values - 1;
+
+/** Bits for the pixels of a patch that are of a side; and for those that are of the
+ * other side of the same surface and seen nearly edge-on. */
+struct SideLanes {
+  std::uint32_t same, other;
+
+  SideLanes(const std::uint8_t* first, const std::uint8_t* second, std::uint8_t side)
+  {
+    alignas(64) std::int32_t sides[lanes];
+    for (int lane = 0; lane < patch_columns; ++lane) {
+      sides[lane] = first[lane];
+      sides[patch_columns + lane] = second[lane];
+    }
+    const Ints differences = load<Ints>(sides) ^ side;
+    same = laneBits((differences & ~edge_on_bit) == 0);
+    other = laneBits(differences == (looks_away_bit | edge_on_bit));
   }
-  return laneBits(load<Ints>(sides) == side);
+};
+
+/** Add to the last sums of pixels of a patch that have a bit. */
+void
+addVotes(const BlendSums& blended,
+         const Patch& patch,
+         std::uint32_t bits,
+         const Floats& votes)
+{
+  alignas(64) float vote[lanes];
+  store(vote, votes);
+  for (; bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    const std::ptrdiff_t pixel = patch.pixelOf(lane);
+    reachSegment(blended, pixel);
+    blended.values[blended_values * pixel + vote_value] += vote[lane];
+  }
 }
 
 void
@@ -568,23 +600,35 @@ blend(const Projection& projection,
     values[6] = 1.0f;
     const std::uint8_t disc_side =
         sideOf(color, projection.has_sides && disc.looksAway());
+    const float center_depth = disc.distance() * projection.per_far;
+    // A pixel of the other side lies deeper than it is where that one looks away.
+    const float pixel_shift =
+        disc.looksAway() ? 0.0f : room * projection.away_depth / points.stretch;
     disc.forPatches([&](int row,
                         int column,
                         const Ints& covered,
                         const Floats& depth,
                         const Floats& part) {
       const Patch patch(band, row, column);
-      const Floats behind = depth - patch.seenDepths(band);
+      const Floats seen_depths = patch.seenDepths(band);
+      const Floats behind = depth - seen_depths;
       const Ints seen = covered & (behind <= room) & (behind >= -room);
       std::uint32_t bits = laneBits(seen);
-      if (blended.sides != nullptr)
-        bits &= lanesOfSide(
-            blended.sides + patch.first, blended.sides + patch.second, disc_side);
       if (bits == 0)
         return;
       // Falls smoothly to zero at the rim.
+      const Floats weight = (1.0f - part) * (1.0f - part);
+      if (blended.sides != nullptr) {
+        const SideLanes sides(
+            blended.sides + patch.first, blended.sides + patch.second, disc_side);
+        addVotes(blended,
+                 patch,
+                 bits & sides.other,
+                 weight * (center_depth - (seen_depths - pixel_shift)));
+        bits &= sides.same;
+      }
       alignas(64) float weights[lanes];
-      store(weights, (1.0f - part) * (1.0f - part));
+      store(weights, weight);
       constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
       addToRow(blended, patch.first, bits & row_bits, values, weights);
       addToRow(blended,

@@ -9,7 +9,9 @@
 namespace pcl_uvol {
 
 /** Numbers per pixel that overlapping discs are blended into: weighted sums of normal
- * and colour (0 to 255), the sum of the weights, and one to fill a power of two. */
+ * and colour (0 to 255), the sum of the weights, and what discs of the other side say
+ * of a pixel that is seen nearly edge-on: below 0, that the surface turns away from the
+ * eye there and they are the side that is seen of it. */
 constexpr int blended_values = 8;
 
 /** Pixels of a row whose sums are cleared together, when the first disc reaches them.
@@ -61,9 +63,10 @@ struct DiscKernels {
   void (*findDeepest)(const PixelBand& band, float* deepest);
 
   /** \brief Add discs, stretched, one after another, to all pixels they cover where
-   * they lie at most their radius in front of or behind what is seen there.
-   * \param looks of all points: packed normal, then colour
-   * \param deepest as findDeepest() gives: hidden discs are passed over */
+   * they lie at most their radius in front of or behind what is seen there. Discs of
+   * the other side only say how much farther than that their centres are. \param looks
+   * of all points: packed normal, then colour \param deepest as findDeepest() gives:
+   * hidden discs are passed over */
   void (*blend)(const Projection& projection,
                 const ProjectedPoints& points,
                 const std::uint32_t* looks,

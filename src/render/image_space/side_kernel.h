@@ -7,16 +7,27 @@
 
 namespace pcl_uvol {
 
+/** Bits of a side: it looks away; and, of a pixel, its point is seen nearly edge-on, as
+ * at outlines. @{ */
+constexpr std::uint8_t looks_away_bit = 1, edge_on_bit = 2;
+/** @} */
+
+/** Cosine of the angle between normal and ray: points with a smaller one are seen
+ * nearly edge-on. */
+constexpr float edge_on_cosine = 0.5f;
+
 /** \brief Side and surface in one byte. Surfaces whose numbers differ by a multiple of
- * 128 are taken for one.
+ * 64 are taken for one.
  * \param color of a look: its opacity is the number of the surface */
 constexpr std::uint8_t
 sideOf(std::uint32_t color, bool looks_away)
 {
-  return static_cast<std::uint8_t>(color >> 24 << 1 | (looks_away ? 1u : 0u));
+  return static_cast<std::uint8_t>(color >> 24 << 2 |
+                                   (looks_away ? looks_away_bit : 0u));
 }
 
-/** \brief Find the sides of the pixels of a band.
+/** \brief Find the sides of the pixels of a band; those of points that are seen nearly
+ * edge-on, of surfaces with two sides, have that bit as well.
  * \param looks of all points: packed normal, then colour
  * \param sides laid out as the keys; of background any number */
 using SideKernel = void (*)(const Projection& projection,
