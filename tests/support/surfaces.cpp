@@ -42,6 +42,20 @@ onTube(double t, double angle)
   return onKnot(t) + radius * (std::cos(angle) * side + std::sin(angle) * up);
 }
 
+constexpr double step = 1e-4;
+
+/** The normal of the tube, to the outside: as long as the area between two steps of
+ * both parameters. */
+Eigen::Vector3d
+tubeNormal(double t, double angle)
+{
+  const Eigen::Vector3d normal =
+      (onTube(t, angle + step) - onTube(t, angle - step))
+          .cross(onTube(t - step, angle) - onTube(t + step, angle));
+  const double side = normal.dot(onTube(t, angle) - onKnot(t)) < 0.0 ? -1.0 : 1.0;
+  return side * normal;
+}
+
 } // namespace
 
 SurfaceCloudPtr
@@ -64,21 +78,30 @@ makeTorusKnot(std::size_t n, std::uint64_t seed)
   SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
   std::mt19937_64 engine(seed);
   Random turn(0.0, 2.0 * pi);
-  constexpr double step = 1e-4;
   Random lot(0.0, 1.0);
   constexpr double largest_area = 4.0; // per unit of both parameters: 3.6 at most
   while (cloud->size() < n) {
     const double t = turn(engine), angle = turn(engine);
-    const Eigen::Vector3d normal =
-        (onTube(t, angle + step) - onTube(t, angle - step))
-            .cross(onTube(t - step, angle) - onTube(t + step, angle));
-    const double area = normal.norm() / (4.0 * step * step);
-    if (lot(engine) * largest_area > area)
+    const Eigen::Vector3d normal = tubeNormal(t, angle);
+    if (lot(engine) * largest_area > normal.norm() / (4.0 * step * step))
       continue; // few points where the parameters lie close
-    const Eigen::Vector3d position = onTube(t, angle);
-    const double side = normal.dot(position - onKnot(t)) < 0.0 ? -1.0 : 1.0;
-    cloud->push_back(makePoint(position, side * normal));
+    cloud->push_back(makePoint(onTube(t, angle), normal));
   }
+  return cloud;
+}
+
+SurfaceCloudPtr
+makeKnotLattice(std::size_t along, std::size_t around)
+{
+  SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+  const auto stepOf = [](std::size_t i, std::size_t count) {
+    return 2.0 * pi * static_cast<double>(i) / static_cast<double>(count);
+  };
+  for (std::size_t i = 0; i < along; ++i)
+    for (std::size_t j = 0; j < around; ++j) {
+      const double t = stepOf(i, along), angle = stepOf(j, around);
+      cloud->push_back(makePoint(onTube(t, angle), tubeNormal(t, angle)));
+    }
   return cloud;
 }
 

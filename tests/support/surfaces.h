@@ -21,6 +21,11 @@ makeSphere(std::size_t n, std::uint64_t seed);
 SurfaceCloudPtr
 makeTorusKnot(std::size_t n, std::uint64_t seed);
 
+/** \brief Points of the same surface at equal steps of its parameters, those around the
+ * tube one after the other: vertices of a mesh. */
+SurfaceCloudPtr
+makeKnotLattice(std::size_t along, std::size_t around);
+
 /** \brief Random points on a wavy square of side 2, open at its rims. */
 SurfaceCloudPtr
 makeWaves(std::size_t n, std::uint64_t seed);
