@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
-picture (.png) below pictures/start/ and pictures/how/ that a page shows is made by them. Below a line
-<!-- not run: WHY --> a block is left out; commands in indented blocks, which nothing would run, are refused.
+picture (.png) below pictures/ that a page shows is made by them. Below a line <!-- not run: WHY --> a block is left
+out, and below <!-- long: WHY --> as well, but with --long; commands in indented blocks, which nothing would run,
+are refused.
 
-usage: run_commands.py BIN_FOLDER [--renew] PAGE...; --renew copies the pictures beside the pages
-The commands find the tools in PATH and the data sets in $PCL_UVOL_DATA.
+usage: run_commands.py BIN_FOLDER [--long] [--renew] PAGE...; --renew copies the pictures beside the pages
+The commands find the tools in PATH, the data sets in $PCL_UVOL_DATA, and the folder tools/ of the repository.
 """
 import os
 import pathlib
@@ -15,27 +16,35 @@ import subprocess
 import sys
 import tempfile
 
-BLOCK = re.compile(r"^(<!-- not run: [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^(?:<!-- (not run|long): [^\n]+ -->\n)?```sh\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INDENTED = re.compile(r"\n\n {4}((?:uvol|cmake|mpirun)[ _].*)")
-PICTURE = re.compile(r"\]\((\.\./pictures/(?:start|how)/([^)]+\.png))\)")
+PICTURE = re.compile(r"\]\((\.\./pictures/((?:[a-z]+/)?)([^)/]+\.png))\)")
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 
 
-def run_page(page, bin_folder, renew):
+def run_page(page, bin_folder, flags):
     text = page.read_text()
     lost = INDENTED.search(BLOCK.sub("", text))
     if lost:
         return f"{page}: nothing runs this command, which belongs into a block of sh: {lost.group(1)}"
-    script = "set -euo pipefail\n" + "\n".join(commands for mark, commands in BLOCK.findall(text) if not mark)
+    run = ("", "long") if "--long" in flags else ("",)
+    blocks = BLOCK.findall(text)
+    script = "set -euo pipefail\n" + "\n".join(commands for mark, commands in blocks if mark in run)
+    left_out = "".join(commands for mark, commands in blocks if mark not in run)
     environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "tools").symlink_to(TOOLS)
         result = subprocess.run(["bash", "-c", script], cwd=folder, env=environment, capture_output=True, text=True)
         if result.returncode != 0:
             return f"{page}: a command failed: {result.stderr.strip()}"
-        for shown, name in PICTURE.findall(text):
+        for shown, kind, name in PICTURE.findall(text):
             made = pathlib.Path(folder) / name
+            # Those of no kind are the gallery's, which other pages show as well.
+            if not made.exists() and (name in left_out or not kind and name not in script):
+                continue
             if not made.exists():
                 return f"{page}: no command makes {name}"
-            if renew:
+            if "--renew" in flags:
                 target = page.parent / shown
                 target.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(made, target)
@@ -43,14 +52,15 @@ def run_page(page, bin_folder, renew):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word != "--renew"]
-    if len(words) < 2:
+    flags = [word for word in sys.argv[1:] if word.startswith("--")]
+    words = [word for word in sys.argv[1:] if word not in flags]
+    if len(words) < 2 or set(flags) - {"--long", "--renew"}:
         sys.exit(__doc__)
     if not os.environ.get("PCL_UVOL_DATA"):
         print("run_commands.py: PCL_UVOL_DATA does not name the folder of data sets.", file=sys.stderr)
         sys.exit(77)  # which ctest takes as skipped
     bin_folder = pathlib.Path(words[0]).resolve()
-    failures = [run_page(pathlib.Path(page), bin_folder, "--renew" in sys.argv) for page in words[1:]]
+    failures = [run_page(pathlib.Path(page), bin_folder, flags) for page in words[1:]]
     sys.exit("\n".join(filter(None, failures)) or 0)
 
 
