@@ -58,11 +58,13 @@ longestSide(const std::vector<Position>& positions)
 }
 
 /** Footprints; where a point has none, which is at corners, on lines and far off, half
- * the way to the next point, but no more than is usual. */
+ * the way to the next point, but no more than is usual.
+ * \param largest_alone of these where others have footprints, at most */
 std::vector<float>
 leastRadii(const SampleSet& samples,
            std::vector<float> footprints,
            double delta,
+           float largest_alone,
            unsigned threads)
 {
   std::vector<float> known;
@@ -76,7 +78,7 @@ leastRadii(const SampleSet& samples,
   if (!known.empty()) {
     const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
     std::nth_element(known.begin(), middle, known.end());
-    usual = *middle;
+    usual = std::min(*middle, largest_alone);
   }
   parallelBlocks(footprints.size(), block_points, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, 2);
@@ -179,6 +181,7 @@ coverSurface(const SplatGround& ground, unsigned threads, Report& report)
 std::vector<Accepted>
 growOn(const OrientedPoints& points,
        double delta,
+       float largest_alone,
        const SplatParameters& parameters,
        unsigned threads,
        Report& report)
@@ -188,7 +191,8 @@ growOn(const OrientedPoints& points,
       points,
       std::move(footprints.on_rim),
       std::move(footprints.nearest),
-      leastRadii(*points.samples, std::move(footprints.radii), delta, threads),
+      leastRadii(
+          *points.samples, std::move(footprints.radii), delta, largest_alone, threads),
       delta,
       parameters.lambda};
   return coverSurface(ground, threads, report);
@@ -213,6 +217,18 @@ detail::generateSplats(const CloudView& cloud,
                        unsigned threads,
                        Report& report)
 {
+  constexpr float any = std::numeric_limits<float>::infinity();
+  return generateSplats(cloud, use, parameters, any, threads, report);
+}
+
+Splats
+detail::generateSplats(const CloudView& cloud,
+                       const std::vector<std::uint32_t>& use,
+                       const SplatParameters& parameters,
+                       float largest_alone,
+                       unsigned threads,
+                       Report& report)
+{
   checkParameters(parameters);
   if (use.empty())
     throw InvalidArgument("The splat generation was given an empty cloud.");
@@ -230,7 +246,12 @@ detail::generateSplats(const CloudView& cloud,
     throw InvalidArgument("The error bound delta of splats is no length beside "
                           "coordinates as large as these: it, or the extent of the "
                           "cloud, must be 1e-12 to 1e15 times as large.");
-  const auto accepted = growOn(points, delta, parameters, threads, report);
+  const auto accepted = growOn(points,
+                               delta,
+                               static_cast<float>(largest_alone * unit.factor),
+                               parameters,
+                               threads,
+                               report);
   // In leaf order, where neighbours are close.
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> splat_of(points.samples->size(), none);

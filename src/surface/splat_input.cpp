@@ -67,7 +67,8 @@ makeDot(const CloudView& cloud,
   return dot;
 }
 
-/** Splats for points to be drawn: isopoints in gaps of the sampling become dots. */
+/** Splats for points to be drawn: isopoints in gaps of the sampling become dots, and
+ * specks of noise no more than that. */
 Splats
 coverForPicture(const CloudView& cloud,
                 const SplatParameters& parameters,
@@ -78,14 +79,15 @@ coverForPicture(const CloudView& cloud,
   std::vector<std::uint32_t> covered, dots;
   for (std::uint32_t i = 0; i < cloud.count; ++i)
     (bridged.empty() || !bridged[i] ? covered : dots).push_back(i);
+  const float radius = findDotRadius(cloud);
   Splats splats;
   if (!covered.empty() || dots.empty())
-    splats = detail::generateSplats(cloud, covered, parameters, threads, report);
+    splats =
+        detail::generateSplats(cloud, covered, parameters, radius, threads, report);
   if (dots.empty())
     return splats;
   Report own; // the points are counted with the others
   const OrientedPoints points = orientPoints(cloud, dots, threads, own);
-  const float radius = findDotRadius(cloud);
   for (std::size_t i = 0; i < points.normals.size(); ++i) {
     splats.cloud.push_back(makeDot(cloud, points, i, radius));
     splats.sources.push_back(points.samples->getInputIndex(i));

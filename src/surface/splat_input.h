@@ -10,6 +10,8 @@
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -35,9 +37,24 @@ isDrawable(const PointSplat& splat);
 PCL_UVOL_EXPORTS Splats
 readSplats(const CloudView& cloud, Report& report);
 
+namespace detail {
+
+/** \brief generateSplats() for a picture.
+ * \param largest_alone radius of the splats of points that stand alone, at most; where
+ * all do they are the picture, and reach half the way to the next one */
+Splats
+generateSplats(const CloudView& cloud,
+               const std::vector<std::uint32_t>& use,
+               const SplatParameters& parameters,
+               float largest_alone,
+               unsigned threads,
+               Report& report);
+
+} // namespace detail
+
 /** \brief The usable splats that a cloud holds, which may be none, else those generated
- * for all its points; isopoints that bridge a gap become dots, a pixel in size in a
- * picture of all points of 1000 by 1000 pixels.
+ * for all its points; isopoints that bridge a gap become dots, and specks of noise no
+ * more than that: a pixel in size in a picture of all points of 1000 by 1000 pixels.
  * \param is_asked_for the user chose parameters: a warning tells where they go unused
  * \param cloud with splats, or points of a surface
  * \param parameters of splats that are generated

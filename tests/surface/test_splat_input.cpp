@@ -74,6 +74,35 @@ expectUsable(const SplatCloud& splats)
   }
 }
 
+TEST(SplatsOfPictures, SpecksAreDotsBesideASurface)
+{
+  std::vector<Vector3f> places = {{0.0f, 0.0f, 20.0f}, {3.0f, 0.0f, 24.0f}};
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < 30; ++j)
+      places.emplace_back(
+          0.05f * static_cast<float>(i), 0.05f * static_cast<float>(j), 0.0f);
+  const auto cloud = makeCloud(places);
+  Report report;
+  const auto splats =
+      pcl_uvol::findSplats(pcl_uvol::viewOf(*cloud), {}, false, 0, report).cloud;
+  const float diagonal = Vector3f(3.0f, 1.45f, 24.0f).norm();
+  std::size_t dots = 0;
+  for (const auto& splat : splats)
+    if (splat.z > 10.0f) {
+      ++dots;
+      EXPECT_NEAR(7e-4f * diagonal, splat.radius, 1e-4f);
+    }
+    else
+      EXPECT_GT(splat.radius, 0.03f);
+  EXPECT_EQ(2u, dots);
+
+  // Specks alone are the picture.
+  const auto pair = makeCloud({places[0], places[1]});
+  for (const auto& splat :
+       pcl_uvol::findSplats(pcl_uvol::viewOf(*pair), {}, false, 0, report).cloud)
+    EXPECT_NEAR(2.5f, splat.radius, 1e-4f);
+}
+
 TEST(SplatGeneration, OnePointHasNoExtentThatDeltaIsAPartOf)
 {
   for (const std::size_t times : {1u, 20u}) { // 20 at one place are as one
