@@ -90,6 +90,8 @@ PointPass::upload(const SurfaceCloud& cloud)
   looks_texture_ = makeBufferTexture(gl_, GL_RG32UI, looks_);
   has_footprints_ = !cloud.getFootprints().empty();
   fillBuffer(gl_, footprints_, cloud.getFootprints());
+  if (has_footprints_)
+    footprints_texture_ = makeBufferTexture(gl_, GL_R32F, footprints_);
   fillBuffer(gl_, fillers_, cloud.getFillers());
   // New ones, which know nothing of the buffers of another cloud.
   points_array_ = makeVertexArray(gl_);
@@ -155,6 +157,7 @@ PointPass::use(const shaders::Pass& pass,
               static_cast<float>(viewport_.width()),
               static_cast<float>(viewport_.height()));
   program.set("is_two_sided", !frame.culls());
+  program.set("outward", frame.outward());
   program.set("has_sides", frame.hasSides());
   program.set("culls", frame.culls());
   program.set("smallest_footprint", frame.smallestDisc());
@@ -237,18 +240,21 @@ PointPass::blend(const Frame& frame,
   gl_.Enable(GL_BLEND);
   gl_.BlendEquation(GL_FUNC_ADD);
   gl_.BlendFunc(GL_ONE, GL_ONE);
-  const Program& small = use(shaders::blend_small, define, frame);
-  small.setTexture("states", 0, states);
-  small.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
-  small.set("stretch", blend_reach);
-  small.set("away_depth", away_depth);
+  const auto use_blending = [&](const shaders::Pass& pass) -> const Program& {
+    const Program& program = use(pass, define, frame);
+    program.setTexture("states", 0, states);
+    program.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
+    program.setTexture("footprints", 2, footprints_texture_, GL_TEXTURE_BUFFER);
+    program.set("stretch", blend_reach);
+    program.set("away_depth", away_depth);
+    program.set("edge_on_cosine", edge_on_cosine);
+    program.set("facing_weight", facing_weight);
+    program.set("facing_reach", facing_reach);
+    return program;
+  };
+  use_blending(shaders::blend_small);
   drawPoints(visible.sparse.points);
-  const Program& large = use(shaders::blend_large, define, frame);
-  large.setTexture("states", 0, states);
-  large.setTexture("looks", 1, looks_texture_, GL_TEXTURE_BUFFER);
-  large.set("stretch", blend_reach);
-  large.set("away_depth", away_depth);
-  drawLargeDiscs(large, visible.sparse.large_discs);
+  drawLargeDiscs(use_blending(shaders::blend_large), visible.sparse.large_discs);
   gl_.Disable(GL_BLEND);
 }
 

@@ -91,7 +91,7 @@ private:
   PixelBox viewport_{0, 0, 0, 0};
   GlName coordinates_[3], footprints_, fillers_, looks_; // buffers
   const GlName* radii_ = &footprints_;                   // of the discs drawn next
-  GlName looks_texture_;
+  GlName looks_texture_, footprints_texture_;
   GlName points_array_, discs_array_;
   bool has_footprints_ = false;
   std::uint64_t revision_ = 0;

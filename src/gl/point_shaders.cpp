@@ -49,6 +49,7 @@ uniform vec2 extent; // of the viewport, pixels
 uniform float near;
 uniform bool culls;
 uniform bool is_two_sided;
+uniform float outward; // factor that makes normals look outwards
 uniform float smallest_footprint;
 uniform float largest_filler;
 uniform float largest_reach; // of what is drawn as one point, pixels
@@ -167,7 +168,7 @@ bool isLarge(vec3 c, float radius)
 const char* const small_discs_vertex = R"(
 void main()
 {
-  vec3 direction = unpackDirection(look.x);
+  vec3 direction = outward * unpackDirection(look.x);
   vec3 c = toCamera();
   float unstretched = discRadius(c), radius = unstretched * stretch;
   bool is_disc = isDisc(c, unstretched) && !isLarge(c, radius);
@@ -192,7 +193,7 @@ uniform int first; // index of the first instance
 
 void main()
 {
-  vec3 direction = unpackDirection(look.x);
+  vec3 direction = outward * unpackDirection(look.x);
   vec3 c = toCamera();
   float unstretched = discRadius(c), radius = unstretched * stretch;
   setDisc(uint(first + gl_InstanceID), c, radius, direction);
@@ -271,17 +272,19 @@ void main()
 }
 )";
 
-// The weight of a disc falls smoothly to zero at its rim. Discs of the other side of a
-// pixel that is seen nearly edge-on only say how much farther their centres are.
+// The weight of a disc falls smoothly to zero at its rim. Where what is seen looks away,
+// but lies behind discs that look to the eye, these are blended.
 const char* const blend_fragment = R"(
 uniform usampler2DRect states;
 uniform usamplerBuffer looks; // packed normal, colour
 uniform mat3 rotation;
 uniform bool has_sides;
-uniform float stretch;
+uniform samplerBuffer footprints;
+uniform float outward;
 uniform float away_depth;
-
-const float edge_on_cosine = 0.5; // as in the plain C++ backend
+uniform float edge_on_cosine;
+uniform float facing_weight;
+uniform float facing_reach;
 
 flat in vec3 disc_normal;
 flat in vec3 disc_color;
@@ -297,22 +300,23 @@ void main()
   float seen = uintBitsToFloat(state.x);
   uvec2 look = texelFetch(looks, state.x != background_bits ? int(state.y) : 0).xy;
   vec3 ray = vec3((gl_FragCoord.xy - margin - center) * per_focal, 1.0);
-  vec3 direction = unpackDirection(look.x);
+  vec3 direction = outward * unpackDirection(look.x);
   float along = dot(direction, ray * rotation);
   bool looks_away = has_sides && along > 0.0;
-  bool is_edge_on = has_sides && along * along < edge_on_cosine * edge_on_cosine *
-                                                     dot(direction, direction) *
-                                                     dot(ray, ray);
+  bool is_edge_on = along * along < dot(direction, direction) * dot(ray, ray) *
+                                        edge_on_cosine * edge_on_cosine;
   float room = disc_center.w * per_far;
   uint difference = sideOf(look.y, looks_away) ^ disc_side;
-  if (!is_covered || abs(depth - seen) > room || difference > uint(is_edge_on))
+  // What looks away was drawn deeper than it is.
+  float shift = texelFetch(footprints, int(state.y)).r * (away_depth * per_far);
+  bool is_before = difference == 1u && looks_away && is_edge_on &&
+                   seen - shift > depthOf(disc_center.xyz);
+  float most = is_before ? facing_reach * room : room;
+  if (!is_covered || abs(depth - seen) > most || !(difference == 0u || is_before))
     discard;
-  float weight = (1.0 - part) * (1.0 - part);
-  float pixel_shift = looks_away ? room * away_depth / stretch : 0.0;
-  float vote = weight * (depthOf(disc_center.xyz) - (seen - pixel_shift));
-  bool is_same = difference == 0u;
-  normal_weight = is_same ? weight * vec4(disc_normal, 1.0) : vec4(0.0);
-  color = is_same ? vec4(weight * disc_color, 0.0) : vec4(0.0, 0.0, 0.0, vote);
+  float weight = (1.0 - part) * (1.0 - part) * (is_before ? facing_weight : 1.0);
+  normal_weight = weight * vec4(disc_normal, 1.0);
+  color = weight * vec4(disc_color, 1.0);
 }
 )";
 

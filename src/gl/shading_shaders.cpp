@@ -10,7 +10,7 @@ const char* const shade_fragment = R"(
 uniform usampler2DRect state;
 uniform usamplerBuffer looks;  // packed normal, colour
 uniform sampler2DRect blended_normals; // and weights
-uniform sampler2DRect blended_colors; // and what discs of the other side say
+uniform sampler2DRect blended_colors;
 uniform samplerBuffer lights; // for each: position or direction, is it a point; colour
 uniform int light_count;
 uniform mat3 rotation; // from the cloud's axes to the camera's
@@ -87,16 +87,12 @@ void main()
   vec3 surface = unpackColor(look.y);
 #ifdef WITH_DISCS
   vec4 normal_weight = texture(blended_normals, gl_FragCoord.xy);
-  vec4 color_vote = texture(blended_colors, gl_FragCoord.xy);
   if (normal_weight.w > 0.0) {
     normal = normalize(normal_weight.xyz);
-    surface = color_vote.rgb / normal_weight.w;
+    surface = texture(blended_colors, gl_FragCoord.xy).rgb / normal_weight.w;
   }
-  bool is_turned = color_vote.a < 0.0;
-#else
-  const bool is_turned = false;
 #endif
-  if (is_two_sided && dot(normal, direction) > 0.0 != is_turned)
+  if (is_two_sided && dot(normal, direction) > 0.0)
     normal = -normal;
 #ifdef LIT
   vec3 lit = light(surface, direction * (depth * far), normal, -direction);

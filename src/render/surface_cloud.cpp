@@ -42,6 +42,7 @@ SurfaceCloud::SurfaceCloud(const CloudView& cloud,
     setColorOf(i, 0xffffffff);
   }
   addBlocks(points_.samples->getTree().getRoot());
+  is_inside_out_ = !isTwoSided() && looksInwards();
   if (!points_.bridged.empty())
     report.count("bridged",
                  static_cast<std::uint64_t>(
@@ -88,6 +89,25 @@ SurfaceCloud::place(unsigned threads)
   for (auto& coordinates : coordinates_)
     for (float& coordinate : coordinates)
       coordinate *= length_factor_;
+}
+
+bool
+SurfaceCloud::looksInwards() const
+{
+  // Sheets, and surfaces that wind through space, look to the middle as much as away.
+  constexpr double least_part = 0.25;
+  constexpr std::size_t enough_points = 50000;
+  double outwards = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < size(); i += size() / enough_points + 1) {
+    float normal[3];
+    unpackNormal(points_.normals[i], normal);
+    double along = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+      along += double{normal[axis]} * coordinates_[axis][i];
+    outwards += along;
+    all += std::abs(along);
+  }
+  return outwards < -least_part * all;
 }
 
 void

@@ -106,6 +106,14 @@ public:
     return points_.two_sided;
   }
 
+  /** \brief Normals look to the middle of the cloud, as those of a ball do whose field
+   * grows outwards: what is seen of it from outside are backs. */
+  bool
+  isInsideOut() const
+  {
+    return is_inside_out_;
+  }
+
   /** \brief There are points of several isovalues. */
   bool
   hasSurfaces() const
@@ -195,7 +203,11 @@ private:
   SurfaceBlock
   makeBlock(std::uint32_t begin, std::uint32_t end) const;
 
+  bool
+  looksInwards() const;
+
   OrientedPoints points_;
+  bool is_inside_out_ = false;
   std::vector<float> coordinates_[3];
   std::vector<Look> looks_;
   std::vector<std::uint32_t> input_indices_;

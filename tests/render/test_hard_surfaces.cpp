@@ -56,7 +56,7 @@ countDarkAtTheLitOutline(const Image& image)
   std::size_t dark = 0;
   for (std::size_t row = image.height / 3; row < 2 * image.height / 3; ++row)
     for (std::size_t column = 0; column < image.width / 3; ++column)
-      dark += image.color[4 * (row * image.width + column)] < 100 ? 1 : 0;
+      dark += image.color[4 * (row * image.width + column)] < 30 ? 1 : 0;
   return dark;
 }
 

@@ -38,6 +38,8 @@ struct DiscLanes {
     radius = discRadius(projection, disc_radius, footprint, per_length);
     Floats n[3];
     unpackDirection(packed_normal, n);
+    for (Floats& part : n)
+      part *= projection.outward;
     const float* const r = projection.rotation;
     const Vector axis = {r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
                          r[3] * n[0] + r[4] * n[1] + r[5] * n[2],
@@ -224,7 +226,7 @@ public:
     return disc_.radius[0];
   }
 
-  /** Distance of its centre to the eye. */
+  /** Of its centre to the eye. */
   float
   distance() const
   {
@@ -511,13 +513,10 @@ addToRow(const BlendSums& blended,
   }
 }
 
-/** The last of a pixel's sums, see blended_values. */
-constexpr int vote_value = blended_values - 1;
-
-/** Bits for the pixels of a patch that are of a side; and for those that are of the
- * other side of the same surface and seen nearly edge-on. */
+/** Bits for the pixels of a patch that are of a disc's side; and for those that look
+ * away, of the same surface, and are seen nearly edge-on. */
 struct SideLanes {
-  std::uint32_t same, other;
+  std::uint32_t same, away;
 
   SideLanes(const std::uint8_t* first, const std::uint8_t* second, std::uint8_t side)
   {
@@ -528,25 +527,30 @@ struct SideLanes {
     }
     const Ints differences = load<Ints>(sides) ^ side;
     same = laneBits((differences & ~edge_on_bit) == 0);
-    other = laneBits(differences == (looks_away_bit | edge_on_bit));
+    away = laneBits(differences == (looks_away_bit | edge_on_bit));
   }
 };
 
-/** Add to the last sums of pixels of a patch that have a bit. */
-void
-addVotes(const BlendSums& blended,
-         const Patch& patch,
-         std::uint32_t bits,
-         const Floats& votes)
+/** Those pixels of a patch whose discs, which look away, lie behind a depth. They were
+ * drawn deeper than they are. */
+std::uint32_t
+lanesBehind(const Projection& projection,
+            const ProjectedPoints& points,
+            const PixelBand& band,
+            const Patch& patch,
+            std::uint32_t bits,
+            float depth)
 {
-  alignas(64) float vote[lanes];
-  store(vote, votes);
+  const float per_radius = projection.away_depth * projection.per_far;
+  std::uint32_t behind = 0;
   for (; bits != 0; bits &= bits - 1) {
     const int lane = __builtin_ctz(bits);
-    const std::ptrdiff_t pixel = patch.pixelOf(lane);
-    reachSegment(blended, pixel);
-    blended.values[blended_values * pixel + vote_value] += vote[lane];
+    const PixelKey key = band.keys[patch.pixelOf(lane)];
+    const float radius = points.footprints[static_cast<std::uint32_t>(key)];
+    if (depthOf(key) - radius * per_radius > depth)
+      behind |= 1u << lane;
   }
+  return behind;
 }
 
 void
@@ -594,41 +598,37 @@ blend(const Projection& projection,
     const std::uint32_t color = looks[2 * discs[i] + 1];
     float values[blended_values] = {};
     for (int k = 0; k < 3; ++k) {
-      values[k] = side * direction[k][0] / length[0];
+      values[k] = side * projection.outward * direction[k][0] / length[0];
       values[3 + k] = static_cast<float>((color >> (8 * k)) & 0xff);
     }
     values[6] = 1.0f;
     const std::uint8_t disc_side =
         sideOf(color, projection.has_sides && disc.looksAway());
+    const float facing_room = room * projection.facing_reach;
     const float center_depth = disc.distance() * projection.per_far;
-    // A pixel of the other side lies deeper than it is where that one looks away.
-    const float pixel_shift =
-        disc.looksAway() ? 0.0f : room * projection.away_depth / points.stretch;
     disc.forPatches([&](int row,
                         int column,
                         const Ints& covered,
                         const Floats& depth,
                         const Floats& part) {
       const Patch patch(band, row, column);
-      const Floats seen_depths = patch.seenDepths(band);
-      const Floats behind = depth - seen_depths;
-      const Ints seen = covered & (behind <= room) & (behind >= -room);
-      std::uint32_t bits = laneBits(seen);
-      if (bits == 0)
-        return;
-      // Falls smoothly to zero at the rim.
-      const Floats weight = (1.0f - part) * (1.0f - part);
+      const Floats behind = absolute(depth - patch.seenDepths(band));
+      std::uint32_t bits = laneBits(covered & (behind <= room)), facing = 0;
       if (blended.sides != nullptr) {
         const SideLanes sides(
             blended.sides + patch.first, blended.sides + patch.second, disc_side);
-        addVotes(blended,
-                 patch,
-                 bits & sides.other,
-                 weight * (center_depth - (seen_depths - pixel_shift)));
         bits &= sides.same;
+        facing = sides.away & laneBits(covered & (behind <= facing_room));
+        facing = lanesBehind(projection, points, band, patch, facing, center_depth);
+        bits |= facing;
       }
+      if (bits == 0)
+        return;
+      // Falls smoothly to zero at the rim.
       alignas(64) float weights[lanes];
-      store(weights, weight);
+      store(weights, (1.0f - part) * (1.0f - part));
+      for (; facing != 0; facing &= facing - 1)
+        weights[__builtin_ctz(facing)] *= projection.facing_weight;
       constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
       addToRow(blended, patch.first, bits & row_bits, values, weights);
       addToRow(blended,

@@ -9,9 +9,7 @@
 namespace pcl_uvol {
 
 /** Numbers per pixel that overlapping discs are blended into: weighted sums of normal
- * and colour (0 to 255), the sum of the weights, and what discs of the other side say
- * of a pixel that is seen nearly edge-on: below 0, that the surface turns away from the
- * eye there and they are the side that is seen of it. */
+ * and colour (0 to 255), the sum of the weights, and one to fill a power of two. */
 constexpr int blended_values = 8;
 
 /** Pixels of a row whose sums are cleared together, when the first disc reaches them.
@@ -62,11 +60,12 @@ struct DiscKernels {
    * \param deepest of the cells, row by row */
   void (*findDeepest)(const PixelBand& band, float* deepest);
 
-  /** \brief Add discs, stretched, one after another, to all pixels they cover where
-   * they lie at most their radius in front of or behind what is seen there. Discs of
-   * the other side only say how much farther than that their centres are. \param looks
-   * of all points: packed normal, then colour \param deepest as findDeepest() gives:
-   * hidden discs are passed over */
+  /** \brief Add discs, stretched, one after another, to all pixels of their side that
+   * they cover where they lie at most their radius in front of or behind what is seen
+   * there. Discs that look to the eye are added to pixels of the other side as well if
+   * their centres are nearer: these would be lit from behind at outlines.
+   * \param looks of all points: packed normal, then colour
+   * \param deepest as findDeepest() gives: hidden discs are passed over */
   void (*blend)(const Projection& projection,
                 const ProjectedPoints& points,
                 const std::uint32_t* looks,

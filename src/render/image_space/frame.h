@@ -103,6 +103,13 @@ struct PCL_UVOL_EXPORTS Frame {
     return !culls() && !cloud.isTwoSided();
   }
 
+  /** \brief What makes normals of points with two sides look outwards: -1 or 1. */
+  float
+  outward() const
+  {
+    return hasSides() && cloud.isInsideOut() ? -1.0f : 1.0f;
+  }
+
   /** \brief Least distance of two layers as a depth: that of the settings, and with
    * footprints not less than two discs, as these stand out from each other: a disc must
    * not hide behind its own surface, or the layer in front of it grows over it. */
@@ -133,6 +140,18 @@ constexpr float blend_reach = 1.5f;
  * outlines, where discs of both sides stand out, the side that faces the eye is seen.
  */
 constexpr float away_depth = 1.0f;
+
+/** \brief The weight of a disc that looks to the eye where one is seen that looks away
+ * but lies behind it: there discs are flat where the surface turns away, and what is
+ * seen around is the side that faces the eye. */
+constexpr float facing_weight = 1000.0f;
+
+/** \brief That one is seen under a smaller cosine of the angle to its normal. */
+constexpr float edge_on_cosine = 0.5f;
+
+/** \brief How far before and behind what is seen such a disc is taken to be, in parts
+ * of what it is elsewhere. */
+constexpr float facing_reach = 3.0f;
 
 /** \brief How much deeper than its point a filler lies, in radii of its own. */
 constexpr float filler_depth = 0.5f;

@@ -55,11 +55,14 @@ checkParameters(const ImageSpaceSettings& settings)
 }
 
 /** Lengths in pixels of the picture in finer ones; those of lines are WideSilhouettes'.
+ * Discs are single pixels only where holes between these are filled.
  */
 ImageSpaceSettings
 scaledSettings(ImageSpaceSettings settings, int supersampling)
 {
-  settings.smallest_disc *= supersampling;
+  constexpr double largest_hole = 2.1;
+  settings.smallest_disc = std::min(settings.smallest_disc * supersampling,
+                                    std::max(settings.smallest_disc, largest_hole));
   return settings;
 }
 

@@ -39,8 +39,14 @@ struct Projection {
   float focal, center_x, center_y, near, per_far;
   bool cull_back_faces;
   bool two_sided;   ///< normals are turned to the eye
+  float outward;    ///< factor that makes normals look outwards
   bool has_sides;   ///< discs that look away are others
   float away_depth; ///< how much deeper these are drawn, in radii
+  /** Discs that look to the eye over points that look away, lie behind them and are
+   * seen under a smaller cosine: their weight, and how far they reach, in parts of what
+   * others do. @{ */
+  float edge_on_cosine, facing_weight, facing_reach;
+  /** @} */
   float smallest_footprint, largest_filler; ///< in pixels: see backend.h
 };
 

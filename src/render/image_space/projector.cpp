@@ -42,8 +42,12 @@ projectionOf(const Frame& frame)
   projection.per_far = 1.0f / view.far;
   projection.cull_back_faces = frame.culls();
   projection.two_sided = !frame.culls();
+  projection.outward = frame.outward();
   projection.has_sides = frame.hasSides();
   projection.away_depth = frame.hasSides() ? away_depth : 0.0f;
+  projection.edge_on_cosine = edge_on_cosine;
+  projection.facing_weight = facing_weight;
+  projection.facing_reach = facing_reach;
   projection.smallest_footprint = frame.smallestDisc();
   projection.largest_filler = largest_filler;
   return projection;

@@ -120,16 +120,14 @@ addLight(const Shading& s,
 }
 
 /** Normal, of any length, and colour of a register of pixels: what discs blended to, or
- * those of the point. True for pixels that are seen from behind only because discs are
- * flat: their light is that of the side around them. */
-Ints
+ * those of the point. */
+void
 look(const Shading& s,
      const Ints& id,
      const float* blended,
      Floats* normal,
      Floats* surface)
 {
-  Ints is_turned{};
   unpackDirection(gatherEven(s.looks, id), normal);
   const Ints rgba = gatherEven(s.looks + 1, id);
   for (int k = 0; k < 3; ++k)
@@ -146,11 +144,9 @@ look(const Shading& s,
       normal[k] = is_blended ? sum(k) : normal[k];
       surface[k] = is_blended ? sum(3 + k) * per_weight : surface[k];
     }
-    is_turned = sum(7) < 0.0f;
   }
   for (int k = 0; k < 3; ++k)
     surface[k] *= 1.0f / 255.0f;
-  return is_turned;
 }
 
 /** The lit surface of a register of pixels. */
@@ -207,14 +203,12 @@ shadeRow(const Shading& s,
       const bool has_discs =
           blended.marks != nullptr && blended.marks[i / blend_segment] != 0;
       Floats surface[3];
-      const Ints is_turned = look(
+      look(
           s, id, has_discs ? blended.values + blended_values * i : nullptr, n, surface);
       Vector normal = normalized({n[0], n[1], n[2]});
       const Vector ray = normalized(rays(s, column + i, row));
       if (s.two_sided)
-        normal = scaled(normal,
-                        ((dot(normal, ray) > 0.0f) ^ is_turned) != 0 ? fill(-1.0f)
-                                                                     : fill(1.0f));
+        normal = scaled(normal, dot(normal, ray) > 0.0f ? fill(-1.0f) : fill(1.0f));
       if (s.is_lit)
         light(s, pixels, ray, normal, surface, color);
       n[0] = normal.x;

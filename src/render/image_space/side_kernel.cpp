@@ -36,10 +36,12 @@ findSides(const Projection& projection,
                            n[2] * (qx * r[2] + (qy * r[5] + r[8]));
       const Floats sq_lengths =
           (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) * (qx * qx + (qy * qy + 1.0f));
-      const Ints is_edge_on =
-          along * along < sq_lengths * (edge_on_cosine * edge_on_cosine);
-      const std::uint32_t away = projection.has_sides ? laneBits(along > 0.0f) : 0,
-                          edge_on = projection.has_sides ? laneBits(is_edge_on) : 0;
+      const float sq_cosine = projection.edge_on_cosine * projection.edge_on_cosine;
+      const std::uint32_t away = projection.has_sides
+                                     ? laneBits(along * projection.outward > 0.0f)
+                                     : 0,
+                          edge_on =
+                              away & laneBits(along * along < sq_lengths * sq_cosine);
       for (int lane = 0; lane < lanes; ++lane)
         sides[row * band.stride + column + lane] = static_cast<std::uint8_t>(
             sideOf(looks[2 * static_cast<std::uint32_t>(ids[lane]) + 1],

@@ -12,10 +12,6 @@ namespace pcl_uvol {
 constexpr std::uint8_t looks_away_bit = 1, edge_on_bit = 2;
 /** @} */
 
-/** Cosine of the angle between normal and ray: points with a smaller one are seen
- * nearly edge-on. */
-constexpr float edge_on_cosine = 0.5f;
-
 /** \brief Side and surface in one byte. Surfaces whose numbers differ by a multiple of
  * 64 are taken for one.
  * \param color of a look: its opacity is the number of the surface */
@@ -26,10 +22,9 @@ sideOf(std::uint32_t color, bool looks_away)
                                    (looks_away ? looks_away_bit : 0u));
 }
 
-/** \brief Find the sides of the pixels of a band; those of points that are seen nearly
- * edge-on, of surfaces with two sides, have that bit as well.
- * \param looks of all points: packed normal, then colour
- * \param sides laid out as the keys; of background any number */
+/** \brief Find the sides of the pixels of a band; those of points that look away and
+ * are seen nearly edge-on have that bit as well. \param looks of all points: packed
+ * normal, then colour \param sides laid out as the keys; of background any number */
 using SideKernel = void (*)(const Projection& projection,
                             const std::uint32_t* looks,
                             const PixelBand& band,

@@ -146,6 +146,7 @@ struct TestCamera {
     projection.center_y = 33.25f;
     projection.near = 0.5f;
     projection.per_far = 1.0f / 8.0f;
+    projection.outward = 1.0f;
     projection.smallest_footprint = 1.4f;
     projection.largest_filler = 2.8f;
   }

@@ -2,6 +2,7 @@
 // Discs in pixels against rays that meet their planes, in double precision.
 #include "pixel_setup.h"
 #include "src/render/image_space/disc_kernel.h"
+#include "src/render/image_space/side_kernel.h"
 #include "support/simd_levels.h"
 
 #include <gtest/gtest.h>
@@ -251,6 +252,82 @@ TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
               k < 3 || k == 6 ? 1e-4 : 2e-2);
       }
     EXPECT_GT(blended, 500u);
+  });
+}
+
+/** What looks away, nearly edge-on, is behind discs that look to the eye and have
+ * nearer centres: these have all of the weight. */
+TEST(DiscKernel, DiscsThatLookToTheEyeAreBlendedOverSuchAsLookAway)
+{
+  TestCamera camera;
+  Projection& p = camera.projection;
+  p.has_sides = p.two_sided = true;
+  p.away_depth = 1.0f;
+  p.facing_weight = 1000.0f;
+  p.facing_reach = 3.0f;
+  PointArrays points = randomDiscs(camera, 100);
+  const auto away = static_cast<std::uint32_t>(points.size());
+  points.add(Vector3d::Zero(), Vector3d::UnitZ(), 0.1f);
+  std::vector<std::uint32_t> looks, discs;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    looks.insert(looks.end(), {points.normals[i], 0x00ffffff});
+    if (i != away)
+      discs.push_back(i);
+  }
+  constexpr double seen = 0.55;
+  PixelRows rows;
+  for (int row = 0; row < PixelRows::height; ++row)
+    for (int column = 0; column < PixelRows::width; ++column)
+      rows.first()[row * PixelRows::stride + column] = uvol_test::makeKey(seen, away);
+  const std::vector<std::uint8_t> sides(rows.keys.size(), looks_away_bit | edge_on_bit);
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    std::vector<float> values(blended_values * rows.keys.size());
+    std::vector<std::uint8_t> marks(rows.keys.size() / blend_segment);
+    constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
+    kernel->blend(p,
+                  points.view(1.5f),
+                  looks.data(),
+                  discs.data(),
+                  discs.size(),
+                  rows.band(first_row, last_row),
+                  std::vector<float>(rows.keys.size(), 1.0f).data(),
+                  {values.data() + blended_values * first,
+                   marks.data() + first / blend_segment,
+                   sides.data() + first});
+    std::size_t facing = 0;
+    for (int row = first_row; row < last_row; ++row)
+      for (int column = 0; column < PixelRows::width; ++column) {
+        double weight = 0.0;
+        bool is_clear = true;
+        for (const std::uint32_t i : discs) {
+          const double radius = 1.5 * points.radii[i];
+          const Meeting meeting(
+              camera, points.place(i), points.normal(i), radius, column, row);
+          if (meeting.part >= 1.0)
+            continue;
+          const double room = (meeting.facing > 0.0 ? 1.0 : 3.0) * radius / 8.0,
+                       behind = std::abs(meeting.depth - seen),
+                       center = camera.toCamera(points.place(i)).norm() / 8.0,
+                       shifted = seen - 0.1 / 8.0;
+          is_clear = is_clear && std::abs(behind - room) > 1e-5 &&
+                     std::abs(center - shifted) > 1e-5;
+          if (behind > room || (meeting.facing <= 0.0 && center >= shifted))
+            continue;
+          const double rest = 1.0 - meeting.part * meeting.part;
+          weight += (meeting.facing > 0.0 ? 1.0 : 1000.0) * rest * rest;
+          facing += meeting.facing > 0.0 ? 0 : 1;
+        }
+        const std::ptrdiff_t pixel = row * PixelRows::stride + column;
+        const auto mark = static_cast<std::size_t>(first / blend_segment +
+                                                   BlendSums::segmentOf(pixel));
+        if (!is_clear || marks[mark] == 0)
+          continue;
+        EXPECT_NEAR(
+            weight,
+            values[static_cast<std::size_t>(blended_values * (first + pixel) + 6)],
+            1e-4 * std::max(weight, 1.0));
+      }
+    EXPECT_GT(facing, 100u);
   });
 }
 
