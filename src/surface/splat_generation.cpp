@@ -59,7 +59,7 @@ longestSide(const std::vector<Position>& positions)
 
 /** Footprints; where a point has none, which is at corners, on lines and far off, half
  * the way to the next point, but no more than is usual.
- * \param largest_alone of these where others have footprints, at most */
+ * \param largest_alone of those that are farther off than that, at most */
 std::vector<float>
 leastRadii(const SampleSet& samples,
            std::vector<float> footprints,
@@ -78,7 +78,7 @@ leastRadii(const SampleSet& samples,
   if (!known.empty()) {
     const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
     std::nth_element(known.begin(), middle, known.end());
-    usual = std::min(*middle, largest_alone);
+    usual = *middle;
   }
   parallelBlocks(footprints.size(), block_points, threads, [&](auto begin, auto end) {
     NearestFinder finder(samples, 2);
@@ -92,7 +92,8 @@ leastRadii(const SampleSet& samples,
       for (std::size_t j = 0; j < row.size; ++j)
         if (row.samples[j] != i)
           nearest = std::min(nearest, 0.5f * std::sqrt(row.sq_dists[j]));
-      nearest = std::min(nearest, usual);
+      if (nearest > usual)
+        nearest = std::min(usual, largest_alone);
       footprints[i] = std::isfinite(nearest) ? nearest : static_cast<float>(delta);
     }
   });

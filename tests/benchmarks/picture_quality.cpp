@@ -89,14 +89,27 @@ toVtk(const pcl::PointCloud<pcl::PointNormal>& cloud)
   return data;
 }
 
+/** Places around the tube of so many vertices, of which there are eight times as many
+ * along it. */
+std::size_t
+countAround(std::size_t vertices)
+{
+  return static_cast<std::size_t>(std::sqrt(static_cast<double>(vertices) / 8.0));
+}
+
+uvol_test::SurfaceCloudPtr
+makeVertices(std::size_t count)
+{
+  const std::size_t around = countAround(count);
+  return uvol_test::makeKnotLattice(8 * around, around);
+}
+
 /** A mesh of about so many vertices. */
 vtkSmartPointer<vtkPolyData>
 makeMesh(std::size_t vertices)
 {
-  // The tube is about eight times as long as it is around.
-  const auto around = static_cast<std::size_t>(std::sqrt(vertices / 8.0)),
-             along = 8 * around;
-  const auto data = toVtk(*uvol_test::makeKnotLattice(along, around));
+  const std::size_t around = countAround(vertices), along = 8 * around;
+  const auto data = toVtk(*makeVertices(vertices));
   vtkNew<vtkCellArray> triangles;
   const auto vertexOf = [&](std::size_t i, std::size_t j) {
     return static_cast<vtkIdType>((i % along) * around + j % around);
@@ -211,7 +224,8 @@ tell(const std::string& name, double error, double milliseconds)
 }
 
 void
-measureOurs(const uvol_test::SurfaceCloudPtr& cloud,
+measureOurs(const std::string& name,
+            const uvol_test::SurfaceCloudPtr& cloud,
             int supersampling,
             int pixels,
             const Picture& truth)
@@ -233,8 +247,8 @@ measureOurs(const uvol_test::SurfaceCloudPtr& cloud,
   Picture picture(image.pixels());
   for (std::size_t i = 0; i < picture.size(); ++i)
     picture[i] = image.color[4 * i];
-  tell("ours, " + std::to_string(supersampling) + " x " +
-           std::to_string(supersampling) + " samples per pixel",
+  tell("ours, " + name + ", " + std::to_string(supersampling) + " x " +
+           std::to_string(supersampling) + " samples",
        rms(picture, truth),
        milliseconds);
 }
@@ -264,7 +278,10 @@ compare(std::size_t points, int pixels)
       "%zu points, %d x %d pixels: rms of 255, ms per frame\n", points, pixels, pixels);
   const auto cloud = uvol_test::makeTorusKnot(points, 1);
   for (const int supersampling : {1, 2, 3})
-    measureOurs(cloud, supersampling, pixels, truth);
+    measureOurs("random points", cloud, supersampling, pixels, truth);
+  for (const int supersampling : {2, 3})
+    measureOurs(
+        "the mesh's vertices", makeVertices(points), supersampling, pixels, truth);
   const auto mesh = mapMesh(points);
   for (const int multisamples : {0, 4, 8})
     measureVtk("VTK's mesh, multisamples asked for: " + std::to_string(multisamples),

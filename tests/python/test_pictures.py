@@ -190,6 +190,15 @@ def test_sizes_may_be_arrays(sphere):
     assert sphere.render(size=np.array([20, 30])).pixels.shape == (30, 20, 4)
 
 
+def test_a_picture_says_how_large_it_is_printed(tmp_path, sphere):
+    picture = sphere.render(size=64)
+    picture.save(tmp_path / "plain.png")
+    picture.save(tmp_path / "of_300.png", dpi=300)
+    chunk = b"\0\0\0\x09pHYs" + 2 * (11811).to_bytes(4, "big") + b"\1"
+    assert (tmp_path / "of_300.png").read_bytes()[33:50] == chunk
+    assert b"pHYs" not in (tmp_path / "plain.png").read_bytes()
+
+
 def test_a_picture_is_an_array(sphere):
     picture = sphere.render(size=(50, 40), color="vel[0]")
     assert np.asarray(picture).shape == (40, 50, 4) and picture.pixels.dtype == np.uint8

@@ -59,8 +59,8 @@ struct ImageSpaceSettings {
   bool silhouettes = false;
   /** Least value of the Laplace filter on depth (Table 4.2). */
   double silhouette_threshold = 0.02;
-  /** Lines are 2 t - 1 pixels wide for the thickness t in [1, 7]; with supersampling
-   * wide lines come out narrower. */
+  /** Lines are 2 t - 1 pixels of the picture wide for the thickness t in [1, 7], with
+   * supersampling as without. */
   int silhouette_thickness = 2;
   bool feature_lines = false;
   /** Least 1 - cos of the angle between the normals of a pixel and two of its
