@@ -2,6 +2,7 @@
 #include "surface/splat_input.h"
 
 #include "common/scalar_field.h"
+#include "neighbors/nearest_finder.h"
 #include "surface/oriented_points.h"
 #include "surface/packed_normal.h"
 #include "surface/splat_fields.h"
@@ -12,7 +13,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -67,6 +72,62 @@ makeDot(const CloudView& cloud,
   return dot;
 }
 
+bool
+isCovering(const PointSplat& splat, const Eigen::Vector3f& place)
+{
+  const Eigen::Vector3f offset = place - splat.getVector3fMap();
+  const float height = offset.dot(splat.getNormalVector3fMap());
+  return offset.squaredNorm() <= splat.radius * splat.radius &&
+         std::abs(height) <= 0.5f * splat.radius;
+}
+
+/** Whether one of the splats whose centres are nearest to a dot covers it. */
+bool
+isCovered(const PointSplat& dot,
+          const Splats& splats,
+          const SampleSet& centers,
+          NearestFinder& finder)
+{
+  const auto factor = static_cast<float>(centers.getUnit().factor);
+  const NearestFinder::Row row =
+      finder.find(Position{{dot.x * factor, dot.y * factor, dot.z * factor}},
+                  std::max(dot.radius * factor, std::numeric_limits<float>::min()));
+  return std::any_of(row.samples, row.samples + row.size, [&](std::uint32_t sample) {
+    return isCovering(splats.cloud[centers.getInputIndex(sample)],
+                      dot.getVector3fMap());
+  });
+}
+
+/** Splats, and behind them the dots that lie beside all of these: where the surface
+ * around is covered a single isopoint in a gap tells nothing. */
+Splats
+withDots(Splats&& splats, const Splats& dots, unsigned threads)
+{
+  constexpr std::size_t looked_at = 16;
+  SampleSet::ConstPtr centers;
+  std::optional<NearestFinder> finder;
+  if (!splats.cloud.empty()) {
+    std::vector<std::uint32_t> all(splats.cloud.size());
+    std::iota(all.begin(), all.end(), 0u);
+    Report own;
+    centers = SampleSet::build(&splats.cloud[0].x,
+                               sizeof(PointSplat) / sizeof(float),
+                               all,
+                               Position{{1.0f, 1.0f, 1.0f}},
+                               threads,
+                               own);
+    finder.emplace(*centers, looked_at);
+  }
+  Splats joined = std::move(splats);
+  for (std::size_t i = 0; i < dots.cloud.size(); ++i) {
+    if (finder && isCovered(dots.cloud[i], joined, *centers, *finder))
+      continue;
+    joined.cloud.push_back(dots.cloud[i]);
+    joined.sources.push_back(dots.sources[i]);
+  }
+  return joined;
+}
+
 /** Splats for points to be drawn: isopoints in gaps of the sampling become dots, and
  * specks of noise no more than that. */
 Splats
@@ -88,35 +149,38 @@ coverForPicture(const CloudView& cloud,
     return splats;
   Report own; // the points are counted with the others
   const OrientedPoints points = orientPoints(cloud, dots, threads, own);
+  Splats small;
   for (std::size_t i = 0; i < points.normals.size(); ++i) {
-    splats.cloud.push_back(makeDot(cloud, points, i, radius));
-    splats.sources.push_back(points.samples->getInputIndex(i));
+    small.cloud.push_back(makeDot(cloud, points, i, radius));
+    small.sources.push_back(points.samples->getInputIndex(i));
   }
   report.count("bridged", dots.size());
-  return splats;
+  return withDots(std::move(splats), small, threads);
 }
 
 /** Splats of a cloud to be drawn: those of isopoints in gaps become dots, as without
  * splats. */
 Splats
-readForPicture(const CloudView& cloud, Report& report)
+readForPicture(const CloudView& cloud, unsigned threads, Report& report)
 {
   Splats splats = readSplats(cloud, report);
   const std::vector<std::uint8_t> bridged = findBridged(cloud);
   if (bridged.empty())
     return splats;
   const float radius = findDotRadius(cloud);
-  std::size_t dots = 0;
+  Splats covering, dots;
   for (std::size_t i = 0; i < splats.cloud.size(); ++i) {
-    if (!bridged[splats.sources[i]])
-      continue;
-    PointSplat& splat = splats.cloud[i];
-    splat.radius = radius;
-    splat.error = splat.tilt_u = splat.tilt_v = splat.slope_u = splat.slope_v = 0.0f;
-    ++dots;
+    const bool is_dot = bridged[splats.sources[i]] != 0;
+    PointSplat splat = splats.cloud[i];
+    if (is_dot) {
+      splat.radius = radius;
+      splat.error = splat.tilt_u = splat.tilt_v = splat.slope_u = splat.slope_v = 0.0f;
+    }
+    (is_dot ? dots : covering).cloud.push_back(splat);
+    (is_dot ? dots : covering).sources.push_back(splats.sources[i]);
   }
-  report.count("bridged", dots);
-  return splats;
+  report.count("bridged", dots.cloud.size());
+  return withDots(std::move(covering), dots, threads);
 }
 
 } // namespace
@@ -210,7 +274,7 @@ findSplats(const CloudView& cloud,
   if (is_asked_for)
     report.warnings.push_back("It holds splats, which are drawn as they are: "
                               "delta and lambda are not used.");
-  return readForPicture(cloud, report);
+  return readForPicture(cloud, threads, report);
 }
 
 } // namespace pcl_uvol

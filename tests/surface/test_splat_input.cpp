@@ -103,6 +103,35 @@ TEST(SplatsOfPictures, SpecksAreDotsBesideASurface)
     EXPECT_NEAR(2.5f, splat.radius, 1e-4f);
 }
 
+TEST(SplatsOfPictures, IsopointsInGapsAreDotsWhereNothingCoversThem)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> cloud;
+  const auto add = [&](float x, float y, pcl_uvol::IsoSupport support) {
+    pcl_uvol::PointIso point;
+    point.x = x;
+    point.y = y;
+    point.z = 0.0f;
+    point.normal_x = point.normal_y = 0.0f;
+    point.normal_z = 1.0f;
+    point.edge_length = 0.05f;
+    point.support = static_cast<std::uint8_t>(support);
+    cloud.push_back(point);
+  };
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < 30; ++j)
+      add(0.05f * static_cast<float>(i),
+          0.05f * static_cast<float>(j),
+          pcl_uvol::IsoSupport::Measured);
+  add(0.72f, 0.73f, pcl_uvol::IsoSupport::Bridged);
+  add(3.0f, 0.73f, pcl_uvol::IsoSupport::Bridged);
+  Report report;
+  const auto splats =
+      pcl_uvol::findSplats(pcl_uvol::viewOf(cloud), {}, false, 0, report);
+  EXPECT_EQ(2u, report.getCount("bridged"));
+  EXPECT_EQ(0, std::count(splats.sources.begin(), splats.sources.end(), 900u));
+  EXPECT_EQ(1, std::count(splats.sources.begin(), splats.sources.end(), 901u));
+}
+
 TEST(SplatGeneration, OnePointHasNoExtentThatDeltaIsAPartOf)
 {
   for (const std::size_t times : {1u, 20u}) { // 20 at one place are as one
