@@ -109,12 +109,10 @@ ViewOptions::declareScene(Options& options)
   options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
       .rare();
   options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
-  options.text(
-      "size",
-      "WxH",
-      size_text_,
-      "pixels of the picture, or what it measures in print, as 85x60mm (also cm, "
-      "in; default 1024x1024)");
+  options.text("size",
+               "WxH",
+               size_text_,
+               "pixels of the picture, or lengths, as 85x60mm (default 1024x1024)");
   options
       .text("background",
             "r,g,b|name",
