@@ -6,13 +6,33 @@
 # their groups (readers, texts, stages), by default all.
 # -n: a target that has had so many executions since its last finding is left out, and ends when it has
 # them, so that others get its time. The executions of all calls are listed in build/fuzz/executions.txt, each
-# with the commit of the code.
+# with the commit of the code; those of the table in tests/fuzz/README.md count as well.
+# usage: fuzz.sh -r: adds that list to the table, and begins it anew.
 # At the end: the share of the lines of our readers (src/io) that was reached; build/fuzz/coverage.txt has those of each file.
 # What reaches new code is kept in build/fuzz/corpus and built upon by the next call. Exit code 1 if
 # something was found; such a file goes into tests/fuzz/corpus/TARGET once the fault is mended.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-usage="usage: fuzz.sh [-n EXECUTIONS] SECONDS [TARGET...]"
+usage="usage: fuzz.sh [-n EXECUTIONS] SECONDS [TARGET...], or fuzz.sh -r"
+tally=build/fuzz/executions.txt
+table=tests/fuzz/README.md
+if [ "${1-}" = -r ]; then
+  awk -v tally=$tally 'BEGIN {
+      while ((getline <tally) > 0)
+        if ($1 != "#") {
+          if ($5) { found[$1] += 1; n[$1] = s[$1] = 0 } else { n[$1] += $3; s[$1] += $4 }
+          commit[$1] = $2
+        }
+    }
+    /^[|] [a-z0-9_]+ [|] [0-9]+ [|]/ && $2 in commit {
+      if (found[$2]) $4 = $6 = 0
+      print "|", $2, "|", $4 + n[$2], "|", $6 + s[$2], "|", $8 + found[$2], "|", commit[$2], "|"; next
+    }
+    { print }' $table >build/fuzz/table.md
+  cp build/fuzz/table.md $table
+  rm $tally
+  exit
+fi
 goal=0
 if [ "${1-}" = -n ]; then
   goal=${2:?$usage}
@@ -32,12 +52,12 @@ done
 [ "$seconds" -ge ${#targets[@]} ] || { echo "fuzz.sh: $seconds s for ${#targets[@]} targets are too few." >&2; exit 2; }
 
 mkdir -p build/fuzz/coverage
-tally=build/fuzz/executions.txt
 [ -f $tally ] || echo "# target commit executions seconds findings" >$tally
 commit=$(git describe --always --dirty)
 # Executions and seconds of a target since its last finding.
 count_all() {
-  awk -v target="$1" '$1 == target { n = $5 ? 0 : n + $3; s = $5 ? 0 : s + $4 } END { print n + 0, s + 0 }' $tally
+  awk -v target="$1" '$1 == "|" && $2 == target { n = $4; s = $6 }
+    $1 == target { n = $5 ? 0 : n + $3; s = $5 ? 0 : s + $4 } END { print n + 0, s + 0 }' $table $tally
 }
 
 # Packed files are unpacked in memory. Where memory was taken is known to few calls, and what was given back is
@@ -52,7 +72,7 @@ for ((i = 0; i < ${#targets[@]}; ++i)); do
   log=build/fuzz/$target.log
   mkdir -p "$corpus" "$findings"
   each=$(((end - SECONDS) / (${#targets[@]} - i)))
-  options=(-max_total_time=$((each > 0 ? each : 1)) -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 "-artifact_prefix=$findings/")
+  options=(-max_total_time=$((each > 0 ? each : 1)) -timeout=20 -reload=0 -rss_limit_mb=2048 -print_final_stats=1 "-artifact_prefix=$findings/")
   if [ "$goal" -gt 0 ]; then
     read -r executions _ < <(count_all "$target")
     [ "$executions" -lt "$goal" ] || continue

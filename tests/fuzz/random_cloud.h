@@ -2,6 +2,9 @@
 // Clouds and choices made of bytes.
 #pragma once
 
+#include <pcl_uvol/common/parameters.h>
+
+#include <Eigen/Core>
 #include <pcl/PCLPointCloud2.h>
 
 #include <array>
@@ -53,6 +56,24 @@ public:
 private:
   const std::uint8_t *at_, *end_;
 };
+
+/** \brief Of samples that have a value each. */
+constexpr std::array<const char*, 4> sample_fields{"x", "y", "z", "intensity"};
+
+template <typename T, std::size_t count>
+T
+chooseOne(Bytes& bytes, const std::array<pcl_uvol::EnumWord<T>, count>& words)
+{
+  return words[bytes.choose(count)].value;
+}
+
+inline Eigen::Array3f
+takeScale(Bytes& bytes)
+{
+  constexpr std::array<float, 4> factors{1.0f, 1e-3f, 1e3f, 1e30f};
+  const float x = factors[bytes.choose(factors.size())];
+  return {x, 1.0f, factors[bytes.choose(factors.size())]};
+}
 
 /** \brief A cloud of all the bytes that are left: any floats, or small whole numbers
  * times a power of two, of which many are equal, on a line or in a plane.

@@ -1,134 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points, values and parameters of any kind through the stages.
+// Samples, values and parameters of any kind: level sets, interpolation, Voronoi grids
+// and convex hulls.
+#include "pipeline/sample_hull.h"
 #include "promises.h"
 #include "random_cloud.h"
 #include "targets.h"
 #include <pcl_uvol/interpolation/field_interpolation.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
-#include <pcl_uvol/mesh/surface_mesh.h>
-#include <pcl_uvol/multivariate/density_clustering.h>
-#include <pcl_uvol/pipeline/isosurface_pipeline.h>
-#include <pcl_uvol/surface/splat_generation.h>
+#include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <cmath>
-#include <set>
-#include <utility>
+#include <numeric>
 
 namespace uvol_fuzz {
 
 namespace {
 
 using Cloud = pcl::PCLPointCloud2;
-using pcl_uvol::Interpolation;
 
-constexpr std::array<const char*, 4> sample_fields{"x", "y", "z", "intensity"};
-
-template <typename T, std::size_t count>
-T
-chooseOne(Bytes& bytes, const std::array<pcl_uvol::EnumWord<T>, count>& words)
-{
-  return words[bytes.choose(count)].value;
-}
-
-Eigen::Array3f
-takeScale(Bytes& bytes)
-{
-  constexpr std::array<float, 4> factors{1.0f, 1e-3f, 1e3f, 1e30f};
-  const float x = factors[bytes.choose(factors.size())];
-  return {x, 1.0f, factors[bytes.choose(factors.size())]};
-}
-
-pcl_uvol::IsosurfaceParameters
-takeIsosurface(Bytes& bytes)
-{
-  pcl_uvol::IsosurfaceParameters parameters;
-  parameters.interpolation = chooseOne(bytes, listWords(Interpolation()));
-  parameters.outside = chooseOne(bytes, listWords(pcl_uvol::Outside()));
-  parameters.criterion = chooseOne(bytes, listWords(pcl_uvol::AngleCriterion()));
-  parameters.neighbors = chooseOne(bytes, listWords(pcl_uvol::NeighborSource()));
-  parameters.voronoi_cells = 16;
-  parameters.scale = takeScale(bytes);
-  parameters.isovalues = {bytes.flip() ? bytes.take<float>()
-                                       : 0.5 * bytes.take<std::int8_t>()};
-  return parameters;
-}
-
+/** Cells are nearest to their sites, but for what the transform rounds. */
 void
-requireEdges(const pcl_uvol::IsoEdges& edges, std::size_t samples)
+requireNearest(const pcl_uvol::VoronoiGrid& grid)
 {
-  for (const auto& edge : edges) {
-    require(edge.first < samples && edge.second < samples, "edges have samples");
-    require(edge.t >= 0.0f && edge.t <= 1.0f, "isopoints lie between their samples");
+  constexpr double rounding = 1.0 + 1e-4;
+  const auto& shape = grid.getShape();
+  const auto& sites = grid.getSites();
+  for (std::uint64_t i = 0; i < shape.size(); ++i) {
+    require(grid.getNearest()[i] < sites.size(), "every cell has a site");
+    const auto cell = shape.cellOf(i);
+    const double distance = shape.distance(cell, sites[grid.getNearest()[i]]);
+    for (const auto& site : sites)
+      require(distance <= rounding * shape.distance(cell, site), "it is the nearest");
   }
 }
 
-template <typename Points>
-void
-requireFinite(const Points& points)
-{
-  for (const auto& point : points)
-    require(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z),
-            "positions are finite");
-}
-
-/** Every side of a triangle is, the other way round, one of one other triangle. */
-void
-requireClosed(const std::vector<pcl_uvol::Triangle>& triangles, std::size_t vertices)
-{
-  std::set<std::pair<std::uint32_t, std::uint32_t>> sides;
-  for (const auto& triangle : triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      require(triangle[i] < vertices, "triangles have vertices");
-      require(sides.emplace(triangle[i], triangle[(i + 1) % 3]).second,
-              "no side is run through twice");
-    }
-  for (const auto& [from, to] : sides)
-    require(sides.count({to, from}) == 1, "a mesh has no rim");
-}
-
 } // namespace
-
-void
-extractIsosurface(const std::uint8_t* bytes, std::size_t size)
-{
-  Bytes input(bytes, size);
-  pcl_uvol::IsosurfacePipelineParameters parameters;
-  parameters.isosurface = takeIsosurface(input);
-  parameters.drop_bridged = input.flip();
-  parameters.normals = chooseOne(input, listWords(pcl_uvol::NormalMethod()));
-  const auto samples = std::make_shared<pcl_uvol::Dataset>();
-  samples->cloud = *takeCloud(input, sample_fields);
-  pcl_uvol::IsosurfacePipeline pipeline;
-  pipeline.setInput(samples);
-  pipeline.setParameters(parameters);
-  pipeline.setNumberOfThreads(1);
-  refusalOf([&] {
-    const auto result = pipeline.run();
-    require(result.surface.cloud.width == result.edges.size(), "isopoints have edges");
-    requireEdges(result.edges, samples->cloud.width);
-    for (const std::string& warning : result.report.warnings)
-      requireSentence(warning);
-  });
-}
-
-void
-meshSurface(const std::uint8_t* bytes, std::size_t size)
-{
-  Bytes input(bytes, size);
-  pcl_uvol::SurfaceMeshParameters parameters;
-  parameters.isosurface = takeIsosurface(input);
-  parameters.meshing.remesh = chooseOne(input, listWords(pcl_uvol::Remeshing()));
-  pcl_uvol::SurfaceMesh<Cloud> mesh;
-  mesh.setInputCloud(takeCloud(input, sample_fields));
-  mesh.setParameters(parameters);
-  mesh.setNumberOfThreads(1);
-  refusalOf([&] {
-    pcl_uvol::SurfaceTriangles surface;
-    mesh.extract(surface);
-    requireFinite(surface.vertices);
-    requireClosed(surface.triangles, surface.vertices.size());
-  });
-}
 
 void
 evolveLevelSet(const std::uint8_t* bytes, std::size_t size)
@@ -194,58 +100,59 @@ interpolateFields(const std::uint8_t* bytes, std::size_t size)
 }
 
 void
-clusterAttributes(const std::uint8_t* bytes, std::size_t size)
+divideSpace(const std::uint8_t* bytes, std::size_t size)
 {
+  constexpr std::size_t most_cells = 8;
   Bytes input(bytes, size);
-  pcl_uvol::ClusteringParameters parameters;
-  parameters.attributes = {"intensity", "x"};
-  if (input.flip())
-    parameters.attributes.emplace_back("y");
-  parameters.is_standardized = input.flip();
-  parameters.neighbors = input.choose(20);
-  parameters.min_cluster_size = input.choose(6);
-  parameters.allow_single_cluster = input.flip();
-  parameters.cut_distance = input.flip() ? 0.25 * input.take<std::uint8_t>() : 0.0;
-  pcl_uvol::DensityClustering<Cloud> clustering;
+  pcl_uvol::VoronoiParameters parameters;
+  parameters.cells_x = static_cast<std::uint32_t>(input.choose(most_cells));
+  if (input.flip()) {
+    parameters.cells_y = static_cast<std::uint32_t>(input.choose(most_cells));
+    parameters.cells_z = static_cast<std::uint32_t>(input.choose(most_cells));
+  }
+  parameters.margin = static_cast<std::uint32_t>(input.choose(2));
+  pcl_uvol::VoronoiDiagram<Cloud> diagram;
   const auto cloud = takeCloud(input, sample_fields);
-  clustering.setInputCloud(cloud);
-  clustering.setParameters(parameters);
-  clustering.setNumberOfThreads(1);
+  diagram.setInputCloud(cloud);
+  diagram.setParameters(parameters);
+  diagram.setNumberOfThreads(1);
   refusalOf([&] {
-    std::vector<int> labels;
-    clustering.compute(labels);
-    require(labels.size() == cloud->width, "every point has a label");
-    const auto& tree = clustering.getTree();
-    for (std::size_t i = 0; i < tree.size(); ++i)
-      require(tree[i].parent < static_cast<std::int32_t>(i),
-              "parents stand before their children");
-    for (const float probability : clustering.getProbabilities())
-      require(probability >= 0.0f && probability <= 1.0f,
-              "probabilities are between 0 and 1");
+    const auto grid = diagram.compute();
+    requireNearest(*grid);
+    require(grid->getMembers().size() == grid->getSites().size(), "sites have members");
+    for (const float distance : grid->computeDistances(1))
+      require(distance >= 0.0f, "distances are numbers");
+    const auto adjacent = grid->findAdjacentRegions(1);
+    for (std::size_t site = 0; site < adjacent.size(); ++site)
+      for (const std::uint32_t other : adjacent[site])
+        require(other < adjacent.size() && other != site,
+                "regions are adjacent to others");
   });
 }
 
 void
-makeSplats(const std::uint8_t* bytes, std::size_t size)
+wrapSamples(const std::uint8_t* bytes, std::size_t size)
 {
   Bytes input(bytes, size);
-  pcl_uvol::SplatParameters parameters;
-  parameters.delta = 0.001 * (1 + input.take<std::uint8_t>());
-  parameters.delta_is_length = input.flip();
-  parameters.lambda = input.choose(11) / 10.0;
-  pcl_uvol::SplatGeneration<Cloud> generation;
-  generation.setInputCloud(takeCloud(
-      input,
-      std::array<const char*, 6>{"x", "y", "z", "normal_x", "normal_y", "normal_z"}));
-  generation.setParameters(parameters);
-  generation.setNumberOfThreads(1);
+  const double tolerance = std::pow(0.5, input.choose(20));
+  const auto cloud = takeCloud(input, std::array<const char*, 3>{"x", "y", "z"});
+  std::vector<std::uint32_t> all(cloud->width);
+  std::iota(all.begin(), all.end(), 0);
   refusalOf([&] {
-    pcl::PointCloud<pcl_uvol::PointSplat> splats;
-    generation.compute(splats);
-    requireFinite(splats);
-    for (const auto& splat : splats)
-      require(splat.radius > 0.0f && std::isfinite(splat.radius),
-              "discs have a radius");
+    pcl_uvol::Report report;
+    const auto view = pcl_uvol::viewOf(*cloud);
+    const auto samples = pcl_uvol::SampleSet::build(
+        view.xyz(0), view.stride(), all, {{1.0f, 1.0f, 1.0f}}, 1, report);
+    const auto& tree = samples->getTree();
+    const auto box = tree.getBox(tree.getRoot());
+    double extent = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      extent = std::max(extent, double(box.high[axis]) - box.low[axis]);
+    if (!(extent > 0.0))
+      return;
+    const pcl_uvol::detail::SampleHull hull(*samples, tolerance * extent);
+    for (const auto& position : samples->getPositions())
+      require(hull.contains(position), "a hull contains its samples");
   });
 }
 

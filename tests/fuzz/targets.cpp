@@ -41,6 +41,14 @@ listTargets()
       {"splats", Group::stages, makeSplats},
       {"ray_tracer", Group::stages, traceRays},
       {"renderer", Group::stages, renderPoints},
+      {"gap_filling", Group::stages, fillGaps},
+      {"periodic_box", Group::stages, extractInBox},
+      {"normals", Group::stages, estimateNormals},
+      {"measures", Group::stages, measureSurface},
+      {"voronoi_grid", Group::stages, divideSpace},
+      {"hull", Group::stages, wrapCluster},
+      {"convex_hull", Group::stages, wrapSamples},
+      {"star_coordinates", Group::stages, projectAttributes},
   };
   return targets;
 }

@@ -98,6 +98,27 @@ void
 traceRays(const std::uint8_t* bytes, std::size_t size);
 void
 renderPoints(const std::uint8_t* bytes, std::size_t size);
+void
+fillGaps(const std::uint8_t* bytes, std::size_t size);
+/** Samples in a box that repeats. */
+void
+extractInBox(const std::uint8_t* bytes, std::size_t size);
+void
+estimateNormals(const std::uint8_t* bytes, std::size_t size);
+void
+measureSurface(const std::uint8_t* bytes, std::size_t size);
+/** A discrete Voronoi diagram. */
+void
+divideSpace(const std::uint8_t* bytes, std::size_t size);
+/** The hull of a cluster. */
+void
+wrapCluster(const std::uint8_t* bytes, std::size_t size);
+/** The convex hull of samples. */
+void
+wrapSamples(const std::uint8_t* bytes, std::size_t size);
+/** Star coordinates. */
+void
+projectAttributes(const std::uint8_t* bytes, std::size_t size);
 /** @} */
 
 } // namespace uvol_fuzz
