@@ -38,27 +38,10 @@ SampleHull::SampleHull(const SampleSet& samples, double tolerance)
     const bool is_mirrored = (x + y + z) % 2 != 0;
     addFace(x, is_mirrored ? z : y, is_mirrored ? y : z);
   }
-  std::vector<Vector3d> beyond;
+  std::vector<Vector3d> outside;
   for (const Position& position : samples.getPositions())
-    beyond.push_back(toVector(position));
-  while (true) {
-    // The farthest first: most of the others lie in the hull then.
-    std::size_t left = 0, farthest = 0;
-    double distance = 0.0;
-    for (const Vector3d& place : beyond)
-      if (const double of_place = distanceBeyond(place); of_place > tolerance) {
-        if (of_place > distance) {
-          distance = of_place;
-          farthest = left;
-        }
-        beyond[left++] = place;
-      }
-    beyond.resize(left);
-    if (beyond.empty())
-      break;
-    addCorner(beyond[farthest]);
-    beyond[farthest] = beyond.back();
-    beyond.pop_back();
+    outside.push_back(toVector(position));
+  while (growTo(outside)) {
   }
   // Faces nearly without an area may be tilted: none cuts off a corner.
   for (Face& face : faces_)
@@ -79,6 +62,39 @@ SampleHull::distanceBeyond(const Vector3d& place) const
   for (const Face& face : faces_)
     distance = std::max(distance, face.normal.dot(place) - face.height);
   return distance;
+}
+
+bool
+SampleHull::growTo(std::vector<Vector3d>& places)
+{
+  std::vector<Vector3d> close;
+  bool has_grown = false;
+  while (true) {
+    // The farthest first: most of the others lie in the hull then.
+    std::size_t left = 0, farthest = 0;
+    double distance = 0.0;
+    for (const Vector3d& place : places) {
+      const double of_place = distanceBeyond(place);
+      if (of_place > tolerance_) {
+        if (of_place > distance) {
+          distance = of_place;
+          farthest = left;
+        }
+        places[left++] = place;
+      }
+      else if (of_place > 0.0)
+        close.push_back(place);
+    }
+    places.resize(left);
+    if (places.empty())
+      break;
+    addCorner(places[farthest]);
+    has_grown = true;
+    places[farthest] = places.back();
+    places.pop_back();
+  }
+  places.swap(close);
+  return has_grown;
 }
 
 void

@@ -41,6 +41,13 @@ private:
   double
   distanceBeyond(const Eigen::Vector3d& place) const;
 
+  /** Takes places that lie farther beyond a face than the tolerance for corners. Of the
+   * others those outside of the hull stay in the list: beside a sharp edge a face that
+   * is added later may be farther from them.
+   * \return whether there was such a place */
+  bool
+  growTo(std::vector<Eigen::Vector3d>& places);
+
   void
   addFace(std::size_t a, std::size_t b, std::size_t c);
 
