@@ -3,6 +3,8 @@
 // damaged files.
 #pragma once
 
+#include <pcl_uvol/common/export.h>
+
 #include <vtkSmartPointer.h>
 
 #include <cstddef>
@@ -29,7 +31,7 @@ readVtkXml(const std::string& path);
 /** \brief Hold what a .vtp, .vtu, .vts, .vti or .vtr promises of its points, its cells
  * and their data against the bytes that are there, before VTK's reader believes it.
  * \throws IOError */
-void
+PCL_UVOL_EXPORTS void
 checkVtkXml(const std::string& path);
 
 /** \brief The same of a .vtk: images and rectilinear grids as such.
@@ -40,7 +42,7 @@ readVtkLegacy(const std::string& path);
 /** \brief Hold what a .vtk promises against the bytes that are there, as far as its
  * points are read here.
  * \throws IOError */
-void
+PCL_UVOL_EXPORTS void
 checkVtkLegacy(const std::string& path);
 
 /** \brief Arrays that points or cells of VTK's files have at most, read or written: VTK

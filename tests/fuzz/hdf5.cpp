@@ -90,7 +90,16 @@ takeType(Bytes& bytes)
                                     H5T_STD_I32LE,
                                     H5T_STD_U64LE,
                                     H5T_C_S1}};
-  return types[bytes.choose(types.size())];
+  const std::array<hid_t, 8> further_types{{H5T_STD_U8LE,
+                                            H5T_STD_I16LE,
+                                            H5T_STD_I16BE,
+                                            H5T_STD_U16LE,
+                                            H5T_STD_U32LE,
+                                            H5T_STD_U32BE,
+                                            H5T_STD_I64LE,
+                                            H5T_STD_I64BE}};
+  const auto chosen = bytes.take<std::uint8_t>();
+  return (chosen < 128 ? types : further_types)[chosen % types.size()];
 }
 
 class Hdf5Maker {

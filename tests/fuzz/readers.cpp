@@ -4,6 +4,7 @@
 #include "common/scalar_field.h"
 #include "io/memory_need.h"
 #include "io/point_stream.h"
+#include "io/vtk_readers.h"
 #include "point_files.h"
 #include "promises.h"
 #include "targets.h"
@@ -208,6 +209,7 @@ readLegacyVtk(const std::uint8_t* bytes, std::size_t size)
   const std::string path = writeFile("a.vtk", bytes, size);
   readPoints(path, false);
   readVolume(path);
+  refusalOf<IOError>([&] { pcl_uvol::io::checkVtkLegacy(path); }, path);
 }
 
 void
@@ -217,6 +219,7 @@ readXmlVtk(const std::uint8_t* bytes, std::size_t size)
   readPoints(path, false);
   readMesh(path);
   readVolume(writeFile("a.vti", bytes, size));
+  refusalOf<IOError>([&] { pcl_uvol::io::checkVtkXml(path); }, path);
 }
 
 void
