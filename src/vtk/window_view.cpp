@@ -79,7 +79,9 @@ makeCamera(const Eigen::Matrix4d& cloud_to_eye, double scale, double vertical_fo
   const Eigen::Matrix3d turn = cloud_to_eye.topLeftCorner<3, 3>() / scale;
   Camera camera;
   camera.eye = -turn.transpose() * cloud_to_eye.topRightCorner<3, 1>() / scale;
-  camera.at = camera.eye - turn.row(2).transpose();
+  // Far from the origin a step of 1 is lost in rounding.
+  const double distance = camera.eye.norm(), step = distance > 0x1p20 ? distance : 1.0;
+  camera.at = camera.eye - step * turn.row(2).transpose();
   camera.up = turn.row(1).transpose();
   camera.vertical_fov = vertical_fov;
   return camera;

@@ -173,7 +173,6 @@ ViewerWindow::ViewerWindow(const std::string& path,
   colors_ = std::make_unique<ColorChoice>(look_, *cloud);
   observe(*prop_, vtkCommand::ErrorEvent, [this](const void* text) {
     error_ = extractWords(static_cast<const char*>(text));
-    std::cerr << "uvol_viewer: " << error_ << '\n';
   });
   const pcl_uvol::Background background = renderer.settings().background;
   setUpScene(background);
@@ -186,6 +185,10 @@ ViewerWindow::ViewerWindow(const std::string& path,
   render();
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
+  // Nobody else tells what is wrong with frames that the system asks for.
+  observe(*prop_, vtkCommand::ErrorEvent, [this](const void*) {
+    std::cerr << "uvol_viewer: " << error_ << '\n';
+  });
 }
 
 void
