@@ -186,8 +186,9 @@ ViewerWindow::ViewerWindow(const std::string& path,
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
   // Nobody else tells what is wrong with frames that the system asks for.
-  observe(*prop_, vtkCommand::ErrorEvent, [this](const void*) {
-    std::cerr << "uvol_viewer: " << error_ << '\n';
+  observe(*prop_, vtkCommand::ErrorEvent, [](const void* text) {
+    std::cerr << "uvol_viewer: " << extractWords(static_cast<const char*>(text))
+              << '\n';
   });
 }
 
