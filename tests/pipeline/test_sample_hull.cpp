@@ -114,6 +114,21 @@ TEST(SampleHull, OfABallIsWithinTheToleranceOfIt)
   }
 }
 
+/** Faces beside a sharp edge turn when a corner is added: a sample that was close to
+ * the old ones may be far from the new ones. */
+TEST(SampleHull, HoldsSamplesThatAreCloseToItsFirstFaces)
+{
+  Places places;
+  for (int ball = 0; ball < 200; ++ball) {
+    std::vector<Vector3f> samples;
+    for (int i = 0; i < 40; ++i)
+      samples.push_back(10.0f * tolerance * places.next(1.0f).normalized());
+    const Hull hull(samples);
+    for (const Vector3f& sample : samples)
+      EXPECT_TRUE(hull.contains(sample)) << ball;
+  }
+}
+
 TEST(SampleHull, OfSamplesOnAPlaneOrALineOrAloneIsThin)
 {
   Places places;
