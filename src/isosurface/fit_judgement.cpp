@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -54,6 +55,10 @@ constexpr std::size_t most_labels = 4;
 /** Share of the radius of the support: a nearest sample that far away lies on the
  * border of a gap. */
 constexpr double empty_ball = 0.5;
+
+/** In radians, 140 degrees: 20 random samples around a point in a plane leave no such
+ * sector empty at 99.8 % of all places. */
+constexpr double empty_sector = 2.44, full_turn = 6.283185307179586;
 
 /** Share of the radius of the support: a longer edge reaches across a gap, or past the
  * samples around. Where a lattice meets one of twice its spacing, edges through
@@ -106,6 +111,21 @@ areLabels(const std::vector<float>& values,
   return true;
 }
 
+namespace {
+
+/** \param is_open whether samples leave a wide angle empty */
+IsoSupport
+supportBy(bool is_open, const Surroundings& surroundings, double nearest)
+{
+  if (!is_open && nearest <= empty_ball * surroundings.radius)
+    return IsoSupport::Measured;
+  return surroundings.edge_length > bridging_edge * surroundings.radius
+             ? IsoSupport::Bridged
+             : IsoSupport::Rim;
+}
+
+} // namespace
+
 IsoSupport
 supportOf(const Surroundings& surroundings,
           double nearest,
@@ -113,11 +133,43 @@ supportOf(const Surroundings& surroundings,
 {
   const bool is_open =
       EmptyCone().isEmpty(directions.x, directions.y, directions.z, directions.count);
-  if (!is_open && nearest <= empty_ball * surroundings.radius)
-    return IsoSupport::Measured;
-  return surroundings.edge_length > bridging_edge * surroundings.radius
-             ? IsoSupport::Bridged
-             : IsoSupport::Rim;
+  return supportBy(is_open, surroundings, nearest);
+}
+
+namespace {
+
+/** The widest sector without a sample, in radians. */
+double
+findEmptySector(const Eigen::Matrix2Xd& places)
+{
+  std::vector<double> angles;
+  for (Eigen::Index i = 0; i < places.cols(); ++i)
+    angles.push_back(std::atan2(places(1, i), places(0, i)));
+  std::sort(angles.begin(), angles.end());
+  double widest = angles.front() + full_turn - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    widest = std::max(widest, angles[i] - angles[i - 1]);
+  return widest;
+}
+
+} // namespace
+
+IsoSupport
+supportInPlane(const Surroundings& surroundings,
+               const FitSample* samples,
+               std::size_t count,
+               std::size_t lane,
+               const PlaneAxes& axes)
+{
+  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    places.col(static_cast<Eigen::Index>(i)) =
+        axes.transpose() *
+        Eigen::Vector3f(samples[i].x[lane], samples[i].y[lane], samples[i].z[lane])
+            .cast<double>();
+  return supportBy(findEmptySector(places) > empty_sector,
+                   surroundings,
+                   surroundings.radius * places.col(0).norm());
 }
 
 RootOutcome

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "derivatives/fit_kernel.h"
+#include "derivatives/planar_fit.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/smooth_roots.h"
 
@@ -51,6 +52,16 @@ IsoSupport
 supportOf(const Surroundings& surroundings,
           double nearest,
           const NeighborDirections& directions);
+
+/** \brief The same where samples lie on a plane that the surface crosses.
+ * \param count the first ones of the lane, the nearest ones first
+ * \param axes of the plane */
+IsoSupport
+supportInPlane(const Surroundings& surroundings,
+               const FitSample* samples,
+               std::size_t count,
+               std::size_t lane,
+               const PlaneAxes& axes);
 
 /** \brief Whether a lane's fit serves, and if not, why. */
 RootOutcome

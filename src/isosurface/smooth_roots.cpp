@@ -22,6 +22,9 @@ constexpr std::size_t block_points = 256;
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
 constexpr std::size_t fitted_samples = 40;
 
+/** The same on a plane, where a cubic has 10 terms. */
+constexpr std::size_t fitted_in_plane = 20;
+
 /** Least pivot of a fit that needs no other metric: of uniform random samples one fit
  * in a thousand has less, of layers all have. */
 constexpr double good_pivot = 0.02;
@@ -51,6 +54,8 @@ struct DoubtfulFit {
   double pivot;
   bool is_in_gap; ///< a wide one, where there was no fit
   bool is_past;   ///< its edge goes past samples, see goesPastSamples()
+  bool has_all;   ///< there are no more samples than it was made from
+  PointIso given; ///< the isopoint without a fit
 };
 
 /** Fits of consecutive isopoints; one object per thread. */
@@ -73,6 +78,7 @@ public:
   smooth(const IsoEdge* edges, std::size_t count, PointIso* points, RootFit* fits)
   {
     doubtful_.clear();
+    flat_.clear();
     for (std::size_t first = 0; first < count; first += fit_lanes)
       fitAsTheyAre(first, std::min(fit_lanes, count - first), edges, points, fits);
     for (std::size_t first = 0; first < doubtful_.size(); first += fit_lanes)
@@ -81,6 +87,11 @@ public:
                         edges,
                         points,
                         fits);
+    for (const DoubtfulFit& doubtful : flat_)
+      fitInPlane(doubtful,
+                 edges[doubtful.point],
+                 points[doubtful.point],
+                 fits[doubtful.point]);
   }
 
 private:
@@ -128,7 +139,7 @@ private:
         fits[i] = {
             RootOutcome::Far, radius, radius, std::numeric_limits<float>::quiet_NaN()};
         keepInGap(edges[i], points[i]);
-        doubtful_.push_back({i, centers[lane], 0.0, true, false});
+        doubtful_.push_back({i, centers[lane], 0.0, true, false, false, points[i]});
         continue;
       }
       const bool has_all = weighted[lane] < static_cast<int>(fitted_samples);
@@ -140,9 +151,13 @@ private:
                  static_cast<float>(result.value[lane])};
       const bool is_past =
           goesPastSamples(result, lane, fits[i].outcome, surroundings[lane], samples_);
-      if (!has_all && (is_past || !(result.pivot[lane] >= good_pivot) ||
-                       surroundings[lane].support != IsoSupport::Measured))
-        doubtful_.push_back({i, centers[lane], result.pivot[lane], false, is_past});
+      const DoubtfulFit doubtful{
+          i, centers[lane], result.pivot[lane], false, is_past, has_all, points[i]};
+      if (has_all)
+        flat_.push_back(doubtful);
+      else if (is_past || !(result.pivot[lane] >= good_pivot) ||
+               surroundings[lane].support != IsoSupport::Measured)
+        doubtful_.push_back(doubtful);
       setIsopoint(input_,
                   result,
                   lane,
@@ -248,6 +263,8 @@ private:
         reach = std::max(reach, nearest_.getReach());
         has_any = true;
       }
+      else if (!doubtful[lane].is_in_gap && group_metrics_.hasFailed())
+        flat_.push_back(doubtful[lane]);
       fits[i].radius = std::max(fits[i].radius, static_cast<float>(reach));
     }
     FitResult result;
@@ -278,6 +295,77 @@ private:
       fits[i].value = static_cast<float>(result.value[lane]);
       setIsopoint(input_, result, lane, surroundings[lane], true, edges[i], points[i]);
     }
+  }
+
+  /** Fit again where the samples around lie on a plane and no others are seen beside
+   * it: what the fit in space says of the way across is made of rounding and noise. */
+  void
+  fitInPlane(const DoubtfulFit& doubtful,
+             const IsoEdge& edge,
+             PointIso& point,
+             RootFit& fit)
+  {
+    PlaneAxes axes;
+    Surroundings surroundings;
+    const std::size_t count = gatherInPlane(doubtful.center, edge, surroundings, axes);
+    if (count == 0)
+      return;
+    surroundings.support =
+        supportInPlane(surroundings, samples_.data(), count, 0, axes);
+    FitResult result;
+    fitZeroLevelInPlane(samples_.data(), count, 0, axes, result);
+    point = doubtful.given;
+    fit.outcome = judge(result, 0, surroundings);
+    fit.value = static_cast<float>(result.value[0]);
+    if (goesPastSamples(result, 0, fit.outcome, surroundings, samples_))
+      surroundings.support = IsoSupport::Bridged;
+    setIsopoint(input_,
+                result,
+                0,
+                surroundings,
+                fit.outcome <= RootOutcome::Quadratic,
+                edge,
+                point);
+  }
+
+  /** Fill the first lane with the nearest samples, nearest first, as many as a fit in a
+   * plane needs.
+   * \return how many; 0 if all around lie on none */
+  std::size_t
+  gatherInPlane(const Position& center,
+                const IsoEdge& edge,
+                Surroundings& surroundings,
+                PlaneAxes& axes)
+  {
+    const std::vector<Position>& positions = input_.samples.getPositions();
+    surroundings.center = center;
+    surroundings.edge_length = distance(positions[edge.first], positions[edge.second]);
+    const auto row = finder_.find(center, static_cast<float>(surroundings.edge_length));
+    std::vector<std::pair<float, std::uint32_t>> nearest;
+    for (std::size_t j = 0; j < row.size; ++j)
+      nearest.emplace_back(row.sq_dists[j], row.samples[j]);
+    std::sort(nearest.begin(), nearest.end());
+    Eigen::Matrix3Xd offsets(3, static_cast<Eigen::Index>(nearest.size()));
+    std::vector<std::uint32_t> neighbors;
+    for (std::size_t j = 0; j < nearest.size(); ++j) {
+      neighbors.push_back(nearest[j].second);
+      for (int axis = 0; axis < 3; ++axis) {
+        direction_[axis][j] = positions[neighbors[j]][axis] - center[axis];
+        offsets(axis, static_cast<Eigen::Index>(j)) =
+            static_cast<double>(direction_[axis][j]);
+      }
+    }
+    if (!findPlane(offsets, axes))
+      return 0;
+    const std::size_t count = std::min(neighbors.size(), fitted_in_plane + 1);
+    fill(neighbors.data(),
+         count,
+         nearest.front().first,
+         nearest[count - 1].first,
+         edge,
+         0,
+         surroundings);
+    return count;
   }
 
   /** Leave a lane without samples from the given one on. */
@@ -415,6 +503,7 @@ private:
   MetricFinder nearest_;
   LocalMetricFinder metrics_, group_metrics_;
   std::vector<DoubtfulFit> doubtful_;
+  std::vector<DoubtfulFit> flat_; ///< maybe: no samples are seen beside a plane
   std::vector<FitSample> samples_;
   FitKernel fit_;
   float isovalue_;

@@ -63,11 +63,11 @@ public:
   refine(std::uint32_t sample, const LocalMetricFinder& nearby, double least_ratio);
 
   /** \brief Whether a search around the last sample has found no metric, however much
-   * spacings differ. */
+   * spacings differ, or was of no use, as on a plane along axes. */
   bool
   hasFailed() const
   {
-    return known_ == Known::Searched && !has_metric_;
+    return is_flat_ || (known_ == Known::Searched && !has_metric_);
   }
 
   /** \brief Whether spacings around the last sample are known, and differ by less than

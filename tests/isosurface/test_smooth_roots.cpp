@@ -207,17 +207,17 @@ INSTANTIATE_TEST_SUITE_P(SmoothRoots,
 
 /** Where no fit serves, the linear point stays, and its error is the way to the farther
  * end of the edge. */
-TEST(SmoothRoots, LabelsAndPlanesOfSamplesKeepTheLinearPoint)
+TEST(SmoothRoots, LabelsAndLinesOfSamplesKeepTheLinearPoint)
 {
-  auto flat = randomPlaces(1500, Vector3d::Constant(-1.5), 1.0 / 64, 193);
-  for (Position& place : flat)
-    place[2] = 0.25f;
+  auto line = randomPlaces(1500, Vector3d::Constant(-1.5), 1.0 / 1024, 3073);
+  for (Position& place : line)
+    place[1] = place[2] = 0.25f * place[0];
   const auto solid = randomPlaces(1500, Vector3d::Constant(-1.5), 1.0 / 64, 193);
   const auto label = [](const Vector3d& x) { return x[0] + x[1] > 0.1 ? 1.0 : 0.0; };
-  const auto linear = [](const Vector3d& x) { return x[0] - x[1]; };
+  const auto wave = [](const Vector3d& x) { return std::sin(100.0 * x[0]); };
   for (const auto& [places, value, outcome] :
        {std::tuple<std::vector<Position>, FieldSamples::Function, RootOutcome>(
-            flat, linear, RootOutcome::Singular),
+            line, wave, RootOutcome::Singular),
         {solid, label, RootOutcome::Step}}) {
     const Roots roots(FieldSamples(places, value), 0.5f);
     ASSERT_GT(roots.points.size(), 30u);
