@@ -4,6 +4,7 @@
 #include "common/parallel.h"
 #include "isosurface/piece_isopoints.h"
 #include "isosurface/smooth_roots.h"
+#include "isosurface/spike_test.h"
 #include "neighbors/neighborhood_finder.h"
 
 #include <algorithm>
@@ -201,6 +202,7 @@ appendIsopoints(const IsopointInput& input,
     crossing = input.candidates.findCrossing(input.ranges, isovalue, input.threads);
   }
   const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
+  countSpikes(input, crossing, isovalue, report);
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
   {

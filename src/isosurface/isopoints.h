@@ -59,7 +59,7 @@ mergeCoincident(const std::vector<Position>& positions,
 
 /** \brief Append the isopoints of one isovalue and their edges.
  * \param sources input index of each sample
- * \param report gets "crossing_samples", "edges", "coincident" and the times */
+ * \param report gets "crossing_samples", "edges", "spikes", "coincident" and times */
 void
 appendIsopoints(const IsopointInput& input,
                 const std::vector<std::uint32_t>& sources,

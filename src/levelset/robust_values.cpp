@@ -2,6 +2,7 @@
 #include "levelset/robust_values.h"
 
 #include "common/parallel.h"
+#include "isosurface/spike_test.h"
 #include "levelset/constants.h"
 #include "neighbors/nearest_finder.h"
 
@@ -16,13 +17,8 @@ namespace {
 
 constexpr std::size_t block_samples = 256;
 
-float
-computeMedian(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr SpikeBounds spike_bounds{level_set.spike_deviations,
+                                   level_set.most_companions};
 
 /** The median of |f| at some samples; those at the isovalue itself tell nothing. */
 float
@@ -40,25 +36,6 @@ struct Spike {
   std::uint32_t sample;
   float replacement;
 };
-
-/** The median of the neighbours where the value is a spike among them, else the value.
- * \param others values of the neighbours; changed */
-float
-settle(float own, std::vector<float>& others)
-{
-  const float median = computeMedian(others);
-  const float halfway = 0.5f * own + 0.5f * median;
-  const auto companions = std::count_if(others.begin(), others.end(), [&](float other) {
-    return own > median ? other > halfway : other < halfway;
-  });
-  if (static_cast<std::size_t>(companions) > level_set.most_companions)
-    return own;
-  for (float& other : others)
-    other = std::abs(other - median);
-  return std::abs(own - median) > level_set.spike_deviations * computeMedian(others)
-             ? median
-             : own;
-}
 
 std::vector<Spike>
 findSpikes(const SampleSet& samples,
@@ -79,7 +56,7 @@ findSpikes(const SampleSet& samples,
           for (std::size_t j = 0; j < row.size; ++j)
             if (row.samples[j] != among[i])
               others.push_back(f[row.samples[j]]);
-          const float value = settle(f[among[i]], others);
+          const float value = settleValue(f[among[i]], others, spike_bounds);
           if (value != f[among[i]])
             found.push_back({among[i], value});
         }

@@ -5,6 +5,7 @@
 #include "isosurface/iso_edges.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/piece_isopoints.h"
+#include "isosurface/spike_test.h"
 #include "mesh/band_surface.h"
 #include "mesh/mesh_vertices.h"
 #include "mesh/remeshing.h"
@@ -211,6 +212,9 @@ makeSurfaceMesh(const CloudView& cloud,
       warnIfOutside(isovalue, isosurface.field, range, read.frame, report);
       continue;
     }
+    const auto crossing = candidates.findCrossing(read.ranges, rounded, threads);
+    report.count("crossing_samples", crossing.size());
+    countSpikes(input, crossing, rounded, report);
     WorkingMesh mesh = makeBandSurface(input, rounded, report);
     if (parameters.meshing.remesh == Remeshing::Even)
       remesh(mesh, parameters.meshing.edge_length, threads, report);

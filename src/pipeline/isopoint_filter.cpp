@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ namespace {
  * quarter leaves 56 % of the smoothed ones, and the whole edge keeps nearly everything
  * between the lines: 95 and 98 %. */
 constexpr float known_part = 0.5f;
+
+/** Share of the samples next to the surface that are spikes: of 1 % of all samples it
+ * is 4 %. */
+constexpr double told_spikes = 0.001;
 
 } // namespace
 
@@ -98,6 +103,23 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
            ? ""
            : " A hold-out test tells how good it is (-validate).") +
       adviseRemedies(parameters));
+}
+
+void
+warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
+{
+  const auto spikes = static_cast<double>(report.getCount("spikes")),
+             crossing = static_cast<double>(report.getCount("crossing_samples"));
+  if (parameters.smooth || spikes <= told_spikes * crossing)
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "Of the samples next to the surface " << 100.0 * spikes / crossing
+       << " % have values far from those of all samples around them, which agree with "
+          "one another: the isopoints around each of them show an outlier and no "
+          "surface. -smooth takes the median of the neighbours instead, and -where "
+          "leaves out values that cannot be.";
+  report.warnings.push_back(text.str());
 }
 
 } // namespace pcl_uvol

@@ -31,4 +31,9 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report);
 
+/** \brief Warn of samples next to the surface whose values stand alone, as
+ * IsosurfaceExtraction and SurfaceMesh count them. */
+void
+warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report);
+
 } // namespace pcl_uvol

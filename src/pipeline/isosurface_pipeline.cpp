@@ -152,6 +152,7 @@ finish(const Dataset& samples,
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
   dropIsopoints(isopoints, edges, choice, parameters, report);
+  warnOfSpikes(parameters, report);
   if (!parameters.mesh) // which tells of its caps and folds itself
     warnOfGuesses(isopoints, choice, parameters, report);
   report.setCount("isopoints", isopoints.size());
