@@ -225,9 +225,7 @@ gapKriging(const IsosurfaceParameters& isosurface)
 bool
 takesLattice(const IsosurfacePipelineParameters& parameters)
 {
-  return parameters.isosurface.interpolation == Interpolation::Auto &&
-         parameters.normals == NormalMethod::Auto && !parameters.smooth &&
-         !parameters.mesh;
+  return returnsToEdges(parameters) && parameters.normals == NormalMethod::Auto;
 }
 
 FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,

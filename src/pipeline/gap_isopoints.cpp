@@ -156,7 +156,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   if (summary_.predicted == 0)
     return;
   const CloudView cloud = viewOf(filled_->cloud);
-  const bool is_auto = parameters.isosurface.interpolation == Interpolation::Auto;
+  const bool is_auto = returnsToEdges(parameters);
   const Array3d scale = parameters.isosurface.scale.cast<double>();
   const double step = slope_step * summary_.spacing;
   std::vector<std::array<double, 3>> roots, places;

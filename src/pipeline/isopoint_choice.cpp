@@ -271,6 +271,13 @@ IsopointChoice::addFields(bool is_chosen, Dataset& surface) const
     setField(surface, "confidence", confidence);
 }
 
+bool
+returnsToEdges(const IsosurfacePipelineParameters& parameters)
+{
+  return parameters.isosurface.interpolation == Interpolation::Auto &&
+         !parameters.smooth && !parameters.mesh;
+}
+
 IsosurfaceParameters
 withErrors(const IsosurfacePipelineParameters& parameters)
 {
@@ -362,11 +369,12 @@ chooseIsopoints(const CloudView& samples,
   const Interpolation interpolation = parameters.isosurface.interpolation;
   IsopointChoice choice;
   // Samples whose field made the isopoints are needed only where these may go back.
+  const bool all_return = interpolation == Interpolation::Linear &&
+                          withErrors(parameters).interpolation != Interpolation::Linear;
   std::optional<StretchedEdges> stretched;
-  if (interpolation == Interpolation::Auto ||
-      withErrors(parameters).interpolation != interpolation)
+  if (all_return || returnsToEdges(parameters))
     stretched.emplace(samples, edges, parameters.isosurface);
-  if (interpolation == Interpolation::Linear && stretched)
+  if (all_return)
     for (std::size_t i = 0; i < isopoints.size(); ++i)
       if (!isSupport(isopoints[i], IsoSupport::Unknown))
         returnToEdge(*stretched, edges[i].t, i, isopoints[i]);
@@ -374,7 +382,7 @@ chooseIsopoints(const CloudView& samples,
     choice.method.push_back(hasFit(point) ? IsoMethod::Fit : IsoMethod::Linear);
   choice.orientation.resize(isopoints.size());
   orientIsopoints(parameters, threads, isopoints, choice, report);
-  if (interpolation == Interpolation::Auto)
+  if (returnsToEdges(parameters))
     returnDoubtful(*stretched, edges, parameters, threads, step, isopoints, choice);
   return choice;
 }

@@ -48,6 +48,12 @@ struct IsopointChoice {
   addFields(bool is_chosen, Dataset& surface) const;
 };
 
+/** \brief Whether isopoints are put back to their edges one by one: with
+ * Interpolation::Auto, but level sets fill gaps, and the vertices of a mesh belong
+ * together. */
+bool
+returnsToEdges(const IsosurfacePipelineParameters& parameters);
+
 /** \brief What an extraction has to do so that isopoints can be chosen: bounds of the
  * error and of gaps need fits even where isopoints lie on their edges. */
 IsosurfaceParameters

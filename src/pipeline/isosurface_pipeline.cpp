@@ -286,15 +286,11 @@ IsosurfacePipeline::run()
 }
 
 IsosurfaceResult
-IsosurfacePipeline::runOnSamples(IsosurfacePipelineParameters parameters)
+IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
 {
   std::vector<LevelSetSummary> level_sets;
   if (parameters.validation.folds > 0) // a field that is none fails early
     makeFolds(viewOf(samples_->cloud), parameters.validation, threads_);
-  // Level sets fill gaps, and the vertices of a mesh belong together.
-  if ((parameters.smooth || parameters.mesh) &&
-      parameters.isosurface.interpolation == Interpolation::Auto)
-    parameters.isosurface.interpolation = Interpolation::Fit;
   std::optional<SamplingSummary> sampling;
   if ((parameters.smooth || parameters.mesh) && !gaps_) {
     // Before these take the memory that the tree needs.

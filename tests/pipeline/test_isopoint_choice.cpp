@@ -132,6 +132,36 @@ TEST(IsopointChoice, GoesBackToEdgesBetweenLines)
   EXPECT_NE(std::string::npos, chosen.report.warnings[0].find("-validate"));
 }
 
+/** None goes back to its edge there: fields tell what it is on instead. */
+TEST(IsopointChoice, IsToldAfterLevelSetsAndInMeshes)
+{
+  auto smoothed = makeParameters(Interpolation::Auto);
+  smoothed.smooth = true;
+  auto meshed = makeParameters(Interpolation::Auto);
+  meshed.mesh.emplace();
+  for (const auto& parameters : {smoothed, meshed}) {
+    const auto result = uvol_test::runPipeline(makeProfiles(60), parameters);
+    auto fitted = parameters;
+    fitted.isosurface.interpolation = Interpolation::Fit;
+    const auto same = uvol_test::runPipeline(makeProfiles(60), fitted);
+    EXPECT_EQ(nullptr, findField(same.surface.cloud.fields, "method"));
+    const auto points = uvol_test::toIsopoints(result),
+               others = uvol_test::toIsopoints(same);
+    ASSERT_EQ(points.size(), others.size());
+    std::size_t fits = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(points[i].getVector3fMap(), others[i].getVector3fMap());
+      fits += !std::isnan(points[i].mean_curvature);
+    }
+    EXPECT_GT(fits, 0u);
+    EXPECT_EQ(fits, countValue(result, "method", 2));
+    EXPECT_EQ(points.size(), fits + countValue(result, "method", 1));
+    EXPECT_EQ(fits, countValue(result, "orientation", 2));
+    EXPECT_EQ(points.size() - fits,
+              countValue(result, "orientation", parameters.mesh ? 1 : 3));
+  }
+}
+
 TEST(IsopointChoice, EdgeNormalsAreCovectorsOfTheStretchedSpace)
 {
   auto parameters = makeParameters(Interpolation::Linear);

@@ -41,14 +41,14 @@ enum class NormalMethod {
 
 /** \brief How an isopoint was placed: the field `method`. */
 enum class IsoMethod : std::uint8_t {
-  Linear = 1, ///< on its edge
+  Linear = 1, ///< on its edge; a vertex of a mesh: where those around put it
   Fit = 2,    ///< on the zero level of a fit
   Kriging = 3 ///< on the isosurface of the kriged field, see GapFilling
 };
 
 /** \brief How an isopoint was oriented: the field `orientation`. */
 enum class IsoOrientation : std::uint8_t {
-  Edge = 1,     ///< along its edge
+  Edge = 1,     ///< along its edge; a vertex of a mesh: by those around
   Fit = 2,      ///< by the gradient of its fit
   Pca = 3,      ///< by principal components of the isopoints around
   Bisector = 4, ///< between its edge and the mean of the edges of the isopoints around
@@ -282,10 +282,11 @@ class FilledGaps;
 struct PCL_UVOL_EXPORTS IsosurfaceResult {
   /** The isopoints: the fields of PointIso, then all fields of the samples that these
    * do not replace. `isovalue` is float64, behind these, where float holds one of the
-   * isovalues as infinite or as zero. With Interpolation::Auto, unless there is a level
-   * set or a mesh, also `method` and `orientation`, numbers of IsoMethod and
-   * IsoOrientation. With a mesh its vertices, and behind the other fields `piece`,
-   * among pieces, and `cap`, 1 where a vertex closes the samples' box. */
+   * isovalues as infinite or as zero. With Interpolation::Auto also `method` and
+   * `orientation`, numbers of IsoMethod and IsoOrientation; after a level set and in a
+   * mesh it takes a fit wherever there is one. With a mesh its vertices, and behind the
+   * other fields `piece`, among pieces, and `cap`, 1 where a vertex closes the samples'
+   * box. */
   Dataset surface;
   std::vector<Triangle> triangles; ///< with a mesh: counter-clockwise seen from outside
   std::vector<SurfacePiece> pieces; ///< with a mesh: see SurfaceTriangles
@@ -368,7 +369,7 @@ private:
   /** Extracts from samples as they are, all that belong to them among them.
    * \param parameters with the field and the scale that are taken */
   IsosurfaceResult
-  runOnSamples(IsosurfacePipelineParameters parameters);
+  runOnSamples(const IsosurfacePipelineParameters& parameters);
 
   /** Isopoints are vertices without triangles. */
   SurfaceTriangles
