@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/gap_filling.h"
 
+#include "common/number_range.h"
 #include "common/parallel.h"
 #include "common/printable.h"
 #include "common/random.h"
@@ -197,6 +198,20 @@ appendCopies(const std::vector<std::uint32_t>& sources, pcl::PCLPointCloud2& clo
     std::copy_n(&cloud.data[sources[i] * step], step, &cloud.data[(before + i) * step]);
 }
 
+/** Why gaps that are there were not filled.
+ * \param kriged places where kriging gave a value */
+std::string
+tellWhyEmpty(const GapFilling& gaps, std::size_t kriged)
+{
+  const double width = samples_per_gap * gaps.spacing;
+  if (gaps.range < 0.5 * width)
+    return "by the variogram values tell of others no farther than " +
+           describeNumbers({gaps.range})[0] + ", and the gaps are " +
+           describeNumbers({width})[0] + " wide";
+  return kriged == 0 ? "kriging has no value in the gaps"
+                     : "the kriged field does not cross the isovalue in the gaps";
+}
+
 void
 checkField(const Dataset& samples, const std::string& field)
 {
@@ -262,12 +277,16 @@ FilledGaps::FilledGaps(const std::shared_ptr<const Dataset>& samples,
   sampling_ = summarizeSampling(*measured_, threads);
   findSpacing(roots, extraction.getEdges(), parameters, threads, report.progress);
   filled_ = samples;
-  if (!(summary_.spacing > 0.0))
-    return;
-  hull_ = std::make_unique<SampleHull>(
-      *measured_, hull_tolerance * summary_.spacing * measured_->getUnit().factor);
-  krigeComposites(parameters, threads, report.progress);
-  predict(roots, parameters, threads, report);
+  if (summary_.spacing > 0.0) {
+    hull_ = std::make_unique<SampleHull>(
+        *measured_, hull_tolerance * summary_.spacing * measured_->getUnit().factor);
+    krigeComposites(parameters, threads, report.progress);
+    predict(roots, parameters, threads, report);
+  }
+  if (has_gaps_ && summary_.predicted == 0)
+    report.warnings.push_back(
+        "There are gaps between the samples, and none was filled: " +
+        summary_.unfilled + ".");
 }
 
 void
@@ -390,8 +409,13 @@ FilledGaps::findSpacing(const pcl::PointCloud<PointIso>& roots,
     if (length > crossing_edge * static_cast<double>(sampling_.along))
       lengths.push_back(length);
   }
+  has_gaps_ = in_gaps > 0 && static_cast<double>(in_gaps) >=
+                                 least_gaps * static_cast<double>(roots.size());
+  summary_.unfilled = roots.empty() ? "there is no surface"
+                      : has_gaps_ ? "the samples are too few to tell how wide they are"
+                                  : "samples lie all around the surface";
   double width = 0.0;
-  if (static_cast<double>(in_gaps) < least_gaps * static_cast<double>(roots.size()))
+  if (!has_gaps_)
     lengths.clear();
   else if (std::isfinite(sampling_.across))
     width = static_cast<double>(sampling_.across);
@@ -413,8 +437,10 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
   own.progress = report.progress;
   reach_ = std::min(summary_.range, reach_);
   std::vector<std::pair<LatticeNode, double>> nodes;
+  std::size_t kriged = 0;
   for (bool is_complete = false; !is_complete;) {
     const Lattice lattice(summary_.spacing, parameters.scale, *measured_);
+    kriged = 0;
     const auto evaluate = [&](const std::vector<LatticeNode>& asked) {
       std::vector<NodeValue> values(asked.size(), {nan, false});
       std::vector<Place> places;
@@ -438,6 +464,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
         const bool is_between =
             hull_->contains(measured_->getUnit().apply(toFloat(places[i])));
         values[i] = {field.values[j], is_gap && is_between && distances[i] > 0.0};
+        kriged += std::isfinite(field.values[j]);
       }
       return values;
     };
@@ -457,6 +484,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
       summary_.spacing *= 2.0;
   }
   summary_.predicted = nodes.size();
+  summary_.unfilled = nodes.empty() ? tellWhyEmpty(summary_, kriged) : std::string();
   if (nodes.empty())
     return;
   report.count("predicted_samples", nodes.size());

@@ -98,9 +98,9 @@ public:
    * With Interpolation::Auto, isopoints that lack support of measured samples are put
    * onto the kriged surface, or back to their edge where this is a short one between
    * measured samples, and have the normals of the kriged field; those that lie far from
-   * its surface are removed. Where takesLattice() says so, those in gaps are added
-   * first, and measured samples have no others across gaps. None of them lies more than
-   * half a gap outside of the samples' hull. */
+   * its surface, or whose confidence is 0, are removed. Where takesLattice() says so,
+   * those in gaps are added first, and measured samples have no others across gaps.
+   * None of them lies more than half a gap outside of the samples' hull. */
   void
   judge(const IsosurfacePipelineParameters& parameters,
         unsigned threads,
@@ -158,6 +158,7 @@ private:
   std::unique_ptr<FieldInterpolator> nearest_; ///< tells support of measured samples
   std::vector<LatticeEdge> lattice_edges_;
   double reach_ = 0.0; ///< from the nearest measured sample
+  bool has_gaps_ = false;
   GapFilling summary_;
 };
 

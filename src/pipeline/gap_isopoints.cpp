@@ -69,16 +69,21 @@ slopeAt(const InterpolatedFields& field,
 }
 
 /** Says so where the samples explain less than half of the variance at most isopoints
- * between predicted ones. */
+ * between predicted ones, or nothing at all of them.
+ * \param unexplained of these, gone */
 void
 warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
             const std::vector<float>& confidence,
+            std::size_t unexplained,
             Report& report)
 {
   std::vector<float> of_predicted;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     if (isopoints[i].support == static_cast<std::uint8_t>(IsoSupport::Predicted))
       of_predicted.push_back(confidence[i]);
+  if (of_predicted.empty() && unexplained > 0)
+    report.warnings.push_back("There are no isopoints between the samples: kriging "
+                              "explains nothing of the variance there.");
   if (of_predicted.empty())
     return;
   const auto middle =
@@ -180,6 +185,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   const std::size_t measured = samples_->cloud.width;
   const PointIso* const first = isopoints.data();
   std::vector<std::uint8_t> stays(isopoints.size(), 1);
+  std::size_t unexplained = 0;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     PointIso& point = isopoints[i];
     const IsoEdge& edge = edges[i];
@@ -206,9 +212,11 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     }
     if (!is_auto)
       continue;
+    unexplained += !(choice.confidence[i] > 0.0f);
     const double offset = std::abs(slope.offset) / summary_.spacing;
     if (is_in_gap)
-      stays[i] = (is_predicted || !on_lattice) && offset <= farthest_in_gap;
+      stays[i] = (is_predicted || !on_lattice) && offset <= farthest_in_gap &&
+                 choice.confidence[i] > 0.0f;
     else
       stays[i] = !on_lattice || offset <= farthest_on_line;
     Array3d place(roots[i][0], roots[i][1], roots[i][2]);
@@ -234,7 +242,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   };
   choice.filter(isopoints, keep);
   report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
-  warnOfDoubt(isopoints, choice.confidence, report);
+  warnOfDoubt(isopoints, choice.confidence, unexplained, report);
 }
 
 } // namespace pcl_uvol::detail

@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -102,6 +104,83 @@ TEST(GapFilling, IsAdvisedAsOtherOptionsThatWereNotGiven)
   // What was left out is no guess any more.
   parameters.drop_bridged = true;
   EXPECT_EQ(findGuesses(parameters).find("-drop-bridged"), std::string::npos);
+}
+
+/** What is said where no gap was filled: in the report's warnings, and as a fact. */
+std::pair<std::string, std::string>
+tellUnfilled(const std::shared_ptr<Dataset>& samples)
+{
+  const auto result = uvol_test::runPipeline(samples, makeParameters(true));
+  EXPECT_EQ(0u, result.gaps->predicted);
+  for (const std::string& warning : result.report.warnings)
+    if (warning.find("none was filled: " + result.gaps->unfilled) != std::string::npos)
+      return {warning, result.gaps->unfilled};
+  return {"", result.gaps->unfilled};
+}
+
+TEST(GapFilling, SaysWhyItFillsNone)
+{
+  // Nothing lies beside a profile.
+  const auto [few_warning, few] = tellUnfilled(makeProfiles(1));
+  EXPECT_EQ("the samples are too few to tell how wide they are", few);
+  EXPECT_NE("", few_warning);
+  // Samples all around have no gaps, and there is nothing to warn of.
+  uvol_test::Random random(5);
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (int i = 0; i < 3000; ++i) {
+    pcl::PointXYZI point;
+    for (int axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(random.uniform());
+    point.intensity = (point.getArray3fMap() - 0.5f).matrix().norm() - 0.3f;
+    cloud.push_back(point);
+  }
+  const auto dense = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(cloud, dense->cloud);
+  const auto [dense_warning, around] = tellUnfilled(dense);
+  EXPECT_EQ("samples lie all around the surface", around);
+  EXPECT_EQ("", dense_warning);
+}
+
+/** Adds noise to the field.
+ * \param part of the field itself that stays */
+std::shared_ptr<Dataset>
+makeNoisyProfiles(std::size_t count, float part)
+{
+  uvol_test::Random random(6);
+  auto samples = makeProfiles(count);
+  for (std::size_t i = 0; i < samples->cloud.width; ++i) {
+    auto* const value =
+        &samples->cloud
+             .data[i * samples->cloud.point_step + samples->cloud.fields[3].offset];
+    float noisy;
+    std::memcpy(&noisy, value, sizeof noisy);
+    noisy = part * noisy + static_cast<float>(random.uniform() - 0.5);
+    std::memcpy(value, &noisy, sizeof noisy);
+  }
+  return samples;
+}
+
+TEST(GapFilling, LeavesOutWhatItExplainsNothingOf)
+{
+  // Values at random tell nothing of others.
+  const auto [warning, unfilled] = tellUnfilled(makeNoisyProfiles(30, 0.0f));
+  EXPECT_NE(std::string::npos, warning.find("by the variogram values tell of others"));
+  // Far from a profile the noise leaves nothing to tell.
+  const auto result =
+      uvol_test::runPipeline(makeNoisyProfiles(12, 0.5f), makeParameters(true));
+  EXPECT_GT(result.gaps->predicted, 500u);
+  const CloudView view = viewOf(result.surface.cloud);
+  const ScalarField confidence(view.fields, "confidence");
+  std::size_t predicted = 0;
+  double least = 1.0;
+  const auto points = uvol_test::toIsopoints(result);
+  for (std::size_t i = 0; i < view.count; ++i) {
+    predicted += isPredicted(points[i]);
+    least = std::min(least, confidence.read(view.point(i)));
+  }
+  EXPECT_GT(predicted, 100u);
+  EXPECT_GT(least, 0.0);
+  EXPECT_LT(least, 0.2);
 }
 
 TEST(GapFilling, FollowsTheFloorBetweenProfiles)
@@ -359,7 +438,7 @@ turnAround(const Dataset& samples)
 
 TEST(GapFilling, DependsNotOnTheOrderOfSamples)
 {
-  const auto samples = makeProfiles(30);
+  const auto samples = makeProfiles(15);
   const auto a =
       uvol_test::toIsopoints(uvol_test::runPipeline(samples, makeParameters(true)));
   const auto b = uvol_test::toIsopoints(
@@ -375,7 +454,7 @@ TEST(GapFilling, DependsNotOnTheOrderOfSamples)
 /** Isopoints at crossings of a line that the next line does not know are no surface. */
 TEST(GapFilling, FollowsNothingFinerThanGapsAlongLines)
 {
-  const auto samples = makeProfiles(30);
+  const auto samples = makeProfiles(15);
   const CloudView view = viewOf(samples->cloud);
   const ScalarField height(view.fields, "intensity");
   std::vector<float> wrinkled;
@@ -419,7 +498,7 @@ TEST(GapFilling, DependsNeitherOnThreadsNorOnUnits)
 
 TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
 {
-  const auto samples = makeProfiles(30);
+  const auto samples = makeProfiles(15);
   EXPECT_TRUE(
       uvol_test::runPipeline(samples, makeParameters(true)).report.warnings.empty());
   uvol_test::Random random(9);

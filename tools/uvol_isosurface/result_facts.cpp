@@ -89,7 +89,7 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
   std::ostringstream text;
   text.precision(3);
   if (gaps.predicted == 0)
-    text << "none found to fill";
+    text << "none filled: " << gaps.unfilled;
   else
     text << gaps.predicted << " samples predicted, " << gaps.spacing
          << " apart, up to the range " << gaps.range

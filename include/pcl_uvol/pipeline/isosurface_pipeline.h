@@ -261,10 +261,13 @@ struct ValidationScore {
  * Isopoints that rest on them have IsoSupport::Predicted; their `error` is the standard
  * deviation of the kriging over the slope of the kriged field, and `confidence` the
  * part of the field's variance that the samples explain there: 1 - deviation^2 /
- * (nugget + sill), 1 for all other isopoints. */
+ * (nugget + sill), 1 for all other isopoints. Where they explain nothing of it a
+ * prediction is no better than a mean of all samples: with Interpolation::Auto,
+ * isopoints of confidence 0 are left out. */
 struct GapFilling {
-  std::size_t predicted = 0; ///< samples; 0: there was no gap
-  double spacing = 0.0;      ///< between them
+  std::size_t predicted = 0; ///< samples; 0: there was no gap, or it was not filled
+  double spacing = 0.0;      ///< between them; 0: there was no gap
+  std::string unfilled;      ///< why there are none: part of a sentence
   /** The range of the spherical variogram; no predicted sample is farther from a
    * measured one. */
   double range = 0.0;
