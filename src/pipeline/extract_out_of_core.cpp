@@ -7,6 +7,7 @@
 #include "isosurface/edge_ends.h"
 #include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/isopoint_filter.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -134,12 +135,14 @@ runPipelineOutOfCore(PointSource& points,
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);
   samples.cloud = std::move(surface.samples);
-  return finishIsosurface(samples,
-                          std::move(surface.isopoints),
-                          std::move(surface.edges),
-                          resolved,
-                          out_of_core.threads,
-                          std::move(report));
+  IsosurfaceResult result = finishIsosurface(samples,
+                                             std::move(surface.isopoints),
+                                             std::move(surface.edges),
+                                             resolved,
+                                             out_of_core.threads,
+                                             std::move(report));
+  warnOfNoneLeft(result);
+  return result;
 }
 
 } // namespace pcl_uvol

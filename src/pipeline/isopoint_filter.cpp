@@ -78,6 +78,21 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
+warnOfNoneLeft(IsosurfaceResult& result)
+{
+  const std::uint64_t by_error = result.report.getCount("removed_by_error"),
+                      bridged = result.report.getCount("removed_bridged");
+  if (result.surface.cloud.width > 0 || by_error + bridged == 0)
+    return;
+  const std::string options = by_error == 0  ? "-drop-bridged"
+                              : bridged == 0 ? "-max-error"
+                                             : "-max-error and -drop-bridged";
+  result.report.warnings.push_back(
+      "All " + std::to_string(by_error + bridged) + " isopoints were left out by " +
+      options + ": the samples tell of no part of the surface that well.");
+}
+
+void
 warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,

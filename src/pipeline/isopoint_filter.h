@@ -18,6 +18,10 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report);
 
+/** \brief Warn where these left no isopoint of a surface. */
+void
+warnOfNoneLeft(IsosurfaceResult& result);
+
 /** \brief What may help where samples leave much open, of what was not asked for: a
  * sentence behind a space, empty if it was all. */
 std::string

@@ -312,6 +312,7 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
                                    gaps_,
                                    threads_,
                                    std::move(report_));
+  warnOfNoneLeft(result);
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);
     setField(result.surface,

@@ -199,6 +199,19 @@ TEST(IsopointChoice, BoundsServeLinearInterpolationAsWell)
     EXPECT_LE(point.error, 0.01f);
 }
 
+TEST(IsopointChoice, SaysSoWhereBoundsLeaveNothing)
+{
+  const auto samples = makeSphere(8000);
+  auto parameters = makeParameters(Interpolation::Auto);
+  parameters.max_error = 1e-12;
+  const auto none = uvol_test::runPipeline(samples, parameters);
+  EXPECT_EQ(0u, none.surface.cloud.width);
+  ASSERT_EQ(1u, none.report.warnings.size());
+  EXPECT_NE(std::string::npos, none.report.warnings[0].find("left out by -max-error:"));
+  parameters.max_error = 0.01;
+  EXPECT_TRUE(uvol_test::runPipeline(samples, parameters).report.warnings.empty());
+}
+
 TEST(IsopointChoice, ErrorsOfLinearIsopointsCoverTheirDeviations)
 {
   auto parameters = makeParameters(Interpolation::Linear);
