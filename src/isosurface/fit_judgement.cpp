@@ -293,6 +293,12 @@ keepInGap(const IsoEdge& edge, PointIso& point)
 }
 
 void
+doubtFit(const IsoEdge& edge, PointIso& point)
+{
+  point.error = std::max(point.error, errorOnEdge(edge, point));
+}
+
+void
 setIsopoint(const IsopointInput& input,
             const FitResult& result,
             std::size_t lane,

@@ -96,6 +96,10 @@ leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result);
 void
 keepInGap(const IsoEdge& edge, PointIso& point);
 
+/** \brief Let the error of an isopoint be that of its edge, if this is larger. */
+void
+doubtFit(const IsoEdge& edge, PointIso& point);
+
 /** \brief Make an isopoint what its fit says; one that the fit does not serve stays
  * where it is.
  * \param is_smooth whether it serves */

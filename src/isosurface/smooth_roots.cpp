@@ -4,6 +4,7 @@
 #include "common/dispatch.h"
 #include "common/parallel.h"
 #include "isosurface/fit_judgement.h"
+#include "isosurface/left_out_lines.h"
 #include "neighbors/empty_cone_kernel.h"
 #include "neighbors/local_metric.h"
 #include "neighbors/nearest_finder.h"
@@ -69,6 +70,7 @@ public:
       , group_metrics_(input.samples)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
+      , left_out_(fit_)
       , isovalue_(isovalue)
   {
   }
@@ -192,12 +194,18 @@ private:
                                             : sure_stretching;
   }
 
+  /** What is known of a metric. */
+  enum class Spacings {
+    Unknown,  ///< there is none, or no use in it
+    Even,     ///< as they are
+    Stretched ///< metrics_ has it
+  };
+
   /** Find the metric around an edge.
    * \param point has the support Bridged afterwards if it lies in a gap in the metric,
    * or if its edge goes past samples that need none; among stretched ones it is right
-   * \param reach is set to the distance of what decides
-   * \return false if there is none, or no use in it */
-  bool
+   * \param reach is set to the distance of what decides */
+  Spacings
   findMetric(const DoubtfulFit& doubtful,
              const IsoEdge& edge,
              PointIso& point,
@@ -209,21 +217,24 @@ private:
     const bool has_group = group_metrics_.find(anchor, least_ratio);
     reach = group_metrics_.getReach() + distance(positions[anchor], doubtful.center);
     if (group_metrics_.hasFailed() || (doubtful.is_in_gap && !has_group))
-      return false;
+      return Spacings::Unknown;
     if (has_group && liesInGap(group_metrics_, doubtful.center)) {
       reach = std::max(reach, nearest_.getReach());
       if (group_metrics_.getRatio() >= sure_stretching)
         point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
-      return false;
+      return Spacings::Unknown;
     }
     const bool is_found = has_group
                               ? metrics_.refine(edge.first, group_metrics_, least_ratio)
                               : metrics_.find(edge.first, least_ratio);
     reach = std::max(
         reach, metrics_.getReach() + distance(positions[edge.first], doubtful.center));
-    if (doubtful.is_past && !is_found && metrics_.isEven(least_ratio))
+    const bool is_even = !is_found && metrics_.isEven(least_ratio);
+    if (doubtful.is_past && is_even)
       point.support = static_cast<std::uint8_t>(IsoSupport::Bridged);
-    return is_found && metrics_.reaches(doubtful.center);
+    if (is_found && metrics_.reaches(doubtful.center))
+      return Spacings::Stretched;
+    return is_even ? Spacings::Even : Spacings::Unknown;
   }
 
   /** Whether a point certainly lies in a wide gap, as distances are in a metric. */
@@ -246,6 +257,7 @@ private:
     Surroundings surroundings[fit_lanes];
     Eigen::Matrix3d metrics[fit_lanes];
     double ratios[fit_lanes];
+    SampleLines lines[fit_lanes];
     int weighted[fit_lanes] = {};
     bool has_any = false;
     for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
@@ -255,9 +267,14 @@ private:
       const std::size_t i = doubtful[lane].point;
       const Position& center = doubtful[lane].center;
       double reach = 0.0;
-      if (findMetric(doubtful[lane], edges[i], points[i], reach)) {
+      const Spacings spacings = findMetric(doubtful[lane], edges[i], points[i], reach);
+      // Unless a fit in the metric takes its place, it is no better than its edge.
+      if (spacings != Spacings::Even && !(doubtful[lane].pivot >= worthless_pivot))
+        doubtFit(edges[i], points[i]);
+      if (spacings == Spacings::Stretched) {
         metrics[lane] = metrics_.getMetric();
         ratios[lane] = metrics_.getRatio();
+        lines[lane] = findLines(metrics_.getSpacings());
         weighted[lane] =
             gatherStretched(metrics_, center, edges[i], lane, surroundings[lane]);
         reach = std::max(reach, nearest_.getReach());
@@ -283,6 +300,7 @@ private:
           surroundings[lane].support == IsoSupport::Bridged ||
           (fits[i].outcome <= RootOutcome::Quadratic && !(result.pivot[lane] > pivot)))
         continue;
+      addDoubtOfLines(lines[lane], lane, surroundings[lane].radius, result);
       leaveMetric(metrics[lane], lane, result);
       const auto& positions = input_.samples.getPositions();
       if (isFarFromJump(
@@ -366,6 +384,17 @@ private:
          0,
          surroundings);
     return count;
+  }
+
+  /** Let the error of a fit to samples on lines tell of what lies between these. */
+  void
+  addDoubtOfLines(SampleLines lines, std::size_t lane, double radius, FitResult& result)
+  {
+    if (lines.spacing == 0.0)
+      return;
+    lines.spacing /= radius;
+    result.error[lane] = std::hypot(
+        result.error[lane], left_out_.measureError(samples_, lane, lines, result));
   }
 
   /** Leave a lane without samples from the given one on. */
@@ -506,6 +535,7 @@ private:
   std::vector<DoubtfulFit> flat_; ///< maybe: no samples are seen beside a plane
   std::vector<FitSample> samples_;
   FitKernel fit_;
+  LeftOutLines left_out_;
   float isovalue_;
   double last_radius_ = 0.0; ///< of a support found before
 };

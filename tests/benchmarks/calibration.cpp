@@ -67,6 +67,24 @@ isRim(const pcl_uvol::PointIso& point)
   return point.support == static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Rim);
 }
 
+bool
+hasFit(const pcl_uvol::PointIso& point)
+{
+  return !std::isnan(point.mean_curvature);
+}
+
+bool
+isOnEdge(const pcl_uvol::PointIso& point)
+{
+  return !hasFit(point);
+}
+
+bool
+isPredicted(const pcl_uvol::PointIso& point)
+{
+  return point.support == static_cast<std::uint8_t>(pcl_uvol::IsoSupport::Predicted);
+}
+
 Surface
 extract(const Cloud::ConstPtr& cloud, double isovalue)
 {
@@ -137,22 +155,58 @@ printHoles(std::size_t n, std::uint64_t seed)
   }
 }
 
-/** \param mu of the level set; none: automatic */
+/** By the pipeline, as the tools do. */
 Surface
-smoothAndExtract(const Cloud& cloud, const std::optional<double>& mu)
+extract(const Cloud& cloud,
+        double isovalue,
+        pcl_uvol::IsosurfacePipelineParameters parameters)
 {
   const auto samples = std::make_shared<pcl_uvol::Dataset>();
   pcl::toPCLPointCloud2(cloud, samples->cloud);
-  pcl_uvol::IsosurfacePipelineParameters parameters;
-  parameters.isosurface.isovalues = {0.0};
-  parameters.smooth = true;
-  parameters.level_set.mu = mu;
+  parameters.isosurface.isovalues = {isovalue};
   pcl_uvol::IsosurfacePipeline pipeline;
   pipeline.setInput(samples);
   pipeline.setParameters(parameters);
   Surface surface;
   pcl::fromPCLPointCloud2(pipeline.run().surface.cloud, surface);
   return surface;
+}
+
+/** A gyroid whose period is half the side of the cube. */
+void
+printLines(std::uint64_t n, std::uint64_t seed)
+{
+  using pcl_uvol::Scatter;
+  const auto field = uvol_test::makeSmoothField("gyroid", n);
+  for (const auto& [name, lines] : {std::pair("tracks", Scatter::Tracks),
+                                    std::pair("casts", Scatter::Casts),
+                                    std::pair("holes", Scatter::Holes)}) {
+    const auto cloud = uvol_test::sampleOnLines(field, lines, n, seed);
+    const auto print = [&, name = name](const char* kind,
+                                        const Surface& surface,
+                                        bool (*counts)(const pcl_uvol::PointIso&)) {
+      printRow(std::string(name) + " of " + std::to_string(n) + kind,
+               surface,
+               uvol_test::deviations(field, surface),
+               counts);
+    };
+    pcl_uvol::IsosurfacePipelineParameters parameters;
+    const Surface surface = extract(*cloud, field.isovalue, parameters);
+    print(", fits", surface, hasFit);
+    print(", on edges", surface, isOnEdge);
+    parameters.fill_gaps = true;
+    print(", filled", extract(*cloud, field.isovalue, parameters), isPredicted);
+  }
+}
+
+/** \param mu of the level set; none: automatic */
+Surface
+smoothAndExtract(const Cloud& cloud, const std::optional<double>& mu)
+{
+  pcl_uvol::IsosurfacePipelineParameters parameters;
+  parameters.smooth = true;
+  parameters.level_set.mu = mu;
+  return extract(cloud, 0.0, parameters);
 }
 
 void
@@ -194,20 +248,30 @@ printNoise(double noise, std::uint64_t seed)
 
 } // namespace
 
-/** calibration [SAMPLES [SEED]] */
+/** calibration [SAMPLES [SEED [GROUP]]]: all groups of rows, or one of them. */
 int
 main(int argc, char** argv)
 {
   const auto n = static_cast<std::size_t>(argc > 1 ? std::atof(argv[1]) : 64000.0);
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1);
+  const auto isWanted = [&](const char* group) {
+    return argc <= 3 || std::string(argv[3]) == group;
+  };
   std::printf("%-44s %7s %9s %9s\n", "samples", "points", "covered_%", "ratio");
-  printScattered(n, seed);
+  if (isWanted("scattered"))
+    printScattered(n, seed);
   const int side = static_cast<int>(std::cbrt(static_cast<double>(n)) + 1e-9);
-  for (const char* const shape : {"lattice", "rotated", "wall", "jittered", "shaken"})
-    for (const double ratio : {1.0, 10.0, 100.0})
-      printStretched(shape, ratio, side);
-  printHoles(n, seed);
-  for (const double noise : {0.1, 0.3, 1.0})
-    printNoise(noise, seed);
+  if (isWanted("stretched"))
+    for (const char* const shape : {"lattice", "rotated", "wall", "jittered", "shaken"})
+      for (const double ratio : {1.0, 10.0, 100.0})
+        printStretched(shape, ratio, side);
+  if (isWanted("holes"))
+    printHoles(n, seed);
+  if (isWanted("lines"))
+    for (const std::uint64_t samples : {2500, 20000, 160000})
+      printLines(samples, seed);
+  if (isWanted("noise"))
+    for (const double noise : {0.1, 0.3, 1.0})
+      printNoise(noise, seed);
   return 0;
 }

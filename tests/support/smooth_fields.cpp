@@ -130,6 +130,25 @@ sampleSmoothField(const SmoothField& field,
   return cloud;
 }
 
+Cloud::Ptr
+sampleOnLines(const SmoothField& field,
+              pcl_uvol::Scatter lines,
+              std::uint64_t n,
+              std::uint64_t seed)
+{
+  Cloud::Ptr cloud(new Cloud(static_cast<std::uint32_t>(n), 1));
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const auto place =
+        pcl_uvol::scatterAt(lines, seed, i, n, -0.5 * field.side, 0.5 * field.side);
+    pcl::PointXYZI& point = (*cloud)[i];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      point.data[axis] = static_cast<float>(place[axis]);
+    point.intensity =
+        static_cast<float>(field.value(point.getVector3fMap().cast<double>()));
+  }
+  return cloud;
+}
+
 std::vector<double>
 deviations(const SmoothField& field, const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {

@@ -2,6 +2,7 @@
 // Smooth functions with known isosurfaces: the truth that isopoints are measured by.
 #pragma once
 
+#include "generation/analytic_fields.h"
 #include <pcl_uvol/common/point_types.h>
 
 #include <Eigen/Core>
@@ -47,6 +48,13 @@ sampleSmoothField(const SmoothField& field,
                   std::uint64_t seed,
                   bool clustered,
                   double noise = 0.0);
+
+/** \brief n samples on lines, as uvol_generate has them. */
+pcl::PointCloud<pcl::PointXYZI>::Ptr
+sampleOnLines(const SmoothField& field,
+              pcl_uvol::Scatter lines,
+              std::uint64_t n,
+              std::uint64_t seed);
 
 double
 mean(const std::vector<double>& values);
