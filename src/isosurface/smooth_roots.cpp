@@ -268,8 +268,11 @@ private:
       const Position& center = doubtful[lane].center;
       double reach = 0.0;
       const Spacings spacings = findMetric(doubtful[lane], edges[i], points[i], reach);
+      const bool may_be_on_lines =
+          spacings == Spacings::Unknown ||
+          (spacings == Spacings::Stretched && metrics_.getRatio() >= sure_stretching);
       // Unless a fit in the metric takes its place, it is no better than its edge.
-      if (spacings != Spacings::Even && !(doubtful[lane].pivot >= worthless_pivot))
+      if (may_be_on_lines && !(doubtful[lane].pivot >= worthless_pivot))
         doubtFit(edges[i], points[i]);
       if (spacings == Spacings::Stretched) {
         metrics[lane] = metrics_.getMetric();
