@@ -255,6 +255,50 @@ TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
   });
 }
 
+const KernelTable<SideKernel> side_kernels{
+    &baseline::findSides, &avx2::findSides, &avx512::findSides};
+
+TEST(SideKernel, TellsWhichSideOfWhichSurfacePixelsShow)
+{
+  TestCamera camera;
+  Projection& p = camera.projection;
+  p.has_sides = true;
+  p.edge_on_cosine = 0.5f;
+  const PointArrays points = randomDiscs(camera, 200);
+  std::vector<std::uint32_t> looks;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    looks.insert(looks.end(), {points.normals[i], i % 7 << 24 | 0x00abcdef});
+  PixelRows rows;
+  PixelRandom random(3);
+  for (int row = first_row; row < last_row; ++row)
+    for (int column = 0; column < PixelRows::width; ++column)
+      rows.first()[row * PixelRows::stride + column] =
+          uvol_test::makeKey(0.5f, random.below(200));
+  constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
+  for (const float outward : {1.0f, -1.0f})
+    uvol_test::forLevels(side_kernels, [&](const SideKernel kernel) {
+      p.outward = outward;
+      std::vector<std::uint8_t> sides(rows.keys.size());
+      kernel(p, looks.data(), rows.band(first_row, last_row), sides.data() + first);
+      for (int row = first_row; row < last_row; ++row)
+        for (int column = 0; column < PixelRows::width; ++column) {
+          const std::uint32_t point = readPoint(rows.at(column, row));
+          const Vector3d ray((column + 0.5 - p.center_x) / p.focal,
+                             (row + 0.5 - p.center_y) / p.focal,
+                             1.0);
+          const double cosine =
+              outward * (camera.rotation * points.normal(point)).dot(ray.normalized());
+          if (std::abs(cosine) < 1e-4 || std::abs(cosine - 0.5) < 1e-4)
+            continue;
+          const unsigned expected = point % 7 << 2 | (cosine > 0.0 ? 1u : 0u) |
+                                    (cosine > 0.0 && cosine < 0.5 ? 2u : 0u);
+          EXPECT_EQ(expected,
+                    sides[static_cast<std::size_t>(first + row * PixelRows::stride +
+                                                   column)]);
+        }
+    });
+}
+
 /** What looks away, nearly edge-on, is behind discs that look to the eye and have
  * nearer centres: these have all of the weight. */
 TEST(DiscKernel, DiscsThatLookToTheEyeAreBlendedOverSuchAsLookAway)
