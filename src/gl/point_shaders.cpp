@@ -272,8 +272,8 @@ void main()
 }
 )";
 
-// The weight of a disc falls smoothly to zero at its rim. Where what is seen looks away,
-// but lies behind discs that look to the eye, these are blended.
+// The weight of a disc falls smoothly to zero at its rim. Where what is seen looks
+// away, but lies behind discs that look to the eye, these are blended.
 const char* const blend_fragment = R"(
 uniform usampler2DRect states;
 uniform usamplerBuffer looks; // packed normal, colour
@@ -298,7 +298,8 @@ void main()
   bool is_covered = isCovered(depth, part);
   uvec2 state = texture(states, gl_FragCoord.xy).xy;
   float seen = uintBitsToFloat(state.x);
-  uvec2 look = texelFetch(looks, state.x != background_bits ? int(state.y) : 0).xy;
+  int point = state.x != background_bits ? int(state.y) : 0;
+  uvec2 look = texelFetch(looks, point).xy;
   vec3 ray = vec3((gl_FragCoord.xy - margin - center) * per_focal, 1.0);
   vec3 direction = outward * unpackDirection(look.x);
   float along = dot(direction, ray * rotation);
@@ -308,7 +309,7 @@ void main()
   float room = disc_center.w * per_far;
   uint difference = sideOf(look.y, looks_away) ^ disc_side;
   // What looks away was drawn deeper than it is.
-  float shift = texelFetch(footprints, int(state.y)).r * (away_depth * per_far);
+  float shift = texelFetch(footprints, point).r * (away_depth * per_far);
   bool is_before = difference == 1u && looks_away && is_edge_on &&
                    seen - shift > depthOf(disc_center.xyz);
   float most = is_before ? facing_reach * room : room;
