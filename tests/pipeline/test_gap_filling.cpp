@@ -438,7 +438,7 @@ turnAround(const Dataset& samples)
 
 TEST(GapFilling, DependsNotOnTheOrderOfSamples)
 {
-  const auto samples = makeProfiles(15);
+  const auto samples = makeProfiles(30);
   const auto a =
       uvol_test::toIsopoints(uvol_test::runPipeline(samples, makeParameters(true)));
   const auto b = uvol_test::toIsopoints(
@@ -454,7 +454,7 @@ TEST(GapFilling, DependsNotOnTheOrderOfSamples)
 /** Isopoints at crossings of a line that the next line does not know are no surface. */
 TEST(GapFilling, FollowsNothingFinerThanGapsAlongLines)
 {
-  const auto samples = makeProfiles(15);
+  const auto samples = makeProfiles(30);
   const CloudView view = viewOf(samples->cloud);
   const ScalarField height(view.fields, "intensity");
   std::vector<float> wrinkled;
@@ -498,7 +498,7 @@ TEST(GapFilling, DependsNeitherOnThreadsNorOnUnits)
 
 TEST(GapFilling, WarnsWhereKrigingExplainsLittle)
 {
-  const auto samples = makeProfiles(15);
+  const auto samples = makeProfiles(30);
   EXPECT_TRUE(
       uvol_test::runPipeline(samples, makeParameters(true)).report.warnings.empty());
   uvol_test::Random random(9);
