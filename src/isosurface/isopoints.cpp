@@ -8,6 +8,7 @@
 #include "neighbors/neighborhood_finder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 
@@ -16,6 +17,9 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_edges = 1u << 10;
+
+/** So few neighbours surround a sample: with fewer across it is no spike. */
+constexpr std::size_t surrounding = 4;
 
 EdgeKey
 edgeKey(std::uint32_t a, std::uint32_t b)
@@ -57,20 +61,30 @@ findEdges(const IsopointInput& input,
 {
   StepTimer step(report, "neighborhoods", crossing.size());
   const std::vector<float>& f = input.values;
+  std::atomic<std::uint64_t> spikes{0};
   auto edges = parallelGather<EdgeKey>(
       crossing.size(),
       block_edges,
       input.threads,
       [&](std::size_t begin, std::size_t end, std::vector<EdgeKey>& found) {
         NeighborhoodFinder finder(input.samples, input.candidates, input.criterion);
+        SpikeTest spike_test(input, isovalue);
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t x = crossing[i];
-          for (const std::uint32_t y : finder.find(x))
+          const std::size_t before = found.size();
+          const auto& neighbors = finder.find(x);
+          for (const std::uint32_t y : neighbors)
             if ((f[x] >= isovalue) != (f[y] >= isovalue))
               found.push_back(edgeKey(x, y));
+          const std::size_t across = found.size() - before;
+          if (across >= surrounding &&
+              across + SpikeTest::most_alike >= neighbors.size() &&
+              spike_test.isSpike(x))
+            ++spikes;
         }
         step.advance(end - begin);
       });
+  report.count("spikes", spikes);
   parallelSort(edges.begin(), edges.end(), input.threads, std::less<EdgeKey>());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -202,7 +216,6 @@ appendIsopoints(const IsopointInput& input,
     crossing = input.candidates.findCrossing(input.ranges, isovalue, input.threads);
   }
   const std::vector<EdgeKey> keys = findEdges(input, crossing, isovalue, report);
-  countSpikes(input, crossing, isovalue, report);
   std::vector<PointIso> points(keys.size());
   IsoEdges point_edges(keys.size());
   {

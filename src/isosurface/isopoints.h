@@ -34,7 +34,8 @@ using EdgeKey = std::uint64_t;
  * Neighbourhoods are not symmetric (2.4): an edge may be found from one end or from
  * both.
  * \param crossing samples that touch one of the other side: no others can have it for a
- * neighbour */
+ * neighbour
+ * \param report gets the count of "spikes" among them, see SpikeTest */
 std::vector<EdgeKey>
 findEdges(const IsopointInput& input,
           const std::vector<std::uint32_t>& crossing,

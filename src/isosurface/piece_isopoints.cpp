@@ -4,7 +4,6 @@
 #include "common/parallel.h"
 #include "isosurface/isopoints.h"
 #include "isosurface/smooth_roots.h"
-#include "isosurface/spike_test.h"
 
 #include <algorithm>
 #include <cstring>
@@ -138,7 +137,6 @@ PieceIsopoints::find(const IsopointInput& input, std::size_t which)
     crossing = input.candidates.findCrossing(input.ranges, isovalue, threads_);
   }
   report_.count("crossing_samples", crossing.size());
-  countSpikes(input, crossing, isovalue, report_);
   for (const EdgeKey key : findEdges(input, crossing, isovalue, report_)) {
     PointIso point;
     IsoEdge edge;

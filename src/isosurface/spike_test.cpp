@@ -13,10 +13,9 @@ namespace {
 
 constexpr std::size_t block_samples = 1u << 10;
 
-/** Of about 11 touching cells. Beyond 6 median deviations 0.25 % of the samples next to
- * an isosurface of a planet's entropy lie, beyond these no more than 0.06 % in any data
- * set that was tried. */
-constexpr SpikeBounds bounds{20.0f, 1};
+/** Beyond 6 median deviations lie 0.25 % of the samples next to an isosurface of a
+ * planet's entropy, beyond these no more than 0.06 % in any data set that was tried. */
+constexpr SpikeBounds bounds{20.0f, SpikeTest::most_alike};
 
 /** Fewer neighbours do not tell. */
 constexpr std::size_t least_neighbors = 6;
@@ -74,8 +73,7 @@ SpikeTest::isSpike(std::uint32_t sample)
     others_.push_back(input_.values[neighbor]);
     alike += (others_.back() >= isovalue_) == (own >= isovalue_);
   }
-  return others_.size() >= least_neighbors && alike <= bounds.companions &&
-         standsOut(own);
+  return others_.size() >= least_neighbors && alike <= most_alike && standsOut(own);
 }
 
 void

@@ -33,6 +33,10 @@ settleValue(float own, std::vector<float>& others, const SpikeBounds& bounds);
  * per thread. */
 class SpikeTest {
 public:
+  /** \brief Of about 11 samples in touching cells of a spike, those on its side of the
+   * isovalue at most. */
+  static constexpr std::size_t most_alike = 1;
+
   /** \param input must outlive the test */
   SpikeTest(const IsopointInput& input, float isovalue)
       : input_(input)

@@ -26,7 +26,7 @@ namespace {
 constexpr float known_part = 0.5f;
 
 /** Share of the samples next to the surface that are spikes: of 1 % of all samples it
- * is 4 %. */
+ * is 3 %. */
 constexpr double told_spikes = 0.001;
 
 } // namespace
