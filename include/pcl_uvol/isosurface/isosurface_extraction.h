@@ -386,11 +386,11 @@ public:
    * non-finite isovalue, a bad scale, or no usable sample; isopoints are then untouched
    *
    * Counts of the report: samples, no_value, non_finite, duplicates,
-   * conflicting_duplicates, crossing_samples, edges, coincident, isopoints; with
-   * Interpolation::Fit cubic_roots, quadratic_roots, and linear_singular, linear_step,
-   * linear_far for isopoints whose linear root stayed because the fit is singular or
-   * fails, the values step, or the fit leaves the edge's surroundings; bridged and rim
-   * by support. */
+   * conflicting_duplicates, spikes (samples whose values are unlike those of all around
+   * them), crossing_samples, edges, coincident, isopoints; with Interpolation::Fit
+   * cubic_roots, quadratic_roots, and linear_singular, linear_step, linear_far for
+   * isopoints whose linear root stayed because the fit is singular or fails, the values
+   * step, or the fit leaves the edge's surroundings; bridged and rim by support. */
   void
   extract(pcl::PointCloud<PointIso>& isopoints);
 
