@@ -5,6 +5,7 @@
 #include "common/parallel.h"
 #include "isosurface/fit_judgement.h"
 #include "isosurface/left_out_lines.h"
+#include "isosurface/planar_roots.h"
 #include "neighbors/empty_cone_kernel.h"
 #include "neighbors/local_metric.h"
 #include "neighbors/nearest_finder.h"
@@ -22,9 +23,6 @@ constexpr std::size_t block_points = 256;
 /** Samples with a weight in a fit; the next farther one sets the radius of the support.
  * Twice the 20 terms of a cubic: fewer follow noise, more flatten details. */
 constexpr std::size_t fitted_samples = 40;
-
-/** The same on a plane, where a cubic has 10 terms. */
-constexpr std::size_t fitted_in_plane = 20;
 
 /** Least pivot of a fit that needs no other metric: of uniform random samples one fit
  * in a thousand has less, of layers all have. */
@@ -68,6 +66,7 @@ public:
       , nearest_(input.samples, fitted_samples + 1, true)
       , metrics_(input.samples)
       , group_metrics_(input.samples)
+      , planar_(input, isovalue)
       , samples_(fitted_samples + 2) // an even number
       , fit_(fit_kernels.get())
       , left_out_(fit_)
@@ -90,10 +89,11 @@ public:
                         points,
                         fits);
     for (const DoubtfulFit& doubtful : flat_)
-      fitInPlane(doubtful,
-                 edges[doubtful.point],
-                 points[doubtful.point],
-                 fits[doubtful.point]);
+      planar_.smooth(doubtful.center,
+                     edges[doubtful.point],
+                     doubtful.given,
+                     points[doubtful.point],
+                     fits[doubtful.point]);
   }
 
 private:
@@ -318,77 +318,6 @@ private:
     }
   }
 
-  /** Fit again where the samples around lie on a plane and no others are seen beside
-   * it: what the fit in space says of the way across is made of rounding and noise. */
-  void
-  fitInPlane(const DoubtfulFit& doubtful,
-             const IsoEdge& edge,
-             PointIso& point,
-             RootFit& fit)
-  {
-    PlaneAxes axes;
-    Surroundings surroundings;
-    const std::size_t count = gatherInPlane(doubtful.center, edge, surroundings, axes);
-    if (count == 0)
-      return;
-    surroundings.support =
-        supportInPlane(surroundings, samples_.data(), count, 0, axes);
-    FitResult result;
-    fitZeroLevelInPlane(samples_.data(), count, 0, axes, result);
-    point = doubtful.given;
-    fit.outcome = judge(result, 0, surroundings);
-    fit.value = static_cast<float>(result.value[0]);
-    if (goesPastSamples(result, 0, fit.outcome, surroundings, samples_))
-      surroundings.support = IsoSupport::Bridged;
-    setIsopoint(input_,
-                result,
-                0,
-                surroundings,
-                fit.outcome <= RootOutcome::Quadratic,
-                edge,
-                point);
-  }
-
-  /** Fill the first lane with the nearest samples, nearest first, as many as a fit in a
-   * plane needs.
-   * \return how many; 0 if all around lie on none */
-  std::size_t
-  gatherInPlane(const Position& center,
-                const IsoEdge& edge,
-                Surroundings& surroundings,
-                PlaneAxes& axes)
-  {
-    const std::vector<Position>& positions = input_.samples.getPositions();
-    surroundings.center = center;
-    surroundings.edge_length = distance(positions[edge.first], positions[edge.second]);
-    const auto row = finder_.find(center, static_cast<float>(surroundings.edge_length));
-    std::vector<std::pair<float, std::uint32_t>> nearest;
-    for (std::size_t j = 0; j < row.size; ++j)
-      nearest.emplace_back(row.sq_dists[j], row.samples[j]);
-    std::sort(nearest.begin(), nearest.end());
-    Eigen::Matrix3Xd offsets(3, static_cast<Eigen::Index>(nearest.size()));
-    std::vector<std::uint32_t> neighbors;
-    for (std::size_t j = 0; j < nearest.size(); ++j) {
-      neighbors.push_back(nearest[j].second);
-      for (int axis = 0; axis < 3; ++axis) {
-        direction_[axis][j] = positions[neighbors[j]][axis] - center[axis];
-        offsets(axis, static_cast<Eigen::Index>(j)) =
-            static_cast<double>(direction_[axis][j]);
-      }
-    }
-    if (!findPlane(offsets, axes))
-      return 0;
-    const std::size_t count = std::min(neighbors.size(), fitted_in_plane + 1);
-    fill(neighbors.data(),
-         count,
-         nearest.front().first,
-         nearest[count - 1].first,
-         edge,
-         0,
-         surroundings);
-    return count;
-  }
-
   /** Let the error of a fit to samples on lines tell of what lies between these. */
   void
   addDoubtOfLines(SampleLines lines, std::size_t lane, double radius, FitResult& result)
@@ -534,6 +463,7 @@ private:
   NearestFinder finder_;
   MetricFinder nearest_;
   LocalMetricFinder metrics_, group_metrics_;
+  PlanarRoots planar_;
   std::vector<DoubtfulFit> doubtful_;
   std::vector<DoubtfulFit> flat_; ///< maybe: no samples are seen beside a plane
   std::vector<FitSample> samples_;
