@@ -293,8 +293,10 @@ expandPattern(const std::string& path, const std::vector<std::string_view>& word
   const std::string_view pattern = words[0];
   const std::size_t start = pattern.find('%'), end = pattern.find('d', start);
   int numbers[3] = {0, 0, 1}, width = 0;
+  // The system would read names up to a zero byte, which the folder may be.
   bool valid = words.size() <= 4 && end != pattern.npos &&
-               pattern.find('%', start + 1) == pattern.npos && end - start <= 3;
+               pattern.find('%', start + 1) == pattern.npos && end - start <= 3 &&
+               pattern.find('\0') == pattern.npos;
   const auto parse = [&](std::string_view text, int& value) {
     const char* const last = text.data() + text.size();
     const auto parsed = std::from_chars(text.data(), last, value);
