@@ -178,11 +178,14 @@ smooth(const Clouds& clouds,
     evolution.evolve(phi);
     for (std::size_t i = 0; i < phi.size(); ++i)
       (*level)[i].intensity = static_cast<float>(phi[i] / length);
-    told.mu += evolution.getSummary().mu / static_cast<double>(clouds.size());
-    told.steps += evolution.getSummary().steps.size();
+    const auto& summary = evolution.getSummary();
+    told.mu += summary.mu / static_cast<double>(clouds.size());
+    told.steps += summary.steps.size();
     for (const auto& [step, spent] : evolution.getReport().milliseconds)
       told.milliseconds += spent;
-    return uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit);
+    // As the pipeline does: what is not smoothed is extracted from the field itself.
+    return uvol_test::isopoints(summary.smoothed ? level : noisy.cloud,
+                                pcl_uvol::Interpolation::Fit);
   });
 }
 
