@@ -61,11 +61,12 @@ struct LevelSetConstants {
   double look_distance = 0.5;
   /** The most of these that are looked at. */
   std::size_t most_looked_at = 2048;
-  /** Samples in the fits that look. 30 reach as far as those of isopoints do, 40 by
-   * cubics, but quadratics see the ridge of a sheet: 4 and 6 thick they were left 1.4
-   * times as far off as the best weight has them.
-   */
+  /** Samples in the fits that look. Quadratics through 30 see the ridge of a sheet: 4
+   * and 6 thick they were left 1.4 times as far off as the best weight has them. */
   std::size_t look_samples = 20;
+  /** Samples in the fits that tell what is left of the noise: they reach as far as those
+   * of isopoints, 40 by cubics. */
+  std::size_t share_samples = 30;
   /** A share of the noise that is added to tell how much of the noise is left: small,
    * so that the flow answers it linearly. */
   double probe_part = 0.1;

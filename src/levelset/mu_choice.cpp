@@ -98,12 +98,14 @@ fitAt(const Band& band,
   return fit;
 }
 
-/** Fits at some of the centres next to the zero level. */
+/** Fits at some of the centres next to the zero level.
+ * \param size samples in each */
 std::vector<FitWeights>
 fitNear(const Band& band,
         const SampleSet& samples,
         const std::vector<float>& phi,
         double spacing,
+        std::size_t size,
         unsigned threads)
 {
   std::vector<std::uint32_t> near;
@@ -113,7 +115,7 @@ fitNear(const Band& band,
   const std::size_t count = std::min(level_set.most_looked_at, near.size());
   std::vector<FitWeights> fits(count);
   parallelBlocks(count, block_fits, threads, [&](auto begin, auto end) {
-    NearestFinder finder(samples, std::min(level_set.look_samples, samples.size()));
+    NearestFinder finder(samples, std::min(size, samples.size()));
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t center = near[i * near.size() / count];
       const auto row = finder.find(samples.getPositions()[band.centers[center]],
@@ -249,7 +251,11 @@ private:
   void
   start(const std::vector<float>& smoother)
   {
-    fits_ = fitNear(band_, samples_, smoother, spacing_, threads_);
+    const auto fit = [&](std::size_t size) {
+      return fitNear(band_, samples_, smoother, spacing_, size, threads_);
+    };
+    fits_ = fit(level_set.look_samples);
+    wide_fits_ = fit(level_set.share_samples);
     direct_risk_ = estimateRisk(term_.target, probe_.target);
   }
 
@@ -272,13 +278,13 @@ private:
   measureShares(const std::vector<float>& phi, const std::vector<float>& probed) const
   {
     double left = 0.0, taken = 0.0;
-    for (const FitWeights& fit : fits_) {
+    for (const FitWeights& fit : wide_fits_) {
       left += std::pow((fit.apply(probed) - fit.apply(phi)) / shift_, 2);
       const double moved =
           (static_cast<double>(probed[fit.center]) - phi[fit.center]) / shift_;
       taken += std::pow(drawSign(band_.centers[fit.center]) - moved, 2);
     }
-    const auto count = static_cast<double>(fits_.size());
+    const auto count = static_cast<double>(wide_fits_.size());
     return {std::sqrt(left / count), std::sqrt(taken / count)};
   }
 
@@ -308,8 +314,8 @@ private:
   MuProgress& progress_;
   float shift_;
   std::vector<float> phi_, probed_;
-  std::vector<FitWeights> fits_;
-  std::vector<MuStage> stages_; ///< all that were tried
+  std::vector<FitWeights> fits_, wide_fits_; ///< that look, and that tell shares
+  std::vector<MuStage> stages_;              ///< all that were tried
   double direct_risk_ = 0.0, best_risk_, best_time_ = 0.0;
   NoiseShares best_shares_;
   std::size_t best_stages_ = 0;
