@@ -50,6 +50,18 @@ addDeviations(const std::vector<float>& deviations,
   }
 }
 
+/** Forgets what an extraction says of a phi without a zero level: the level set has
+ * told that it vanished, with the isovalue that was asked for.
+ * \param told warnings before the extraction */
+void
+forgetIfVanished(const pcl::PointCloud<PointIso>& isopoints,
+                 std::size_t told,
+                 Report& report)
+{
+  if (isopoints.empty())
+    report.warnings.resize(told);
+}
+
 } // namespace
 
 SurfaceTriangles
@@ -68,8 +80,10 @@ meshZeroLevel(const CloudView& samples,
   SurfaceMeshParameters of_phi{parameters, meshing};
   of_phi.isosurface.field = "phi";
   of_phi.isosurface.isovalues = {0.0};
+  const std::size_t told = report.warnings.size();
   SurfaceTriangles found =
       detail::makeSurfaceMesh(view, all, of_phi, parameters.isovalues, threads, report);
+  forgetIfVanished(found.vertices, told, report);
   addDeviations(deviations, found.edges, parameters.scale, found.vertices);
   return found;
 }
@@ -93,7 +107,9 @@ extractZeroLevel(const CloudView& samples,
   extraction.setNumberOfThreads(threads);
   extraction.setProgressCallback(report.progress);
   extraction.extract(isopoints);
+  const std::size_t told = report.warnings.size();
   report.merge(extraction.getReport());
+  forgetIfVanished(isopoints, told, report);
   edges = extraction.getEdges();
   addDeviations(deviations, edges, parameters.scale, isopoints);
   for (PointIso& point : isopoints)

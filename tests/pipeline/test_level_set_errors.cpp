@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace {
@@ -136,6 +137,30 @@ TEST(LevelSetErrors, AreUnknownWithoutDeviations)
   ASSERT_GT(surface.size(), 1000u);
   for (const PointIso& point : surface)
     EXPECT_TRUE(std::isnan(point.error));
+}
+
+TEST(LevelSetErrors, ASurfaceThatVanishedIsToldByItsOwnIsovalue)
+{
+  const auto noisy =
+      uvol_test::makeNoisyCloud(uvol_test::makeSmallShape("sphere", 1.2), 0.0, 1);
+  const auto samples = std::make_shared<Dataset>();
+  pcl::toPCLPointCloud2(*noisy.cloud, samples->cloud);
+  auto parameters = makeParameters(0.01);
+  parameters.isosurface.isovalues = {0.3};
+  parameters.level_set.max_steps = 2000;
+  for (const bool is_mesh : {false, true}) {
+    if (is_mesh)
+      parameters.mesh.emplace();
+    const auto result = uvol_test::runPipeline(samples, parameters, 0);
+    ASSERT_EQ(0u, result.surface.cloud.width);
+    bool is_told = false;
+    for (const std::string& warning : result.report.warnings) {
+      is_told =
+          is_told || warning.find("isovalue 0.3 has vanished") != std::string::npos;
+      EXPECT_EQ(std::string::npos, warning.find(" phi")) << warning;
+    }
+    EXPECT_TRUE(is_told);
+  }
 }
 
 } // namespace
