@@ -19,9 +19,11 @@ public:
   PlanarRoots(const IsopointInput& input, float isovalue);
 
   /** \brief Fit where the samples around lie on a plane: what a fit in space says of
-   * the way across it is made of rounding and noise. \param center the linear root, in
-   * the stretched space \param given the isopoint without a fit \param point, fit as a
-   * fit in space has left them; stay so where there is no plane */
+   * the way across it is made of rounding and noise.
+   * \param center the linear root, in the stretched space
+   * \param given the isopoint without a fit
+   * \param point as a fit in space has left it; stays so where there is no plane
+   * \param fit the same */
   void
   smooth(const Position& center,
          const IsoEdge& edge,

@@ -64,8 +64,8 @@ struct LevelSetConstants {
   /** Samples in the fits that look. Quadratics through 30 see the ridge of a sheet: 4
    * and 6 thick they were left 1.4 times as far off as the best weight has them. */
   std::size_t look_samples = 20;
-  /** Samples in the fits that tell what is left of the noise: they reach as far as those
-   * of isopoints, 40 by cubics. */
+  /** Samples in the fits that tell what is left of the noise: they reach as far as
+   * those of isopoints, 40 by cubics. */
   std::size_t share_samples = 30;
   /** A share of the noise that is added to tell how much of the noise is left: small,
    * so that the flow answers it linearly. */

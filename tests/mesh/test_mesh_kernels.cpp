@@ -53,12 +53,15 @@ TEST(Foot, IsFiniteWhereCurvaturesBelongToNoSurface)
         {{1.0, 0.0, 0.0}, Vector3d(0.6, 0.0, 0.8), -0.5 * curvature}};
     for (const BoxSides sides : {0, 1, 5})
       for (const double length : {1.0, 1e-3, 0.0}) {
+        const Vector3d start(0.4, 0.7, 0.3);
         Foot foot = feet[0];
-        foot.place = {0.4, 0.7, 0.3};
+        foot.place = start;
         // As where the box sends places back again and again.
         for (int round = 0; round < 5; ++round)
           foot = blendFeet(feet, foot.place, length, sides);
         EXPECT_TRUE(foot.place.allFinite()) << curvature << " " << length;
+        // Five rounds of up to five steps, each a thousand lengths long at most.
+        EXPECT_LE((foot.place - start).norm(), 25e3 * length) << curvature;
         EXPECT_TRUE(foot.normal.allFinite()) << curvature << " " << length;
       }
   }

@@ -289,9 +289,16 @@ TEST(DelaunayCavity, NoticesWrongCells)
   ASSERT_TRUE(cell.measureFaces(measured.ratios.data(), measured.moments.data()));
   DelaunayCavity cavity;
   std::array<double, SimpleCell::most_faces> volumes;
-  EXPECT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
-  measured.ratios[0] *= 1.0 + 1e-6;
-  EXPECT_FALSE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+  ASSERT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+  auto ratios = measured.ratios;
+  ratios[0] *= 1.0 + 1e-6;
+  EXPECT_FALSE(cavity.measure(cell, ratios.data(), volumes.data()));
+  // All parts grow alike, so that they still balance; only their sum tells.
+  ASSERT_TRUE(cavity.measure(cell, measured.ratios.data(), volumes.data()));
+  ratios = measured.ratios;
+  for (std::size_t face = 0; face < cell.getNumFaces(); ++face)
+    ratios[face] += 6e-6 * volumes[face] / cell.getFace(face).offset.squaredNorm();
+  EXPECT_FALSE(cavity.measure(cell, ratios.data(), volumes.data()));
 }
 
 } // namespace

@@ -145,10 +145,11 @@ TEST(Footprints, StayAtTheRimAndAtOutliers)
   EXPECT_LT(beyond_rim.back(), 3.0 * spacing);
 }
 
-/** A point alone in a round hole has a cell as wide as half the hole. */
-TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
+/** A plane with a round hole of a radius in spacings, and a point alone in its middle,
+ * which has a cell as wide as half the hole. */
+pcl::PointCloud<pcl::PointNormal>
+makeHoleWithOutlier(float hole)
 {
-  constexpr float hole = 12.0f; // radius in spacings
   pcl::PointCloud<pcl::PointNormal> plane;
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<float> shift(-0.2f, 0.2f);
@@ -163,13 +164,25 @@ TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
       point.normal_z = 1.0f;
       plane.push_back(point);
     }
-  const Surface surface(plane);
-  const auto& [radii, fillers, on_rim, nearest] = surface.footprints;
+  return plane;
+}
+
+std::size_t
+findOutlier(const Surface& surface)
+{
   std::size_t outlier = 0;
   for (std::size_t i = 0; i < surface.size(); ++i)
     if (surface.position(i).norm() < surface.position(outlier).norm())
       outlier = i;
-  ASSERT_EQ(0.0f, surface.position(outlier).norm());
+  EXPECT_EQ(0.0f, surface.position(outlier).norm());
+  return outlier;
+}
+
+TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
+{
+  const Surface surface(makeHoleWithOutlier(12.0f));
+  const auto& [radii, fillers, on_rim, nearest] = surface.footprints;
+  const std::size_t outlier = findOutlier(surface);
   constexpr std::size_t compared = 8;
   float largest = 0.0f;
   for (std::size_t k = 0; k < compared; ++k)
@@ -178,6 +191,14 @@ TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
   EXPECT_GT(largest, 0.5f);
   EXPECT_NEAR(3.0 * largest, radii[outlier], 1e-5 * largest);
   EXPECT_LE(fillers[outlier], radii[outlier]);
+}
+
+TEST(Footprints, OfAPointThatIsAloneAreNone)
+{
+  const Surface surface(makeHoleWithOutlier(20.0f));
+  const std::size_t outlier = findOutlier(surface);
+  EXPECT_EQ(0.0f, surface.footprints.radii[outlier]);
+  EXPECT_EQ(1, surface.footprints.on_rim[outlier]);
 }
 
 /** Isopoints on a sphere about a place. */

@@ -23,8 +23,9 @@ sideOf(std::uint32_t color, bool looks_away)
 }
 
 /** \brief Find the sides of the pixels of a band; those of points that look away and
- * are seen nearly edge-on have that bit as well. \param looks of all points: packed
- * normal, then colour \param sides laid out as the keys; of background any number */
+ * are seen nearly edge-on have that bit as well.
+ * \param looks of all points: packed normal, then colour
+ * \param sides laid out as the keys; of background any number */
 using SideKernel = void (*)(const Projection& projection,
                             const std::uint32_t* looks,
                             const PixelBand& band,
