@@ -17,6 +17,7 @@ usage="usage: fuzz.sh [-n EXECUTIONS] SECONDS [TARGET...], or fuzz.sh -r"
 tally=build/fuzz/executions.txt
 table=tests/fuzz/README.md
 if [ "${1-}" = -r ]; then
+  [ -f $tally ] || { echo "fuzz.sh: no call has counted anything." >&2; exit 2; }
   awk -v tally=$tally 'BEGIN {
       while ((getline <tally) > 0)
         if ($1 != "#") {
@@ -97,6 +98,7 @@ for target in "${targets[@]}"; do
   read -r executions took < <(count_all "$target")
   echo "$target: $executions executions in $took s since its last finding, or since the first call"
 done
+compgen -G 'build/fuzz/coverage/*.profraw' >/dev/null || exit $found # all had their executions
 llvm-profdata merge -o build/fuzz/coverage/all.profdata build/fuzz/coverage/*.profraw
 llvm-cov report build/fuzz/lib/libpcl_uvol_io.so -instr-profile=build/fuzz/coverage/all.profdata >build/fuzz/coverage.txt
 # vtk_data_reader.cpp calls VTK's own readers, which are not fuzzed.

@@ -143,7 +143,7 @@ class Picture:
     range: tuple[float, float]
     report: dict[str, Any]
     parameters: dict[str, Any]
-    def save(self, path: str | os.PathLike[str]) -> None: ...
+    def save(self, path: str | os.PathLike[str], dpi: float = ...) -> None: ...
 
 class PieceFigures:
     isovalue: float

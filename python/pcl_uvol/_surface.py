@@ -438,7 +438,8 @@ def isosurface(points, fields=None, **options):
         Predict samples between lines or sheets of samples by kriging, up to the range of
         the variogram and half a gap outside of the convex hull of all samples, and extract
         from both: isopoints there have support 4, their `error` is the standard deviation over the slope, and `confidence` the part of
-        the variance that the samples explain. `report["gaps"]` tells what was done.
+        the variance that the samples explain; where that is nothing there are none with
+        interpolation "auto". `report["gaps"]` tells what was done.
     validate : int
         Parts of a hold-out test, at least 2; 0: none. validate_by is "random", "blocks"
         or the name of a field.

@@ -144,10 +144,6 @@ struct Polynomial {
   }
 };
 
-} // namespace
-
-namespace {
-
 using Variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
 /** Along three axes, ascending, times their number. */

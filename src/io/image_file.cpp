@@ -47,8 +47,8 @@ void
 checkResolution(double dots_per_inch)
 {
   constexpr double largest = 1e6;
-  if (!(dots_per_inch >= 0.0 && dots_per_inch <= largest))
-    throw InvalidArgument("A picture has up to a million dots per inch, or 0 where it "
+  if (!(dots_per_inch == 0.0 || (dots_per_inch >= 1.0 && dots_per_inch <= largest)))
+    throw InvalidArgument("A picture has 1 to a million dots per inch, or 0 where it "
                           "does not say how many, not " +
                           std::to_string(dots_per_inch) + ".");
 }

@@ -7,11 +7,15 @@
 #include "pipeline/extract_from_ranks.h"
 #include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
+#include "pipeline/isopoint_filter.h"
 #include "pipeline/part_in_box.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
 
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace pcl_uvol {
 
@@ -75,6 +79,26 @@ finishIsopoints(const Isopoints& isopoints,
   return result;
 }
 
+/** Warn of what only the counts of all processes tell: each says the same. */
+void
+warnTogether(const IsosurfacePipelineParameters& parameters,
+             Communicator& communicator,
+             Report& report)
+{
+  constexpr const char* names[] = {
+      "crossing_samples", "spikes", "removed_by_error", "removed_bridged", "isopoints"};
+  std::vector<std::uint64_t> counts;
+  for (const char* name : names)
+    counts.push_back(report.getCount(name));
+  communicator.allReduce(counts);
+  Report together;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    together.setCount(names[i], counts[i]);
+  warnOfLosses(parameters, together.getCount("isopoints"), together);
+  for (std::string& warning : together.warnings)
+    report.warnings.push_back(std::move(warning));
+}
+
 } // namespace
 
 IsosurfaceResult
@@ -108,6 +132,7 @@ DistributedIsosurfacePipeline::run()
   part.numberByPoints(isopoints);
   IsosurfaceResult result = finishIsopoints(
       isopoints, part, parameters, communicator_, threads_, std::move(report_));
+  warnTogether(parameters, communicator_, result.report);
   report_ = result.report;
   return result;
 }

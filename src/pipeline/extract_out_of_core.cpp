@@ -141,7 +141,7 @@ runPipelineOutOfCore(PointSource& points,
                                              resolved,
                                              out_of_core.threads,
                                              std::move(report));
-  warnOfNoneLeft(result);
+  warnOfLosses(resolved, result.surface.cloud.width, result.report);
   return result;
 }
 

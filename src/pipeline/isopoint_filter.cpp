@@ -29,6 +29,41 @@ constexpr float known_part = 0.5f;
  * is 3 %. */
 constexpr double told_spikes = 0.001;
 
+/** Samples next to the surface whose values stand alone, as IsosurfaceExtraction and
+ * SurfaceMesh count them. */
+void
+warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
+{
+  const auto spikes = static_cast<double>(report.getCount("spikes")),
+             crossing = static_cast<double>(report.getCount("crossing_samples"));
+  if (parameters.smooth || spikes <= told_spikes * crossing)
+    return;
+  std::ostringstream text;
+  text.precision(2);
+  text << "Of the samples next to the surface " << 100.0 * spikes / crossing
+       << " % have values far from those of all samples around them, which agree with "
+          "one another: the isopoints around each of them show an outlier and no "
+          "surface. -smooth takes the median of the neighbours instead, and -where "
+          "leaves out values that cannot be.";
+  report.warnings.push_back(text.str());
+}
+
+/** All isopoints that there were. */
+void
+warnOfNoneLeft(std::uint64_t isopoints, Report& report)
+{
+  const std::uint64_t by_error = report.getCount("removed_by_error"),
+                      bridged = report.getCount("removed_bridged");
+  if (isopoints > 0 || by_error + bridged == 0)
+    return;
+  const std::string options = by_error == 0  ? "-drop-bridged"
+                              : bridged == 0 ? "-max-error"
+                                             : "-max-error and -drop-bridged";
+  report.warnings.push_back("The last " + std::to_string(by_error + bridged) +
+                            " isopoints were left out by " + options +
+                            ": the samples tell of no part of the surface that well.");
+}
+
 } // namespace
 
 std::string
@@ -78,21 +113,6 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
-warnOfNoneLeft(IsosurfaceResult& result)
-{
-  const std::uint64_t by_error = result.report.getCount("removed_by_error"),
-                      bridged = result.report.getCount("removed_bridged");
-  if (result.surface.cloud.width > 0 || by_error + bridged == 0)
-    return;
-  const std::string options = by_error == 0  ? "-drop-bridged"
-                              : bridged == 0 ? "-max-error"
-                                             : "-max-error and -drop-bridged";
-  result.report.warnings.push_back(
-      "All " + std::to_string(by_error + bridged) + " isopoints were left out by " +
-      options + ": the samples tell of no part of the surface that well.");
-}
-
-void
 warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsopointChoice& choice,
               const IsosurfacePipelineParameters& parameters,
@@ -121,20 +141,12 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
 }
 
 void
-warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report)
+warnOfLosses(const IsosurfacePipelineParameters& parameters,
+             std::uint64_t isopoints,
+             Report& report)
 {
-  const auto spikes = static_cast<double>(report.getCount("spikes")),
-             crossing = static_cast<double>(report.getCount("crossing_samples"));
-  if (parameters.smooth || spikes <= told_spikes * crossing)
-    return;
-  std::ostringstream text;
-  text.precision(2);
-  text << "Of the samples next to the surface " << 100.0 * spikes / crossing
-       << " % have values far from those of all samples around them, which agree with "
-          "one another: the isopoints around each of them show an outlier and no "
-          "surface. -smooth takes the median of the neighbours instead, and -where "
-          "leaves out values that cannot be.";
-  report.warnings.push_back(text.str());
+  warnOfSpikes(parameters, report);
+  warnOfNoneLeft(isopoints, report);
 }
 
 } // namespace pcl_uvol

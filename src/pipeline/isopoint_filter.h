@@ -18,10 +18,6 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report);
 
-/** \brief Warn where these left no isopoint of a surface. */
-void
-warnOfNoneLeft(IsosurfaceResult& result);
-
 /** \brief What may help where samples leave much open, of what was not asked for: a
  * sentence behind a space, empty if it was all. */
 std::string
@@ -35,9 +31,12 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report);
 
-/** \brief Warn of samples next to the surface whose values stand alone, as
- * IsosurfaceExtraction and SurfaceMesh count them. */
+/** \brief Warn of samples next to the surface whose values stand alone, and where
+ * max_error and drop_bridged left no isopoint, as the counts of a whole run tell.
+ * \param isopoints that are left */
 void
-warnOfSpikes(const IsosurfacePipelineParameters& parameters, Report& report);
+warnOfLosses(const IsosurfacePipelineParameters& parameters,
+             std::uint64_t isopoints,
+             Report& report);
 
 } // namespace pcl_uvol

@@ -152,7 +152,6 @@ finish(const Dataset& samples,
   if (gaps)
     gaps->judge(parameters, threads, isopoints, edges, choice, report);
   dropIsopoints(isopoints, edges, choice, parameters, report);
-  warnOfSpikes(parameters, report);
   if (!parameters.mesh) // which tells of its caps and folds itself
     warnOfGuesses(isopoints, choice, parameters, report);
   report.setCount("isopoints", isopoints.size());
@@ -312,7 +311,7 @@ IsosurfacePipeline::runOnSamples(const IsosurfacePipelineParameters& parameters)
                                    gaps_,
                                    threads_,
                                    std::move(report_));
-  warnOfNoneLeft(result);
+  warnOfLosses(parameters, result.surface.cloud.width, result.report);
   if (parameters.mesh) {
     setField(result.surface, "piece", found.piece_of);
     setField(result.surface,

@@ -10,6 +10,8 @@
 #include <pcl/conversions.h>
 
 #include <mutex>
+#include <set>
+#include <string>
 
 namespace {
 
@@ -75,6 +77,38 @@ TEST(DistributedIsosurfacePipeline, GathersTheSurfaceOfOneProcess)
     });
     EXPECT_EQ(isopoints, expected.surface.cloud.width) << ranks;
   }
+}
+
+/** Ranks with more and fewer spikes than others say one sentence, that of one process.
+ */
+TEST(DistributedIsosurfacePipeline, WarnsOfWhatAllCountTogether)
+{
+  const auto cloud = uvol_test::makeCloud("uniform", 3000, 4);
+  for (std::size_t i = 0; i < cloud->size(); i += i < 1500 ? 20 : 100)
+    (*cloud)[i].intensity = 1e6f;
+  IsosurfacePipelineParameters parameters = makeParameters();
+  parameters.max_error = 1e-30f;
+  const auto warningsOf = [&](std::size_t ranks) {
+    std::mutex mutex;
+    std::set<std::string> warnings;
+    uvol_test::runRanks(ranks, [&](pcl_uvol::Communicator& communicator) {
+      const std::size_t rank = communicator.rank(), size = cloud->size();
+      DistributedIsosurfacePipeline distributed(communicator);
+      distributed.setInput(
+          takePart(*cloud, rank * size / ranks, (rank + 1) * size / ranks));
+      distributed.setParameters(parameters);
+      const auto found = distributed.run();
+      const std::lock_guard lock(mutex);
+      for (const std::string& warning : found.report.warnings)
+        if (warning.find("outlier") != std::string::npos ||
+            warning.find("were left out") != std::string::npos)
+          warnings.insert(warning);
+    });
+    return warnings;
+  };
+  const auto expected = warningsOf(1);
+  EXPECT_EQ(2u, expected.size());
+  EXPECT_EQ(expected, warningsOf(3));
 }
 
 TEST(DistributedIsosurfacePipeline, RefusesWhatNeedsAllSamples)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples whose values stand alone are told of, and nothing else is taken for one.
+#include "common/scalar_field.h"
+#include "pipeline/membership_surface.h"
 #include "pipeline/run_pipeline.h"
 #include "support/environment.h"
 #include "support/noisy_shapes.h"
@@ -103,6 +105,22 @@ TEST(Spikes, AreToldOnceWhereALevelSetReplacesThem)
   EXPECT_EQ("", findWarning(result));
   ASSERT_EQ(1u, result.report.warnings.size());
   EXPECT_NE(std::string::npos, result.report.warnings[0].find("outliers"));
+}
+
+/** A sample of noise within a cluster is its only stranger, and no outlier of a field.
+ */
+TEST(Spikes, AreNoneInMemberships)
+{
+  const auto samples = sample(sphere, 8000, 50, -1.0f);
+  const CloudView view = viewOf(samples->cloud);
+  const ScalarField value(view.fields, "intensity");
+  std::vector<float> members;
+  for (std::size_t i = 0; i < view.count; ++i)
+    members.push_back(value.read(view.point(i)) > 0.0 ? 1.0f : 0.0f);
+  IsosurfaceResult result;
+  extractMembershipSurface(*samples, members, {}, false, 1, result.report);
+  EXPECT_GT(result.report.getCount("isopoints"), 100u);
+  EXPECT_EQ("", findWarning(result));
 }
 
 /** Isolated stars: a single sample may be all that lies above an isovalue. */

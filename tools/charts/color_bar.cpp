@@ -88,7 +88,10 @@ colorBarWidth(int image_width, int image_height, int least_letters)
   constexpr int letters = 8; // of the bar, its margin and the values
   if (std::min(image_width, image_height) < static_cast<int>(smallest_image))
     return 0;
-  return std::min(letters * letterSize(image_height, least_letters), image_width / 3);
+  // In small prints letters need more of the width, as they are no smaller.
+  const int most =
+      least_letters > letterSize(image_height) ? image_width / 2 : image_width / 3;
+  return std::min(letters * letterSize(image_height, least_letters), most);
 }
 
 int

@@ -42,6 +42,10 @@ FigureOptions::check(const Options& options,
   constexpr double least_points = 7.0, points_per_inch = 72.0; // as journals ask for
   figure_.least_letters =
       static_cast<int>(std::lround(least_points / points_per_inch * dots_per_inch));
+  constexpr int letters = 8; // in a row of a legend beside a picture
+  if (letters * figure_.least_letters > std::min(width, height))
+    throw UsageError("Letters of 7 points have no room in a picture of that size: a "
+                     "larger -size or a smaller -dpi helps.");
   if (options.given("unit") && !figure_.has_ticks && !figure_.has_scale_bar)
     throw UsageError("-unit needs -ticks or -scale-bar.");
   for (const char* const other : {"view", "eye"})

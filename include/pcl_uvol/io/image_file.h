@@ -20,8 +20,8 @@ using ImageText = std::pair<std::string, std::string>;
  * \param image with its colours
  * \param texts kept in it, for those who ask where the picture is from
  * \param dots_per_inch that the file says it is printed with; 0: it says nothing
- * \throws InvalidArgument for an image without pixels, or more than 1e6 dots per inch
- */
+ * \throws InvalidArgument for an image without pixels, or dots per inch that are not 0
+ * and not 1 to 1e6 */
 PCL_UVOL_EXPORTS std::vector<std::uint8_t>
 encodePng(const Image& image,
           const std::vector<ImageText>& texts = {},
@@ -33,7 +33,7 @@ encodePng(const Image& image,
  * \param image with its colours
  * \param texts kept in the file, for those who ask where the picture is from
  * \param dots_per_inch that the file says it is printed with; 0: it says nothing
- * \throws IOError */
+ * \throws IOError, and InvalidArgument as encodePng() */
 PCL_UVOL_EXPORTS void
 savePng(const std::string& path,
         const Image& image,

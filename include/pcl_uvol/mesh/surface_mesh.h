@@ -195,7 +195,8 @@ public:
    * Counts of the report: those of the samples as IsosurfaceExtraction has them,
    * band_cells, vertices, triangles, pieces, dropped_pieces, handles, rim_edges,
    * cap_vertices, folds (triangles that look away from their vertices' normals),
-   * slivers (those with an angle below 5 degrees), and those of the fits. */
+   * slivers (those with an angle below 5 degrees), crossing_samples, spikes, and those
+   * of the fits. */
   void
   extract(SurfaceTriangles& surface)
   {

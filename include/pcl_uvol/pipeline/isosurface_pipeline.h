@@ -266,7 +266,7 @@ struct ValidationScore {
  * isopoints of confidence 0 are left out. */
 struct GapFilling {
   std::size_t predicted = 0; ///< samples; 0: there was no gap, or it was not filled
-  double spacing = 0.0;      ///< between them; 0: there was no gap
+  double spacing = 0.0;      ///< between them; 0: no gap, or none whose width is known
   std::string unfilled;      ///< why there are none: part of a sentence
   /** The range of the spherical variogram; no predicted sample is farther from a
    * measured one. */

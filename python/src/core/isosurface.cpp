@@ -120,6 +120,7 @@ describe(const IsosurfaceResult& result)
   if (result.gaps) {
     py::dict gaps;
     gaps["predicted"] = result.gaps->predicted;
+    gaps["unfilled"] = result.gaps->unfilled;
     gaps["spacing"] = result.gaps->spacing;
     gaps["range"] = result.gaps->range;
     gaps["nugget"] = result.gaps->nugget;

@@ -63,7 +63,7 @@ struct DiscKernels {
   /** \brief Add discs, stretched, one after another, to all pixels of their side that
    * they cover where they lie at most their radius in front of or behind what is seen
    * there. Discs that look to the eye are added to pixels of the other side as well if
-   * their centres are nearer: these would be lit from behind at outlines.
+   * their centres are nearer: the pixels would be lit from behind at outlines.
    * \param looks of all points: packed normal, then colour
    * \param deepest as findDeepest() gives: hidden discs are passed over */
   void (*blend)(const Projection& projection,

@@ -146,7 +146,7 @@ constexpr float away_depth = 1.0f;
  * seen around is the side that faces the eye. */
 constexpr float facing_weight = 1000.0f;
 
-/** \brief That one is seen under a smaller cosine of the angle to its normal. */
+/** \brief A disc is seen edge-on under a smaller cosine of the angle to its normal. */
 constexpr float edge_on_cosine = 0.5f;
 
 /** \brief How far before and behind what is seen such a disc is taken to be, in parts

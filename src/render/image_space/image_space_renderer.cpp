@@ -60,6 +60,7 @@ checkParameters(const ImageSpaceSettings& settings)
 ImageSpaceSettings
 scaledSettings(ImageSpaceSettings settings, int supersampling)
 {
+  // Pixels that masks fill around a point, and a little.
   constexpr double largest_hole = 2.1;
   settings.smallest_disc = std::min(settings.smallest_disc * supersampling,
                                     std::max(settings.smallest_disc, largest_hole));

@@ -34,7 +34,8 @@ struct ImageSpaceSettings {
   bool footprints = true;
   /** Pixels, above 0: points whose disc has a smaller radius are single pixels, and
    * larger discs are blended into each other. Smaller numbers are smoother, larger ones
-   * faster. With supersampling it counts pixels of the picture. */
+   * faster. With supersampling it counts pixels of the picture, but no more than 2.1 of
+   * the finer ones unless it is larger itself. */
   double smallest_disc = 0.7;
 
   // Pixel filling (4.3.2): most iterations; fewer if nothing changes, 0 leaves it out
@@ -68,7 +69,8 @@ struct ImageSpaceSettings {
   double feature_threshold = 0.06;
   Color line_color{0.0f, 0.0f, 0.0f};
 
-  // Anti-aliasing (4.3.4), after the lines so that it smooths them as well
+  // Anti-aliasing (4.3.4), after the lines so that it smooths them as well; lines of
+  // pictures with supersampling come later, and are smooth by that
   bool anti_aliasing = true;
   /** Least absolute value of the Laplace filter on depth: high for the border to the
    * background only, low for borders between layers of surface as well. */
