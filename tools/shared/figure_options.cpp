@@ -40,12 +40,10 @@ FigureOptions::check(const Options& options,
                      double dots_per_inch)
 {
   constexpr double least_points = 7.0, points_per_inch = 72.0; // as journals ask for
-  figure_.least_letters =
-      static_cast<int>(std::lround(least_points / points_per_inch * dots_per_inch));
-  constexpr int letters = 8; // in a row of a legend beside a picture
-  if (letters * figure_.least_letters > std::min(width, height))
-    throw UsageError("Letters of 7 points have no room in a picture of that size: a "
-                     "larger -size or a smaller -dpi helps.");
+  constexpr int letters = 8; // of a legend have room, whatever their size
+  figure_.least_letters = static_cast<int>(
+      std::min(std::round(least_points / points_per_inch * dots_per_inch),
+               static_cast<double>(std::min(width, height) / letters)));
   if (options.given("unit") && !figure_.has_ticks && !figure_.has_scale_bar)
     throw UsageError("-unit needs -ticks or -scale-bar.");
   for (const char* const other : {"view", "eye"})
