@@ -91,15 +91,13 @@ struct Polynomial {
   leverageOf(const Terms& influence) const
   {
     VectorXd rest = factors.colsPermutation().transpose() * influence.head(terms);
-    factors.matrixR()
-        .topLeftCorner(terms, terms)
-        .template triangularView<Eigen::Upper>()
-        .transpose()
-        .solveInPlace(rest);
+    const auto& upper = factors.matrixR();
+    for (Eigen::Index i = 0; i < terms; ++i)
+      rest[i] = (rest[i] - upper.col(i).head(i).dot(rest.head(i))) / upper(i, i);
     return rest.squaredNorm();
   }
 
-  /** \brief Of the value, or what else terms tell, times that of the weights. */
+  /** \brief The standard error of the value, or of what else terms tell. */
   double
   errorOf(const Terms& influence) const
   {
