@@ -103,7 +103,8 @@ private:
   float
   penAt(int dx, int dy) const
   {
-    return pen_[static_cast<std::size_t>((reach_ + 1) * std::abs(dy) + std::abs(dx))];
+    const int place = (reach_ + 1) * std::abs(dy) + std::abs(dx);
+    return pen_[static_cast<std::size_t>(place)];
   }
 
   std::size_t
