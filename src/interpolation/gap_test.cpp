@@ -122,7 +122,7 @@ GapTest::findWidth(std::size_t sample, int dimensions) const
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments,
                                                                 Eigen::EigenvaluesOnly);
-    const Vector3d values = solver.eigenvalues(); // ascending
+    const Vector3d& values = solver.eigenvalues(); // ascending
     const bool is_around = values[3 - dimensions] >= least_moment * values[2];
     if (!is_around && 4 * count < near.size())
       continue;
