@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the commands of pages, those in ```sh blocks, each page in a folder of its own, and asks that every
-picture (.png) below pictures/ that a page shows is made by them. Below a line <!-- not run: WHY --> a block is left
+picture (.png) in a folder of pictures/ that a page shows is made by them, and those beside these folders where
+commands of the page name them. Below a line <!-- not run: WHY --> a block is left
 out, and below <!-- long: WHY --> as well, but with --long; commands in indented blocks, which nothing would run,
 are refused.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints of samples that lie on a plane: curves there, by polynomials of the plane.
-#include "isopoint_setup.h"
+#include "fitted_roots.h"
 #include "src/isosurface/smooth_roots.h"
 
 #include <Eigen/Geometry>
@@ -19,6 +19,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using uvol_test::FieldSamples;
+using uvol_test::positionOf;
+using uvol_test::Roots;
 
 using PlaneFunction = std::function<double(const Vector2d&)>;
 
@@ -62,33 +64,6 @@ struct Sheet {
   }
 };
 
-/** Isopoints on fits. */
-struct Curve {
-  std::vector<PointIso> points;
-  std::vector<RootFit> fits;
-
-  Curve(const FieldSamples& field, float isovalue)
-  {
-    const IsopointInput input = field.input(Outside::Lower, Interpolation::Fit);
-    Report report;
-    IsoEdges edges;
-    const auto crossing = input.candidates.findCrossing(input.ranges, isovalue, 1);
-    for (const EdgeKey key : findEdges(input, crossing, isovalue, report)) {
-      points.emplace_back();
-      edges.emplace_back();
-      placeIsopoint(input, key, isovalue, points.back(), edges.back());
-    }
-    StepTimer step(report, "roots");
-    fits = fitRoots(input, isovalue, edges, points, step);
-  }
-};
-
-Vector3d
-positionOf(const PointIso& point)
-{
-  return point.getVector3fMap().cast<double>();
-}
-
 /** Boxes of the tree around an oblique sheet touch far away: a few edges reach past
  * samples. */
 bool
@@ -118,7 +93,7 @@ TEST(PlanarIsopoints, OfACircleLieOnIt)
   for (const Matrix3d& turn : {Matrix3d(Matrix3d::Identity()), tilted()})
     for (const double jitter : {0.0, 0.4}) {
       const Sheet sheet(41, turn, jitter, 0.0);
-      const Curve curve(sheet.sample(circle), 1.0f);
+      const Roots curve(sheet.sample(circle), 1.0f);
       ASSERT_GT(curve.points.size(), 80u);
       for (std::size_t i = 0; i < curve.points.size(); ++i) {
         const PointIso& point = curve.points[i];
@@ -142,7 +117,7 @@ TEST(PlanarIsopoints, DoNotFollowNoiseAcrossThePlane)
 {
   for (const double off : {1e-6, 1e-4, 1e-2, 0.02}) {
     const Sheet sheet(41, tilted(), 0.4, off);
-    const Curve curve(
+    const Roots curve(
         sheet.sample([](const Vector2d& x) { return std::exp(x.squaredNorm()); }),
         2.718281828f);
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -168,7 +143,7 @@ largestDeviation(int along, const PlaneFunction& function, double radius)
   const auto isovalue = static_cast<float>(function({radius, 0.0}));
   double largest = 0.0;
   std::size_t bridged = 0;
-  const Curve curve(sheet.sample(function), isovalue);
+  const Roots curve(sheet.sample(function), isovalue);
   for (const PointIso& point : curve.points) {
     bridged += isBridged(point);
     if (!isBridged(point))
@@ -192,7 +167,7 @@ TEST(PlanarIsopoints, ConvergeByMoreThanTheSecondOrder)
 TEST(PlanarIsopoints, KnowTheRimOfThePlane)
 {
   const Sheet sheet(41, tilted(), 0.4, 0.0);
-  const Curve curve(sheet.sample([](const Vector2d& x) { return x[0]; }), 0.02f);
+  const Roots curve(sheet.sample([](const Vector2d& x) { return x[0]; }), 0.02f);
   std::size_t rim = 0;
   for (const PointIso& point : curve.points) {
     const double to_end = 1.5 - std::abs(sheet.inPlane(positionOf(point))[1]);
@@ -211,9 +186,9 @@ TEST(PlanarIsopoints, AreNotMadeUpOfLinesAndFewSamples)
     line.push_back({{0.01f * static_cast<float>(i), 0.0f, 0.0f}});
   const auto height = [](const Vector3d& x) { return x[0]; };
   const Sheet few(3, tilted(), 0.4, 0.0);
-  for (const Curve& curve :
-       {Curve(FieldSamples(line, height), 1.003f),
-        Curve(few.sample([](const Vector2d& x) { return x[0]; }), 0.1f)}) {
+  for (const Roots& curve :
+       {Roots(FieldSamples(line, height), 1.003f),
+        Roots(few.sample([](const Vector2d& x) { return x[0]; }), 0.1f)}) {
     ASSERT_GT(curve.points.size(), 0u);
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
       EXPECT_EQ(RootOutcome::Singular, curve.fits[i].outcome);

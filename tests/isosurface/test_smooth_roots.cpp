@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints on fits against functions that fits follow exactly, and their error bars.
-#include "isopoint_setup.h"
+#include "fitted_roots.h"
 #include "src/derivatives/fit_kernel.h"
 #include "src/isosurface/smooth_roots.h"
 
@@ -18,6 +18,8 @@ namespace {
 using namespace pcl_uvol;
 using Eigen::Vector3d;
 using uvol_test::FieldSamples;
+using uvol_test::positionOf;
+using uvol_test::Roots;
 
 /** Random places of a box; coordinates are whole steps from a corner. */
 std::vector<Position>
@@ -35,34 +37,6 @@ randomPlaces(std::size_t count,
           corner[axis] +
           step * static_cast<double>(engine() % static_cast<std::uint64_t>(steps)));
   return places;
-}
-
-/** Linear isopoints, and what fits make of them. */
-struct Roots {
-  std::vector<PointIso> linear, points;
-  IsoEdges edges;
-  std::vector<RootFit> fits;
-
-  Roots(const FieldSamples& field, float isovalue, Outside outside = Outside::Lower)
-  {
-    const IsopointInput input = field.input(outside, Interpolation::Fit);
-    Report report;
-    const auto crossing = input.candidates.findCrossing(input.ranges, isovalue, 1);
-    for (const EdgeKey key : findEdges(input, crossing, isovalue, report)) {
-      linear.emplace_back();
-      edges.emplace_back();
-      placeIsopoint(input, key, isovalue, linear.back(), edges.back());
-    }
-    points = linear;
-    StepTimer step(report, "roots");
-    fits = fitRoots(input, isovalue, edges, points, step);
-  }
-};
-
-Vector3d
-positionOf(const PointIso& point)
-{
-  return point.getVector3fMap().cast<double>();
 }
 
 Vector3d
