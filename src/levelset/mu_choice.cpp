@@ -131,9 +131,11 @@ std::uint64_t
 countWeights()
 {
   std::uint64_t count = 0;
-  for (double mu = level_set.mu_ratio; mu > level_set.least_mu;
-       mu *= level_set.mu_ratio)
+  double mu = level_set.mu_ratio;
+  while (mu > level_set.least_mu) {
+    mu *= level_set.mu_ratio;
     ++count;
+  }
   return count;
 }
 

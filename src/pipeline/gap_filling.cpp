@@ -444,6 +444,7 @@ FilledGaps::predict(const pcl::PointCloud<PointIso>& roots,
     const auto evaluate = [&](const std::vector<LatticeNode>& asked) {
       std::vector<NodeValue> values(asked.size(), {nan, false});
       std::vector<Place> places;
+      places.reserve(asked.size());
       for (const LatticeNode& node : asked)
         places.push_back(lattice.placeOf(node));
       std::vector<double> distances;

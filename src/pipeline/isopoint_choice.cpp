@@ -38,6 +38,7 @@ std::vector<std::int32_t>
 toNumbers(const std::vector<Enum>& values)
 {
   std::vector<std::int32_t> numbers;
+  numbers.reserve(values.size());
   for (const Enum value : values)
     numbers.push_back(static_cast<std::int32_t>(value));
   return numbers;
@@ -184,7 +185,7 @@ public:
     Vector3d sum = Vector3d::Zero();
     for (const std::uint32_t other : around)
       sum += edges_.findOutside(other);
-    const Vector3d own = edges_.findOutside(i);
+    Vector3d own = edges_.findOutside(i);
     const double length = sum.norm();
     if (!(length > smallest_sum))
       return own;

@@ -224,6 +224,7 @@ Splats
 readSplats(const CloudView& cloud, Report& report)
 {
   std::vector<ScalarField> fields;
+  fields.reserve(splat_fields.size());
   for (const char* name : splat_fields)
     fields.emplace_back(cloud.fields, name);
   Splats splats;

@@ -91,7 +91,7 @@ takeCloud(Bytes& bytes, const std::array<const char*, fields>& names)
   std::size_t count = bytes.size() / point_bytes;
   if (count > most_points)
     count = most_points;
-  const auto cloud = std::make_shared<pcl::PCLPointCloud2>();
+  auto cloud = std::make_shared<pcl::PCLPointCloud2>();
   for (const char* const name : names) {
     pcl::PCLPointField field;
     field.name = name;

@@ -133,7 +133,7 @@ fileNamed(const std::string& name)
 std::string
 writeFile(const std::string& name, const std::uint8_t* bytes, std::size_t size)
 {
-  const std::string path = fileNamed(name);
+  std::string path = fileNamed(name);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
   return path;

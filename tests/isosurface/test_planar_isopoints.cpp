@@ -182,6 +182,7 @@ TEST(PlanarIsopoints, KnowTheRimOfThePlane)
 TEST(PlanarIsopoints, AreNotMadeUpOfLinesAndFewSamples)
 {
   std::vector<Position> line;
+  line.reserve(200);
   for (int i = 0; i < 200; ++i)
     line.push_back({{0.01f * static_cast<float>(i), 0.0f, 0.0f}});
   const auto height = [](const Vector3d& x) { return x[0]; };
