@@ -22,7 +22,7 @@ inline LevelSetCloud::Ptr
 makeBall(double radius, double extent, std::uint64_t seed = 1)
 {
   Random random(seed);
-  const LevelSetCloud::Ptr cloud(new LevelSetCloud);
+  LevelSetCloud::Ptr cloud(new LevelSetCloud);
   const auto n = static_cast<std::size_t>(std::pow(2.0 * extent, 3));
   for (std::size_t i = 0; i < n; ++i) {
     pcl::PointXYZI point;
@@ -37,7 +37,7 @@ makeBall(double radius, double extent, std::uint64_t seed = 1)
 inline LevelSetCloud::Ptr
 withValues(const LevelSetCloud& cloud, const std::vector<float>& values)
 {
-  const LevelSetCloud::Ptr other(new LevelSetCloud(cloud));
+  LevelSetCloud::Ptr other(new LevelSetCloud(cloud));
   for (std::size_t i = 0; i < values.size(); ++i)
     (*other)[i].intensity = values[i];
   return other;

@@ -181,10 +181,11 @@ TEST(SimpleCellFinder, FindsTheCellsOfPolygons)
 TEST(SimpleCellFinder, LeavesOpenCellsAndLatticesToPolygons)
 {
   std::vector<Position> lattice;
+  lattice.reserve(512);
   for (int i = 0; i < 512; ++i)
     lattice.push_back({{static_cast<float>(i % 8),
                         static_cast<float>(i / 8 % 8),
-                        static_cast<float>(i / 64)}});
+                        static_cast<float>(i / 8 / 8 % 8)}});
   const auto samples = buildSamples(lattice);
   CellSearch search(*samples);
   SimpleCellFinder finder;

@@ -121,6 +121,7 @@ TEST(SampleHull, HoldsSamplesThatAreCloseToItsFirstFaces)
   Places places;
   for (int ball = 0; ball < 200; ++ball) {
     std::vector<Vector3f> samples;
+    samples.reserve(40);
     for (int i = 0; i < 40; ++i)
       samples.push_back(10.0f * tolerance * places.next(1.0f).normalized());
     const Hull hull(samples);

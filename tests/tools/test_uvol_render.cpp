@@ -162,8 +162,7 @@ TEST_F(RenderTool, FiguresExplainThePicture)
         "-unit km",
         "-scale-bar -exaggerate 1,1,2",
         "-size 20 -title t",
-        "-size 40 -views iso,top,front,left,right,back,bottom,iso,"
-        "top,front"}) {
+        "-size 40 -views iso,top,front,left,right,back,bottom,iso,top,front"}) {
     const auto result = run(options);
     EXPECT_EQ(2, result.exit_code) << options;
     EXPECT_NE("", result.err) << options;

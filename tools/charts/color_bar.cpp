@@ -75,6 +75,7 @@ std::vector<std::string>
 shortNumbers(const std::vector<double>& values)
 {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values)
     texts.push_back(shortNumber(value));
   return texts;
@@ -132,7 +133,8 @@ listTicks(const ColorScale& scale)
   constexpr double few_decades = 2.0, slack = 1e-9;
   const double low = std::log10(scale.low), high = std::log10(scale.high);
   std::vector<double> values;
-  for (double power = std::floor(low); power <= high + slack; power += 1.0)
+  const int first = static_cast<int>(std::floor(low));
+  for (int power = first; power <= high + slack; ++power)
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double place = power + std::log10(digit);
       if ((digit == 1.0 || high - low < few_decades) && place >= low - slack &&
@@ -234,7 +236,7 @@ describeCategory(const pcl_uvol::CategoryColor& category)
   constexpr std::size_t most_letters = 10;
   if (category.name.empty())
     return shortNumber(category.value);
-  const std::string name = pcl_uvol::printable(category.name);
+  std::string name = pcl_uvol::printable(category.name);
   if (name.size() <= most_letters)
     return name;
   std::size_t end = most_letters - 2;
