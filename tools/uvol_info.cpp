@@ -139,7 +139,7 @@ chosenField(const Arguments& arguments, const pcl_uvol::Dataset& dataset)
   if (!arguments.field.empty())
     return arguments.field;
   try {
-    return pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(dataset));
+    return pcl_uvol::ScalarField::defaultName(pcl_uvol::listNumberFields(dataset));
   }
   catch (const pcl_uvol::InvalidArgument&) {
     return {}; // none, or several: the list of ranges tells
@@ -166,7 +166,7 @@ addRanges(const pcl_uvol::Dataset& dataset, Facts& facts)
 {
   std::size_t numbers = 0;
   Facts ranges;
-  for (const auto& field : pcl_uvol::fieldsOfNumbers(dataset))
+  for (const auto& field : pcl_uvol::listNumberFields(dataset))
     if (field.name != "x" && field.name != "y" && field.name != "z")
       for (std::size_t k = 0; k < field.count; ++k) {
         if (++numbers > most_listed)

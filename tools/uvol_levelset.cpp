@@ -323,7 +323,7 @@ run(int argc, char** argv)
   parameters.initial = shift(parameters.initial, dataset.origin);
   if (parameters.field.empty())
     parameters.field =
-        pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(dataset));
+        pcl_uvol::ScalarField::defaultName(pcl_uvol::listNumberFields(dataset));
   pcl_uvol::IsosurfaceParameters at_start;
   at_start.field = parameters.field;
   at_start.isovalues = arguments.iso;

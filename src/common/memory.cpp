@@ -38,7 +38,7 @@ bytesIn(const std::string& path, const std::string& name, std::uint64_t otherwis
 
 /** The number that a file consists of; unlimited if there is none, as in "max". */
 std::uint64_t
-numberOf(const std::string& path)
+readNumber(const std::string& path)
 {
   std::ifstream file(path);
   std::uint64_t number = 0;
@@ -58,8 +58,8 @@ constexpr GroupFiles first_version = {
 std::uint64_t
 availableIn(const std::string& folder, const GroupFiles& names)
 {
-  const std::uint64_t limit = numberOf(folder + '/' + names.limit);
-  const std::uint64_t usage = numberOf(folder + '/' + names.usage);
+  const std::uint64_t limit = readNumber(folder + '/' + names.limit);
+  const std::uint64_t usage = readNumber(folder + '/' + names.usage);
   if (limit == unlimited || usage == unlimited)
     return unlimited;
   const std::uint64_t cache =

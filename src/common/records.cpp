@@ -415,7 +415,7 @@ nameOfLabel(const std::vector<std::string>& names, double label)
 }
 
 Fields
-fieldsOfNumbers(const Dataset& dataset)
+listNumberFields(const Dataset& dataset)
 {
   Fields numbers;
   for (const auto& field : dataset.cloud.fields)

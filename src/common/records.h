@@ -204,6 +204,6 @@ nameOfLabel(const std::vector<std::string>& names, double label);
 
 /** \brief The fields but for those that hold labels. */
 PCL_UVOL_EXPORTS Fields
-fieldsOfNumbers(const Dataset& dataset);
+listNumberFields(const Dataset& dataset);
 
 } // namespace pcl_uvol

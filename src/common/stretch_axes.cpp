@@ -188,7 +188,7 @@ Stretch::ofMap(const Matrix3d& map)
   if (!(factors[2] > least_singular_value * factors[0]))
     throw InvalidArgument("The nine numbers of the scale leave a direction without "
                           "length: their rows must not lie in one plane.");
-  // Of the orders of the axes, the one that stays nearest to x, y and z, so that a
+  // The order of the axes is the one that stays nearest to x, y and z, so that a
   // diagonal map gives its diagonal.
   const Matrix3d directions = singular.matrixV().transpose();
   std::array<Eigen::Index, 3> order = {0, 1, 2}, best = order;

@@ -36,9 +36,9 @@ fitRegister(const FitSample* samples,
   // Squared residuals are what the terms leave of the squares. The difference is good
   // to 1e-7 of the values' range, where single precision of the values ends.
   const Lanes quadratic_residuals =
-      atLeastZero(equations.squares - sumOfSquares(reduced, 0, quadratic_terms));
+      atLeastZero(equations.squares - sumSquares(reduced, 0, quadratic_terms));
   const Lanes cubic_residuals = atLeastZero(
-      quadratic_residuals - sumOfSquares(reduced, quadratic_terms, cubic_terms));
+      quadratic_residuals - sumSquares(reduced, quadratic_terms, cubic_terms));
   Lanes neighbors;
   for (std::size_t lane = 0; lane < register_lanes; ++lane)
     neighbors[lane] = weighted[first + lane];
@@ -49,9 +49,9 @@ fitRegister(const FitSample* samples,
   Lanes influence[cubic_terms]{};
   influence[0] = one;
   equations.forward(influence);
-  const Lanes quadratic_leverage = sumOfSquares(influence, 0, quadratic_terms);
+  const Lanes quadratic_leverage = sumSquares(influence, 0, quadratic_terms);
   const Lanes cubic_leverage =
-      quadratic_leverage + sumOfSquares(influence, quadratic_terms, cubic_terms);
+      quadratic_leverage + sumSquares(influence, quadratic_terms, cubic_terms);
   const Mask quadratic_possible =
       equations.quadratic_regular & (neighbors >= quadratic_terms + least_freedom);
   const Mask cubic_possible =
@@ -67,7 +67,7 @@ fitRegister(const FitSample* samples,
   Lanes x = zero, y = zero, z = zero, gradient[3];
   for (int step = 0; step < newton_steps; ++step) {
     evaluateGradient(coefficient, x, y, z, gradient);
-    const Lanes factor = evaluate(coefficient, x, y, z) / sumOfSquares(gradient, 0, 3);
+    const Lanes factor = evaluate(coefficient, x, y, z) / sumSquares(gradient, 0, 3);
     x -= factor * gradient[0];
     y -= factor * gradient[1];
     z -= factor * gradient[2];
@@ -75,7 +75,7 @@ fitRegister(const FitSample* samples,
   Lanes hessian[6];
   evaluateGradient(coefficient, x, y, z, gradient);
   evaluateHessian(coefficient, x, y, z, hessian);
-  const Lanes slope = squareRoot(sumOfSquares(gradient, 0, 3));
+  const Lanes slope = squareRoot(sumSquares(gradient, 0, 3));
   const Lanes rest = evaluate(coefficient, x, y, z) / slope;
   const Mask found = (rest < converged_step) & (rest > -converged_step) &
                      (x * x + y * y + z * z < one) & determined;
@@ -89,8 +89,8 @@ fitRegister(const FitSample* samples,
   equations.forward(influence);
   equations.forward(slope_influence);
   const auto leverageOf = [&](const Lanes* of) {
-    return sumOfSquares(of, 0, quadratic_terms) +
-           (is_cubic ? sumOfSquares(of, quadratic_terms, cubic_terms) : zero);
+    return sumSquares(of, 0, quadratic_terms) +
+           (is_cubic ? sumSquares(of, quadratic_terms, cubic_terms) : zero);
   };
   const Lanes variance = is_cubic ? cubic_variance : quadratic_variance;
   store(determined ? coefficient[0] : zero / zero, result.value + first);

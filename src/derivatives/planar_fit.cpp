@@ -28,7 +28,8 @@ constexpr Eigen::Index few_samples = 8;
 /** Residuals of fewer degrees of freedom say nothing about the error. */
 constexpr Eigen::Index least_freedom = 5;
 
-/** Of the largest pivot: a smaller one is rounding of coordinates in float. */
+/** A pivot that is a smaller part of the largest one is rounding of coordinates in
+ * float. */
 constexpr double smallest_pivot = 1e-5;
 
 constexpr int newton_steps = 6;
@@ -88,7 +89,7 @@ struct Polynomial {
   }
 
   double
-  leverageOf(const Terms& influence) const
+  computeLeverage(const Terms& influence) const
   {
     VectorXd rest = factors.colsPermutation().transpose() * influence.head(terms);
     const auto& upper = factors.matrixR();
@@ -99,9 +100,9 @@ struct Polynomial {
 
   /** \brief The standard error of the value, or of what else terms tell. */
   double
-  errorOf(const Terms& influence) const
+  computeError(const Terms& influence) const
   {
-    return std::sqrt(leverageOf(influence) * variance);
+    return std::sqrt(computeLeverage(influence) * variance);
   }
 
   double
@@ -194,9 +195,9 @@ fitZeroLevelInPlane(const FitSample* samples,
   const Polynomial quadratic(weighted, values, weight_count, quadratic_terms),
       cubic(weighted, values, weight_count, cubic_terms);
   const Terms middle = termsAt(Vector2d::Zero());
-  const bool is_cubic =
-      cubic.is_determined &&
-      (!quadratic.is_determined || cubic.errorOf(middle) <= quadratic.errorOf(middle));
+  const bool is_cubic = cubic.is_determined &&
+                        (!quadratic.is_determined ||
+                         cubic.computeError(middle) <= quadratic.computeError(middle));
   const Polynomial& fit = is_cubic ? cubic : quadratic;
   result.pivot[lane] = 1.0;
   result.order[lane] = fit_failed;
@@ -215,8 +216,8 @@ fitZeroLevelInPlane(const FitSample* samples,
   for (int i = 0; i < 6; ++i)
     result.hessian[i][lane] = hessian(row[i], column[i]);
   result.value[lane] = fit.coefficients[0];
-  result.error[lane] = fit.errorOf(termsAt(root)) / slope;
-  result.slope_error[lane] = fit.errorOf(slopesAt(root, gradient / slope)) / slope;
+  result.error[lane] = fit.computeError(termsAt(root)) / slope;
+  result.slope_error[lane] = fit.computeError(slopesAt(root, gradient / slope)) / slope;
   result.residual[lane] =
       std::sqrt(fit.variance * static_cast<double>(weight_count - fit.terms) / weights);
   if (std::abs(fit.valueAt(root) / slope) < converged_step && root.norm() < 1.0)

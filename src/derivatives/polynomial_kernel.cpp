@@ -31,10 +31,9 @@ public:
     Lanes influence[cubic_terms]{};
     influence[0] = Lanes{} + 1.0;
     equations.forward(influence);
-    leverage_[1] = sumOfSquares(influence, 0, linear_terms);
-    leverage_[2] =
-        leverage_[1] + sumOfSquares(influence, linear_terms, quadratic_terms);
-    leverage_[3] = leverage_[2] + sumOfSquares(influence, quadratic_terms, cubic_terms);
+    leverage_[1] = sumSquares(influence, 0, linear_terms);
+    leverage_[2] = leverage_[1] + sumSquares(influence, linear_terms, quadratic_terms);
+    leverage_[3] = leverage_[2] + sumSquares(influence, quadratic_terms, cubic_terms);
     possible_[1] =
         equations.linear_regular & (neighbors_ >= linear_terms + least_freedom);
     possible_[2] =
@@ -55,15 +54,15 @@ public:
     reduce(reduced);
     // What terms leave of the squares is good enough to choose by.
     const Lanes quadratic =
-        atLeastZero(squares_ - sumOfSquares(reduced, 0, quadratic_terms));
+        atLeastZero(squares_ - sumSquares(reduced, 0, quadratic_terms));
     const Lanes cubic =
-        atLeastZero(quadratic - sumOfSquares(reduced, quadratic_terms, cubic_terms));
+        atLeastZero(quadratic - sumSquares(reduced, quadratic_terms, cubic_terms));
     choose(quadratic, cubic);
     addSolution(reduced);
     reduce(correction);
     addSolution(correction);
     const Lanes residuals =
-        atLeastZero(squares_ - sumOfSquares(correction, 0, cubic_terms));
+        atLeastZero(squares_ - sumSquares(correction, 0, cubic_terms));
     finish(residuals, fit);
   }
 

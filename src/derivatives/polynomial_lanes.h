@@ -247,7 +247,7 @@ struct NormalEquations {
 };
 
 inline Lanes
-sumOfSquares(const Lanes* values, int begin, int end)
+sumSquares(const Lanes* values, int begin, int end)
 {
   Lanes sum{};
   for (int i = begin; i < end; ++i)

@@ -201,7 +201,7 @@ private:
         expected, drawn_limit_, communicator_.rank(), ++pass_);
     std::vector<NodePosition> between;
     const std::vector<Tally> tallies = tally(sampler, between);
-    // Of what lies beyond the bounds, those drawn before are known.
+    // What was drawn before and lies beyond the bounds is known.
     const auto is_beyond = [&](const NodePosition& p) {
       const Median& median = medians_[p.node];
       const Tally& found = tallies[p.node];

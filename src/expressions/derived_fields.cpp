@@ -121,7 +121,7 @@ findFormula(const Dataset& header,
   if (expression.empty() || isScalarField(fields, expression))
     return std::nullopt;
   const std::string text(trimmed(expression));
-  const bool is_name = !text.empty() && endOfName(text, 0) == text.size();
+  const bool is_name = !text.empty() && findNameEnd(text, 0) == text.size();
   if (is_name && findComponents(fields, text).empty())
     throw InvalidArgument(describeUnknown(header, text));
   Formula formula = parseFormula(header, text);

@@ -146,7 +146,7 @@ private:
       draft.opened.push_back({at_,
                               !draft.tokens.empty() &&
                                   draft.tokens.back().kind == Kind::Other &&
-                                  endOfName(draft.tokens.back().program, 0) > 0});
+                                  findNameEnd(draft.tokens.back().program, 0) > 0});
       add(draft, Kind::Open, 1, "(");
       return false;
     }
@@ -155,7 +155,7 @@ private:
       return false;
     }
     if (const std::size_t size = findFieldName(fields_, text_, at_); size > 0) {
-      const std::size_t end = endOfName(text_, at_);
+      const std::size_t end = findNameEnd(text_, at_);
       if (!(end - at_ >= size && isCallAt(end))) {
         addField(draft, text_.substr(at_, size), size);
         return true;
@@ -169,7 +169,7 @@ private:
       readQuotedName(draft);
       return true;
     }
-    if (const std::size_t end = endOfNumber(text_, at_); end > at_) {
+    if (const std::size_t end = findNumberEnd(text_, at_); end > at_) {
       readNumber(draft, end);
       return true;
     }
@@ -198,7 +198,7 @@ private:
   bool
   readName(Draft& draft)
   {
-    const std::size_t end = endOfName(text_, at_);
+    const std::size_t end = findNameEnd(text_, at_);
     if (end == at_)
       fail(at_ == text_.size() ? "A field or a number is missing at the end"
                                : "A field or a number is missing",
@@ -494,7 +494,7 @@ bool
 mayHaveDerivative(const std::string& expression)
 {
   for (std::size_t i = 0; i < expression.size(); ++i)
-    if (const std::size_t end = endOfName(expression, i); end > i) {
+    if (const std::size_t end = findNameEnd(expression, i); end > i) {
       const std::size_t next = expression.find_first_not_of(' ', end);
       if (next != std::string::npos && expression[next] == '(' &&
           findDerivative(expression.substr(i, end - i)))

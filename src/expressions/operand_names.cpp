@@ -42,7 +42,7 @@ isOneOf(char c, std::string_view characters)
 }
 
 std::size_t
-endOfDigits(std::string_view text, std::size_t begin)
+findDigitsEnd(std::string_view text, std::size_t begin)
 {
   while (begin < text.size() && isDigit(text[begin]))
     ++begin;
@@ -82,7 +82,7 @@ continuesName(char c)
 }
 
 std::size_t
-endOfName(std::string_view text, std::size_t begin)
+findNameEnd(std::string_view text, std::size_t begin)
 {
   if (begin == text.size() || !beginsName(text[begin]))
     return begin;
@@ -92,12 +92,12 @@ endOfName(std::string_view text, std::size_t begin)
 }
 
 std::size_t
-endOfNumber(std::string_view text, std::size_t begin)
+findNumberEnd(std::string_view text, std::size_t begin)
 {
-  std::size_t end = endOfDigits(text, begin);
+  std::size_t end = findDigitsEnd(text, begin);
   std::size_t digits = end - begin;
   if (end < text.size() && text[end] == '.') {
-    const std::size_t fraction = endOfDigits(text, end + 1);
+    const std::size_t fraction = findDigitsEnd(text, end + 1);
     digits += fraction - end - 1;
     end = fraction;
   }
@@ -107,7 +107,7 @@ endOfNumber(std::string_view text, std::size_t begin)
     std::size_t exponent = end + 1;
     if (exponent < text.size() && isOneOf(text[exponent], "+-"))
       ++exponent;
-    if (const std::size_t last = endOfDigits(text, exponent); last > exponent)
+    if (const std::size_t last = findDigitsEnd(text, exponent); last > exponent)
       end = last;
   }
   return end;

@@ -14,11 +14,11 @@ continuesName(char c);
 
 /** Where the characters of an unquoted name end that begins there. */
 std::size_t
-endOfName(std::string_view text, std::size_t begin);
+findNameEnd(std::string_view text, std::size_t begin);
 
 /** Where the number ends that begins there; the same place if none does. */
 std::size_t
-endOfNumber(std::string_view text, std::size_t begin);
+findNumberEnd(std::string_view text, std::size_t begin);
 
 /** Bytes of the longest name of a field that stands there, 0 for none. Names with
  * operators in them count only where they stand alone, between parentheses, commas,

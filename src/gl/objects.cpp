@@ -10,7 +10,7 @@ namespace {
 /** What the compiler or the linker has to say. */
 template <typename GetParameter, typename GetLog>
 std::string
-logOf(GLuint object, GetParameter get_parameter, GetLog get_log)
+readLog(GLuint object, GetParameter get_parameter, GetLog get_log)
 {
   GLint length = 0;
   get_parameter(object, GL_INFO_LOG_LENGTH, &length);
@@ -53,7 +53,7 @@ compile(const GlFunctions& gl, GLenum kind, const std::string& source)
   if (compiled != GL_TRUE)
     throw GlError(
         "The driver does not compile a shader, use the cpu backend instead: " +
-        logOf(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog));
+        readLog(shader.get(), gl.GetShaderiv, gl.GetShaderInfoLog));
   return shader;
 }
 
@@ -176,7 +176,7 @@ Program::Program(const GlFunctions& gl,
   gl.GetProgramiv(name_.get(), GL_LINK_STATUS, &linked);
   if (linked != GL_TRUE)
     throw GlError("The driver does not link a shader, use the cpu backend instead: " +
-                  logOf(name_.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
+                  readLog(name_.get(), gl.GetProgramiv, gl.GetProgramInfoLog));
 }
 
 } // namespace pcl_uvol

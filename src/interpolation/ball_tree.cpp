@@ -92,7 +92,7 @@ BallTree::addNode(const KdTree& tree, const KdNode& node, std::uint32_t parent)
 }
 
 std::size_t
-BallTree::bucketOf(std::uint32_t sample) const
+BallTree::findBucket(std::uint32_t sample) const
 {
   const auto after = std::upper_bound(
       buckets_.begin(), buckets_.end(), sample, [](std::uint32_t s, const Bucket& b) {

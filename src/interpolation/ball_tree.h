@@ -53,7 +53,7 @@ public:
 
   /** \brief The bucket that holds a sample. */
   std::size_t
-  bucketOf(std::uint32_t sample) const;
+  findBucket(std::uint32_t sample) const;
 
   /** \brief Append the buckets of which a ball, its radius times a factor, may reach
    * into a box, ascending; false, and not all of them, if they are more than most. */

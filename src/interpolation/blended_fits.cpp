@@ -301,7 +301,7 @@ private:
   {
     NearestFinder finder(*sampled_.samples, 1);
     const std::uint32_t nearest = finder.find(query.toPosition(), 1.0f).samples[0];
-    const std::size_t bucket = fits_.getBalls().bucketOf(nearest);
+    const std::size_t bucket = fits_.getBalls().findBucket(nearest);
     const std::size_t place = nearest - fits_.getBalls().getBuckets()[bucket].begin;
     const BucketFits& fits = fits_.getFits(bucket);
     PolynomialSum::Part part{polynomialOf(fits, place), 1.0, {}, {}};

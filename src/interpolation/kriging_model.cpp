@@ -26,7 +26,7 @@ constexpr std::size_t octant_pool = 4;
  * ranges: the axes are those of the coordinates turned about z, then the new x, then
  * the new z. */
 Eigen::Matrix3d
-metricOf(const KrigingParameters& parameters)
+makeMetric(const KrigingParameters& parameters)
 {
   constexpr double degree = 3.14159265358979323846 / 180.0;
   const auto turn = [&](Eigen::Index i, const Vector3d& axis) {
@@ -131,7 +131,7 @@ KrigingModel::KrigingModel(const SampledFields& sampled,
                            const std::vector<std::string>& names)
     : sampled_(sampled)
     , parameters_(parameters)
-    , metric_(metricOf(parameters))
+    , metric_(makeMetric(parameters))
     , sparse_(sparseSamples(*sampled.samples))
 {
   for (std::size_t f = 0; f < sampled.fields; ++f) {

@@ -91,9 +91,9 @@ NaturalNeighborFinder::takePolygons()
 void
 NaturalNeighborFinder::computeVolumes()
 {
-  // By the divergence theorem a volume is a third of the areas of its faces, each times
-  // its height over the place: that of the cell's face, and those between the parts,
-  // which belong to two of them with opposite signs.
+  // A volume is a third of the areas of its faces, each times its height over the place
+  // (divergence theorem): that of the cell's face, and those between the parts, which
+  // belong to two of them with opposite signs.
   halves_.clear();
   for (std::size_t i = 0; i < offsets_.size(); ++i) {
     halves_.push_back(0.5 * offsets_[i].squaredNorm());
@@ -160,7 +160,7 @@ public:
     const bool is_inside = finder_.find(query, near.samples, near.size);
     // So near to a sample, beside the extent of all, that rounding leaves no cell.
     if (finder_.getNeighbors().empty()) {
-      takeSample(nearestOf(query, near), i, estimates);
+      takeSample(findNearest(query, near), i, estimates);
       return is_inside;
     }
     sum_.start(sampled_.valuesOf(finder_.getNeighbors().front().sample));
@@ -178,7 +178,7 @@ public:
                 const Estimates& estimates)
   {
     const double sq_nearest =
-        sqDistance(query, sampled_.samples->getPositions()[nearestOf(query, near)]);
+        sqDistance(query, sampled_.samples->getPositions()[findNearest(query, near)]);
     if (!(sq_nearest > 0.0))
       return;
     const double step = difference_step * std::sqrt(sq_nearest);
@@ -201,7 +201,7 @@ public:
 
 private:
   std::uint32_t
-  nearestOf(const Query& query, const NearestFinder::Row& near) const
+  findNearest(const Query& query, const NearestFinder::Row& near) const
   {
     const std::vector<Position>& positions = sampled_.samples->getPositions();
     return *std::min_element(

@@ -69,7 +69,7 @@ private:
   double weight_ = 0.0;
   std::array<double, 3> weight_gradient_{};
   bool is_empty_ = true;
-  // By field
+  // One number for each field:
   std::vector<double> values_, gradients_; ///< of a part; gradients by axis as well
   std::vector<double> references_; ///< values are summed relative to the first ones
   std::vector<double> value_sums_, square_sums_, sq_error_sums_;

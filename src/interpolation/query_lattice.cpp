@@ -290,7 +290,7 @@ makeSlice(const Plane& plane,
 }
 
 std::uint8_t
-fileTypeOf(const std::vector<pcl::PCLPointField>& fields, const std::string& name)
+findFileType(const std::vector<pcl::PCLPointField>& fields, const std::string& name)
 {
   using Type = pcl::PCLPointField;
   const ScalarField field(fields, name);

@@ -93,6 +93,6 @@ makeSlice(const Plane& plane,
  * \param name a scalar field, as in ScalarField
  * \return pcl::PCLPointField::FLOAT32 or FLOAT64 */
 PCL_UVOL_EXPORTS std::uint8_t
-fileTypeOf(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
+findFileType(const std::vector<pcl::PCLPointField>& fields, const std::string& name);
 
 } // namespace pcl_uvol::detail

@@ -193,7 +193,7 @@ BgeoHeader::takeAttributes(std::uint32_t count)
 }
 
 std::size_t
-bytesOf(const std::vector<Attribute>& attributes)
+countBytes(const std::vector<Attribute>& attributes)
 {
   std::size_t components = 0;
   for (const Attribute& attribute : attributes)
@@ -208,8 +208,9 @@ BgeoHeader::passPrimitives(const Counts& counts)
   const std::size_t of_vertex =
       (counts.points < most_short_numbers ? sizeof(std::uint16_t)
                                           : sizeof(std::uint32_t)) +
-      bytesOf(takeAttributes(counts.vertex_attributes));
-  const std::size_t of_primitive = bytesOf(takeAttributes(counts.primitive_attributes));
+      countBytes(takeAttributes(counts.vertex_attributes));
+  const std::size_t of_primitive =
+      countBytes(takeAttributes(counts.primitive_attributes));
   for (std::uint32_t i = 0; i < counts.primitives; ++i) {
     const auto kind = takeNumber<std::uint32_t>();
     if (kind != particle_system)

@@ -89,10 +89,11 @@ listAxes(const std::string& name)
   return axes;
 }
 
-/** Of several columns that may be an axis the lowest is taken: beside x and y a height
- * stands behind z in a unit of length, and before any other z, which may be a speed. */
+/** The column of the lowest rank is taken where several may be an axis: beside x and y
+ * a height stands behind z in a unit of length, and before any other z, which may be a
+ * speed. */
 int
-rankOf(const std::string& name, System system)
+rankName(const std::string& name, System system)
 {
   if (system != WithUnit)
     return 0;
@@ -109,7 +110,7 @@ recognizeCoordinates(const std::vector<std::string>& names)
   for (std::size_t i = 0; i < names.size(); ++i)
     for (const auto& [system, axis] : listAxes(names[i])) {
       auto& taken = found[system][axis];
-      if (!taken || rankOf(names[i], system) < rankOf(names[*taken], system))
+      if (!taken || rankName(names[i], system) < rankName(names[*taken], system))
         taken = i;
     }
   for (std::size_t system = 0; system < systems; ++system) {

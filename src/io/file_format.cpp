@@ -97,7 +97,7 @@ throwUnknown(const std::string& path, const std::string& ending)
 }
 
 FileFormat
-formatOf(const std::string& path)
+detectFormat(const std::string& path)
 {
   if (!splitHdf5Name(path).inside.empty())
     return FileFormat::Hdf5;
@@ -139,7 +139,7 @@ findFormat(const std::string& path, const LoadOptions& options)
   const bool is_grid = options.cells && std::find(std::begin(grid_endings),
                                                   std::end(grid_endings),
                                                   ending) != std::end(grid_endings);
-  const FileFormat format = is_grid ? FileFormat::Vtk : formatOf(path);
+  const FileFormat format = is_grid ? FileFormat::Vtk : detectFormat(path);
   if (options.xyz_columns != LoadOptions().xyz_columns && format != FileFormat::Text)
     throw InvalidArgument(
         "Columns of coordinates can be chosen in text files only, and '" +

@@ -205,7 +205,7 @@ private:
     std::uint64_t before, all; ///< particles in front of the kind; in the block
   };
   std::optional<Rows>
-  rowsOf(const Block& block) const;
+  findRows(const Block& block) const;
   std::uint64_t
   countHere(const std::vector<std::size_t>& some) const;
   bool
@@ -231,7 +231,7 @@ SnapshotFile::countHere(const std::vector<std::size_t>& some) const
 
 /** The rows of a block, by the kinds that have it; nothing if the kind has none. */
 std::optional<SnapshotFile::Rows>
-SnapshotFile::rowsOf(const Block& block) const
+SnapshotFile::findRows(const Block& block) const
 {
   std::vector<std::size_t> all{0, 1, 2, 3, 4, 5}, owners = all;
   const auto is_one_of = [&](std::initializer_list<const char*> labels) {
@@ -270,7 +270,7 @@ SnapshotFile::rowsOf(const Block& block) const
 bool
 SnapshotFile::addBlock(const Block& block)
 {
-  const auto rows = rowsOf(block);
+  const auto rows = findRows(block);
   if (!rows || rows->all == 0)
     return true;
   const std::uint64_t bytes = block.bytes / rows->all;

@@ -56,7 +56,7 @@ openAttribute(hid_t file, const std::string& object, const std::string& name)
 }
 
 std::optional<Hdf5Shape>
-shapeOf(hid_t dataset)
+readShape(hid_t dataset)
 {
   const Handle type = own(H5Dget_type(dataset)), space = own(H5Dget_space(dataset));
   if (!type || !space)
@@ -129,7 +129,7 @@ Hdf5File::findShape(const std::string& dataset) const
 {
   const Hdf5Session session;
   const Handle opened = openDataset(*file_, dataset);
-  return opened ? shapeOf(*opened) : std::nullopt;
+  return opened ? readShape(*opened) : std::nullopt;
 }
 
 std::vector<double>
@@ -197,7 +197,7 @@ Hdf5File::readNumbers(const std::string& dataset) const
   std::vector<double> numbers(static_cast<std::size_t>(count));
   const Handle properties = own(H5Dget_create_plist(*opened));
   if (H5Pget_layout(*properties) == H5D_CHUNKED) { // the library trusts chunks
-    const auto shape = shapeOf(*opened);
+    const auto shape = readShape(*opened);
     if (!shape)
       return {};
     const std::size_t size = datatypeSize(shape->datatype);

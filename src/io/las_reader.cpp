@@ -41,7 +41,7 @@ struct Attribute {
 };
 
 std::vector<Attribute>
-attributesOf(std::size_t format)
+listAttributes(std::size_t format)
 {
   std::vector<Attribute> attributes{{"intensity", Type::UINT16, 12}};
   const auto add = [&](std::initializer_list<Attribute> more) {
@@ -140,7 +140,7 @@ public:
   explicit LasSource(const std::string& path)
       : file_(path)
       , header_(readHeader(file_, path))
-      , attributes_(attributesOf(header_.format))
+      , attributes_(listAttributes(header_.format))
   {
     info_.count = header_.points;
     for (const char* const axis : {"x", "y", "z"})

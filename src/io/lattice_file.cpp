@@ -23,7 +23,7 @@ namespace {
 using Type = pcl::PCLPointField;
 
 std::string
-textOf(double number)
+writeText(double number)
 {
   std::string text;
   appendNumber(text, Type::FLOAT64, reinterpret_cast<const std::uint8_t*>(&number));
@@ -31,9 +31,10 @@ textOf(double number)
 }
 
 std::string
-textOf(const Place& place, const char* separator)
+writeText(const Place& place, const char* separator)
 {
-  return textOf(place[0]) + separator + textOf(place[1]) + separator + textOf(place[2]);
+  return writeText(place[0]) + separator + writeText(place[1]) + separator +
+         writeText(place[2]);
 }
 
 /** The names of a type of numbers in VTK's XML, NRRD and MetaImage. */
@@ -118,7 +119,7 @@ private:
 
 /** "0 63 0 63 0 0" */
 std::string
-extentOf(const QueryLattice& lattice)
+writeExtent(const QueryLattice& lattice)
 {
   std::string text;
   for (const std::size_t count : lattice.counts)
@@ -140,9 +141,9 @@ public:
     head_ =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
         "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" +
-        kind + " WholeExtent=\"" + extentOf(lattice) + '"' +
+        kind + " WholeExtent=\"" + writeExtent(lattice) + '"' +
         (has_points ? "" : describeGeometry()) + ">\n<Piece Extent=\"" +
-        extentOf(lattice) + "\">\n<PointData Scalars=\"" +
+        writeExtent(lattice) + "\">\n<PointData Scalars=\"" +
         io::escapeAttribute(arrays.front().name) + "\">\n";
     for (const LatticeArray& array : arrays)
       addArray(array);
@@ -195,9 +196,9 @@ private:
     for (std::size_t row = 0; row < 3; ++row)
       direction +=
           (row > 0 ? " " : "") +
-          textOf({directions[0][row], directions[1][row], directions[2][row]}, " ");
-    return " Origin=\"" + textOf(lattice_.origin, " ") + "\" Spacing=\"" +
-           textOf(spacing, " ") + "\" Direction=\"" + direction + '"';
+          writeText({directions[0][row], directions[1][row], directions[2][row]}, " ");
+    return " Origin=\"" + writeText(lattice_.origin, " ") + "\" Spacing=\"" +
+           writeText(spacing, " ") + "\" Direction=\"" + direction + '"';
   }
 
   void
@@ -245,14 +246,14 @@ nrrdHead(const QueryLattice& lattice, const LatticeArray& array)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const char* const gap = axis > 0 ? " " : "";
     sizes += gap + std::to_string(lattice.counts[axis]);
-    directions += gap + ('(' + textOf(lattice.steps[axis], ",") + ')');
+    directions += gap + ('(' + writeText(lattice.steps[axis], ",") + ')');
     kinds += std::string(gap) + "domain";
   }
   return std::string("NRRD0004\ntype: ") + namesOf(array.datatype).nrrd +
          "\ndimension: " + (has_components ? "4" : "3") +
          "\nspace dimension: 3\nsizes: " + sizes + "\nspace directions: " + directions +
          "\nkinds: " + kinds + "\nendian: little\nencoding: raw\nspace origin: (" +
-         textOf(lattice.origin, ",") + ")\n\n";
+         writeText(lattice.origin, ",") + ")\n\n";
 }
 
 /** The head of a MetaImage file. */
@@ -265,12 +266,12 @@ metaHead(const QueryLattice& lattice, const LatticeArray& array)
     const Axis found = axisOf(lattice, axis);
     spacing[axis] = found.spacing;
     sizes += ' ' + std::to_string(lattice.counts[axis]);
-    matrix += ' ' + textOf(found.direction, " ");
+    matrix += ' ' + writeText(found.direction, " ");
   }
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\n"
          "BinaryDataByteOrderMSB = False\nTransformMatrix =" +
-         matrix + "\nOffset = " + textOf(lattice.origin, " ") +
-         "\nElementSpacing = " + textOf(spacing, " ") + "\nDimSize =" + sizes +
+         matrix + "\nOffset = " + writeText(lattice.origin, " ") +
+         "\nElementSpacing = " + writeText(spacing, " ") + "\nDimSize =" + sizes +
          "\nElementNumberOfChannels = " + std::to_string(array.components) +
          "\nElementType = " + namesOf(array.datatype).meta +
          "\nElementDataFile = LOCAL\n";

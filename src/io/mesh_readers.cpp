@@ -257,7 +257,7 @@ public:
   }
 
   std::uint32_t
-  numberOf(Place place)
+  numberVertex(Place place)
   {
     for (double& coordinate : place)
       coordinate += 0.0; // -0 is 0
@@ -319,7 +319,7 @@ readBinaryStl(const std::string& path)
     for (std::size_t k = 3; k < numbers.size(); k += 3) {
       const Place place = {numbers[k], numbers[k + 1], numbers[k + 2]};
       checkFinite(path, place);
-      corners.push_back(places.numberOf(place));
+      corners.push_back(places.numberVertex(place));
     }
     builder.addPolygon(corners);
   }
@@ -340,7 +340,7 @@ readTextStl(const std::string& path)
     if (words[0] == "vertex") {
       const Place place = text.takeNumbers(words, 1);
       checkFinite(path, place);
-      corners.push_back(places.numberOf(place));
+      corners.push_back(places.numberVertex(place));
     }
     else if (words[0] == "endfacet") {
       if (corners.size() != 3)

@@ -13,7 +13,7 @@ namespace {
 using Type = pcl::PCLPointField;
 
 std::uint8_t
-datatypeOf(std::string_view name)
+parseDatatype(std::string_view name)
 {
   constexpr struct {
     std::string_view name;
@@ -111,7 +111,7 @@ HeaderParser::take(std::string_view key, std::string_view value)
       throwInLine("it has " + quoteText(value) + " numbers per point, and one belongs");
   }
   else if (key == "ElementType") {
-    data_.datatype = datatypeOf(value);
+    data_.datatype = parseDatatype(value);
     if (data_.datatype == 0)
       throwInLine(quoteText(value) + " is no type of numbers");
   }

@@ -102,7 +102,7 @@ NetcdfFile::sizeOf(int dimension) const
 }
 
 std::string
-NetcdfFile::nameOf(int dimension) const
+NetcdfFile::readName(int dimension) const
 {
   const Hdf5Session session;
   std::array<char, NC_MAX_NAME + 1> name{};
@@ -111,7 +111,7 @@ NetcdfFile::nameOf(int dimension) const
 }
 
 std::uint64_t
-NetcdfFile::sizeOf(const NetcdfVariable& variable) const
+NetcdfFile::countNumbers(const NetcdfVariable& variable) const
 {
   const std::uint64_t most = InputFile(path_).getSize() * most_expansion;
   std::uint64_t size = 1;

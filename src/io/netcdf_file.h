@@ -42,11 +42,11 @@ public:
   sizeOf(int dimension) const;
 
   std::string
-  nameOf(int dimension) const;
+  readName(int dimension) const;
 
   /** \brief Product of the sizes of its dimensions. */
   std::uint64_t
-  sizeOf(const NetcdfVariable& variable) const;
+  countNumbers(const NetcdfVariable& variable) const;
 
   /** \brief The text of an attribute; "" if there is none. */
   std::string

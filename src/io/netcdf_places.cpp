@@ -75,7 +75,7 @@ findVariable(const NetcdfFile& file, const AxisNames& names, bool is_axis_enough
   std::pair<int, std::uint64_t> best_rating{0, 0};
   for (const NetcdfVariable& variable : file.getVariables()) {
     const std::pair<int, std::uint64_t> rating{
-        rate(file, variable, names, is_axis_enough), file.sizeOf(variable)};
+        rate(file, variable, names, is_axis_enough), file.countNumbers(variable)};
     if (rating.first > 0 && (!best || rating > best_rating)) {
       best = &variable;
       best_rating = rating;

@@ -122,7 +122,7 @@ isOfUse(const SampleSpace& space, const NetcdfVariable& variable)
   if (!variable.is_text)
     return true;
   std::vector<double> letters(
-      std::min<std::uint64_t>(space.getFile().sizeOf(variable), 4096));
+      std::min<std::uint64_t>(space.getFile().countNumbers(variable), 4096));
   space.getFile().read(variable, 0, letters.size(), letters.data());
   return std::any_of(letters.begin(), letters.end(), [](double letter) {
     return letter >= '0' && letter <= '9';

@@ -96,13 +96,13 @@ SampleSpace::findInstances()
     const std::string name = file_->readText(variable, attribute);
     for (const NetcdfVariable& other : file_->getVariables())
       for (const int dimension : other.dimensions)
-        if (!name.empty() && file_->nameOf(dimension) == name)
+        if (!name.empty() && file_->readName(dimension) == name)
           return dimension;
     return -1;
   };
   const auto size_of = [&](int dimension) { // held against the bytes of the file
     NetcdfVariable along;
-    along.name = file_->nameOf(dimension);
+    along.name = file_->readName(dimension);
     along.dimensions = {dimension};
     return file_->sizeOf(along);
   };
@@ -110,7 +110,7 @@ SampleSpace::findInstances()
     if (variable.dimensions.size() != 1 || variable.is_text)
       continue;
     const int own = variable.dimensions[0];
-    std::vector<double> numbers(file_->sizeOf(variable));
+    std::vector<double> numbers(file_->countNumbers(variable));
     const int samples = dimension_of(variable, "sample_dimension"),
               profiles = dimension_of(variable, "instance_dimension");
     if (samples < 0 && profiles < 0)
@@ -175,7 +175,7 @@ SampleSpace::findDimensions(const std::vector<NetcdfVariable>& places)
                        dimension) != variable.dimensions.end();
     };
     if (!variable.is_text && std::all_of(of_places.begin(), of_places.end(), has) &&
-        (!largest || file_->sizeOf(variable) > file_->sizeOf(*largest)))
+        (!largest || file_->countNumbers(variable) > file_->countNumbers(*largest)))
       largest = &variable;
   }
   if (largest && !is_by_rows)
@@ -183,7 +183,7 @@ SampleSpace::findDimensions(const std::vector<NetcdfVariable>& places)
   NetcdfVariable all;
   all.name = "the samples";
   all.dimensions = dimensions_;
-  size_ = file_->sizeOf(all);
+  size_ = file_->countNumbers(all);
   const bool is_ragged = dimensions_.size() == 1;
   for (auto instance = instances_->begin(); instance != instances_->end();)
     instance = is_ragged && samples_of_[instance->first] == dimensions_[0]
@@ -231,7 +231,7 @@ SampleSpace::open(const NetcdfVariable& variable) const
     result.axes_.push_back(axis);
   }
   result.is_held_ = true;
-  result.held_.resize(file_->sizeOf(variable));
+  result.held_.resize(file_->countNumbers(variable));
   file_->read(variable, 0, result.held_.size(), result.held_.data());
   result.unpack(result.held_.size(), result.held_.data());
   return result;

@@ -20,7 +20,7 @@ using Vector = std::array<double, 3>;
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 std::uint8_t
-datatypeOf(const std::string& name)
+parseDatatype(const std::string& name)
 {
   const std::string words = ' ' + name + ' ';
   constexpr struct {
@@ -127,7 +127,7 @@ void
 HeaderParser::take(const std::string& field, std::string_view value)
 {
   if (field == "type") {
-    data_.datatype = datatypeOf(std::string(value));
+    data_.datatype = parseDatatype(std::string(value));
     if (data_.datatype == 0)
       throwInLine(quoteText(value) + " is no type of numbers");
   }

@@ -302,7 +302,7 @@ const std::vector<std::string> axis_names{"x", "y", "z"};
 
 /** A column of all numbers of an array. */
 NamedColumn
-columnOf(const Array& array, std::vector<std::string> names)
+openColumn(const Array& array, std::vector<std::string> names)
 {
   const Member& type = array.members[0];
   const auto components = static_cast<std::size_t>(array.components());
@@ -373,7 +373,7 @@ openTable(const std::string& path, const Array& array)
   if (names.size() > 3)
     notes.push_back("The array names no columns: those behind x, y and z are called "
                     "column_3 and so on.");
-  columns.push_back(columnOf(array, names));
+  columns.push_back(openColumn(array, names));
   return std::make_unique<ColumnSource>(
       array.rows(), std::move(columns), std::move(notes));
 }
@@ -412,7 +412,7 @@ openNpz(const std::string& path)
                         std::string(usual_position_names) + ")");
   std::vector<NamedColumn> columns;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    columns.push_back(columnOf(
+    columns.push_back(openColumn(
         arrays[positions[i]],
         positions.size() == 1 ? axis_names : std::vector<std::string>{axis_names[i]}));
   const std::uint64_t rows = tables[positions[0]].rows;
@@ -425,7 +425,7 @@ openNpz(const std::string& path)
       notes.push_back("The array " + quoteText(tables[i].name) +
                       " has no numbers for every point and is left out.");
     else
-      columns.push_back(columnOf(arrays[i], {tables[i].name}));
+      columns.push_back(openColumn(arrays[i], {tables[i].name}));
   }
   return std::make_unique<ColumnSource>(rows, std::move(columns), std::move(notes));
 }

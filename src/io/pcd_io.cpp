@@ -38,7 +38,7 @@ constexpr std::uint64_t most_components = 1u << 20;
 constexpr std::uint64_t most_expansion = 88;
 
 std::uint8_t
-datatypeOf(std::string_view type, std::string_view size)
+parseDatatype(std::string_view type, std::string_view size)
 {
   constexpr struct {
     char type, size;
@@ -161,7 +161,7 @@ HeaderParser::finish() const
   Header header;
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    const std::uint8_t datatype = datatypeOf(types_[i], sizes_[i]);
+    const std::uint8_t datatype = parseDatatype(types_[i], sizes_[i]);
     if (datatype == 0)
       throwUnreadable(path_,
                       "the field " + quoteText(names_[i]) + " has the type " +

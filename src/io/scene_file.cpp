@@ -207,14 +207,14 @@ SceneReader::readItem(SceneItem& item)
   const std::string name = item.word("an item");
   std::vector<std::string> names;
   for (const Kind& kind : kinds) {
-    names.push_back(io::nameOf(kind.form));
+    names.push_back(io::cutName(kind.form));
     if (names.back() != name)
       continue;
     item.setForm(kind.form);
     (this->*kind.read)(item);
     return;
   }
-  item.fail("unknown word " + quoteText(name) + "; items are " + io::listOf(names));
+  item.fail("unknown word " + quoteText(name) + "; items are " + io::joinWords(names));
 }
 
 void
@@ -349,7 +349,7 @@ SceneReader::takeMaterial(SceneItem& item) const
     names.push_back(shortenText(known.first));
   item.fail("unknown material " + quoteText(name) +
             (names.empty() ? "; none is defined in front of this line"
-                           : "; known ones are " + io::listOf(names)));
+                           : "; known ones are " + io::joinWords(names)));
 }
 
 std::vector<SceneItem::Option>

@@ -36,14 +36,14 @@ throwAt(const ScenePlace& place, const std::string& reason)
 }
 
 std::string
-nameOf(const char* form)
+cutName(const char* form)
 {
   const std::string text = form;
   return text.substr(0, text.find(' '));
 }
 
 std::string
-listOf(const std::vector<std::string>& words)
+joinWords(const std::vector<std::string>& words)
 {
   std::string list;
   for (const std::string& word : words)
@@ -179,7 +179,7 @@ SceneItem::options(const std::vector<Option>& known,
   while (!atEnd()) {
     const std::string name = words_[taken_++].text;
     const auto option = std::find_if(known.begin(), known.end(), [&](const Option& o) {
-      return nameOf(o.form) == name;
+      return cutName(o.form) == name;
     });
     if (option == known.end()) {
       std::vector<std::string> forms;
@@ -187,7 +187,7 @@ SceneItem::options(const std::vector<Option>& known,
       for (const Option& other : known)
         forms.push_back(other.form);
       fail("unknown word " + quoteText(name) + "; options of " + item + " are " +
-           listOf(forms));
+           joinWords(forms));
     }
     if (hasOption(name))
       fail("'" + name + "' is given twice");

@@ -162,11 +162,11 @@ private:
 
 /** \brief The first word of a form. */
 std::string
-nameOf(const char* form);
+cutName(const char* form);
 
 /** \brief Join words by commas. */
 std::string
-listOf(const std::vector<std::string>& words);
+joinWords(const std::vector<std::string>& words);
 
 } // namespace io
 } // namespace pcl_uvol

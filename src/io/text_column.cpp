@@ -86,7 +86,7 @@ withoutDoubledQuotes(std::string_view cell)
 }
 
 double
-labelOf(std::string_view cell, const std::vector<std::string>& names)
+findLabel(std::string_view cell, const std::vector<std::string>& names)
 {
   if (isMissing(cell))
     return no_name;

@@ -67,7 +67,7 @@ withoutDoubledQuotes(std::string_view cell);
 
 /** \brief The number of the name in a cell among all names of its column. */
 double
-labelOf(std::string_view cell, const std::vector<std::string>& names);
+findLabel(std::string_view cell, const std::vector<std::string>& names);
 
 /** \brief Write a number as INT32, FLOAT32 or FLOAT64. */
 void

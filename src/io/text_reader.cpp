@@ -457,7 +457,7 @@ private:
       throwShorter();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const auto& field = info_.fields[i];
-      putNumber(valueOf(columns_[i]), field.datatype, record + field.offset);
+      putNumber(parseValue(columns_[i]), field.datatype, record + field.offset);
     }
   }
 
@@ -475,12 +475,12 @@ private:
   };
 
   double
-  valueOf(const SourceColumn& column) const
+  parseValue(const SourceColumn& column) const
   {
     if (!column.cell)
       return 0.0;
     const std::string_view cell = cells_[*column.cell];
-    return column.labels.empty() ? numberIn(cell) : labelOf(cell, column.labels);
+    return column.labels.empty() ? numberIn(cell) : findLabel(cell, column.labels);
   }
 
   [[noreturn]] void

@@ -175,7 +175,7 @@ unzstdAll(Pipe& pipe)
 #endif
 
 std::string
-packingOf(const std::string& path)
+getPacking(const std::string& path)
 {
   return lowerCase(std::filesystem::path(path).extension().string());
 }
@@ -185,14 +185,14 @@ packingOf(const std::string& path)
 bool
 isPacked(const std::string& path)
 {
-  const std::string packing = packingOf(path);
+  const std::string packing = getPacking(path);
   return packing == ".gz" || packing == ".bz2" || packing == ".zst";
 }
 
 bool
 isPackedInside(const std::string& path, int file)
 {
-  const std::string ending = packingOf(path);
+  const std::string ending = getPacking(path);
   std::array<unsigned char, 2> head{};
   return (ending == ".bgeo" || ending == ".bhclassic") &&
          ::pread(file, head.data(), head.size(), 0) ==
@@ -241,7 +241,7 @@ unpackFile(const std::string& path, int packed)
               return readSome(path, packed, bytes, most);
             },
             to.get()};
-  const std::string packing = packingOf(path);
+  const std::string packing = getPacking(path);
   if (packing == ".gz" || !isPacked(path))
     inflateAll(pipe, MAX_WBITS + 16);
 #ifdef PCL_UVOL_HAS_BZIP2

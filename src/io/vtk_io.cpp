@@ -25,7 +25,7 @@ namespace {
 
 /** "Float32" or "String", as VTK's XML files call it. */
 std::string
-xmlTypeOf(vtkAbstractArray& values)
+nameXmlType(vtkAbstractArray& values)
 {
   auto* const numbers = vtkDataArray::SafeDownCast(&values);
   if (numbers == nullptr)
@@ -56,7 +56,7 @@ void
 addArray(vtkAbstractArray& array, const char* name, vtkXMLDataElement* parent)
 {
   const auto element = addElement("PDataArray", parent);
-  element->SetAttribute("type", xmlTypeOf(array).c_str());
+  element->SetAttribute("type", nameXmlType(array).c_str());
   element->SetAttribute("Name", name);
   element->SetIntAttribute("NumberOfComponents", array.GetNumberOfComponents());
 }

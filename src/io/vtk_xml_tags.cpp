@@ -155,7 +155,7 @@ TagCollector::takeArray(const XmlTag& tag)
   const bool of_cells = with_cells_ && section == "CellData";
   if (section != "PointData" && section != "Points" && section != "Polys" && !of_cells)
     return;
-  // Of several steps of time the first one counts.
+  // The first one of several steps of time counts.
   if (const std::string* const step = tag.find("TimeStep"); step && *step != "0")
     return;
   ArrayTag array;

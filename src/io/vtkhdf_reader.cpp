@@ -174,7 +174,7 @@ private:
   std::uint64_t
   firstCount(const std::string& name) const;
   std::uint64_t
-  rowsOf(const std::string& name) const;
+  readRows(const std::string& name) const;
   Step
   findStep() const;
   Lattice
@@ -255,7 +255,7 @@ VtkHdfReader::firstCount(const std::string& name) const
 }
 
 std::uint64_t
-VtkHdfReader::rowsOf(const std::string& name) const
+VtkHdfReader::readRows(const std::string& name) const
 {
   const auto shape = file_.findShape(inside(name));
   return shape ? shape->rows : 0;
@@ -265,7 +265,7 @@ Step
 VtkHdfReader::findStep() const
 {
   Step step;
-  step.parts = rowsOf("NumberOfPoints");
+  step.parts = readRows("NumberOfPoints");
   if (!file_.hasGroup(inside("Steps")))
     return step;
   if (file_.findShape(inside("Steps/NumberOfParts")))
@@ -449,7 +449,7 @@ VtkHdfReader::readTriangles() const
     throwUnreadable(path_,
                     "it holds meshes of several times; ParaView saves one of them "
                     "as .vtp");
-  const std::uint64_t parts = rowsOf("NumberOfPoints");
+  const std::uint64_t parts = readRows("NumberOfPoints");
   const auto points = readNumbers("NumberOfPoints", 0, parts);
   std::vector<Triangle> triangles;
   if (!file_.hasGroup(inside("Polygons")))

@@ -62,7 +62,7 @@ addCells(Hdf5Writer& writer,
 
 /** Names as HDF5 has them, each of them once. */
 std::vector<std::string>
-namesOf(const Fields& fields)
+makeNames(const Fields& fields)
 {
   std::vector<std::string> names;
   for (const auto& field : fields) {
@@ -125,7 +125,7 @@ writeVtkHdf(const std::string& file,
     add_array(joinNames(data, "Normals"), normals);
     writer.addAttribute(joinNames(data, "Normals"), "Attribute", "Normals");
   }
-  const std::vector<std::string> names = namesOf(others);
+  const std::vector<std::string> names = makeNames(others);
   for (std::size_t i = 0; i < others.size(); ++i)
     add_array(joinNames(data, names[i]), {others[i]});
   writer.save(file);

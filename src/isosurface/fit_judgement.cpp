@@ -127,9 +127,9 @@ supportBy(bool is_open, const Surroundings& surroundings, double nearest)
 } // namespace
 
 IsoSupport
-supportOf(const Surroundings& surroundings,
-          double nearest,
-          const NeighborDirections& directions)
+judgeSupport(const Surroundings& surroundings,
+             double nearest,
+             const NeighborDirections& directions)
 {
   const bool is_open =
       EmptyCone().isEmpty(directions.x, directions.y, directions.z, directions.count);

@@ -49,9 +49,9 @@ areLabels(const std::vector<float>& values,
 /** \brief What samples around an isopoint tell of a gap there.
  * \param nearest distance of the nearest one */
 IsoSupport
-supportOf(const Surroundings& surroundings,
-          double nearest,
-          const NeighborDirections& directions);
+judgeSupport(const Surroundings& surroundings,
+             double nearest,
+             const NeighborDirections& directions);
 
 /** \brief The same where samples lie on a plane that the surface crosses.
  * \param count the first ones of the lane, the nearest ones first

@@ -450,9 +450,9 @@ private:
         surroundings.value_range;
     surroundings.has_steps = areLabels(values, neighbors, count);
     surroundings.support =
-        supportOf(surroundings,
-                  std::sqrt(static_cast<double>(sq_nearest)),
-                  {direction_[0], direction_[1], direction_[2], directions});
+        judgeSupport(surroundings,
+                     std::sqrt(static_cast<double>(sq_nearest)),
+                     {direction_[0], direction_[1], direction_[2], directions});
     return static_cast<int>(count) - 1;
   }
 

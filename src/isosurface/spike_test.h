@@ -33,8 +33,8 @@ settleValue(float own, std::vector<float>& others, const SpikeBounds& bounds);
  * per thread. */
 class SpikeTest {
 public:
-  /** \brief Of about 11 samples in touching cells of a spike, those on its side of the
-   * isovalue at most. */
+  /** \brief The most samples on a spike's side of the isovalue among those in cells
+   * that touch its own, which are about 11. */
   static constexpr std::size_t most_alike = 1;
 
   /** \param input must outlive the test */

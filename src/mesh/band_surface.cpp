@@ -274,7 +274,7 @@ private:
                 pairs.push_back({cell, other});
             // Cells whose sample is on the ghosts' side are found here only.
             if ((input_.values[cell] >= isovalue_) == ghosts_are_above_)
-              addGhosts(cell, tiling_.cellOf(cell), pairs);
+              addGhosts(cell, tiling_.findCell(cell), pairs);
           }
           step.advance(end - begin);
         });
@@ -330,7 +330,7 @@ private:
   {
     const std::uint32_t side = pair.higher - tiling_.countSamples();
     const auto axis = static_cast<int>(side / 2);
-    const KdBox box = tiling_.boxOf(pair.lower, tiling_.cellOf(pair.lower));
+    const KdBox box = tiling_.findBox(pair.lower, tiling_.findCell(pair.lower));
     WorkingVertex vertex;
     vertex.pair = pair;
     vertex.is_on_surface = false;

@@ -56,7 +56,7 @@ CellCache::find(std::uint32_t cell)
 {
   const std::size_t place = cell % kept_cells;
   if (numbers_[place] != cell) {
-    cells_[place] = tiling_.cellOf(cell);
+    cells_[place] = tiling_.findCell(cell);
     numbers_[place] = cell;
   }
   return cells_[place];
@@ -69,7 +69,7 @@ CellTiling::CellTiling(const KdTree& tree, const std::vector<Position>& position
 }
 
 TileCell
-CellTiling::cellOf(std::uint32_t cell) const
+CellTiling::findCell(std::uint32_t cell) const
 {
   TileCell found = unboundedCell();
   if (isGhost(cell)) {
@@ -84,7 +84,7 @@ CellTiling::cellOf(std::uint32_t cell) const
 }
 
 KdBox
-CellTiling::boxOf(std::uint32_t sample, const TileCell& cell) const
+CellTiling::findBox(std::uint32_t sample, const TileCell& cell) const
 {
   KdBox box = tree_.getBox(tree_.getRoot());
   bool is_bounded = true;

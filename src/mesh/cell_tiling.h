@@ -82,13 +82,13 @@ public:
   }
 
   TileCell
-  cellOf(std::uint32_t cell) const;
+  findCell(std::uint32_t cell) const;
 
   /** \brief The part of a sample's cell that stands for it: within the box around all
    * samples, and towards the border of the domain not much longer than cells around, or
    * up to the sample: samples may fill a ball within their box. */
   KdBox
-  boxOf(std::uint32_t sample, const TileCell& cell) const;
+  findBox(std::uint32_t sample, const TileCell& cell) const;
 
   /** \brief The cells around the face that two touching cells share, in the order in
    * which they are met: two that follow one another form a tetrahedron with the pair,

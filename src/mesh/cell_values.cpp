@@ -148,7 +148,8 @@ CellValues::fit(const std::vector<Candidate>& candidates, StepTimer& step)
         for (std::size_t i = begin; i < end; ++i) {
           const auto [sample, partner] = candidates[i];
           BandCell& cell = cells_[first + i];
-          cell.center = centerOf(tiling_.boxOf(sample, tiling_.cellOf(sample)), scale);
+          cell.center =
+              centerOf(tiling_.findBox(sample, tiling_.findCell(sample)), scale);
           for (int axis = 0; axis < 3; ++axis)
             feet[i].data[axis] = static_cast<float>(cell.center[axis]);
           edges[i] = {sample, partner, 0.5f};

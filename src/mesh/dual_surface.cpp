@@ -77,7 +77,7 @@ private:
   }
 
   std::uint32_t
-  vertexOf(std::uint32_t a, std::uint32_t b) const
+  findVertex(std::uint32_t a, std::uint32_t b) const
   {
     const auto found = std::lower_bound(pairs_.begin(), pairs_.end(), pairOf(a, b));
     return static_cast<std::uint32_t>(found - pairs_.begin());
@@ -87,9 +87,9 @@ private:
   void
   addTriangle(const Corner& corner, bool is_below)
   {
-    const std::uint32_t a = vertexOf(corner[0], corner[1]),
-                        b = vertexOf(corner[0], corner[2]),
-                        c = vertexOf(corner[0], corner[3]);
+    const std::uint32_t a = findVertex(corner[0], corner[1]),
+                        b = findVertex(corner[0], corner[2]),
+                        c = findVertex(corner[0], corner[3]);
     triangles_.push_back(is_below ? Triangle{a, c, b} : Triangle{a, b, c});
   }
 
@@ -97,10 +97,10 @@ private:
   void
   addQuadrangle(const Corner& corner)
   {
-    const std::uint32_t around[] = {vertexOf(corner[0], corner[2]),
-                                    vertexOf(corner[0], corner[3]),
-                                    vertexOf(corner[1], corner[3]),
-                                    vertexOf(corner[1], corner[2])};
+    const std::uint32_t around[] = {findVertex(corner[0], corner[2]),
+                                    findVertex(corner[0], corner[3]),
+                                    findVertex(corner[1], corner[3]),
+                                    findVertex(corner[1], corner[2])};
     // No other corner draws these diagonals: the two pairs of one name all four cells.
     const bool is_first = distance_(pairs_[around[0]], pairs_[around[2]]) <=
                           distance_(pairs_[around[1]], pairs_[around[3]]);

@@ -68,7 +68,7 @@ computeCellVolumes(const SampleSet& samples, unsigned threads)
   parallelBlocks(volumes.size(), block_places, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto sample = static_cast<std::uint32_t>(i);
-      const KdBox box = tiling.boxOf(sample, tiling.cellOf(sample));
+      const KdBox box = tiling.findBox(sample, tiling.findCell(sample));
       volumes[i] = 1.0;
       for (int axis = 0; axis < 3; ++axis)
         volumes[i] *=

@@ -402,7 +402,7 @@ SurfaceMeasures::compute()
     throw InvalidArgument(
         "Samples inside are found by triangles, and the surface has none.");
   CloudView vertices = viewOf(vertices_->cloud);
-  vertices.fields = fieldsOfNumbers(*vertices_); // names have no mean
+  vertices.fields = listNumberFields(*vertices_); // names have no mean
   Measurement measurement(
       triangles_.empty()
           ? detail::measurePoints(vertices, threads_, report_)
@@ -411,7 +411,7 @@ SurfaceMeasures::compute()
       vertices_->origin);
   if (samples_) {
     CloudView samples = viewOf(samples_->cloud);
-    samples.fields = fieldsOfNumbers(*samples_);
+    samples.fields = listNumberFields(*samples_);
     measurement.lookInside(samples, samples_->origin, threads_, report_);
   }
   measurement.joinPieces();

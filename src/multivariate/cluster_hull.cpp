@@ -33,7 +33,7 @@ public:
   }
 
   const std::vector<std::uint32_t>&
-  pieceOf() const
+  getPieces() const
   {
     return piece_of_;
   }
@@ -225,7 +225,7 @@ makeClusterHull(const std::vector<Triangle>& surface,
                               std::to_string(corner) + ", and there are " +
                               std::to_string(regions.size()) + " regions.");
   const Pieces pieces(surface, regions);
-  const auto& piece_of = pieces.pieceOf();
+  const auto& piece_of = pieces.getPieces();
   ClusterHull hull;
   hull.split_pieces = pieces.splits();
   std::vector<std::uint32_t> number_of(pieces.regions().size(), none);

@@ -71,7 +71,8 @@ ClusterSeparation::ClusterSeparation(const std::vector<Moments>& clusters,
     covariances_[c].transposeInPlace();
     solveLowerInPlace(root_, covariances_[c]);
     for (std::uint32_t other = 0; other < c; ++other) {
-      const bool is_separable = offsetOf({other, c}).squaredNorm() > least_separation;
+      const bool is_separable =
+          computeOffset({other, c}).squaredNorm() > least_separation;
       (is_separable ? separable_ : inseparable_).push_back({other, c});
     }
   }
@@ -151,7 +152,7 @@ ClusterSeparation::centreAxes(bool favours_close) const
   const Index m = root_.rows();
   MatrixXd between = MatrixXd::Zero(m, m);
   for (const Pair& pair : separable_) {
-    const VectorXd offset = offsetOf(pair);
+    const VectorXd offset = computeOffset(pair);
     const double sq_dist = offset.squaredNorm();
     between.selfadjointView<Eigen::Lower>().rankUpdate(
         offset, favours_close ? 1.0 / (sq_dist * sq_dist) : 1.0);
@@ -172,13 +173,13 @@ ClusterSeparation::discriminants() const
   MatrixXd basis = MatrixXd::Zero(m, 3);
   std::vector<std::pair<double, Pair>> order;
   for (const Pair& pair : separable_)
-    order.emplace_back(offsetOf(pair).squaredNorm(), pair);
+    order.emplace_back(computeOffset(pair).squaredNorm(), pair);
   Index count = 0;
   while (!order.empty() && count < std::min<Index>(3, m)) {
     std::sort(order.begin(), order.end());
     for (const auto& [ratio, pair] : order) {
       basis.col(count) = solvePositive(
-          covariances_[pair.first] + covariances_[pair.second], offsetOf(pair));
+          covariances_[pair.first] + covariances_[pair.second], computeOffset(pair));
       basis = orthonormalized(basis);
       if (!basis.col(count).isZero())
         break;

@@ -103,7 +103,7 @@ private:
   softMinimum(const Eigen::MatrixXd& basis, double sharpness) const;
 
   Eigen::VectorXd
-  offsetOf(const Pair& pair) const
+  computeOffset(const Pair& pair) const
   {
     return means_[pair.first] - means_[pair.second];
   }

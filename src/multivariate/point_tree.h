@@ -161,7 +161,7 @@ public:
    * \param query the point at the place
    * \param sq_bound nothing farther is looked for; lowered to what is found. Other
    * threads may lower it meanwhile
-   * \return of several equally near ones one that depends on the components only, if it
+   * \return one of several equally near ones that depends on the components only, if it
    * is not farther than the bound is at the end */
   Found
   find(std::size_t place,

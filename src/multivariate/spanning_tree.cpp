@@ -84,7 +84,7 @@ public:
 
 private:
   std::uint32_t
-  rootOf(std::uint32_t place)
+  findRoot(std::uint32_t place)
   {
     while (parents_[place] != place)
       place = parents_[place] = parents_[parents_[place]];
@@ -96,7 +96,7 @@ private:
   {
     std::fill(sizes_.begin(), sizes_.end(), 0u);
     for (std::uint32_t i = 0; i < components_.size(); ++i) {
-      components_[i] = rootOf(i);
+      components_[i] = findRoot(i);
       ++sizes_[components_[i]];
       sq_bounds_[i].store(infinity, std::memory_order_relaxed);
     }
@@ -268,7 +268,7 @@ private:
   {
     parallelSort(candidates.begin(), candidates.end(), threads_, std::less<>());
     for (const Candidate& candidate : candidates) {
-      const std::uint32_t a = rootOf(candidate.a), b = rootOf(candidate.b);
+      const std::uint32_t a = findRoot(candidate.a), b = findRoot(candidate.b);
       if (a == b)
         continue;
       parents_[std::max(a, b)] = std::min(a, b);

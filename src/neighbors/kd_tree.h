@@ -245,7 +245,7 @@ public:
 
   /** \brief The cell of a sample. */
   KdCell
-  cellOf(std::uint32_t sample) const;
+  findCell(std::uint32_t sample) const;
 
   /** \brief True if plane a lies below plane b in the total order along the axis
    * (ranks, not coordinates: cells of samples with equal coordinates have a thickness

@@ -296,7 +296,7 @@ KdTree::findTouching(const std::vector<Position>& positions,
 }
 
 KdCell
-KdTree::cellOf(std::uint32_t sample) const
+KdTree::findCell(std::uint32_t sample) const
 {
   KdCell cell = cell_;
   for (KdNode node = root_; !node.isLeaf();) {

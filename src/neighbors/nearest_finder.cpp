@@ -193,7 +193,7 @@ NearestFinder::selectFromCopy(const Position& point)
   std::uint32_t* const samples = found_samples_.data();
   std::size_t kept = kernels_->keepWithin(
       sq_dist_.data(), copied_.data(), count, limit, sq_dist, samples);
-  // Of neighbours equally far as the k-th the lower indices stay.
+  // The lower indices stay of neighbours that are equally far as the k-th.
   for (std::size_t i = kept; kept > k_; --i)
     if (sq_dist[i - 1] == limit) {
       std::copy(sq_dist + i, sq_dist + kept, sq_dist + i - 1);

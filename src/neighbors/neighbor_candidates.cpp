@@ -90,7 +90,7 @@ TouchingCells::find(std::uint32_t sample, std::vector<std::uint32_t>& candidates
   own.findTouching(samples_.getPositions(), sample, candidates);
   if (samples_.getTrees().size() == 1)
     return;
-  const KdCell cell = own.cellOf(sample);
+  const KdCell cell = own.findCell(sample);
   if (isBounding(own.getCell(), cell))
     for (const KdTree& tree : samples_.getTrees())
       if (&tree != &own)

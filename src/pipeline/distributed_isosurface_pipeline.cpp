@@ -115,7 +115,7 @@ DistributedIsosurfacePipeline::run()
   if (isosurface.interpolation == Interpolation::Auto)
     isosurface.interpolation = Interpolation::Fit;
   if (isosurface.field.empty())
-    isosurface.field = ScalarField::defaultName(fieldsOfNumbers(*part_));
+    isosurface.field = ScalarField::defaultName(listNumberFields(*part_));
   const PartInBox part(part_, parameters, communicator_, threads_, report_);
   const CloudView view = viewOf(part.getPoints().cloud);
   const ScalarField field(view.fields, isosurface.field);

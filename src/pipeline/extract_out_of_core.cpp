@@ -130,7 +130,7 @@ runPipelineOutOfCore(PointSource& points,
   Dataset samples = points.getHeader();
   IsosurfacePipelineParameters resolved = parameters;
   if (resolved.isosurface.field.empty())
-    resolved.isosurface.field = ScalarField::defaultName(fieldsOfNumbers(samples));
+    resolved.isosurface.field = ScalarField::defaultName(listNumberFields(samples));
   Report report;
   report.progress = progress;
   auto surface = extractOutOfCore(points, withErrors(resolved), out_of_core, report);

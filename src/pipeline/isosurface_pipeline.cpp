@@ -90,7 +90,7 @@ IsosurfacePipeline::resolveParameters(std::optional<ScaleChoice>* choice) const
     throw InvalidArgument("IsosurfacePipeline has no input: call setInput.");
   IsosurfaceParameters parameters = parameters_.isosurface;
   if (parameters.field.empty())
-    parameters.field = ScalarField::defaultName(fieldsOfNumbers(*samples_));
+    parameters.field = ScalarField::defaultName(listNumberFields(*samples_));
   if (!parameters_.automatic_scale)
     return parameters;
   Report own;

@@ -13,7 +13,7 @@ namespace pcl_uvol {
 /** \brief What a camera is fitted to. */
 struct FittedPoints {
   const CloudView& cloud;
-  /** Of the points; none: points without discs, which all count. */
+  /** The discs of the points; none: points without discs, which all count. */
   const std::vector<FittedDisc>& discs;
   /** The camera turns all around them: they are in the image from everywhere. */
   bool turn = false;

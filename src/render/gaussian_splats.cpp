@@ -59,7 +59,7 @@ rotationOf(const Eigen::Vector3d& normal, const Eigen::Vector3d& tangent)
 }
 
 Record
-gaussianOf(const PointSplat& splat, Rgba color)
+makeGaussian(const PointSplat& splat, Rgba color)
 {
   constexpr double part = 0.70710678118654752, thickness = 0.01, opacity = 0.99;
   constexpr double harmonic = 0.28209479177387814; // of degree 0
@@ -91,7 +91,7 @@ toGaussians(const pcl::PointCloud<PointSplat>& splats, const std::vector<Rgba>& 
     appendField(fields, name, pcl::PCLPointField::FLOAT32);
   pcl::PCLPointCloud2 cloud = makeRecords(fields, splats.size());
   for (std::size_t i = 0; i < splats.size(); ++i) {
-    const Record record = gaussianOf(splats[i], colors[i]);
+    const Record record = makeGaussian(splats[i], colors[i]);
     std::memcpy(&cloud.data[i * sizeof record], record.data(), sizeof record);
   }
   return cloud;

@@ -155,7 +155,7 @@ printHoles(std::size_t n, std::uint64_t seed)
   }
 }
 
-/** By the pipeline, as the tools do. */
+/** The surface that the pipeline makes, as it does for the tools. */
 Surface
 extract(const Cloud& cloud,
         double isovalue,

@@ -111,7 +111,7 @@ TEST(CoordinateRange, ClustersFarApartAreTold)
   Points points = makeSite(20000, {0.0, 0.0, 0.0});
   const Points others = makeSite(20000, {1e10, 0.0, 0.0});
   points.insert(points.end(), others.begin(), others.end());
-  // Of 40,000 points, the nearest is some 10 m away; floats of 1e10 are 1024 m apart.
+  // The nearest of 40,000 points is some 10 m away; floats of 1e10 are 1024 m apart.
   const std::string note = noteOf(points);
   EXPECT_EQ(0u, note.find("Coordinates are rounded to float by up to ")) << note;
   double rounding = 0.0, spacings = 0.0;

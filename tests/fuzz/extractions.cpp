@@ -135,7 +135,7 @@ fillGaps(const std::uint8_t* bytes, std::size_t size)
 void
 extractInBox(const std::uint8_t* bytes, std::size_t size)
 {
-  // Of the extent of the samples.
+  // Parts of the extent of the samples.
   constexpr std::array<double, 8> sides{
       0.0, 1.0, 1.125, 3.0, 1e-3, 1e30, -1.0, std::numeric_limits<double>::infinity()};
   Bytes input(bytes, size);

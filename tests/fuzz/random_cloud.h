@@ -57,7 +57,7 @@ private:
   const std::uint8_t *at_, *end_;
 };
 
-/** \brief Of samples that have a value each. */
+/** \brief The fields of samples that have a value each. */
 constexpr std::array<const char*, 4> sample_fields{"x", "y", "z", "intensity"};
 
 template <typename T, std::size_t count>

@@ -164,8 +164,8 @@ TEST(Variogram, FitsFindWhatIsThere)
 
 TEST(Variogram, PairsAlongAnAxisDifferFromItByThirtyDegreesAtMost)
 {
-  // Of a field that grows along one axis half the squared difference of a pair is half
-  // its squared distance times the squared cosine of the angle to this axis.
+  // The field grows along one axis: half the squared difference of a pair is half its
+  // squared distance times the squared cosine of the angle to this axis.
   std::vector<float> xyz;
   std::vector<std::uint32_t> use;
   for (std::uint32_t i = 0; i < 500; ++i) {

@@ -104,7 +104,7 @@ TEST(ReducedFit, ErrorsAndCoefficientsAreThoseOfWeightedLeastSquares)
   }
 }
 
-/** Of samples on a plane derivatives across it are 0. */
+/** Derivatives across a plane that samples lie on are 0. */
 TEST(ReducedFit, PlanesHaveNoDerivativesAcross)
 {
   Eigen::MatrixX3d offsets = makeOffsets(40, 0.95);

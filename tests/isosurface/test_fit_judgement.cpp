@@ -137,7 +137,7 @@ findSupport(bool is_open, double nearest, double edge_length)
         }
   Surroundings surroundings = makeSurroundings();
   surroundings.edge_length = edge_length;
-  return supportOf(surroundings, nearest, {x.data(), y.data(), z.data(), x.size()});
+  return judgeSupport(surroundings, nearest, {x.data(), y.data(), z.data(), x.size()});
 }
 
 TEST(FitJudgement, GapsShowByEmptyConesAndFarSamples)

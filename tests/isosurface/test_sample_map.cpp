@@ -103,7 +103,7 @@ TEST(SampleMap, KeepsTheNewestOfEachCube)
   EXPECT_LE(map.size(), 750u);
   EXPECT_GT(map.size(), 300u);
 
-  // Of points at few places the last that came.
+  // The last point that came to each of few places stays.
   Cloud places;
   for (int round = 0; round < 300; ++round)
     for (int place = 0; place < 8; ++place) {

@@ -103,7 +103,7 @@ TEST(DataTerm, KnowsTheNoise)
     const DataTerm term = makeTerm(b, [&](const Vector3d& x) {
       return 2.0 * (x[2] + (sigma > 0.0 ? normal(engine) : 0.0));
     });
-    // Of the median of root mean squares of 17 degrees of freedom.
+    // The median of root mean squares of 17 degrees of freedom.
     const double median = std::sqrt(1.0 - 2.0 / (3.0 * 17.0));
     EXPECT_NEAR(median * sigma, term.noise / b.unit, 0.03 * sigma + 1e-5);
     EXPECT_NEAR(2.0, term.slope, 0.02 + 0.1 * sigma);

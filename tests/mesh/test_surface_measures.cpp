@@ -185,7 +185,7 @@ TEST(SurfaceMeasures, ErrorsOfVerticesAreErrorsOfTheVolume)
   SurfaceMeasures measures;
   measures.setInputSurface(vertices, sphere.triangles);
   const PieceMeasures piece = measures.compute().isovalues[0];
-  // Of a sphere larger by that much.
+  // What a sphere has more that is larger by the error.
   EXPECT_NEAR(4.0 / 3.0 * M_PI * (std::pow(2.01, 3) - 8.0), piece.volume.error, 0.01);
   EXPECT_NEAR(4.0 * M_PI * (std::pow(2.01, 2) - 4.0), piece.area.error, 0.5);
   EXPECT_GT(piece.area.error, 4.0 * M_PI * (std::pow(2.01, 2) - 4.0));

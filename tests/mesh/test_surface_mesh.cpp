@@ -127,7 +127,8 @@ TEST(SurfaceMesh, LatticesAndGradedSamplesAreNoWorse)
 
 TEST(SurfaceMesh, StaysWholeInNoise)
 {
-  // Of the values' range 2 %: a Delaunay mesh has about 160 pieces and 540 handles.
+  // Noise is 2 % of the values' range: a Delaunay mesh has about 160 pieces and 540
+  // handles.
   const MeshRun run = runMesh(sampleField(sphereField(22.0), 1, 0.84));
   EXPECT_LE(run.mesh.pieces.size(), 30u);
   EXPECT_LE(run.report.getCount("handles"), 40u);

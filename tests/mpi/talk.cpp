@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes that exchange messages whose bytes each can foretell; run by mpirun from
 // test_mpi_communicator. usage: talk PARTS [LOSER FUNCTION]: the largest part of a
-// message; the process that fails while the others call sum, gather or
-// exchange, or in a group.
+// message; the process that fails while the others call allReduce, allGather or
+// allToAll, or are in a group.
 #include <pcl_uvol/mpi/mpi_communicator.h>
 
 #include <vtkMPIController.h>
@@ -20,7 +20,7 @@ using pcl_uvol::MpiCommunicator;
 
 /** Some are empty, some have many parts. */
 Bytes
-messageOf(std::size_t from, std::size_t to, std::size_t round)
+makeMessage(std::size_t from, std::size_t to, std::size_t round)
 {
   Bytes message((from * 7 + to * 3 + round) % 5 * 1000 * (round + 1));
   for (std::size_t i = 0; i < message.size(); ++i)
@@ -45,10 +45,10 @@ talkInGroups(MpiCommunicator& communicator, std::size_t groups)
   for (std::size_t round = 0; round <= color; ++round) {
     std::vector<Bytes> messages;
     for (const std::size_t to : members)
-      messages.push_back(messageOf(communicator.rank(), to, round));
+      messages.push_back(makeMessage(communicator.rank(), to, round));
     const auto received = group->allToAll(std::move(messages));
     for (std::size_t i = 0; i < members.size(); ++i)
-      if (received.at(i) != messageOf(members[i], communicator.rank(), round))
+      if (received.at(i) != makeMessage(members[i], communicator.rank(), round))
         return "a message in a group differs";
     std::vector<std::uint64_t> number{1};
     group->allReduce(number);
@@ -65,15 +65,15 @@ talk(MpiCommunicator& communicator)
   for (std::size_t round = 0; round < 5; ++round) {
     std::vector<Bytes> messages;
     for (std::size_t to = 0; to < communicator.size(); ++to)
-      messages.push_back(messageOf(communicator.rank(), to, round));
+      messages.push_back(makeMessage(communicator.rank(), to, round));
     const auto received = communicator.allToAll(std::move(messages));
     for (std::size_t from = 0; from < communicator.size(); ++from)
-      if (received.at(from) != messageOf(from, communicator.rank(), round))
+      if (received.at(from) != makeMessage(from, communicator.rank(), round))
         return "a message differs";
     const auto gathered =
-        communicator.allGather(messageOf(communicator.rank(), 0, round));
+        communicator.allGather(makeMessage(communicator.rank(), 0, round));
     for (std::size_t from = 0; from < communicator.size(); ++from)
-      if (gathered.at(from) != messageOf(from, 0, round))
+      if (gathered.at(from) != makeMessage(from, 0, round))
         return "a gathered message differs";
     std::vector<std::uint64_t> numbers{
         communicator.rank(), std::uint64_t(1) << 40, round};
@@ -120,9 +120,9 @@ fail(MpiCommunicator& communicator, std::size_t loser, const std::string& functi
     return communicator.agree(true) == loser ? "" : "the loser is another one";
   try {
     std::vector<std::uint64_t> numbers{1};
-    if (function == "sum")
+    if (function == "allReduce")
       communicator.allReduce(numbers);
-    else if (function == "gather")
+    else if (function == "allGather")
       communicator.allGather(Bytes(10));
     else
       communicator.allToAll(std::vector<Bytes>(communicator.size(), Bytes(10)));

@@ -49,11 +49,11 @@ TEST_F(MpiProcesses, PutPartsOfMessagesTogether)
 
 TEST_F(MpiProcesses, DoNotWaitForOneThatFailed)
 {
-  expectSuccess(3, "1000 2 sum");
-  expectSuccess(3, "1000 2 exchange");
-  expectSuccess(3, "1000 1 gather");
-  expectSuccess(4, "1000 1 exchange"); // three of them at once
-  expectSuccess(2, "1000 0 sum");
+  expectSuccess(3, "1000 2 allReduce");
+  expectSuccess(3, "1000 2 allToAll");
+  expectSuccess(3, "1000 1 allGather");
+  expectSuccess(4, "1000 1 allToAll"); // three of them at once
+  expectSuccess(2, "1000 0 allReduce");
   expectSuccess(5, "1000 3 group");
   expectSuccess(4, "1000 0 group");
   expectSuccess(3, "1000 1 group"); // alone in it

@@ -54,7 +54,7 @@ TEST_P(PlantedIn, ManyDimensionsAreFoundAgain)
     const auto found = cluster(columns, planted.values);
     EXPECT_GE(adjustedRandIndex(planted.labels, found.labels), least_agreement) << seed;
     EXPECT_EQ(*std::max_element(found.labels.begin(), found.labels.end()), 3) << seed;
-    // By decreasing size, as they were planted.
+    // Clusters are sorted by decreasing size, as they were planted.
     for (const std::size_t first : {0, 700, 1300, 1800}) {
       EXPECT_EQ(found.labels[first + 9], planted.labels[first + 9]) << seed;
     }

@@ -22,7 +22,7 @@ LIST = pathlib.Path(__file__).resolve().parent / "mutations.txt"
 COPY = ROOT / "build" / "mutation"
 BUILD = COPY / "build" / "release"
 LEAST_SHARE = 0.9
-# Of the time that a test takes without a mutation, which may make it run for ever.
+# A mutation may make a test run for ever: its limit is that factor of the time without one, and some room.
 TIME_FACTOR, TIME_ROOM = 10.0, 20.0
 
 

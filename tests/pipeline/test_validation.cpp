@@ -142,9 +142,9 @@ TEST(Validation, SaysWhoIsBetterThanTheSurface)
   };
   EXPECT_TRUE(warn(0, 0, 50).empty());
   EXPECT_TRUE(warn(5, 5, 50).empty());
-  // Of 10 that differ 6 speak for the nearest sample: 0.02 with an error of 0.0316.
+  // 6 of 10 that differ speak for the nearest sample: 0.02 with an error of 0.0316.
   EXPECT_TRUE(warn(6, 4, 50).empty());
-  // Of 10, 7: 0.04 with one of 0.0314.
+  // 7 of 10 do: 0.04 with one of 0.0314.
   ASSERT_EQ(1u, warn(7, 3, 50).size());
   EXPECT_NE(std::string::npos, warn(7, 3, 50)[0].find("nearest sample tells"));
   EXPECT_LT(warn(7, 3, 50)[0].size(), 300u);

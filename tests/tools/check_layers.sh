@@ -14,9 +14,10 @@ report() {
   echo "$1"
   breaches=$((breaches + 1))
 }
+include='^[[:space:]]*#[[:space:]]*include[[:space:]]*' # as compilers read it
 for module in "${!level[@]}"; do
   for file in $(find "include/pcl_uvol/$module" "src/$module" -type f 2>/dev/null); do
-    for included in $(sed -nE 's|^#include ["<](pcl_uvol/)?([a-z_]+)/.*|\2|p' "$file" | sort -u); do
+    for included in $(sed -nE "s|$include[\"<](pcl_uvol/)?([a-z_]+)/.*|\2|p" "$file" | sort -u); do
       # Others than modules are libraries: pcl/, Eigen/, nlohmann/.
       if [ "$included" != "$module" ] && [ "${level[$included]:--1}" -ge "${level[$module]}" ]; then
         report "$file ($module) may not include $included"
@@ -26,12 +27,12 @@ for module in "${!level[@]}"; do
 done
 while read -r line; do
   report "not installed, but in a public header: $line"
-done < <(grep -rnE '^#include "' include 2>/dev/null || true)
+done < <(grep -rnE "$include\"" include 2>/dev/null || true)
 while read -r line; do
   report "by a path that the check does not see: $line"
-done < <(grep -rnE '^#include "(\.\./|[^/"]*")' include src 2>/dev/null || true)
+done < <(grep -rnE "$include(\"[^/\"]*\"|[\"<](.*/)?\.\.?/)" include src 2>/dev/null || true)
 while read -r line; do
   report "foreign header in a public header: $line"
-done < <(grep -rnE '^#include <(vtk|teem|flann|nlohmann|omp)' include 2>/dev/null |
+done < <(grep -rnE "$include<(vtk|teem|flann|nlohmann|omp)" include 2>/dev/null |
   grep -v -E '^include/pcl_uvol/(vtk|filters)/.*<vtk' || true)
 [ "$breaches" -eq 0 ]

@@ -21,6 +21,11 @@ TEST(Layers, ABreachIsNoticed)
                               "\"isosurface/isopoints.h\"",
                               "\"neighbors/kd_tree.h\"",
                               "\"bad_too.h\"",
+                              "\"../isosurface/isopoints.h\"",
+                              "\"./bad_too.h\"",
+                              "\"common/../isosurface/isopoints.h\"",
+                              "<pcl_uvol/common/../isosurface/isosurface_extraction.h>",
+                              "  \"isosurface/isopoints.h\"",
                               "<vtkPolyData.h>"}) {
     const uvol_test::TemporaryFolder folder;
     const std::string header = "include/pcl_uvol/neighbors";
@@ -29,6 +34,22 @@ TEST(Layers, ABreachIsNoticed)
                          "#include " + std::string(include) + "\n");
     EXPECT_EQ(1, uvol_test::runCommand(check + (folder / "")).exit_code) << include;
   }
+}
+
+/** Sources may include private headers, but of their own module and those below. */
+TEST(Layers, SourcesAreLookedAtAsWell)
+{
+  const uvol_test::TemporaryFolder folder;
+  uvol_test::runCommand("mkdir -p '" + (folder / "src/neighbors") + "'");
+  const auto check_source = [&](const std::string& include) {
+    uvol_test::writeFile(folder / "src/neighbors/source.cpp", "#include " + include);
+    return uvol_test::runCommand(check + (folder / "")).exit_code;
+  };
+  EXPECT_EQ(0, check_source("\"neighbors/kd_tree.h\"\n"));
+  EXPECT_EQ(0, check_source("\"common/records.h\"\n"));
+  EXPECT_EQ(1, check_source("\"mesh/remeshing.h\"\n"));
+  EXPECT_EQ(1, check_source("\"neighbors/../mesh/remeshing.h\"\n"));
+  EXPECT_EQ(1, check_source("\"kd_tree.h\"\n"));
 }
 
 } // namespace

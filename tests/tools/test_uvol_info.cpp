@@ -191,7 +191,7 @@ TEST_F(UvolInfo, RefusesWhatIsWrong)
     const auto result = runOn(cloud, options);
     EXPECT_EQ(exit_code, result.exit_code) << options;
     EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-    // Of an expression it is shown what is wrong.
+    // The place of what is wrong in an expression is shown.
     const int lines = std::string(options).find("-where") == 0 ? 3 : 1;
     EXPECT_EQ(lines, std::count(result.err.begin(), result.err.end(), '\n'))
         << result.err;

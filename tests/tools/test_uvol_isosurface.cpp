@@ -96,7 +96,7 @@ expectFailure(const CommandResult& result,
 {
   EXPECT_EQ(exit_code, result.exit_code) << result.err;
   EXPECT_NE(std::string::npos, result.err.find(text)) << result.err;
-  // Of an expression it is shown what is wrong.
+  // The place of what is wrong in an expression is shown.
   const bool is_marked = result.err.find("\n  ") != std::string::npos;
   EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), is_marked ? 3 : 2)
       << result.err;

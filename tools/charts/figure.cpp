@@ -122,7 +122,7 @@ findFreeCorner(const pcl_uvol::Image& image,
 }
 
 pcl::PointCloud<pcl::PointXYZ>
-cornersOf(const Eigen::AlignedBox3d& box)
+listCorners(const Eigen::AlignedBox3d& box)
 {
   pcl::PointCloud<pcl::PointXYZ> corners;
   for (int i = 0; i < 8; ++i) {
@@ -160,7 +160,7 @@ findCameraOf(const Subject& subject,
       };
     return find_camera(seen, cell);
   }
-  const auto corners = cornersOf(*subject.box);
+  const auto corners = listCorners(*subject.box);
   const pcl_uvol::CloudView box = pcl_uvol::viewOf(corners);
   return find_camera(
       {{subject.box->center(), 0.5 * subject.box->diagonal().norm()}, &box}, cell);

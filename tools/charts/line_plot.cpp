@@ -53,7 +53,7 @@ struct Decades {
 };
 
 Decades
-decadesOf(const std::vector<PlotLine>& lines)
+findDecades(const std::vector<PlotLine>& lines)
 {
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const PlotLine& line : lines)
@@ -179,7 +179,7 @@ drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
   const auto x = [&](double i) {
     return left + (right - left) * (i - 1.0) / (static_cast<double>(count) - 1.0);
   };
-  const Decades decades = decadesOf(lines);
+  const Decades decades = findDecades(lines);
   const auto y = [&](double value) {
     return bottom + (top - bottom) * (std::log10(value) - decades.low) /
                         (decades.high - decades.low);

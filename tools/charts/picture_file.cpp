@@ -62,7 +62,7 @@ describe(TextAnchor anchor)
 void
 writeLine(const TextLine& line, std::ostream& out)
 {
-  // Of digits and capitals, which are 0.7 of the font's size.
+  // Digits and capitals are 0.7 of the font's size.
   const double half_height = 0.35 * line.size;
   out << "<text font-size=\"" << line.size << "\" text-anchor=\""
       << describe(line.anchor) << "\" fill=\"" << describeColor(line.ink)
@@ -73,7 +73,7 @@ writeLine(const TextLine& line, std::ostream& out)
 
 /** As SVG takes it: in pixels, or as long as these are printed. */
 std::string
-lengthOf(std::uint32_t pixels, double dots_per_inch)
+writeLength(std::uint32_t pixels, double dots_per_inch)
 {
   std::ostringstream text;
   if (dots_per_inch > 0.0)
@@ -92,8 +92,8 @@ makeSvg(const Image& image,
   const std::vector<std::uint8_t> png = encodePng(image);
   std::ostringstream out;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\""
-      << lengthOf(image.width, dots_per_inch) << "\" height=\""
-      << lengthOf(image.height, dots_per_inch) << "\" viewBox=\"0 0 " << image.width
+      << writeLength(image.width, dots_per_inch) << "\" height=\""
+      << writeLength(image.height, dots_per_inch) << "\" viewBox=\"0 0 " << image.width
       << ' ' << image.height
       << "\" font-family=\"Arial, Helvetica, sans-serif\">\n<desc>";
   for (const auto& [keyword, text] : texts)

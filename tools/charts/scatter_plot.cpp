@@ -50,7 +50,7 @@ isFinite(const std::array<float, 3>& point)
 double
 findQuantile(std::vector<double>& values, double part)
 {
-  // Of few values the outermost ones.
+  // The outermost ones count where there are few values.
   const double place = part * static_cast<double>(values.size() - 1);
   const auto at =
       values.begin() +

@@ -119,7 +119,7 @@ measureSurface(const std::shared_ptr<const pcl_uvol::Dataset>& vertices,
       for (const double isovalue : isovalues)
         if (surface.isovalue == static_cast<double>(static_cast<float>(isovalue)))
           surface.isovalue = isovalue;
-  // Of the samples' counts the surface has told already.
+  // The surface has told the samples' counts already.
   const pcl_uvol::Report& own = measures.getReport();
   if (parameters.find_intersections)
     report.setCount("intersections", own.getCount("intersections"));

@@ -31,7 +31,7 @@ addOuterLayer(const Options& options,
   const std::string& field = arguments.parameters.isosurface.field;
   pcl_uvol::addOuterLayer(samples,
                           field.empty() ? pcl_uvol::ScalarField::defaultName(
-                                              pcl_uvol::fieldsOfNumbers(samples))
+                                              pcl_uvol::listNumberFields(samples))
                                         : field,
                           arguments.outside_value,
                           options.threads(),

@@ -170,14 +170,14 @@ InterpolationOptions::resolve(const Options& options,
   InterpolationParameters parameters = parameters_;
   if (fields_.empty())
     parameters.fields = {
-        pcl_uvol::ScalarField::defaultName(pcl_uvol::fieldsOfNumbers(samples))};
+        pcl_uvol::ScalarField::defaultName(pcl_uvol::listNumberFields(samples))};
   else if (fields_ == "all" && pcl_uvol::findField(fields, "all") == nullptr)
-    parameters.fields = pcl_uvol::listScalars(pcl_uvol::fieldsOfNumbers(samples));
+    parameters.fields = pcl_uvol::listScalars(pcl_uvol::listNumberFields(samples));
   else
     parameters.fields = parseNames("field", fields_);
   for (std::string& field : parameters.fields)
     addField(samples, field, options, report);
-  // Of several fields the first one tells how distances are measured.
+  // The first one of several fields tells how distances are measured.
   const auto stretch = scale_.resolve(pcl_uvol::viewOf(samples.cloud),
                                       parameters.fields.front(),
                                       options.threads(),

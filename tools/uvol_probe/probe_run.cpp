@@ -213,7 +213,7 @@ Runner::listArrays() const
   std::vector<pcl_uvol::LatticeArray> arrays;
   for (const std::string& name : probe_.interpolator.getNames()) {
     arrays.push_back(
-        {name, pcl_uvol::detail::fileTypeOf(samples_.cloud.fields, name), 1});
+        {name, pcl_uvol::detail::findFileType(samples_.cloud.fields, name), 1});
     arrays.push_back({name + "_error", Type::FLOAT32, 1});
     if (probe_.parameters.gradients)
       arrays.push_back({name + "_gradient", Type::FLOAT32, 3});

@@ -189,7 +189,7 @@ withOuterLayer(const DatasetPtr& dataset,
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
     report.progress = callback;
     addOuterLayer(*result,
-                  field.empty() ? ScalarField::defaultName(fieldsOfNumbers(*dataset))
+                  field.empty() ? ScalarField::defaultName(listNumberFields(*dataset))
                                 : field,
                   value,
                   threads,

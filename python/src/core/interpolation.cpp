@@ -192,11 +192,11 @@ public:
     return variograms;
   }
 
-  /** Whether values of a field are float32 in files, see fileTypeOf(). */
+  /** Whether values of a field are float32 in files, see findFileType(). */
   bool
   isShort(const std::string& name) const
   {
-    return detail::fileTypeOf(view_.fields, name) == pcl::PCLPointField::FLOAT32;
+    return detail::findFileType(view_.fields, name) == pcl::PCLPointField::FLOAT32;
   }
 
   std::string

@@ -68,7 +68,7 @@ evolveLevelSet(const DatasetPtr& dataset,
     if (shifted.initial.kind == InitialKind::Box)
       shifted.initial.second -= origin;
     if (shifted.field.empty())
-      shifted.field = ScalarField::defaultName(fieldsOfNumbers(*dataset));
+      shifted.field = ScalarField::defaultName(listNumberFields(*dataset));
     evolution.setParameters(shifted);
     evolution.setSnapshotCallback(
         every, [&](const LevelSetSummary& so_far, const std::vector<float>& phi) {

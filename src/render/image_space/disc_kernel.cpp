@@ -226,7 +226,7 @@ public:
     return disc_.radius[0];
   }
 
-  /** Of its centre to the eye. */
+  /** The distance of its centre to the eye. */
   float
   distance() const
   {

@@ -61,7 +61,7 @@ PreparedSurface::findFittedDiscs(const Camera& camera, int width, int height)
   if (!needsFootprints(*surface_, view))
     return none;
   if (fitted_discs_.empty()) {
-    // Of its own: another thread may take those that wait.
+    // A report of its own: another thread may take what waits in the other one.
     Report report;
     auto found =
         std::make_unique<Footprints>(surface_->findFootprints(threads_, report));
