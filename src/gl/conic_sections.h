@@ -3,7 +3,7 @@
 // (thesis 2.1).
 #pragma once
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <GL/glcorearb.h>
 #include <algorithm>

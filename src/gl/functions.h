@@ -2,7 +2,7 @@
 // The functions of OpenGL 3.3 that are used here, from any context.
 #pragma once
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 // Prototypes are for their types alone: nothing is linked.
 #define GL_GLEXT_PROTOTYPES 1

@@ -2,8 +2,8 @@
 // Image-space rendering in OpenGL 3.3: off screen into an image, or into a window.
 #pragma once
 
+#include "gl/context.h"
 #include "render/image_space/frame.h"
-#include <pcl_uvol/gl/context.h>
 
 #include <memory>
 #include <string>

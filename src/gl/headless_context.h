@@ -3,7 +3,7 @@
 // its life.
 #pragma once
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <condition_variable>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/shared_library.h"
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <dlfcn.h>
 

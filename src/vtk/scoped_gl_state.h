@@ -2,7 +2,7 @@
 // OpenGL that VTK does not know of, in VTK's window.
 #pragma once
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contexts without a window. Mesa is a part of every test machine: nothing is skipped.
+#include "gl/context.h"
 #include "gl/gl_backend.h"
-#include <pcl_uvol/gl/context.h>
 
 #include <atomic>
 #include <gmock/gmock.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pictures that are begun on a graphics card and finished on the CPU.
+#include "gl/context.h"
 #include "shared/fallback_backend.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/gl/context.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/fallback_backend.h"
 
+#include "gl/context.h"
 #include "render/image_space/cpu_backend.h"
-#include <pcl_uvol/gl/context.h>
 
 namespace uvol_tools {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/display.h"
 
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <X11/Xlib.h>
 #include <cstdlib>
