@@ -104,7 +104,7 @@ SampleSpace::findInstances()
     NetcdfVariable along;
     along.name = file_->readName(dimension);
     along.dimensions = {dimension};
-    return file_->sizeOf(along);
+    return file_->countNumbers(along);
   };
   for (const NetcdfVariable& variable : file_->getVariables()) {
     if (variable.dimensions.size() != 1 || variable.is_text)
