@@ -8,7 +8,6 @@
 #include <pcl_uvol/multivariate/star_coordinates.h>
 
 #include <array>
-#include <numeric>
 #include <pybind11/stl.h>
 #include <string>
 #include <vector>
@@ -114,27 +113,26 @@ separateCluster(const DatasetPtr& dataset,
                 unsigned threads,
                 const py::object& progress)
 {
-  const auto how = MembershipParameters::fromJson(parameters);
-  const std::vector<int> labels = toWholeNumbers(numbers);
+  ClusterMembership<Cloud> membership;
+  membership.setLabels(toWholeNumbers(numbers));
   Dataset surface;
   Report report;
-  runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    report.progress = callback;
-    const CloudView cloud = viewOf(dataset->cloud);
-    pcl::Indices all(cloud.count);
-    std::iota(all.begin(), all.end(), 0);
-    const std::vector<float> members =
-        detail::computeMembership(cloud, all, labels, how, threads, report);
+  const auto extract = [&] {
+    std::vector<float> members;
+    membership.compute(members);
+    report = membership.getReport();
     surface = extractMembershipSurface(
         *dataset,
         members,
         {Eigen::Array3f(scale.data()), Eigen::Array3d(rotation.data())},
-        !how.smoothing_length.empty(),
+        !membership.getParameters().smoothing_length.empty(),
         threads,
         report);
-  });
+  };
+  const py::dict of_membership =
+      runStage(membership, dataset, parameters, threads, progress, extract);
   py::dict told = toDict(report);
-  told["parameters"] = toText(how.toJson());
+  told["parameters"] = of_membership["parameters"];
   return py::make_tuple(share(std::move(surface)), told);
 }
 

@@ -2,11 +2,11 @@
 // The extension _vtk: meshes around clusters, which VTK's contours make.
 #include "shared/convert.h"
 #include "shared/interruptible.h"
-#include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/vtk/cluster_surface.h>
 
+#include <memory>
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
@@ -29,21 +29,23 @@ encloseCluster(const DatasetPtr& dataset,
                const py::object& progress)
 {
   const auto how = ClusterSurfaceParameters::fromJson(parameters);
-  const std::vector<int> members = toWholeNumbers(numbers);
+  ClusterSurfaceGeneration<pcl::PCLPointCloud2> generation;
+  generation.setInputCloud(pcl::PCLPointCloud2::ConstPtr(dataset, &dataset->cloud));
+  generation.setIndices(std::make_shared<pcl::Indices>(toWholeNumbers(numbers)));
+  generation.setParameters(how);
+  generation.setNumberOfThreads(threads);
   ClusterSurface surface;
   Dataset vertices;
-  Report report;
   runInterruptibly(progress, [&](const ProgressCallback& callback) {
-    report.progress = callback;
-    surface =
-        detail::encloseCluster(viewOf(dataset->cloud), members, how, threads, report);
+    generation.setProgressCallback(callback);
+    generation.compute(surface);
     vertices = toDataset(surface.mesh);
     vertices.origin = dataset->origin;
     vertices.double_coordinates = dataset->double_coordinates;
     if (!surface.points.empty())
       copyFields(dataset->cloud, surface.points, vertices.cloud);
   });
-  py::dict told = toDict(report);
+  py::dict told = toDict(generation.getReport());
   told["distance"] = surface.distance;
   told["parameters"] = toText(how.toJson());
   return py::make_tuple(
