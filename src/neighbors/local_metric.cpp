@@ -226,7 +226,8 @@ LocalMetricFinder::setMetric(const LineMoments& lines)
   for (int i = 0; i < 3; ++i)
     squares[i] =
         eigen.eigenvalues()[i] / axes.col(i).dot(lines.directions * axes.col(i));
-  // Lines whose squares are beyond float tell nothing.
+  // Lines between samples that are both very near and very far have no squares in
+  // float.
   if (!(squares.minCoeff() > 0.0) || !squares.allFinite()) {
     metric_.setIdentity();
     return infinity;
@@ -308,10 +309,6 @@ LocalMetricFinder::sqFarthest() const
 double
 LocalMetricFinder::lookInMetric(std::uint32_t sample, double sq_limit, bool may_stretch)
 {
-  // Lines between samples that are both very near and very far have no lengths in
-  // float.
-  if (!metric_.allFinite())
-    return std::numeric_limits<double>::infinity();
   const auto& row = finder_.find(samples_.getPositions()[sample], metric_, sq_limit);
   gather(sample, row.data(), row.size());
   reach_ = std::max(reach_, finder_.getReach());

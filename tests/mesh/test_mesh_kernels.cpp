@@ -308,4 +308,83 @@ TEST(Remesh, EvensOutAGlobe)
   EXPECT_EQ(mesh.triangles, other.triangles);
 }
 
+/** A slab of 3 by 3, thinner than edges that collapse: its upper side is the surface,
+ * the others are caps. */
+WorkingMesh
+makeSlab(double height)
+{
+  constexpr std::uint32_t n = 5;
+  constexpr MeshRegion low_x = 0, high_x = 1, low_y = 2, high_y = 3, low_z = 4;
+  WorkingMesh mesh;
+  mesh.sides = {0.0, 3.0, 0.0, 3.0, 0.0, 9.0};
+  for (const bool is_upper : {false, true})
+    for (std::uint32_t y = 0; y < n; ++y)
+      for (std::uint32_t x = 0; x < n; ++x) {
+        WorkingVertex vertex;
+        const auto stayOn = [&](MeshRegion side, const Vector3d& outwards) {
+          vertex.sides = static_cast<BoxSides>(vertex.sides | 1 << side);
+          if (!is_upper)
+            vertex.foot.normal += outwards;
+        };
+        vertex.foot = {Vector3d(0.75 * x, 0.75 * y, is_upper ? height : 0.0),
+                       Vector3d::Zero(),
+                       0.0};
+        vertex.size = 1.0;
+        vertex.pair = {0, 1};
+        vertex.is_on_surface = is_upper;
+        if (is_upper)
+          vertex.foot.normal = Vector3d::UnitZ();
+        else
+          stayOn(low_z, -Vector3d::UnitZ());
+        if (x == 0 || x == n - 1)
+          stayOn(x == 0 ? low_x : high_x, (x == 0 ? -1.0 : 1.0) * Vector3d::UnitX());
+        if (y == 0 || y == n - 1)
+          stayOn(y == 0 ? low_y : high_y, (y == 0 ? -1.0 : 1.0) * Vector3d::UnitY());
+        vertex.foot.normal.normalize();
+        mesh.vertices.push_back(vertex);
+      }
+  const auto add = [&](std::array<std::uint32_t, 4> quad, MeshRegion region) {
+    mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+    mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+    mesh.regions.insert(mesh.regions.end(), 2, region);
+  };
+  const auto at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return (z * n + y) * n + x;
+  };
+  constexpr std::uint32_t last = n - 1;
+  for (std::uint32_t i = 0; i < last; ++i) {
+    for (std::uint32_t k = 0; k < last; ++k) {
+      add({at(i, k, 1), at(i + 1, k, 1), at(i + 1, k + 1, 1), at(i, k + 1, 1)},
+          surface_region);
+      add({at(i, k, 0), at(i, k + 1, 0), at(i + 1, k + 1, 0), at(i + 1, k, 0)}, low_z);
+    }
+    add({at(0, i, 0), at(0, i, 1), at(0, i + 1, 1), at(0, i + 1, 0)}, low_x);
+    add({at(last, i, 0), at(last, i + 1, 0), at(last, i + 1, 1), at(last, i, 1)},
+        high_x);
+    add({at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 0, 1), at(i, 0, 1)}, low_y);
+    add({at(i, last, 0), at(i, last, 1), at(i + 1, last, 1), at(i + 1, last, 0)},
+        high_y);
+  }
+  return mesh;
+}
+
+/** Edges from the crease above to the one below are short, but neither may go. */
+TEST(Remesh, KeepsCreasesApart)
+{
+  constexpr double height = 0.2;
+  WorkingMesh mesh = makeSlab(height);
+  ASSERT_EQ(0u, uvol_test::expectManifold(mesh.triangles, mesh.vertices.size()));
+  Report report;
+  remesh(mesh, 0.0, 1, report);
+  EXPECT_EQ(50u, mesh.vertices.size());
+  for (const WorkingVertex& vertex : mesh.vertices)
+    EXPECT_NEAR(vertex.is_on_surface ? height : 0.0, vertex.foot.place.z(), 1e-12);
+  double volume = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    volume += mesh.vertices[a].foot.place.dot(
+                  mesh.vertices[b].foot.place.cross(mesh.vertices[c].foot.place)) /
+              6.0;
+  EXPECT_NEAR(9.0 * height, volume, 1e-12);
+}
+
 } // namespace

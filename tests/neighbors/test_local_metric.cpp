@@ -87,4 +87,31 @@ TEST(LocalMetric, IsEvenWhereSpacingsAre)
   }
 }
 
+/** Some samples so close together that squares of their distances are 0 in float,
+ * among others: no metric is found there, and none that is no number. */
+TEST(LocalMetric, IsANumberWhereSamplesAreNearAndFar)
+{
+  for (const float size : {1e-20f, 1e-23f, 1e-30f, 1e-36f})
+    for (const std::size_t close : {2, 5, 12, 20, 40}) {
+      std::vector<Position> places;
+      for (std::uint64_t i = 0; i < 200; ++i) {
+        const float scale = i < close ? size : 1.0f;
+        Position place;
+        for (int axis = 0; axis < 3; ++axis)
+          place[axis] = scale * static_cast<float>(pcl_uvol::uniformAt(
+                                    5, i, static_cast<std::uint64_t>(axis)));
+        places.push_back(place);
+      }
+      const auto samples = makeSamples(places);
+      LocalMetricFinder metrics(*samples), nearby(*samples);
+      for (std::uint32_t i = 0; i < samples->size(); ++i) {
+        metrics.find(i, 1.0);
+        EXPECT_TRUE(metrics.getMetric().allFinite()) << size << ' ' << close;
+        nearby.find(metrics.findAnchor(i), 1.0);
+        metrics.refine(i, nearby, 1.0);
+        EXPECT_TRUE(metrics.getMetric().allFinite()) << size << ' ' << close;
+      }
+    }
+}
+
 } // namespace

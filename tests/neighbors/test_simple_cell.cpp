@@ -141,6 +141,29 @@ TEST(SimpleCell, IsUnsureOfTooManyFaces)
   EXPECT_LE(cuts, SimpleCell::most_faces);
 }
 
+/** No sample is nearer to a vertex of a cell than its place is: true of cells and of
+ * nothing larger. */
+TEST(VoronoiCellFinder, EndsWhereTheNearestSamplesDo)
+{
+  const auto samples = buildRandomSamples(1000, 2);
+  CellSearch search(*samples);
+  VoronoiCellFinder finder;
+  for (const std::size_t near : {1, 4, 16, 64})
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      startAround(search, *samples, randomPlace(*samples, i), near);
+      ASSERT_TRUE(finder.find(search));
+      finder.forFaces([&](const CellFace& face) {
+        for (std::size_t k = 0; k < face.polygon.size(); ++k) {
+          const Vector3d vertex = face.plane.placeOf(face.polygon[k]);
+          for (std::uint32_t sample = 0; sample < samples->size(); ++sample)
+            ASSERT_GE((search.offsetOf(sample) - vertex).squaredNorm(),
+                      (1.0 - 1e-9) * vertex.squaredNorm())
+                << near;
+        }
+      });
+    }
+}
+
 /** The same faces as by polygons, whatever the cell begins with. */
 TEST(SimpleCellFinder, FindsTheCellsOfPolygons)
 {

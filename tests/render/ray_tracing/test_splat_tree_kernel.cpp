@@ -197,6 +197,52 @@ TEST(SplatTreeKernel, LeavesOutWhatLiesFarBehind)
   EXPECT_LT(2 * near, all);
 }
 
+/** A single disc of radius 0.1, and a ray along x that starts on a surface of splats.
+ * \param alignment cosine of the normals of this surface and of the disc
+ * \param distance to the disc */
+void
+expectBlocked(bool is_blocked, double alignment, double distance, bool goes_in)
+{
+  const Vector3d normal = Vector3d(goes_in ? -1.0 : 1.0, 1.0, 0.0).normalized();
+  const Vector3d own =
+      alignment * normal + std::sqrt(1.0 - alignment * alignment) * Vector3d::UnitZ();
+  TreeNode node{};
+  TreeLeaf leaf{};
+  for (int i = 0; i < tree_width; ++i) {
+    leaf.sq_radius[i] = -1.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      node.low[axis][i] = std::numeric_limits<float>::infinity();
+      node.high[axis][i] = -std::numeric_limits<float>::infinity();
+    }
+  }
+  TreeRay ray{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.0f, 10.0f, {}, 0.0f};
+  for (int axis = 0; axis < 3; ++axis) {
+    node.low[axis][0] = axis == 0 ? static_cast<float>(distance) - 0.1f : -0.1f;
+    node.high[axis][0] = axis == 0 ? static_cast<float>(distance) + 0.1f : 0.1f;
+    leaf.normal[axis][0] = static_cast<float>(normal[axis]);
+    ray.own_normal[axis] = static_cast<float>(own[axis]);
+  }
+  node.child[0] = leaf_bit;
+  leaf.center[0][0] = static_cast<float>(distance);
+  leaf.sq_radius[0] = 0.01f;
+  uvol_test::forLevels(kernels, [&](const SplatTreeKernels* kernel) {
+    EXPECT_EQ(is_blocked, kernel->isBlocked({&node, &leaf}, ray))
+        << alignment << ' ' << distance << ' ' << goes_in;
+  });
+}
+
+/** Splats beside the start of a ray are of its own surface if their normals agree by
+ * 0.25, or 0.7 where the ray goes in, and if they are not beyond 3 radii, or one. Walls
+ * beside it shade. */
+TEST(SplatTreeKernel, PassesSplatsOfItsOwnSurface)
+{
+  for (const double alignment : {0.0, 0.1, 0.24, 0.26, 0.5, 0.69, 0.71, 0.9, 1.0})
+    for (const double radii : {0.5, 0.95, 1.05, 2.0, 2.95, 3.05, 10.0}) {
+      expectBlocked(alignment < 0.25 || radii > 3.0, alignment, 0.1 * radii, false);
+      expectBlocked(alignment < 0.7 || radii > 1.0, alignment, 0.1 * radii, true);
+    }
+}
+
 TEST(TreeBuilder, EveryItemIsInOneLeafAndWithinTheBoxesAbove)
 {
   const Discs discs(700);
