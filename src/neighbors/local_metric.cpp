@@ -76,7 +76,8 @@ toMatrix(const double (&moments)[6])
   return matrix;
 }
 
-/** Whether samples differ along all axes. */
+/** Whether samples differ along all axes: those of the whole cloud, whose axes the tree
+ * of a piece has. */
 bool
 fillsSpace(const KdTree& tree)
 {
