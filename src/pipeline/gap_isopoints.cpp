@@ -68,22 +68,36 @@ slopeAt(const InterpolatedFields& field,
   return {gradient / length, length, (isovalue - field.values[first]) / length};
 }
 
+/** Isopoints that were found in gaps, and how many of them kriging explains nothing of,
+ * which are gone. */
+struct FoundInGaps {
+  std::size_t all = 0, unexplained = 0;
+};
+
+std::string
+tellWhyNone(const FoundInGaps& found)
+{
+  return "There are no isopoints between the samples: of " + std::to_string(found.all) +
+         " that were found, kriging explains nothing of the variance at " +
+         std::to_string(found.unexplained) + ", and " +
+         std::to_string(found.all - found.unexplained) +
+         " lie off the surface that it predicts.";
+}
+
 /** Says so where the samples explain less than half of the variance at most isopoints
- * between predicted ones, or nothing at all of them.
- * \param unexplained of these, gone */
+ * between predicted ones, or where none of these is left. */
 void
 warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
             const std::vector<float>& confidence,
-            std::size_t unexplained,
+            const FoundInGaps& found,
             Report& report)
 {
   std::vector<float> of_predicted;
   for (std::size_t i = 0; i < isopoints.size(); ++i)
     if (isopoints[i].support == static_cast<std::uint8_t>(IsoSupport::Predicted))
       of_predicted.push_back(confidence[i]);
-  if (of_predicted.empty() && unexplained > 0)
-    report.warnings.push_back("There are no isopoints between the samples: kriging "
-                              "explains nothing of the variance there.");
+  if (of_predicted.empty() && found.all > 0)
+    report.warnings.push_back(tellWhyNone(found));
   if (of_predicted.empty())
     return;
   const auto middle =
@@ -185,7 +199,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   const std::size_t measured = samples_->cloud.width;
   const PointIso* const first = isopoints.data();
   std::vector<std::uint8_t> stays(isopoints.size(), 1);
-  std::size_t unexplained = 0;
+  FoundInGaps found;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     PointIso& point = isopoints[i];
     const IsoEdge& edge = edges[i];
@@ -212,7 +226,8 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
     }
     if (!is_auto)
       continue;
-    unexplained += !(choice.confidence[i] > 0.0f);
+    found.all += is_in_gap;
+    found.unexplained += !(choice.confidence[i] > 0.0f);
     const double offset = std::abs(slope.offset) / summary_.spacing;
     if (is_in_gap)
       stays[i] = (is_predicted || !on_lattice) && offset <= farthest_in_gap &&
@@ -242,7 +257,7 @@ FilledGaps::judge(const IsosurfacePipelineParameters& parameters,
   };
   choice.filter(isopoints, keep);
   report.count("off_prediction", filterIsopoints(isopoints, edges, keep));
-  warnOfDoubt(isopoints, choice.confidence, unexplained, report);
+  warnOfDoubt(isopoints, choice.confidence, found, report);
 }
 
 } // namespace pcl_uvol::detail

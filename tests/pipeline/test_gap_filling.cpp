@@ -15,6 +15,7 @@
 #include <cstring>
 #include <memory>
 #include <numeric>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -181,6 +182,23 @@ TEST(GapFilling, LeavesOutWhatItExplainsNothingOf)
   EXPECT_GT(predicted, 100u);
   EXPECT_GT(least, 0.0);
   EXPECT_LT(least, 0.2);
+}
+
+TEST(GapFilling, CountsWhatWentWhereNothingIsLeft)
+{
+  const auto result =
+      uvol_test::runPipeline(makeNoisyProfiles(20, 0.1f), makeParameters(true));
+  ASSERT_GT(result.gaps->predicted, 0u);
+  const auto points = uvol_test::toIsopoints(result);
+  ASSERT_FALSE(std::any_of(points.begin(), points.end(), isPredicted));
+  const std::regex counted(
+      "There are no isopoints between the samples: of ([0-9]+) that "
+      "were found, kriging explains nothing of the variance at "
+      "\\1, and 0 lie off the surface that it predicts\\.");
+  const auto& warnings = result.report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [&](const auto& warning) {
+    return std::regex_match(warning, counted);
+  }));
 }
 
 TEST(GapFilling, FollowsTheFloorBetweenProfiles)

@@ -83,7 +83,7 @@ describeValidation(const pcl_uvol::ValidationScore& score,
                          {"side_beyond_error", number(score.side_beyond_error)}})};
 }
 
-Fact
+Facts
 describeGaps(const pcl_uvol::GapFilling& gaps)
 {
   std::ostringstream text;
@@ -95,13 +95,13 @@ describeGaps(const pcl_uvol::GapFilling& gaps)
          << " apart, up to the range " << gaps.range
          << " of a spherical variogram (nugget " << gaps.nugget << ", sill "
          << gaps.sill << ")";
-  return {"gaps",
-          text.str(),
-          Fact::Members{{"predicted", {static_cast<double>(gaps.predicted)}},
-                        {"spacing", {gaps.spacing}},
-                        {"range", {gaps.range}},
-                        {"nugget", {gaps.nugget}},
-                        {"sill", {gaps.sill}}}};
+  const std::vector<Fact> members{{"predicted", static_cast<double>(gaps.predicted)},
+                                  {"spacing", gaps.spacing},
+                                  {"range", gaps.range},
+                                  {"nugget", gaps.nugget},
+                                  {"sill", gaps.sill},
+                                  {"unfilled", gaps.unfilled}};
+  return {Fact("gaps", text.str()).withoutJson(), Fact("gaps", members)};
 }
 
 /** Triangles, pieces with their genus and rims, and the smallest angle. */
@@ -165,7 +165,8 @@ describeSurface(const pcl_uvol::IsosurfaceResult& result,
   if (result.sampling)
     facts.push_back(describeSampling(*result.sampling));
   if (result.gaps)
-    facts.push_back(describeGaps(*result.gaps));
+    for (Fact& fact : describeGaps(*result.gaps))
+      facts.push_back(std::move(fact));
   if (parameters.mesh)
     append(facts, describeMesh(result, is_measured));
   return facts;
