@@ -18,6 +18,7 @@
 #include "shared/progress_bar.h"
 #include "shared/sampling_fact.h"
 #include "shared/scale_option.h"
+#include "shared/size_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
@@ -48,6 +49,7 @@ struct Arguments {
   LevelSetParameters parameters;
   std::vector<double> iso, sphere, box, plane;
   std::uint64_t k = parameters.k, steps = parameters.max_steps, snapshots = 0;
+  uvol_tools::SizeOption plot_size;
   bool ascii = false;
 
   Arguments()
@@ -134,6 +136,7 @@ declare(Options& options, Arguments& arguments)
                   "write the zero level every so many steps, as out_00010.ply");
   options.output("csv", "out.csv", arguments.table, "write a table of all steps");
   options.output("plot", "out.png|out.svg", arguments.plot, "draw how it converged");
+  arguments.plot_size.declareChart(options);
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -202,7 +205,9 @@ writeTable(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
 }
 
 void
-writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
+writePlot(const std::string& path,
+          const uvol_tools::Paper& paper,
+          const pcl_uvol::LevelSetSummary& summary)
 {
   std::vector<uvol_tools::PlotLine> lines = {
       {"change of the zero level, spacings per unit of time", {}},
@@ -213,8 +218,8 @@ writePlot(const std::string& path, const pcl_uvol::LevelSetSummary& summary)
     lines[1].values.push_back(step.slope_error);
     lines[2].values.push_back(step.energy);
   }
-  const uvol_tools::PictureFile file(path);
-  file.save(uvol_tools::drawLinePlot(lines, "step"));
+  const uvol_tools::PictureFile file(path, paper.dots_per_inch);
+  file.save(uvol_tools::drawLinePlot(lines, "step", paper));
 }
 
 /** What the tool holds beside the points.
@@ -283,6 +288,7 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output);
   if (!arguments.table.empty())
     pcl_uvol::checkTablePath(arguments.table);
+  arguments.plot_size.checkChart(options, "plot", !arguments.plot.empty());
   if (!arguments.plot.empty())
     uvol_tools::checkPicturePath(arguments.plot);
   const bool has_snapshots = arguments.snapshots > 0;
@@ -370,7 +376,7 @@ run(int argc, char** argv)
   if (!arguments.table.empty())
     writeTable(arguments.table, summary);
   if (!arguments.plot.empty())
-    writePlot(arguments.plot, summary);
+    writePlot(arguments.plot, arguments.plot_size.get(), summary);
   report.count("points", points);
   total.reset();
   uvol_tools::Facts facts = {{"input", arguments.input},

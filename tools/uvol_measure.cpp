@@ -12,6 +12,7 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/series.h"
+#include "shared/size_option.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
 #include <pcl_uvol/mesh/surface_measures.h>
@@ -35,6 +36,7 @@ using uvol_tools::UsageError;
 struct Arguments : uvol_tools::IsosurfaceOptions {
   std::string input, output, samples, picture, plot = "volume";
   std::uint64_t drop_pieces = 0;
+  uvol_tools::SizeOption size;
   bool with_pieces = false, is_flat = false, is_checked = false;
 };
 
@@ -76,6 +78,7 @@ declare(Options& options, Arguments& arguments)
                "column",
                arguments.plot,
                "with -png: the column of the table that is drawn (default volume)");
+  arguments.size.declareChart(options);
   options.shareOutputs();
   uvol_tools::declareSeries(options);
 }
@@ -103,6 +106,7 @@ check(const Options& options, Arguments& arguments)
     arguments.parameters.mesh.emplace();
     arguments.parameters.mesh->drop_pieces = arguments.drop_pieces;
   }
+  arguments.size.checkChart(options, "png", !arguments.picture.empty());
   if (options.given("plot") && arguments.picture.empty())
     throw UsageError("-plot needs -png.");
   if (options.given("pieces") && arguments.output.empty())
@@ -235,6 +239,14 @@ makeProfile(const Arguments& arguments,
 }
 
 void
+savePicture(const Arguments& arguments, const uvol_tools::Profile& profile)
+{
+  const uvol_tools::Paper& paper = arguments.size.get();
+  const uvol_tools::PictureFile file(arguments.picture, paper.dots_per_inch);
+  file.save(uvol_tools::drawProfile(profile, paper));
+}
+
+void
 drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
 {
   uvol_tools::Profile profile =
@@ -244,8 +256,7 @@ drawCurve(const Arguments& arguments, const SurfaceFigures& figures)
       isovalue = std::log10(isovalue);
     profile.abscissa = "log10 of the isovalue";
   }
-  const uvol_tools::PictureFile file(arguments.picture);
-  file.save(uvol_tools::drawProfile(profile));
+  savePicture(arguments, profile);
 }
 
 /** The rows of the table. */
@@ -287,11 +298,9 @@ public:
       Report report;
       uvol_tools::savePoints(arguments_.output, table_.toDataset(), {}, report);
     }
-    if (draws_curve_) {
-      const uvol_tools::PictureFile file(arguments_.picture);
-      file.save(uvol_tools::drawProfile(
-          makeProfile(arguments_, table_, have_times_ ? "time" : "number")));
-    }
+    if (draws_curve_)
+      savePicture(arguments_,
+                  makeProfile(arguments_, table_, have_times_ ? "time" : "number"));
   }
 
   bool

@@ -12,6 +12,7 @@
 #include "shared/progress_bar.h"
 #include "shared/sampling_fact.h"
 #include "shared/series.h"
+#include "shared/size_option.h"
 #include "uvol_probe/interpolation_options.h"
 #include "uvol_probe/probe_picture.h"
 #include "uvol_probe/probe_run.h"
@@ -52,6 +53,7 @@ struct Arguments {
   uvol_tools::InterpolationOptions model;
   uvol_tools::ProbePicture picture;
   uvol_tools::VariogramOutput variogram;
+  uvol_tools::SizeOption picture_size{"", "png-size"};
   bool ascii = false;
 };
 
@@ -75,6 +77,7 @@ declare(Options& options, Arguments& arguments)
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
   arguments.variogram.declare(options);
   arguments.picture.declare(options);
+  arguments.picture_size.declareChart(options);
 }
 
 void
@@ -85,8 +88,13 @@ check(const Options& options, Arguments& arguments)
   arguments.periodic.check();
   arguments.reading.makeLoadOptions(); // what is wrong is told before files are read
   const Kind kind = arguments.queries.getKind();
-  arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line);
-  arguments.variogram.finish(options, arguments.model.getParameters().model);
+  arguments.picture_size.checkChart(options,
+                                    "png or -variogram-png",
+                                    arguments.picture.isAskedFor() ||
+                                        arguments.variogram.isDrawn());
+  const uvol_tools::Paper& paper = arguments.picture_size.get();
+  arguments.picture.finish(options, kind == Kind::Plane, kind == Kind::Line, paper);
+  arguments.variogram.finish(options, arguments.model.getParameters().model, paper);
   if (kind == Kind::None) {
     const bool has_work =
         arguments.model.hasValidation() || arguments.variogram.isAskedFor();

@@ -8,6 +8,7 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/size_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -27,6 +28,7 @@ struct Arguments {
   std::string input, output, axes, picture, label, view = "top";
   pcl_uvol::ProjectionMethod method = pcl_uvol::ProjectionMethod::Star;
   uvol_tools::AttributeOptions attributes;
+  uvol_tools::SizeOption size;
   bool ascii = false;
 };
 
@@ -58,6 +60,7 @@ declare(Options& options, Arguments& arguments)
                  {"iso", "front", "back", "left", "right", "top", "bottom"},
                  arguments.view,
                  "side that the picture is seen from");
+  arguments.size.declareChart(options);
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }
 
@@ -83,10 +86,10 @@ drawPicture(const Arguments& arguments, const pcl_uvol::ProjectedPoints& found)
   std::vector<uvol_tools::ScatterAxis> axes;
   for (std::size_t i = 0; i < names.size(); ++i)
     axes.push_back({names[i], {{rows[0][i], rows[1][i], rows[2][i]}}});
-  constexpr int width = 640, height = 512;
-  const uvol_tools::PictureFile file(arguments.picture);
+  const uvol_tools::Paper& paper = arguments.size.get();
+  const uvol_tools::PictureFile file(arguments.picture, paper.dots_per_inch);
   file.save(uvol_tools::drawScatterPlot(
-      found.places, found.labels, axes, arguments.view, width, height));
+      found.places, found.labels, axes, arguments.view, paper));
 }
 
 int
@@ -105,6 +108,7 @@ run(int argc, char** argv)
   pcl_uvol::checkSavePath(arguments.output);
   if (arguments.axes == arguments.output)
     throw UsageError("-axes and the output are the same file.");
+  arguments.size.checkChart(options, "png", !arguments.picture.empty());
   if (!arguments.picture.empty())
     uvol_tools::checkPicturePath(arguments.picture);
   if (!arguments.axes.empty())

@@ -93,7 +93,7 @@ run(int argc, char** argv)
       "samples, with a slider for the isovalue. In the window:\n" +
           uvol_tools::describeKeys());
   declare(options, arguments);
-  look.declareScene(options);
+  look.declareScene(options, uvol_tools::ViewOptions::SizeOf::Window);
   look.declareOpacity(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))

@@ -7,6 +7,7 @@
 #include "shared/options.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/size_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/io/dataset.h>
@@ -27,6 +28,7 @@ struct Arguments {
   std::string backend = "osmesa", axis = "z";
   double inner_radius = 2.0;
   std::uint64_t triangles = 6, slices = 6, margin = 0;
+  uvol_tools::SizeOption size;
 };
 
 void
@@ -66,6 +68,7 @@ declare(Options& options, Arguments& arguments)
   options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");
   options.choice(
       "axis", {"x", "y", "z"}, arguments.axis, "slices are perpendicular to it");
+  arguments.size.declareChart(options);
 }
 
 std::vector<std::uint32_t>
@@ -139,6 +142,7 @@ run(int argc, char** argv)
     uvol_tools::checkPicturePath(arguments.picture);
   else if (options.given("slices") || options.given("axis"))
     throw UsageError("-slices and -axis need -png.");
+  arguments.size.checkChart(options, "png", !arguments.picture.empty());
 
   Report report;
   uvol_tools::ProgressBar bar;
@@ -150,10 +154,14 @@ run(int argc, char** argv)
     const pcl_uvol::StepTimer timer(report, "write");
     pcl_uvol::saveVoronoiGrid(
         arguments.output, *grid, dataset.origin, options.threads());
+    const uvol_tools::Paper& paper = arguments.size.get();
     if (!arguments.picture.empty())
-      uvol_tools::PictureFile(arguments.picture)
-          .save(pcl_uvol::drawVoronoiSlices(
-              *grid, arguments.axis[0] - 'x', static_cast<int>(arguments.slices)));
+      uvol_tools::PictureFile(arguments.picture, paper.dots_per_inch)
+          .save(pcl_uvol::drawVoronoiSlices(*grid,
+                                            arguments.axis[0] - 'x',
+                                            static_cast<int>(arguments.slices),
+                                            paper.width,
+                                            paper.height));
   }
   const auto& shape = grid->getShape();
   std::ostringstream grid_text;

@@ -27,7 +27,7 @@ draw(const Points& points,
      const std::vector<ScatterAxis>& axes = {},
      const std::string& view = "top")
 {
-  return drawScatterPlot(points, labels, axes, view, side, side);
+  return drawScatterPlot(points, labels, axes, view, {side, side});
 }
 
 const std::uint8_t*
@@ -203,8 +203,11 @@ TEST(ScatterPlot, HasTheSizeThatIsAskedFor)
 {
   for (const auto& [width, height] :
        {std::pair(1, 1), {640, 2}, {2, 640}, {16384, 1}}) {
-    const Image image = drawScatterPlot(
-        {{{1.0f, 2.0f, 3.0f}}}, {0}, {{"a", {{1.0, 0.0, 0.0}}}}, "iso", width, height);
+    const Image image = drawScatterPlot({{{1.0f, 2.0f, 3.0f}}},
+                                        {0},
+                                        {{"a", {{1.0, 0.0, 0.0}}}},
+                                        "iso",
+                                        {width, height});
     EXPECT_EQ(static_cast<std::uint32_t>(width), image.width);
     EXPECT_EQ(static_cast<std::uint32_t>(height), image.height);
     EXPECT_EQ(4 * image.pixels(), image.color.size());
@@ -228,8 +231,8 @@ TEST(ScatterPlot, RefusesNonsense)
   EXPECT_THROW(draw(point, {0, 1}), InvalidArgument);
   EXPECT_THROW(draw({}, {0}), InvalidArgument);
   for (const int size : {0, -1, 16385}) {
-    EXPECT_THROW(drawScatterPlot(point, {}, {}, "top", size, 10), InvalidArgument);
-    EXPECT_THROW(drawScatterPlot(point, {}, {}, "top", 10, size), InvalidArgument);
+    EXPECT_THROW(drawScatterPlot(point, {}, {}, "top", {size, 10}), InvalidArgument);
+    EXPECT_THROW(drawScatterPlot(point, {}, {}, "top", {10, size}), InvalidArgument);
   }
 }
 

@@ -47,6 +47,27 @@ makeRamp()
   return plot;
 }
 
+/** Width and height of what has the ground of values that are none. */
+std::array<int, 2>
+groundOf(const Image& image)
+{
+  constexpr std::array<int, 3> ground{232, 232, 232};
+  std::vector<int> in_columns(image.width), in_rows(image.height);
+  for (std::size_t row = 0; row < in_rows.size(); ++row)
+    for (std::size_t column = 0; column < in_columns.size(); ++column)
+      if (pixelAt(image, static_cast<int>(column), static_cast<int>(row)) == ground) {
+        ++in_columns[column];
+        ++in_rows[row];
+      }
+  constexpr int more_than_letters_have = 99;
+  const auto count = [](const std::vector<int>& pixels) {
+    return static_cast<int>(std::count_if(pixels.begin(), pixels.end(), [](int sum) {
+      return sum > more_than_letters_have;
+    }));
+  };
+  return {count(in_columns), count(in_rows)};
+}
+
 /** Columns of a row of the figure that a plot with contours, or with samples, changes.
  */
 std::set<int>
@@ -73,6 +94,25 @@ TEST(SlicePlot, ValuesHaveTheirColours)
                 1.0);
   EXPECT_EQ(pixelAt(image, left - 1, 250), (std::array<int, 3>{255, 255, 255}));
   EXPECT_EQ(pixelAt(image, left + 600, 250), (std::array<int, 3>{255, 255, 255}));
+}
+
+TEST(SlicePlot, FillsPaperAsFarAsSquaresCan)
+{
+  SlicePlot plot = makeRamp();
+  plot.values.assign(plot.values.size(), nan);
+  plot.map = pcl_uvol::ColorMap("viridis"); // the bar has no grey
+  for (const auto& [width, height] : {std::pair(900, 800), {1600, 700}, {500, 1400}}) {
+    plot.paper = {width, height};
+    const Image image = drawSlicePlot(plot);
+    ASSERT_EQ(static_cast<std::uint32_t>(width), image.width);
+    ASSERT_EQ(static_cast<std::uint32_t>(height), image.height);
+    const auto [across, up] = groundOf(image);
+    EXPECT_NEAR(across / 600.0, up / 512.0, 0.002) << width << ' ' << height;
+    // One of both sides is as long as axes and bar leave.
+    const int font = plot.paper.chartLetters({785, 600});
+    EXPECT_TRUE(across == width - 21 * font || up == height - 3 * font / 2 - 5 * font)
+        << width << ' ' << height;
+  }
 }
 
 TEST(SlicePlot, TheFirstRowIsBelowAndNothingIsGrey)

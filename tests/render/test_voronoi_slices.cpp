@@ -193,6 +193,27 @@ TEST(VoronoiSlices, OneCellIsOneSquare)
   EXPECT_EQ(colorAt(image, 0, 0), colorAt(image, 299, 299));
 }
 
+TEST(VoronoiSlices, SlicesFillAPictureOfAGivenSize)
+{
+  const VoronoiGrid grid = makeGrid({{30, 20, 5}}, 25);
+  // Two slices of 15 pixels per cell, with 4 in between, in the middle of the height.
+  const Image image = drawVoronoiSlices(grid, 2, 2, 904, 500);
+  ASSERT_EQ(904u, image.width);
+  ASSERT_EQ(500u, image.height);
+  Colors colors(grid);
+  colors.expectPlane(image, {{0, 1, 2}}, 1, 0, 100, 15);
+  colors.expectPlane(image, {{0, 1, 2}}, 3, 454, 100, 15);
+  for (std::uint32_t x = 0; x < image.width; ++x)
+    for (const std::uint32_t y : {0u, 99u, 400u, 499u})
+      EXPECT_EQ(white, colorAt(image, x, y));
+  // Pixels of less than a cell, and of all sizes.
+  for (const int size : {1, 2, 7, 29, 100}) {
+    const Image small = drawVoronoiSlices(grid, 2, 5, size, 2 * size);
+    EXPECT_EQ(static_cast<std::uint32_t>(size), small.width);
+    EXPECT_EQ(static_cast<std::uint32_t>(2 * size), small.height);
+  }
+}
+
 TEST(VoronoiSlices, RefusesNonsense)
 {
   const VoronoiGrid grid = makeGrid({{3, 3, 3}}, 3);

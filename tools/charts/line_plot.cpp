@@ -14,32 +14,44 @@ using pcl_uvol::Image;
 
 namespace {
 
-constexpr std::uint32_t width = 720, height = 440;
-constexpr int left = 70, right = 700, top = 20, bottom = 390, font = 14;
-constexpr double line_width = 2.0;
-
 constexpr Ink black{0, 0, 0}, gray{215, 215, 215};
 constexpr Ink inks[] = {{31, 119, 180}, {255, 127, 14}, {44, 160, 44}, {148, 103, 189}};
 
 /** Colours of kinds of dots: the first one is black. */
 constexpr Ink dot_inks[] = {black, {255, 127, 14}, {44, 160, 44}, {214, 39, 40}};
 
-void
-drawDot(Image& image, double column, double row, const Ink& ink)
-{
-  constexpr double diameter = 7.0;
-  drawLine(image, column, row, column, row, diameter, ink);
-}
+/** What a plot is drawn on, in pixels: as much is left around it as letters need. */
+struct Sheet {
+  int width, height, font;
+  int left, right, top, bottom;
+  double thin_line, line_width, dot;
 
-Image
-makePaper()
-{
-  Image image;
-  image.width = width;
-  image.height = height;
-  image.color.assign(std::size_t{4} * width * height, 255);
-  return image;
-}
+  explicit Sheet(const Paper& asked)
+  {
+    constexpr Paper usual{720, 440};
+    const Paper paper = asked.orUsual(usual);
+    width = paper.width;
+    height = paper.height;
+    font = paper.chartLetters(usual);
+    left = 5 * font;
+    right = width - 10 * font / 7;
+    top = 10 * font / 7;
+    bottom = height - 25 * font / 7;
+    thin_line = font / 14.0;
+    line_width = font / 7.0;
+    dot = font / 2.0;
+  }
+
+  Image
+  makeImage() const
+  {
+    Image image;
+    image.width = static_cast<std::uint32_t>(width);
+    image.height = static_cast<std::uint32_t>(height);
+    image.color.assign(4 * image.pixels(), 255);
+    return image;
+  }
+};
 
 bool
 isDrawn(double value)
@@ -98,12 +110,13 @@ findOrdinate(const Profile& profile)
 } // namespace
 
 Image
-drawProfile(const Profile& profile)
+drawProfile(const Profile& profile, const Paper& paper)
 {
-  constexpr int margin = font / 2, wide_left = 110;
   constexpr Ink band{205, 225, 240};
-  Image image = makePaper();
-  const PlotArea area{wide_left, right, top, bottom - font};
+  const Sheet sheet(paper);
+  const int font = sheet.font, margin = font / 2;
+  Image image = sheet.makeImage();
+  const PlotArea area{55 * font / 7, sheet.right, sheet.top, sheet.bottom - font};
   const AxisScale x{profile.abscissas.front(), profile.abscissas.back()},
       y = findOrdinate(profile);
   const auto column = [&](std::size_t i) {
@@ -139,8 +152,11 @@ drawProfile(const Profile& profile)
                row(profile.values[k - 1]),
                column(k),
                row(profile.values[k]),
-               line_width,
+               sheet.line_width,
                inks[0]);
+  const auto drawDot = [&](double at, double height, const Ink& ink) {
+    drawLine(image, at, height, at, height, sheet.dot, ink);
+  };
   // In the lower right corner, from below, which curves that rise leave free.
   int legend = area.bottom - font;
   for (std::size_t k = profile.dots.size(); k-- > 0;) {
@@ -149,11 +165,9 @@ drawProfile(const Profile& profile)
     if (dots.places.empty())
       continue;
     for (const auto& [abscissa, value] : dots.places)
-      drawDot(image,
-              area.left + x.placeOf(abscissa) * (area.right - area.left),
-              row(value),
-              ink);
-    drawDot(image, area.right - font, legend, ink);
+      drawDot(
+          area.left + x.placeOf(abscissa) * (area.right - area.left), row(value), ink);
+    drawDot(area.right - font, legend, ink);
     writeText(image,
               dots.name,
               font,
@@ -169,9 +183,14 @@ drawProfile(const Profile& profile)
 }
 
 Image
-drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
+drawLinePlot(const std::vector<PlotLine>& lines,
+             const std::string& abscissa,
+             const Paper& paper)
 {
-  Image image = makePaper();
+  const Sheet sheet(paper);
+  const int font = sheet.font, left = sheet.left, right = sheet.right, top = sheet.top,
+            bottom = sheet.bottom;
+  Image image = sheet.makeImage();
 
   std::size_t count = 2;
   for (const PlotLine& line : lines)
@@ -187,7 +206,7 @@ drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
 
   for (int power = decades.low; power <= decades.high; ++power) {
     const double row = y(std::pow(10.0, power));
-    drawLine(image, left, row, right, row, 1.0, gray);
+    drawLine(image, left, row, right, row, sheet.thin_line, gray);
     writeText(image,
               shortNumber(std::pow(10.0, power)),
               font,
@@ -197,7 +216,7 @@ drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
               black);
   }
   for (const double i : roundValues(1.0, static_cast<double>(count))) {
-    drawLine(image, x(i), bottom, x(i), bottom + font / 2, 1.0, black);
+    drawLine(image, x(i), bottom, x(i), bottom + font / 2, sheet.thin_line, black);
     writeText(image,
               shortNumber(i),
               font,
@@ -206,8 +225,8 @@ drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
               TextAnchor::Center,
               black);
   }
-  drawLine(image, left, bottom, right, bottom, 1.0, black);
-  drawLine(image, left, top, left, bottom, 1.0, black);
+  drawLine(image, left, bottom, right, bottom, sheet.thin_line, black);
+  drawLine(image, left, top, left, bottom, sheet.thin_line, black);
   writeText(image,
             abscissa,
             font,
@@ -226,10 +245,10 @@ drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa)
                  y(values[i - 1]),
                  x(static_cast<double>(i + 1)),
                  y(values[i]),
-                 line_width,
+                 sheet.line_width,
                  ink);
     const int row = top + font + static_cast<int>(k) * font * 3 / 2;
-    drawLine(image, right - 2 * font, row, right, row, line_width, ink);
+    drawLine(image, right - 2 * font, row, right, row, sheet.line_width, ink);
     writeText(
         image, lines[k].name, font, right - 3 * font, row, TextAnchor::Right, black);
   }

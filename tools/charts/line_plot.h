@@ -2,6 +2,7 @@
 // A small picture of how figures change from step to step.
 #pragma once
 
+#include "charts/paper.h"
 #include <pcl_uvol/render/renderer.h>
 
 #include <array>
@@ -16,10 +17,13 @@ struct PlotLine {
   std::vector<double> values;
 };
 
-/** \brief Draw up to four lines on a logarithmic ordinate, 720 x 440 pixels, with a
- * legend. Values that are not positive leave a gap. */
+/** \brief Draw up to four lines on a logarithmic ordinate, with a legend. Values that
+ * are not positive leave a gap.
+ * \param paper usually 720 x 440 pixels */
 pcl_uvol::Image
-drawLinePlot(const std::vector<PlotLine>& lines, const std::string& abscissa);
+drawLinePlot(const std::vector<PlotLine>& lines,
+             const std::string& abscissa,
+             const Paper& paper = {});
 
 /** \brief Single values in a plot. */
 struct PlotDots {
@@ -38,9 +42,9 @@ struct Profile {
   std::vector<PlotDots> dots{};
 };
 
-/** \brief Draw a line on linear axes, 720 x 440 pixels, in a band of the errors above
- * and below. */
+/** \brief Draw a line on linear axes, in a band of the errors above and below.
+ * \param paper usually 720 x 440 pixels */
 pcl_uvol::Image
-drawProfile(const Profile& profile);
+drawProfile(const Profile& profile, const Paper& paper = {});
 
 } // namespace uvol_tools

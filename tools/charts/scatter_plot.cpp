@@ -20,8 +20,7 @@ using pcl_uvol::InvalidArgument;
 namespace {
 
 constexpr double field_of_view = 30.0; // degrees
-constexpr int font = 14, dot_radius = 1, largest_size = 16384;
-constexpr double line_width = 1.5;
+constexpr int largest_size = 16384;
 constexpr std::size_t most_names = 12; // of the legend
 
 constexpr Ink black{0, 0, 0}, gray{190, 190, 190}, noise{175, 175, 175};
@@ -121,6 +120,7 @@ void
 drawDots(const std::vector<std::array<float, 3>>& points,
          const std::vector<std::int32_t>& labels,
          const Screen& screen,
+         int dot_radius,
          Image& image)
 {
   struct Dot {
@@ -148,12 +148,11 @@ drawDots(const std::vector<std::array<float, 3>>& points,
   for (const Dot& dot : dots) {
     const Ink& ink = labels.empty() ? inks[0] : inkOf(labels[dot.point]);
     for (int dy = -dot_radius; dy <= dot_radius; ++dy)
-      for (int dx = -dot_radius; dx <= dot_radius; ++dx)
-        blend(image,
-              dot.column + dx,
-              dot.row + dy,
-              ink,
-              dx == 0 || dy == 0 ? 1.0 : 0.4); // round off the corners
+      for (int dx = -dot_radius; dx <= dot_radius; ++dx) {
+        const double beyond = std::hypot(dx, dy) - dot_radius;
+        if (beyond < 0.5)
+          blend(image, dot.column + dx, dot.row + dy, ink, beyond <= 0.0 ? 1.0 : 0.4);
+      }
   }
 }
 
@@ -161,8 +160,10 @@ void
 drawAxes(const std::vector<ScatterAxis>& axes,
          double radius,
          const Screen& screen,
+         int font,
          Image& image)
 {
+  const double line_width = 3 * font / 28.0;
   double longest = 0.0;
   for (const ScatterAxis& axis : axes)
     longest = std::max(longest,
@@ -179,7 +180,7 @@ drawAxes(const std::vector<ScatterAxis>& axes,
     writeText(image,
               axis.name,
               font,
-              static_cast<int>(std::lround(end.x())) + (is_left ? -4 : 4),
+              static_cast<int>(std::lround(end.x())) + (is_left ? -2 : 2) * font / 7,
               static_cast<int>(std::lround(end.y())),
               is_left ? TextAnchor::Right : TextAnchor::Left,
               black);
@@ -188,7 +189,7 @@ drawAxes(const std::vector<ScatterAxis>& axes,
 
 /** Colours of the clusters, the first ones. */
 void
-drawLegend(const std::vector<std::int32_t>& labels, Image& image)
+drawLegend(const std::vector<std::int32_t>& labels, int font, Image& image)
 {
   std::vector<std::int32_t> known = labels;
   std::sort(known.begin(), known.end());
@@ -198,7 +199,7 @@ drawLegend(const std::vector<std::int32_t>& labels, Image& image)
               known[i] < 0 ? "noise" : "cluster " + std::to_string(known[i]),
               font,
               font,
-              font + static_cast<int>(i) * (font + 4),
+              font + static_cast<int>(i) * (9 * font / 7),
               TextAnchor::Left,
               known[i] < 0 ? gray : inkOf(known[i]));
 }
@@ -210,9 +211,11 @@ drawScatterPlot(const std::vector<std::array<float, 3>>& points,
                 const std::vector<std::int32_t>& labels,
                 const std::vector<ScatterAxis>& axes,
                 const std::string& view,
-                int width,
-                int height)
+                const Paper& asked)
 {
+  constexpr Paper usual{640, 512};
+  const Paper paper = asked.orUsual(usual);
+  const int width = paper.width, height = paper.height;
   if (width < 1 || height < 1 || width > largest_size || height > largest_size)
     throw InvalidArgument("A picture has 1 to 16384 pixels along each side.");
   if (!labels.empty() && labels.size() != points.size())
@@ -228,9 +231,10 @@ drawScatterPlot(const std::vector<std::array<float, 3>>& points,
   image.height = static_cast<std::uint32_t>(height);
   image.color.assign(4 * image.pixels(), 255);
   const Screen screen(camera, width, height);
-  drawDots(points, labels, screen, image);
-  drawAxes(axes, radius, screen, image);
-  drawLegend(labels, image);
+  const int font = paper.chartLetters(usual);
+  drawDots(points, labels, screen, std::max(1, font / 14), image);
+  drawAxes(axes, radius, screen, font, image);
+  drawLegend(labels, font, image);
   return image;
 }
 

@@ -3,6 +3,7 @@
 // (thesis 2.6).
 #pragma once
 
+#include "charts/paper.h"
 #include <pcl_uvol/render/renderer.h>
 
 #include <array>
@@ -24,6 +25,7 @@ struct ScatterAxis {
  * \param points those that are not finite are not drawn
  * \param labels a colour per cluster, -1 grey; empty: one colour for all
  * \param view as in pcl_uvol::Camera::fit: "iso", "front", ...
+ * \param paper usually 640 x 512 pixels
  * \throws pcl_uvol::InvalidArgument for an unknown view, a size that is not in [1,
  * 16384], or other labels than one per point */
 pcl_uvol::Image
@@ -31,7 +33,6 @@ drawScatterPlot(const std::vector<std::array<float, 3>>& points,
                 const std::vector<std::int32_t>& labels,
                 const std::vector<ScatterAxis>& axes,
                 const std::string& view,
-                int width,
-                int height);
+                const Paper& paper = {});
 
 } // namespace uvol_tools

@@ -58,40 +58,97 @@ private:
 
 /** Sizes of a figure, in pixels. */
 struct Layout {
-  int column, row; ///< of a value: a square, but for slices that are too thin
+  double column, row; ///< of a value: a square, but for slices that are too thin
   int font, margin;
   PlotArea area;
   std::uint32_t width, height;
 
   explicit Layout(const SlicePlot& plot)
   {
-    const std::size_t longer = std::max(plot.width, plot.height);
-    const int square = static_cast<int>((least_side + longer - 1) / longer);
-    font = std::max(13, square * static_cast<int>(longer) / 45);
-    column = widen(square, plot.width, least_width * font);
-    row = widen(square, plot.height, least_height * font);
-    const int across = column * static_cast<int>(plot.width),
-              up = row * static_cast<int>(plot.height);
+    if (plot.paper.width > 0)
+      fit(plot);
+    else
+      magnify(plot);
     margin = font / 2;
-    area.left = 8 * font;
-    area.right = area.left + across - 1;
-    area.top = 3 * font / 2;
-    area.bottom = area.top + up - 1;
-    width = static_cast<std::uint32_t>(area.right + 13 * font);
-    height = static_cast<std::uint32_t>(area.bottom + 5 * font);
   }
 
   /** The area from centre to centre of the outermost values. */
   PlotArea
   centers() const
   {
-    return {area.left + column / 2,
-            area.right - column / 2,
-            area.top + row / 2,
-            area.bottom - row / 2};
+    const int across = halfOf(column), up = halfOf(row);
+    return {area.left + across, area.right - across, area.top + up, area.bottom - up};
+  }
+
+  static int
+  halfOf(double side)
+  {
+    return static_cast<int>(side) / 2;
   }
 
 private:
+  // What is left around a slice for axes, bar and labels, in heights of letters.
+  static constexpr int left = 8, right = 13, below = 5;
+
+  /** As many pixels for each value as make a figure that can be read. */
+  void
+  magnify(const SlicePlot& plot)
+  {
+    const std::size_t longer = std::max(plot.width, plot.height);
+    const int square = static_cast<int>((least_side + longer - 1) / longer);
+    font = std::max(
+        {13, square * static_cast<int>(longer) / 45, plot.paper.printedLetters()});
+    column = widen(square, plot.width, least_width * font);
+    row = widen(square, plot.height, least_height * font);
+    const int across = static_cast<int>(column) * static_cast<int>(plot.width),
+              up = static_cast<int>(row) * static_cast<int>(plot.height);
+    place(left * font, topMargin(), across, up);
+    width = static_cast<std::uint32_t>(area.right + right * font);
+    height = static_cast<std::uint32_t>(area.bottom + below * font);
+  }
+
+  /** The largest squares for which paper has room, in its middle. */
+  void
+  fit(const SlicePlot& plot)
+  {
+    constexpr Paper usual{785, 600};
+    font = plot.paper.chartLetters(usual);
+    width = static_cast<std::uint32_t>(plot.paper.width);
+    height = static_cast<std::uint32_t>(plot.paper.height);
+    const int room_across = std::max(1, plot.paper.width - (left + right) * font),
+              room_up = std::max(1, plot.paper.height - topMargin() - below * font);
+    const auto columns = static_cast<double>(plot.width),
+               rows = static_cast<double>(plot.height);
+    const double square = std::min(room_across / columns, room_up / rows);
+    const int across = lengthOf(square * columns, least_width, room_across),
+              up = lengthOf(square * rows, least_height, room_up);
+    column = across / columns;
+    row = up / rows;
+    place(left * font + (room_across - across) / 2,
+          topMargin() + (room_up - up) / 2,
+          across,
+          up);
+  }
+
+  void
+  place(int from_left, int from_top, int across, int up)
+  {
+    area = {from_left, from_left + across - 1, from_top, from_top + up - 1};
+  }
+
+  int
+  topMargin() const
+  {
+    return 3 * font / 2;
+  }
+
+  /** \param least in heights of letters */
+  int
+  lengthOf(double pixels, int least, int room) const
+  {
+    return std::clamp(rounded(pixels), std::min(least * font, room), room);
+  }
+
   /** The side of a value, or a multiple by which so many take the least length. */
   static int
   widen(int side, std::size_t values, int least)
@@ -107,15 +164,16 @@ drawValues(const SlicePlot& plot,
            const Layout& layout,
            Image& image)
 {
-  for (std::size_t row = 0; row < plot.height; ++row)
-    for (std::size_t column = 0; column < plot.width; ++column) {
-      const Ink ink =
-          colors.colorOf(static_cast<double>(plot.values[row * plot.width + column]));
-      const int left = layout.area.left + layout.column * static_cast<int>(column);
-      const int top = layout.area.bottom + 1 - layout.row * static_cast<int>(row + 1);
-      for (int y = 0; y < layout.row; ++y)
-        for (int x = 0; x < layout.column; ++x)
-          blend(image, left + x, top + y, ink, 1.0);
+  const PlotArea& area = layout.area;
+  const auto valueAt = [](int pixel, double side, std::size_t values) {
+    return std::min(static_cast<std::size_t>((pixel + 0.5) / side), values - 1);
+  };
+  for (int y = area.top; y <= area.bottom; ++y)
+    for (int x = area.left; x <= area.right; ++x) {
+      const std::size_t row = valueAt(area.bottom - y, layout.row, plot.height),
+                        column = valueAt(x - area.left, layout.column, plot.width);
+      const auto value = static_cast<double>(plot.values[row * plot.width + column]);
+      blend(image, x, y, colors.colorOf(value), 1.0);
     }
 }
 
@@ -318,13 +376,13 @@ drawSlicePlot(const SlicePlot& plot)
   drawSamples(plot, colors, layout, image);
   drawAxisBelow(image,
                 layout.centers(),
-                layout.margin + layout.row / 2,
+                layout.margin + Layout::halfOf(layout.row),
                 plot.across,
                 plot.across_label,
                 layout.font);
   drawAxisLeft(image,
                layout.centers(),
-               layout.margin + layout.column / 2,
+               layout.margin + Layout::halfOf(layout.column),
                plot.up,
                plot.up_label,
                layout.font);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "charts/axes.h"
+#include "charts/paper.h"
 #include "render/color_scale.h"
 #include <pcl_uvol/render/color_map.h>
 #include <pcl_uvol/render/renderer.h>
@@ -30,6 +31,7 @@ struct SlicePlot {
   pcl_uvol::ColorScale scale;
   std::vector<double> contours;
   std::vector<SliceSample> samples;
+  Paper paper; ///< its size: usually that of the values, see drawSlicePlot()
 };
 
 /** \brief The range of the finite values: of those above 0 for a logarithmic plot, and
@@ -42,9 +44,9 @@ findColorScale(const std::vector<float>& values,
                bool is_logarithmic);
 
 /** \brief Draw a figure, a pixel or a square of pixels for each value: about 512 pixels
- * along the longer side at least, and what axes and bar need around. A slice that is
- * too thin for the numbers beside it is stretched. Where there is no value the figure
- * is light grey. */
+ * along the longer side at least, and what axes and bar need around; or as large as the
+ * paper has room for. A slice that is too thin for the numbers beside it is stretched.
+ * Where there is no value the figure is light grey. */
 pcl_uvol::Image
 drawSlicePlot(const SlicePlot& plot);
 

@@ -2,7 +2,6 @@
 #include "shared/figure_options.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace uvol_tools {
 
@@ -34,16 +33,10 @@ FigureOptions::names()
 }
 
 void
-FigureOptions::check(const Options& options,
-                     int width,
-                     int height,
-                     double dots_per_inch)
+FigureOptions::check(const Options& options, const Paper& paper)
 {
-  constexpr double least_points = 7.0, points_per_inch = 72.0; // as journals ask for
-  constexpr int letters = 8; // of a legend have room, whatever their size
-  figure_.least_letters = static_cast<int>(
-      std::min(std::round(least_points / points_per_inch * dots_per_inch),
-               static_cast<double>(std::min(width, height) / letters)));
+  constexpr int room = 8; // letters of a legend
+  figure_.least_letters = paper.leastLetters(room);
   if (options.given("unit") && !figure_.has_ticks && !figure_.has_scale_bar)
     throw UsageError("-unit needs -ticks or -scale-bar.");
   for (const char* const other : {"view", "eye"})
@@ -59,7 +52,7 @@ FigureOptions::check(const Options& options,
         all += (all.empty() ? "" : ", ") + name;
       throw UsageError("-views has names of sides, " + all + ", not '" + view + "'.");
     }
-  if (!figure_.fits(width, height))
+  if (!figure_.fits(paper.width, paper.height))
     throw UsageError("The picture is too small for -views and -title: a larger -size "
                      "helps.");
 }

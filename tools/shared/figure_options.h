@@ -4,6 +4,7 @@
 #pragma once
 
 #include "charts/figure.h"
+#include "charts/paper.h"
 #include "shared/options.h"
 
 #include <string>
@@ -22,10 +23,9 @@ public:
   names();
 
   /** \brief What must parse, and fit together and into a picture of that size.
-   * \param dots_per_inch of a picture that is printed, whose letters can be read; or 0
    * \throws UsageError */
   void
-  check(const Options& options, int width, int height, double dots_per_inch);
+  check(const Options& options, const Paper& paper);
 
   /** \brief After check(). */
   const Figure&

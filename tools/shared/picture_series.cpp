@@ -43,7 +43,7 @@ PictureSeries::add(SlicePlot&& slice, bool has_own_scale, const std::string& pat
       drawn.scale.low = (*shared_.range)[0];
       drawn.scale.high = (*shared_.range)[1];
     }
-    const PictureFile file(path);
+    const PictureFile file(path, drawn.paper.dots_per_inch);
     file.save(drawSlicePlot(drawn));
   });
 }

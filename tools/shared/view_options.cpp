@@ -12,9 +12,7 @@
 #include "shared/point_files.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 namespace uvol_tools {
@@ -25,48 +23,6 @@ Eigen::Vector3d
 toVector(const std::vector<double>& numbers)
 {
   return {numbers[0], numbers[1], numbers[2]};
-}
-
-/** "640x480", or one number for a square. */
-template <typename Number>
-bool
-parsePair(std::string_view text, Number& width, Number& height)
-{
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, width);
-  if (first.ec != std::errc())
-    return false;
-  height = width;
-  if (first.ptr == end)
-    return true;
-  if (*first.ptr != 'x')
-    return false;
-  const auto second = std::from_chars(first.ptr + 1, end, height);
-  return second.ec == std::errc() && second.ptr == end;
-}
-
-/** How many of the unit at the end of a size are an inch, and the unit taken off; 0 for
- * pixels. */
-double
-takeUnit(std::string_view& size)
-{
-  constexpr std::pair<std::string_view, double> units[] = {
-      {"mm", 25.4}, {"cm", 2.54}, {"in", 1.0}};
-  for (const auto& [unit, per_inch] : units)
-    if (size.size() > unit.size() && size.substr(size.size() - unit.size()) == unit) {
-      size.remove_suffix(unit.size());
-      return per_inch;
-    }
-  return 0.0;
-}
-
-/** Pixels of a length, as far as they can be counted. */
-int
-countPixels(double inches, double dots_per_inch)
-{
-  constexpr double most = 1e6;
-  return static_cast<int>(
-      std::lround(std::min(std::max(0.0, inches * dots_per_inch), most)));
 }
 
 /** True for what -color means by itself. */
@@ -90,7 +46,7 @@ toColor(const std::string& option, const std::vector<double>& numbers)
 }
 
 void
-ViewOptions::declareScene(Options& options)
+ViewOptions::declareScene(Options& options, SizeOf size)
 {
   options.group("Picture");
   options.choice("view", pcl_uvol::Camera::viewNames(), view_, "side to look from");
@@ -109,10 +65,10 @@ ViewOptions::declareScene(Options& options)
   options.flag("parallel", is_parallel_, "no perspective: parallel lines stay parallel")
       .rare();
   options.number("zoom", zoom_, 0.01, 1e4, "enlarge the middle of the picture").rare();
-  options.text("size",
-               "WxH",
-               size_text_,
-               "pixels of the picture, or lengths, as 85x60mm (default 1024x1024)");
+  if (size == SizeOf::Picture)
+    size_.declareSize(options);
+  else
+    size_.declarePixels(options);
   options
       .text("background",
             "r,g,b|name",
@@ -164,14 +120,7 @@ ViewOptions::declareResolution(Options& options)
                8,
                "samples per pixel in each direction (default 2, with rays 1)")
       .rare();
-  options
-      .number("dpi",
-              dots_per_inch_,
-              1.0,
-              1e5,
-              "dots per inch that the picture says it is printed with, in letters of 7 "
-              "points or more (default 300 where -size has a unit)")
-      .rare();
+  size_.declareDpi(options);
 }
 
 void
@@ -193,26 +142,6 @@ ViewOptions::declareLighting(Options& options)
   options.number("diffuse", material_.diffuse, 0.0, 1e3, "of the lights");
   options.number("specular", material_.specular, 0.0, 1e3, "highlights");
   options.number("shininess", material_.shininess, 0.0, 1e4, "exponent of highlights");
-}
-
-void
-ViewOptions::parseSize()
-{
-  constexpr double usual = 300.0;
-  std::string_view size = size_text_;
-  const double per_inch = takeUnit(size);
-  if (per_inch > 0.0 && dots_per_inch_ == 0.0)
-    dots_per_inch_ = usual;
-  double width = 0.0, height = 0.0;
-  if (per_inch > 0.0 ? !parsePair(size, width, height)
-                     : !parsePair(size, width_, height_))
-    throw UsageError("-size is WxH in pixels, as in 1024x768, or in mm, cm or in, as "
-                     "in 85x60mm, not '" +
-                     size_text_ + "'.");
-  if (per_inch > 0.0) {
-    width_ = countPixels(width / per_inch, dots_per_inch_);
-    height_ = countPixels(height / per_inch, dots_per_inch_);
-  }
 }
 
 void
@@ -255,12 +184,13 @@ void
 ViewOptions::check(const Options& options, bool may_have_camera)
 {
   constexpr int most = pcl_uvol::View::largest_size;
-  parseSize();
-  for (const int size : {width_, height_})
+  size_.parse();
+  for (const int size : {getWidth(), getHeight()})
     if (size < 1 || size * std::max(supersampling_, 1) > most)
       throw UsageError("-size is from 1x1 to " + std::to_string(most) + "x" +
                        std::to_string(most) + " pixels before averaging, not " +
-                       std::to_string(width_) + " x " + std::to_string(height_) + ".");
+                       std::to_string(getWidth()) + " x " +
+                       std::to_string(getHeight()) + ".");
   if (options.given("view") && options.given("eye"))
     throw UsageError("-view and -eye both say where the camera is: give one of them.");
   if (is_parallel_ && options.given("fov"))
@@ -270,7 +200,7 @@ ViewOptions::check(const Options& options, bool may_have_camera)
   if (!up_.empty() && toVector(up_).isZero(0.0))
     throw UsageError("-up takes a direction, and 0,0,0 is none.");
   colors_.check();
-  figure_.check(options, width_, height_, dots_per_inch_);
+  figure_.check(options, size_.get());
   if (options.given("scale-bar") && isExaggerated() &&
       (exaggeration_[0] != exaggeration_[1] || exaggeration_[0] != exaggeration_[2]))
     throw UsageError(
@@ -333,7 +263,9 @@ ViewOptions::getSupersampling() const
   constexpr int usual = 2;
   if (supersampling_ > 0)
     return supersampling_;
-  return usual * std::max(width_, height_) <= pcl_uvol::View::largest_size ? usual : 1;
+  return usual * std::max(getWidth(), getHeight()) <= pcl_uvol::View::largest_size
+             ? usual
+             : 1;
 }
 
 std::string

@@ -9,6 +9,7 @@
 #include "shared/color_options.h"
 #include "shared/figure_options.h"
 #include "shared/options.h"
+#include "shared/size_option.h"
 #include <pcl_uvol/common/cloud_view.h>
 #include <pcl_uvol/common/dataset.h>
 #include <pcl_uvol/render/color_map.h>
@@ -39,9 +40,12 @@ struct SharedView {
 /** \brief Options of a picture or window. */
 class ViewOptions {
 public:
+  /** What has a size: a window is not printed. */
+  enum class SizeOf { Picture, Window };
+
   /** \brief Camera, size, background, colours. */
   void
-  declareScene(Options& options);
+  declareScene(Options& options, SizeOf size = SizeOf::Picture);
 
   /** \brief -exaggerate, for tools that call exaggerate(). */
   void
@@ -225,13 +229,13 @@ public:
   int
   getWidth() const
   {
-    return width_;
+    return size_.get().width;
   }
 
   int
   getHeight() const
   {
-    return height_;
+    return size_.get().height;
   }
   /** @} */
 
@@ -239,7 +243,7 @@ public:
   double
   getDotsPerInch() const
   {
-    return dots_per_inch_;
+    return size_.get().dots_per_inch;
   }
 
   /** \brief The whole object is in the picture: nobody has chosen a place for the
@@ -308,22 +312,20 @@ private:
             std::vector<pcl_uvol::ImageText>& texts) const;
 
   void
-  parseSize();
-
-  void
   parseBackground();
 
   void
   parseLights();
 
-  std::string view_ = "iso", size_text_ = "1024x1024", background_text_ = "white";
+  std::string view_ = "iso", background_text_ = "white";
+  SizeOption size_{"1024x1024"};
   std::string color_ = "auto", lights_text_;
   pcl_uvol::LabelNames labels_; ///< of the points that are drawn
   ColorOptions colors_;
   FigureOptions figure_;
   std::vector<double> eye_, at_, up_, surface_color_, exaggeration_;
-  double fov_ = 30.0, zoom_ = 1.0, dots_per_inch_ = 0.0; ///< 0: not said
-  int width_ = 0, height_ = 0, supersampling_ = 0;
+  double fov_ = 30.0, zoom_ = 1.0;
+  int supersampling_ = 0;
   std::uint64_t frames_ = 1;
   bool has_bar_ = true, is_parallel_ = false;
   pcl_uvol::Background background_;

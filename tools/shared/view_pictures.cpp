@@ -72,9 +72,10 @@ ViewOptions::drawsBar(const pcl_uvol::CloudView& cloud) const
 int
 ViewOptions::viewsWidth(const pcl_uvol::CloudView& cloud) const
 {
-  return drawsBar(cloud) ? width_ - uvol_tools::colorBarWidth(
-                                        width_, height_, figure_.get().least_letters)
-                         : width_;
+  return drawsBar(cloud)
+             ? getWidth() - uvol_tools::colorBarWidth(
+                                getWidth(), getHeight(), figure_.get().least_letters)
+             : getWidth();
 }
 
 void
@@ -114,7 +115,7 @@ ViewOptions::drawFrame(const Subject& surface,
                        const Figure::DrawView& draw,
                        std::vector<pcl_uvol::ImageText>& texts) const
 {
-  Ground ground{background_, width_, height_, viewsWidth(surface.cloud)};
+  Ground ground{background_, getWidth(), getHeight(), viewsWidth(surface.cloud)};
   if (isExaggerated())
     ground.factors = Eigen::Vector3d(exaggeration_.data());
   const DataBox data{{}, Eigen::Vector3d(surface.origin.data()), ground.factors, ""};
@@ -138,7 +139,7 @@ ViewOptions::drawFrames(const Options& options,
   for (std::uint64_t frame = 0; frame < countFrames(); ++frame) {
     std::vector<pcl_uvol::ImageText> texts = describeOrigin(options);
     addIsovalues(surface.cloud, texts);
-    const PictureFile file(frameName(output, frame), dots_per_inch_);
+    const PictureFile file(frameName(output, frame), getDotsPerInch());
     pcl_uvol::Image picture = drawFrame(surface, frame, draw, texts);
     if (drawsBar(surface.cloud))
       drawLegend(picture,

@@ -85,8 +85,12 @@ ProbePicture::declare(Options& options)
 }
 
 void
-ProbePicture::finish(const Options& options, bool is_plane, bool is_line) const
+ProbePicture::finish(const Options& options,
+                     bool is_plane,
+                     bool is_line,
+                     const Paper& paper)
 {
+  paper_ = paper;
   for (const char* const option :
        {"contours", "range", "log", "colormap", "samples", "label", "unit"})
     if (options.given(option) && path_.empty())
@@ -108,12 +112,10 @@ ProbePicture::drawLine(const std::string& field,
                        const std::vector<double>& values,
                        const std::vector<double>& errors) const
 {
-  const PictureFile file(path_);
-  file.save(drawProfile({distances,
-                         values,
-                         errors,
-                         withUnit("distance", unit_),
-                         colors_.getLabel(field)}));
+  const PictureFile file(path_, paper_.dots_per_inch);
+  file.save(drawProfile(
+      {distances, values, errors, withUnit("distance", unit_), colors_.getLabel(field)},
+      paper_));
 }
 
 void
@@ -141,6 +143,7 @@ ProbePicture::drawSlice(const std::string& field,
       range ? pcl_uvol::ColorScale{(*range)[0], (*range)[1], colors_.isLogarithmic()}
             : findColorScale(values, of_samples, colors_.isLogarithmic());
   plot.contours = contours_;
+  plot.paper = paper_;
   if (near_ >= 0.0) {
     const pcl_uvol::CloudView view = pcl_uvol::viewOf(samples.cloud);
     const pcl_uvol::ScalarField scalar(view.fields, field);
@@ -159,7 +162,7 @@ ProbePicture::drawSlice(const std::string& field,
   if (series)
     series->add(std::move(plot), range.has_value(), path_);
   else {
-    const PictureFile file(path_);
+    const PictureFile file(path_, paper_.dots_per_inch);
     file.save(drawSlicePlot(plot));
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "charts/axes.h"
+#include "charts/paper.h"
 #include "interpolation/query_lattice.h"
 #include "shared/color_options.h"
 #include "shared/options.h"
@@ -22,9 +23,10 @@ public:
 
   /** \brief To be called before any file is read.
    * \param is_plane, is_line what is drawn; of other queries there is no picture
+   * \param paper of the picture
    * \throws UsageError, and IOError for a path that is none */
   void
-  finish(const Options& options, bool is_plane, bool is_line) const;
+  finish(const Options& options, bool is_plane, bool is_line, const Paper& paper);
 
   bool
   isAskedFor() const
@@ -58,6 +60,7 @@ public:
 private:
   std::string path_, unit_;
   ColorOptions colors_;
+  Paper paper_;
   std::vector<double> contours_;
   double near_ = -1.0; ///< samples so near to the plane are drawn
 };

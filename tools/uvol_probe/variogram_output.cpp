@@ -52,8 +52,10 @@ listDots(const std::string& name, const EmpiricalVariogram& empirical)
   return dots;
 }
 
-pcl_uvol::Image
-draw(const FittedVariogram& variogram, const std::string& field, bool is_stretched)
+Profile
+makeProfile(const FittedVariogram& variogram,
+            const std::string& field,
+            bool is_stretched)
 {
   constexpr int steps = 400;
   const EmpiricalVariogram& all = variogram.empirical.all;
@@ -73,7 +75,7 @@ draw(const FittedVariogram& variogram, const std::string& field, bool is_stretch
   for (std::size_t axis = 0; axis < std::size(axis_names); ++axis)
     profile.dots.push_back(listDots(std::string("along ") + axis_names[axis],
                                     variogram.empirical.along[axis]));
-  return drawProfile(profile);
+  return profile;
 }
 
 std::string
@@ -105,8 +107,10 @@ VariogramOutput::declare(Options& options)
 
 void
 VariogramOutput::finish(const Options& options,
-                        pcl_uvol::InterpolationModel model) const
+                        pcl_uvol::InterpolationModel model,
+                        const Paper& paper)
 {
+  paper_ = paper;
   for (const char* const option : {"variogram-csv", "variogram-png"})
     if (options.given(option) && model != pcl_uvol::InterpolationModel::Kriging)
       throw UsageError(std::string("-") + option + " needs -model kriging.");
@@ -146,8 +150,9 @@ VariogramOutput::write(const pcl_uvol::detail::FieldInterpolator& interpolator,
     if (!table_.empty())
       pcl_uvol::saveTable(table_, writeTable(*variogram));
     if (!picture_.empty()) {
-      const PictureFile file(picture_);
-      file.save(draw(*variogram, names[field], is_stretched));
+      const PictureFile file(picture_, paper_.dots_per_inch);
+      file.save(
+          drawProfile(makeProfile(*variogram, names[field], is_stretched), paper_));
     }
   }
   if (!of_fields.empty())

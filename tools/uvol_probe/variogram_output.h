@@ -2,6 +2,7 @@
 // The variograms of kriging: told, as a table, and as a picture.
 #pragma once
 
+#include "charts/paper.h"
 #include "interpolation/variogram.h"
 #include "shared/facts.h"
 #include "shared/options.h"
@@ -18,10 +19,19 @@ public:
   declare(Options& options);
 
   /** \brief To be called before any file is read.
+   * \param paper of the picture
    * \throws UsageError without kriging, and IOError for a path that cannot be written
    */
   void
-  finish(const Options& options, pcl_uvol::InterpolationModel model) const;
+  finish(const Options& options,
+         pcl_uvol::InterpolationModel model,
+         const Paper& paper);
+
+  bool
+  isDrawn() const
+  {
+    return !picture_.empty();
+  }
 
   bool
   isAskedFor() const
@@ -39,6 +49,7 @@ public:
 
 private:
   std::string table_, picture_;
+  Paper paper_;
 };
 
 } // namespace uvol_tools

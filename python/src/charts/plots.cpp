@@ -93,7 +93,7 @@ drawScatter(const std::vector<std::array<float, 3>>& places,
   for (const auto& [name, direction] : axes)
     named.push_back({name, direction});
   return toPixels(
-      uvol_tools::drawScatterPlot(places, labels, named, view, width, height));
+      uvol_tools::drawScatterPlot(places, labels, named, view, {width, height}));
 }
 
 } // namespace
