@@ -5,9 +5,12 @@
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
 #include "shared/ray_options.h"
+#include "shared/series.h"
 #include <pcl_uvol/io/dataset.h>
 
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 namespace {
 
@@ -94,24 +97,36 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
                          report);
 }
 
-void
-traceCloud(const Options& options, Arguments& arguments, Report& report)
-{
-  pcl_uvol::Dataset dataset = uvol_tools::loadPoints(arguments.input, report);
-  arguments.view.addColor(options, dataset, report);
-  arguments.view.exaggerate(dataset);
-  arguments.rays.traceCloud(options, arguments.view, dataset, arguments.output, report);
-}
-
-int
-run(int argc, char** argv)
-{
+/** A picture on its way. */
+struct Job {
   Arguments arguments;
-  Options options("uvol_raytrace",
+  Options options{"uvol_raytrace",
                   "scene.txt|in.ply out.png [options]",
                   "Draws a scene (.txt, .scene), or one surface given as points or "
                   "splats, by ray tracing: shadows,\nmirrors and glass. Options take "
-                  "the place of what the scene says.");
+                  "the place of what the scene says."};
+  Report report;
+  uvol_tools::ProgressBar bar;
+
+  void
+  trace(const pcl_uvol::Dataset& surface)
+  {
+    arguments.rays.traceCloud(
+        options, arguments.view, surface, arguments.output, report);
+    print();
+  }
+
+  void
+  print()
+  {
+    uvol_tools::printReport(
+        options, report, {{"input", arguments.input}, {"output", arguments.output}});
+  }
+};
+
+void
+declare(Options& options, Arguments& arguments)
+{
   options.file("in", arguments.input);
   options.file("out", arguments.output);
   options.group("Input");
@@ -125,6 +140,15 @@ run(int argc, char** argv)
   arguments.rays.declareRays(options);
   arguments.rays.declareSurface(options);
   arguments.view.declareLighting(options);
+  uvol_tools::declareSeries(options);
+}
+
+int
+run(int argc, char** argv, uvol_tools::SeriesStep* step)
+{
+  const auto job = std::make_shared<Job>();
+  auto& [arguments, options, report, bar] = *job;
+  declare(options, arguments);
   if (!options.parse(argc, argv))
     return 0;
   arguments.view.check(options, isScene(arguments.input));
@@ -132,15 +156,22 @@ run(int argc, char** argv)
   checkInput(options, arguments);
   uvol_tools::checkPicturePath(arguments.output);
 
-  Report report;
-  uvol_tools::ProgressBar bar;
   report.progress = std::ref(bar);
-  if (isScene(arguments.input))
+  if (isScene(arguments.input)) {
     traceScene(options, arguments, report);
+    job->print();
+    return 0;
+  }
+  pcl_uvol::Dataset surface = uvol_tools::loadPoints(arguments.input, report);
+  arguments.view.addColor(options, surface, report);
+  arguments.view.exaggerate(surface);
+  if (step && arguments.view.sharesView())
+    step->pictures.add(options,
+                       arguments.view,
+                       std::move(surface),
+                       [job](const auto& waiting) { job->trace(waiting); });
   else
-    traceCloud(options, arguments, report);
-  uvol_tools::printReport(
-      options, report, {{"input", arguments.input}, {"output", arguments.output}});
+    job->trace(surface);
   return 0;
 }
 
@@ -149,5 +180,5 @@ run(int argc, char** argv)
 int
 main(int argc, char** argv)
 {
-  return uvol_tools::runTool("uvol_raytrace", [&] { return run(argc, argv); });
+  return uvol_tools::runSeries("uvol_raytrace", argc, argv, run);
 }

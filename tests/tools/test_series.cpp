@@ -240,6 +240,28 @@ TEST_F(GrowingBalls, PicturesShareCameraAndColours)
   }
 }
 
+TEST_F(GrowingBalls, RaysShareCameraAndColours)
+{
+  const std::string look = " -color T -size 160x130";
+  ASSERT_EQ(0, runTool("isosurface 's_{}.csv' 'o_{}.ply' -field f -iso 0").exit_code);
+  const auto traced = runTool("raytrace 'o_{}.ply' 't_{}.png'" + look);
+  ASSERT_EQ(0, traced.exit_code) << traced.err;
+  // What all files are seen by, as pixels show them.
+  ASSERT_EQ(0, runTool("render 'o_{}.ply' 'r_{}.png'" + look).exit_code);
+  const std::string camera = cameraOf("r_0.png");
+  for (int number = 0; number < count; ++number)
+    EXPECT_EQ(camera, cameraOf("t_" + std::to_string(number) + ".png"));
+  int channels = 0;
+  const auto first = readPng(folder_ / "t_0.png", channels),
+             last = readPng(folder_ / "t_2.png", channels);
+  EXPECT_TRUE(first.color != last.color);
+  // The values beside the bar are the same, whatever a surface holds.
+  for (std::size_t row = 0; row < first.height; ++row)
+    for (std::size_t k = 4 * (row * first.width + 135); k < 4 * (row + 1) * first.width;
+         ++k)
+      ASSERT_EQ(first.color[k], last.color[k]) << row;
+}
+
 TEST_F(GrowingBalls, PicturesThatShareNothingDoNotWait)
 {
   ASSERT_EQ(0, runTool("isosurface s_0.csv o_0.ply -field f -iso 0").exit_code);
