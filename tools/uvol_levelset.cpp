@@ -135,7 +135,7 @@ declare(Options& options, Arguments& arguments)
                   many,
                   "write the zero level every so many steps, as out_00010.ply");
   options.output("csv", "out.csv", arguments.table, "write a table of all steps");
-  options.output("plot", "out.png|out.svg", arguments.plot, "draw how it converged");
+  options.output("plot", "out.png|.svg|.pdf", arguments.plot, "draw how it converged");
   arguments.plot_size.declareChart(options);
   options.flag("ascii", arguments.ascii, "write PCD and PLY as text");
 }

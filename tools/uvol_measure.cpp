@@ -71,7 +71,7 @@ declare(Options& options, Arguments& arguments)
   options.group("Picture");
   options.output(
       "png",
-      "out.png",
+      "out.png|.svg|.pdf",
       arguments.picture,
       "of samples: draw a curve over the isovalues, of a series one over time");
   options.text("plot",

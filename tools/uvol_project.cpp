@@ -53,7 +53,7 @@ declare(Options& options, Arguments& arguments)
   options.output(
       "axes", "out.csv", arguments.axes, "write the axis of every attribute");
   options.output("png",
-                 "out.png|out.svg",
+                 "out.png|.svg|.pdf",
                  arguments.picture,
                  "draw the points, by cluster, and the axes");
   options.choice("view",

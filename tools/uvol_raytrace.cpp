@@ -101,7 +101,7 @@ traceScene(const Options& options, const Arguments& arguments, Report& report)
 struct Job {
   Arguments arguments;
   Options options{"uvol_raytrace",
-                  "scene.txt|in.ply out.png [options]",
+                  "scene.txt|in.ply out.png|.svg|.pdf [options]",
                   "Draws a scene (.txt, .scene), or one surface given as points or "
                   "splats, by ray tracing: shadows,\nmirrors and glass. Options take "
                   "the place of what the scene says."};

@@ -42,7 +42,7 @@ struct Job {
   uvol_tools::RenderOptions look;
   uvol_tools::Options options{
       "uvol_render",
-      "in.ply out.png|out.svg|out.html [options]",
+      "in.ply out.png|.svg|.pdf|.html [options]",
       "Draws a surface given as points with normals: lit, smooth and without holes; as "
       "a\n"
       "picture, or as a web page in one file that turns in any browser."};

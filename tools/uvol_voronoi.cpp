@@ -63,8 +63,10 @@ declare(Options& options, Arguments& arguments)
                   pcl_uvol::ConicSections::most_first_triangles,
                   "of the first ring; the thesis has 4");
   options.group("Picture");
-  options.output(
-      "png", "out.png|out.svg", arguments.picture, "draw slices, a colour per region");
+  options.output("png",
+                 "out.png|.svg|.pdf",
+                 arguments.picture,
+                 "draw slices, a colour per region");
   options.integer("slices", arguments.slices, 1, 1000, "slices of the picture");
   options.choice(
       "axis", {"x", "y", "z"}, arguments.axis, "slices are perpendicular to it");

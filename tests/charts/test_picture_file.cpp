@@ -74,6 +74,29 @@ TEST_F(PictureFiles, LettersOfSvgAreText)
     EXPECT_NE(std::string::npos, svg.find(part)) << part << '\n' << svg;
 }
 
+TEST_F(PictureFiles, LettersOfPdfAreTextInFontsOfItsOwn)
+{
+  const auto write = [&](const std::string& name, double dots_per_inch) {
+    Image image = makeWhite();
+    const PictureFile file(folder_ / name, dots_per_inch);
+    writeLines(image);
+    file.save(image, {{"Camera", "-eye 1,2,3"}, {"Isovalue", "4"}});
+    EXPECT_EQ(makeWhite().color, image.color);
+    return read(folder_ / name);
+  };
+  const std::string pdf = write("a.pdf", 300.0);
+  EXPECT_EQ(0u, pdf.find("%PDF-"));
+  // 120 x 60 pixels in points.
+  for (const char* part : {"/MediaBox [ 0 0 28.8 14.4 ]",
+                           "/FontFile",
+                           "/Subtype /Image",
+                           "/Subject (Camera: -eye 1,2,3; Isovalue: 4)"})
+    EXPECT_NE(std::string::npos, pdf.find(part)) << part << '\n' << pdf;
+  EXPECT_EQ(std::string::npos, pdf.find("Date"));
+  EXPECT_EQ(pdf, write("b.pdf", 300.0));
+  EXPECT_NE(std::string::npos, write("c.pdf", 0.0).find("/MediaBox [ 0 0 90 45 ]"));
+}
+
 TEST_F(PictureFiles, LettersOfPngArePixels)
 {
   Image image = makeWhite();

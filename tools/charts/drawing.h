@@ -54,6 +54,13 @@ struct TextLine {
   TextAnchor anchor;
   bool is_upright; ///< it runs upwards
   Ink ink;
+
+  /** \brief How far the foot of the letters lies below the anchor, pixels. */
+  double
+  getBaseline() const
+  {
+    return 0.35 * size; // digits and capitals are 0.7 of the font's size
+  }
 };
 
 /** \brief While it lives, the lines of text of its thread are kept instead of drawn:

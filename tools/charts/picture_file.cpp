@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "charts/picture_file.h"
 
+#include "charts/pdf_page.h"
 #include "io/files.h"
 #include <pcl_uvol/io/dataset.h>
 
@@ -15,11 +16,19 @@ namespace {
 
 using pcl_uvol::Image;
 
+/** True for files whose letters are text. @{ */
 bool
 isSvg(const std::string& path)
 {
   return pcl_uvol::io::getEnding(path) == ".svg";
 }
+
+bool
+isPdf(const std::string& path)
+{
+  return pcl_uvol::io::getEnding(path) == ".pdf";
+}
+/** @} */
 
 std::string
 escape(const std::string& text)
@@ -62,13 +71,11 @@ describe(TextAnchor anchor)
 void
 writeLine(const TextLine& line, std::ostream& out)
 {
-  // Digits and capitals are 0.7 of the font's size.
-  const double half_height = 0.35 * line.size;
   out << "<text font-size=\"" << line.size << "\" text-anchor=\""
       << describe(line.anchor) << "\" fill=\"" << describeColor(line.ink)
       << "\" transform=\"translate(" << line.column + 0.5 << ' ' << line.row + 0.5
-      << ')' << (line.is_upright ? " rotate(-90)" : "") << "\" y=\"" << half_height
-      << "\">" << escape(line.text) << "</text>\n";
+      << ')' << (line.is_upright ? " rotate(-90)" : "") << "\" y=\""
+      << line.getBaseline() << "\">" << escape(line.text) << "</text>\n";
 }
 
 /** As SVG takes it: in pixels, or as long as these are printed. */
@@ -122,19 +129,21 @@ encodeBase64(const void* bytes, std::size_t count)
 void
 checkPicturePath(const std::string& path)
 {
-  if (isSvg(path))
+  if (isPdf(path))
+    checkPdf();
+  if (isSvg(path) || isPdf(path))
     pcl_uvol::io::checkWritable(path);
   else if (pcl_uvol::io::getEnding(path) == ".png")
     pcl_uvol::checkPngPath(path);
   else
-    pcl_uvol::io::throwUnwritable(path, "pictures are written as .png or .svg");
+    pcl_uvol::io::throwUnwritable(path, "pictures are written as .png, .svg or .pdf");
 }
 
 PictureFile::PictureFile(const std::string& path, double dots_per_inch)
     : path_(path)
     , dots_per_inch_(dots_per_inch)
 {
-  if (isSvg(path))
+  if (isSvg(path) || isPdf(path))
     letters_.emplace();
 }
 
@@ -146,10 +155,11 @@ PictureFile::save(const Image& picture,
     pcl_uvol::savePng(path_, picture, texts, dots_per_inch_);
     return;
   }
-  const std::string svg = makeSvg(picture, letters_->getLines(), texts, dots_per_inch_);
+  const auto make = isPdf(path_) ? makePdf : makeSvg;
+  const std::string page = make(picture, letters_->getLines(), texts, dots_per_inch_);
   pcl_uvol::writeAtomically(path_, [&](const std::string& file) {
     std::ofstream stream(file, std::ios::binary);
-    stream << svg;
+    stream << page;
     stream.close();
     if (!stream)
       throw pcl_uvol::IOError("Cannot write '" + path_ + "'.");

@@ -15,18 +15,18 @@ namespace uvol_tools {
 std::string
 encodeBase64(const void* bytes, std::size_t count);
 
-/** \brief Throw IOError unless the name ends in .png or .svg and its folder can be
- * written to: to be called before work whose result would be lost. */
+/** \brief Throw IOError unless the name ends in .png, .svg or .pdf and its folder can
+ * be written to: to be called before work whose result would be lost. */
 void
 checkPicturePath(const std::string& path);
 
-/** \brief A picture that is going to be written: as .png, or as .svg, in which its
- * letters are text over its pixels, for programs that set and edit figures. */
+/** \brief A picture that is going to be written: as .png, or as .svg or .pdf, in which
+ * its letters are text over its pixels, for programs that set and edit figures. */
 class PictureFile {
 public:
   /** \brief Begin before the picture is drawn: letters of this thread are kept from now
    * on if they stay letters.
-   * \param path ends in .png or .svg
+   * \param path ends in .png, .svg or .pdf
    * \param dots_per_inch that the file says it is printed with; 0: it says nothing */
   explicit PictureFile(const std::string& path, double dots_per_inch = 0.0);
 
@@ -40,7 +40,7 @@ public:
 private:
   std::string path_;
   double dots_per_inch_;
-  std::optional<TextKeeper> letters_; // of an .svg
+  std::optional<TextKeeper> letters_; // that stay letters
 };
 
 } // namespace uvol_tools

@@ -10,7 +10,7 @@ void
 SurfacePicture::declare(Options& options)
 {
   options.group("Picture");
-  options.output("png", "out.png|out.svg", path_, "draw the isosurface as well");
+  options.output("png", "out.png|.svg|.pdf", path_, "draw the isosurface as well");
   options.flag("raytrace", is_ray_traced_, "by ray tracing of splats").rare();
   look_.declareView(options);
   look_.declareExaggeration(options);

@@ -68,7 +68,7 @@ ProbePicture::declare(Options& options)
 {
   options.group("Picture");
   options.output("png",
-                 "out.png",
+                 "out.png|.svg|.pdf",
                  path_,
                  "draw the first field as well, of -line or -plane; the options below "
                  "are for the picture");

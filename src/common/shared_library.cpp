@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "gl/shared_library.h"
-
-#include "gl/context.h"
+#include "common/shared_library.h"
 
 #include <dlfcn.h>
 
@@ -9,6 +7,7 @@ namespace pcl_uvol {
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& names,
                              const std::string& advice)
+    : advice_(advice)
 {
   for (const std::string& name : names) {
     handle_ = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -17,7 +16,8 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& names,
       return;
     }
   }
-  throw GlError("The library " + names.front() + " cannot be loaded: " + advice + ".");
+  throw MissingLibrary("The library " + names.front() + " cannot be loaded: " + advice +
+                       ".");
 }
 
 void*
@@ -25,8 +25,8 @@ SharedLibrary::find(const char* name) const
 {
   void* const symbol = dlsym(handle_, name);
   if (symbol == nullptr)
-    throw GlError("The library " + name_ + " has no function " + name +
-                  ": install a complete one, or use the cpu backend.");
+    throw MissingLibrary("The library " + name_ + " has no function " + name + ": " +
+                         advice_ + ".");
   return symbol;
 }
 
