@@ -21,6 +21,8 @@ using uvol_tools::Fact;
 using uvol_tools::Facts;
 using uvol_tools::Options;
 
+constexpr std::size_t most_fields_told = 1000;
+
 struct Surface {
   Dataset vertices;
   std::vector<Triangle> triangles;
@@ -75,6 +77,8 @@ describe(const SurfaceDistances& distances, const std::string& name, Facts& fact
                                      {"farthest", {at[0], at[1], at[2]}}}));
   Facts fields;
   for (const FieldDifference& field : distances.fields) {
+    if (fields.size() == most_fields_told)
+      break;
     std::ostringstream difference;
     difference << "differs by " << field.mean << " in the mean, " << field.largest
                << " at most";
@@ -95,6 +99,16 @@ warnOfPoints(const Surface& surface, const std::string& path, Report& report)
     report.warnings.push_back("'" + path +
                               "' has no triangles: distances to it are those to its "
                               "points, and no smaller than these lie apart.");
+}
+
+void
+warnOfManyFields(const SurfaceDistances& distances, Report& report)
+{
+  if (distances.fields.size() > most_fields_told)
+    report.warnings.push_back("The surfaces have " +
+                              std::to_string(distances.fields.size()) +
+                              " fields in common: " + std::to_string(most_fields_told) +
+                              " of them are told.");
 }
 
 int
@@ -133,6 +147,7 @@ run(int argc, char** argv)
     there = measure(a, b, options.threads());
     back = measure(b, a, options.threads());
   }
+  warnOfManyFields(there, report);
   describe(there, "a to b", facts);
   describe(back, "b to a", facts);
   facts.emplace_back("largest distance", std::max(there.largest, back.largest));

@@ -38,7 +38,8 @@ parseReal(std::string_view text, T& value)
   if (parsed.ec != std::errc::result_out_of_range)
     return true;
   // from_chars does not tell the vanishing from the overflowing
-  const double nearest = std::strtod(std::string(text).c_str(), nullptr);
+  static const locale_t with_points = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  const double nearest = ::strtod_l(std::string(text).c_str(), nullptr, with_points);
   value = static_cast<T>(nearest);
   return std::abs(nearest) < 1.0;
 }

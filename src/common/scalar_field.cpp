@@ -185,18 +185,28 @@ isCandidate(const pcl::PCLPointField& field)
 
 } // namespace
 
-std::vector<std::string>
-listScalars(const Fields& fields)
+std::vector<NamedScalar>
+listNamedScalars(const Fields& fields)
 {
-  std::vector<std::string> names;
+  std::vector<NamedScalar> scalars;
   for (const pcl::PCLPointField& field : fields) {
     if (!isCandidate(field))
       continue;
     const std::size_t count = componentCount(field);
     for (std::size_t i = 0; i < count; ++i)
-      names.push_back(count > 1 ? field.name + '[' + std::to_string(i) + ']'
-                                : field.name);
+      scalars.push_back(
+          {count > 1 ? field.name + '[' + std::to_string(i) + ']' : field.name,
+           componentOf(field, i)});
   }
+  return scalars;
+}
+
+std::vector<std::string>
+listScalars(const Fields& fields)
+{
+  std::vector<std::string> names;
+  for (NamedScalar& scalar : listNamedScalars(fields))
+    names.push_back(std::move(scalar.name));
   return names;
 }
 

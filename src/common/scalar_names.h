@@ -2,6 +2,7 @@
 // The scalars of a cloud by name.
 #pragma once
 
+#include "common/scalar_field.h"
 #include <pcl_uvol/common/export.h>
 
 #include <pcl/PCLPointField.h>
@@ -15,5 +16,16 @@ namespace pcl_uvol {
  * `vel[1]`, ... Coordinates, normals, colours and padding are left out. */
 PCL_UVOL_EXPORTS std::vector<std::string>
 listScalars(const std::vector<pcl::PCLPointField>& fields);
+
+/** \brief A number of every point, and what listScalars() calls it. */
+struct NamedScalar {
+  std::string name;
+  FieldComponent number;
+};
+
+/** \brief The scalars that listScalars() names: of very many, none has to be looked for
+ * among all. */
+PCL_UVOL_EXPORTS std::vector<NamedScalar>
+listNamedScalars(const std::vector<pcl::PCLPointField>& fields);
 
 } // namespace pcl_uvol

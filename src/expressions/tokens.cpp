@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "expressions/tokens.h"
 
+#include "common/numbers.h"
+
 #include <cmath>
-#include <cstdio>
+#include <cstring>
 
 namespace pcl_uvol {
 
@@ -13,8 +15,10 @@ using Kind = Token::Kind;
 std::string
 writeNumber(double number)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", number);
+  std::uint8_t bytes[sizeof(number)];
+  std::memcpy(bytes, &number, sizeof(number));
+  std::string text;
+  appendNumber(text, pcl::PCLPointField::FLOAT64, bytes);
   return text;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/shared_library.h"
-#include <pcl_uvol/gl/context.h>
+#include "gl/context.h"
 
 #include <string>
 #include <vector>

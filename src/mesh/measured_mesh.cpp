@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/measured_mesh.h"
 
-#include "common/scalar_names.h"
 #include "mesh/half_edges.h"
 #include <pcl_uvol/common/exceptions.h>
 
@@ -210,7 +209,7 @@ findScalar(const CloudView& vertices, const char* name)
   return ScalarField(vertices.fields, name);
 }
 
-std::vector<std::string>
+std::vector<NamedScalar>
 listMeasuredFields(const std::vector<pcl::PCLPointField>& fields)
 {
   static const std::array<std::string, 8> others = {"isovalue",
@@ -221,15 +220,16 @@ listMeasuredFields(const std::vector<pcl::PCLPointField>& fields)
                                                     "piece",
                                                     "cap",
                                                     "area"};
-  std::vector<std::string> names = listScalars(fields);
-  names.erase(std::remove_if(names.begin(),
-                             names.end(),
-                             [](const std::string& name) {
-                               return std::find(others.begin(), others.end(), name) !=
-                                      others.end();
-                             }),
-              names.end());
-  return names;
+  std::vector<NamedScalar> scalars = listNamedScalars(fields);
+  scalars.erase(std::remove_if(scalars.begin(),
+                               scalars.end(),
+                               [](const NamedScalar& scalar) {
+                                 return std::find(others.begin(),
+                                                  others.end(),
+                                                  scalar.name) != others.end();
+                               }),
+                scalars.end());
+  return scalars;
 }
 
 std::optional<std::vector<SurfaceCorner>>

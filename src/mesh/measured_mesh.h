@@ -2,7 +2,7 @@
 // Pieces of triangle meshes, and the integrals over them.
 #pragma once
 
-#include "common/scalar_field.h"
+#include "common/scalar_names.h"
 #include "mesh/curved_triangle.h"
 #include "mesh/surface_pieces.h"
 #include <pcl_uvol/common/cloud_view.h>
@@ -28,9 +28,9 @@ checkTriangles(const CloudView& vertices, const std::vector<Triangle>& triangles
 std::optional<ScalarField>
 findScalar(const CloudView& vertices, const char* name);
 
-/** \brief The scalars of a surface, see listScalars(), but for those that number or
- * qualify vertices instead of measuring something there. */
-std::vector<std::string>
+/** \brief The scalars of a surface, see listNamedScalars(), but for those that number
+ * or qualify vertices instead of measuring something there. */
+std::vector<NamedScalar>
 listMeasuredFields(const std::vector<pcl::PCLPointField>& fields);
 
 /** \brief A surface in pieces, and integrals over each. */

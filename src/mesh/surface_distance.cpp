@@ -2,7 +2,6 @@
 #include "mesh/surface_distance.h"
 
 #include "common/parallel.h"
-#include "common/scalar_field.h"
 #include "mesh/curved_triangle.h"
 #include "mesh/measured_mesh.h"
 #include "mesh/triangle_tree.h"
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 namespace pcl_uvol::detail {
@@ -81,7 +81,7 @@ public:
 
   /** A field at a place. */
   double
-  valueOf(const ScalarField& field,
+  valueOf(const FieldComponent& field,
           const Triangle& corners,
           const std::array<double, 3>& lambda) const
   {
@@ -192,27 +192,35 @@ public:
       result.at_vertices.push_back(static_cast<float>(
           to_.isBehind(nearest_[i], from_.getPlaces()[i]) ? -nearest_[i].distance
                                                           : nearest_[i].distance));
-    const std::vector<std::string> names = listMeasuredFields(to_.getVertices().fields);
-    for (const std::string& name : listMeasuredFields(from_.getVertices().fields))
-      if (std::find(names.begin(), names.end(), name) != names.end())
-        result.fields.push_back(compareField(name));
+    compareFields(result.fields);
     return result;
   }
 
 private:
-  FieldDifference
-  compareField(const std::string& name) const
+  /** Those that both have, of which there may be very many. */
+  void
+  compareFields(std::vector<FieldDifference>& differences) const
   {
-    const ScalarField here(from_.getVertices().fields, name),
-        there(to_.getVertices().fields, name);
-    FieldDifference difference{name, 0.0, 0.0};
+    std::unordered_map<std::string, FieldComponent> others;
+    for (const NamedScalar& other : listMeasuredFields(to_.getVertices().fields))
+      others.emplace(other.name, other.number);
+    for (const NamedScalar& scalar : listMeasuredFields(from_.getVertices().fields))
+      if (const auto other = others.find(scalar.name); other != others.end())
+        differences.push_back(compareField(scalar, other->second));
+  }
+
+  FieldDifference
+  compareField(const NamedScalar& here, const FieldComponent& there) const
+  {
+    FieldDifference difference{here.name, 0.0, 0.0};
     double all = 0.0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const SurfacePlace& place = places_[i];
-      const double by = std::abs(from_.valueOf(here, place.corners, place.lambda) -
-                                 to_.valueOf(there,
-                                             to_.getTriangles()[nearest_[i].triangle],
-                                             nearest_[i].point.lambda));
+      const double by =
+          std::abs(from_.valueOf(here.number, place.corners, place.lambda) -
+                   to_.valueOf(there,
+                               to_.getTriangles()[nearest_[i].triangle],
+                               nearest_[i].point.lambda));
       if (!std::isfinite(by))
         continue;
       all += place.weight;

@@ -261,11 +261,10 @@ private:
   void
   describeFields()
   {
-    for (const std::string& name : detail::listMeasuredFields(vertices_.fields)) {
-      const ScalarField field(vertices_.fields, name);
+    for (const auto& [name, number] : detail::listMeasuredFields(vertices_.fields)) {
       std::vector<double> areas(figures.pieces.size()), sums(figures.pieces.size());
       forVertices([&](std::size_t piece, std::size_t vertex) {
-        const double value = field.read(vertices_.point(surface_.sources[vertex]));
+        const double value = number.read(vertices_.point(surface_.sources[vertex]));
         if (!std::isfinite(value))
           return;
         areas[piece] += surface_.shares[vertex];

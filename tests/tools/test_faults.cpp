@@ -251,6 +251,17 @@ TEST_P(Faults, StrangeSurroundings)
     expectSound({std::string("exec ") + closed + " ;"});
 }
 
+TEST_P(Faults, NoFolderForTemporaryFiles)
+{
+  fs::remove(folder_ / "tmp");
+  const auto result = run({});
+  EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 1) << result.exit_code;
+  uvol_test::expectSentences(toolName(), result);
+  if (result.exit_code == 0) {
+    EXPECT_EQ(expected_, readFile(out()));
+  }
+}
+
 TEST_P(Faults, StrangeOutputs)
 {
   const std::string ending = outName().substr(3);

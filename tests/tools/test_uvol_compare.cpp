@@ -107,4 +107,22 @@ TEST_F(CompareTool, Refuses)
   expectFailure(low_ + " " + cut, 1, "cut.ply");
 }
 
+/** As many as a stranger's file may have: each is not looked for among all. */
+TEST_F(CompareTool, AThousandOfVeryManyFieldsAreTold)
+{
+  std::string names = "x,y,z", row;
+  for (int i = 0; i < 20000; ++i) {
+    names += ",f" + std::to_string(i);
+    row += ",1";
+  }
+  const std::string path = folder_ / "many.csv";
+  uvol_test::writeFile(path, names + "\n0,0,0" + row + "\n1,0,0" + row + '\n');
+  const auto result = runCommand("uvol_compare " + path + ' ' + path + " -json");
+  ASSERT_EQ(0, result.exit_code) << result.err;
+  const Json report = Json::parse(result.out);
+  EXPECT_EQ(1000u, report.at("fields_a_to_b").size());
+  EXPECT_NE(std::string::npos,
+            report.at("warnings").dump().find("have 20000 fields in common"));
+}
+
 } // namespace

@@ -329,8 +329,8 @@ TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
   expectFailure(3, "in.pcd" + options, 1, "out_1.vtp': it is a directory");
 }
 
-/** mpirun ends the others, in the midst of it. */
-/** One process of three meets a fault of the library of faults. */
+/** One process of three meets a fault of the library of faults; mpirun ends the others,
+ * in the midst of it. */
 class FaultsOfARank : public IsosurfaceMpi {
 protected:
   void
