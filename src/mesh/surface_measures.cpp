@@ -261,10 +261,11 @@ private:
   void
   describeFields()
   {
-    for (const auto& [name, number] : detail::listMeasuredFields(vertices_.fields)) {
+    for (const NamedScalar& scalar : detail::listMeasuredFields(vertices_.fields)) {
       std::vector<double> areas(figures.pieces.size()), sums(figures.pieces.size());
       forVertices([&](std::size_t piece, std::size_t vertex) {
-        const double value = number.read(vertices_.point(surface_.sources[vertex]));
+        const double value =
+            scalar.number.read(vertices_.point(surface_.sources[vertex]));
         if (!std::isfinite(value))
           return;
         areas[piece] += surface_.shares[vertex];
@@ -274,7 +275,7 @@ private:
         PieceMeasures& piece = figures.pieces[i];
         const double mean = sums[i] / areas[i]; // not a number without any
         piece.on_surface.push_back(
-            {name, mean, {mean * areas[i], std::abs(mean) * piece.area.error}});
+            {scalar.name, mean, {mean * areas[i], std::abs(mean) * piece.area.error}});
       }
     }
   }
