@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/headless_context.h"
-#include "gl/load_functions.h"
+#include "gl/shared_library.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -66,7 +66,7 @@ class EglContext : public HeadlessContext {
 public:
   EglContext(EglDevice device, const std::string& library)
       : HeadlessContext("egl")
-      , egl_(loadFunctions<Egl>({library}, advice))
+      , egl_(SharedLibrary({library}, advice))
   {
     run([&] {
       if (!createOn(device)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/headless_context.h"
-#include "gl/load_functions.h"
+#include "gl/shared_library.h"
 
 #include <GL/glcorearb.h>
 #include <array>
@@ -42,7 +42,7 @@ class OsMesaContext : public HeadlessContext {
 public:
   explicit OsMesaContext(const std::vector<std::string>& libraries)
       : HeadlessContext("osmesa")
-      , osmesa_(loadFunctions<OsMesa>(libraries, advice))
+      , osmesa_(SharedLibrary(libraries, advice))
   {
     try {
       run([this] { create(); });

@@ -10,11 +10,6 @@
 
 namespace uvol_tools {
 
-/** \brief Throw IOError where PDF cannot be written: cairo is loaded when it is needed,
- * since few want it. */
-void
-checkPdf();
-
 /** \brief A page of the size of a picture, with its pixels and text over them, in fonts
  * of this machine that the page holds.
  * \param texts kept as the subject of the file

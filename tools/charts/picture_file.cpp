@@ -129,8 +129,6 @@ encodeBase64(const void* bytes, std::size_t count)
 void
 checkPicturePath(const std::string& path)
 {
-  if (isPdf(path))
-    checkPdf();
   if (isSvg(path) || isPdf(path))
     pcl_uvol::io::checkWritable(path);
   else if (pcl_uvol::io::getEnding(path) == ".png")

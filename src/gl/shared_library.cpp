@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/shared_library.h"
+#include "gl/shared_library.h"
+
+#include "gl/context.h"
 
 #include <dlfcn.h>
 
@@ -7,7 +9,6 @@ namespace pcl_uvol {
 
 SharedLibrary::SharedLibrary(const std::vector<std::string>& names,
                              const std::string& advice)
-    : advice_(advice)
 {
   for (const std::string& name : names) {
     handle_ = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -16,8 +17,7 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& names,
       return;
     }
   }
-  throw MissingLibrary("The library " + names.front() + " cannot be loaded: " + advice +
-                       ".");
+  throw GlError("The library " + names.front() + " cannot be loaded: " + advice + ".");
 }
 
 void*
@@ -25,8 +25,8 @@ SharedLibrary::find(const char* name) const
 {
   void* const symbol = dlsym(handle_, name);
   if (symbol == nullptr)
-    throw MissingLibrary("The library " + name_ + " has no function " + name + ": " +
-                         advice_ + ".");
+    throw GlError("The library " + name_ + " has no function " + name +
+                  ": install a complete one, or use the cpu backend.");
   return symbol;
 }
 
