@@ -109,6 +109,20 @@ TEST(PointMeasures, SharesAddUpToIntegrals)
   EXPECT_NEAR(integral, figures.pieces[0].on_surface[0].integral.value, 1e-12);
 }
 
+TEST(PointMeasures, TellTheirInput)
+{
+  SurfaceMeasures measures;
+  EXPECT_EQ(nullptr, measures.getInputVertices());
+  EXPECT_EQ(nullptr, measures.getInputSamples());
+  const auto vertices = std::make_shared<Dataset>(),
+             samples = std::make_shared<Dataset>();
+  measures.setInputSurface(vertices, {{0, 1, 2}});
+  measures.setInputSamples(samples);
+  EXPECT_EQ(vertices, measures.getInputVertices());
+  EXPECT_EQ((std::vector<Triangle>{{0, 1, 2}}), measures.getInputTriangles());
+  EXPECT_EQ(samples, measures.getInputSamples());
+}
+
 TEST(PointMeasures, OpenSurfacesHaveAnAreaAndNoVolume)
 {
   MeasuredShape half = scatterSphere(20000, 5);

@@ -209,6 +209,17 @@ struct Points {
   std::vector<std::uint32_t> use;
 };
 
+TEST(VoronoiDiagram, TellsItsCells)
+{
+  using Cells = std::array<std::uint32_t, 3>;
+  VoronoiDiagram<pcl::PointXYZ> diagram;
+  EXPECT_EQ((Cells{128, 0, 0}), diagram.getCells());
+  diagram.setCells(5, 6, 7);
+  EXPECT_EQ((Cells{5, 6, 7}), diagram.getCells());
+  diagram.setCells(64);
+  EXPECT_EQ((Cells{64, 0, 0}), diagram.getCells());
+}
+
 TEST(VoronoiGrid, SortsPointsIntoCells)
 {
   Points points(800);

@@ -235,6 +235,19 @@ TEST(IsosurfacePipeline, SmoothsAsTheLevelSetAlone)
                                both.end()));
 }
 
+TEST(IsosurfacePipeline, TellsItsInput)
+{
+  IsosurfacePipeline pipeline;
+  EXPECT_EQ(nullptr, pipeline.getInput());
+  EXPECT_EQ(nullptr, pipeline.getIndices());
+  const auto samples = makeSamples();
+  const auto indices = std::make_shared<pcl::Indices>(10, 0);
+  pipeline.setInput(samples);
+  pipeline.setIndices(indices);
+  EXPECT_EQ(samples, pipeline.getInput());
+  EXPECT_EQ(indices, pipeline.getIndices());
+}
+
 TEST(IsosurfacePipeline, ReusesTheTreeForFurtherIsovalues)
 {
   const auto samples = makeSamples();

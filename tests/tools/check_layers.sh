@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Include only downwards (see README, "Modules"), nothing that is not installed in public
 # headers, and nothing in these but our own, PCL, Eigen and the standard library, but VTK in
-# those of its modules. usage: check_layers.sh SOURCE_FOLDER
+# those of its modules; these include the exceptions that they throw. usage: check_layers.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
 
@@ -35,4 +35,8 @@ while read -r line; do
   report "foreign header in a public header: $line"
 done < <(grep -rnE "$include<(vtk|teem|flann|nlohmann|omp)" include 2>/dev/null |
   grep -v -E '^include/pcl_uvol/(vtk|filters)/.*<vtk' || true)
+while read -r file; do
+  report "exceptions without their header: $file"
+done < <(grep -rlE '\\throws .*(InvalidArgument|IOError|Diverged)' include 2>/dev/null |
+  xargs -r grep -LF '#include <pcl_uvol/common/exceptions.h>' || true)
 [ "$breaches" -eq 0 ]

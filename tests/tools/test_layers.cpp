@@ -52,4 +52,18 @@ TEST(Layers, SourcesAreLookedAtAsWell)
   EXPECT_EQ(1, check_source("\"kd_tree.h\"\n"));
 }
 
+/** Who includes a stage can catch what it throws. */
+TEST(Layers, HeadersHaveTheirExceptions)
+{
+  const uvol_test::TemporaryFolder folder;
+  uvol_test::runCommand("mkdir -p '" + (folder / "include/pcl_uvol/mesh") + "'");
+  const auto check_header = [&](const std::string& includes) {
+    uvol_test::writeFile(folder / "include/pcl_uvol/mesh/stage.h",
+                         includes + "/** \\throws InvalidArgument for bad input */\n");
+    return uvol_test::runCommand(check + (folder / "")).exit_code;
+  };
+  EXPECT_EQ(0, check_header("#include <pcl_uvol/common/exceptions.h>\n"));
+  EXPECT_EQ(1, check_header(""));
+}
+
 } // namespace

@@ -3,6 +3,7 @@
 // and an origin in double precision. And triangle meshes.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
 #include <pcl/PCLPointCloud2.h>

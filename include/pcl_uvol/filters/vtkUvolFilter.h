@@ -3,6 +3,7 @@
 // as the classes, which VTK's and ParaView's wrappers ask for.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
 #include <vtkPolyDataAlgorithm.h>

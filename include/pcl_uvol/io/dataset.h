@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl_uvol/common/dataset.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 

@@ -2,6 +2,7 @@
 // Pictures as files.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/render/renderer.h>
 

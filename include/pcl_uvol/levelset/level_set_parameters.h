@@ -2,6 +2,7 @@
 // What a level set starts from, how it is evolved, and what is told of it.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/derivatives/gradient_estimation.h>

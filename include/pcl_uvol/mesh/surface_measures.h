@@ -166,11 +166,32 @@ public:
     triangles_ = triangles;
   }
 
+  /** \return The vertices of the surface; null before they are set. */
+  const std::shared_ptr<const Dataset>&
+  getInputVertices() const
+  {
+    return vertices_;
+  }
+
+  /** \return The triangles of the surface; empty: it is one of points. */
+  const std::vector<Triangle>&
+  getInputTriangles() const
+  {
+    return triangles_;
+  }
+
   /** \brief The samples that the surface lies in; null, the default: none. */
   void
   setInputSamples(const std::shared_ptr<const Dataset>& samples)
   {
     samples_ = samples;
+  }
+
+  /** \return The samples that the surface lies in; null: none. */
+  const std::shared_ptr<const Dataset>&
+  getInputSamples() const
+  {
+    return samples_;
   }
 
   /** \brief Measure all pieces.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pcl_uvol/common/cloud_view.h>
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/parameters.h>
 #include <pcl_uvol/common/stage.h>
@@ -288,6 +289,14 @@ public:
     parameters_.cells_x = x;
     parameters_.cells_y = y;
     parameters_.cells_z = z;
+  }
+
+  /** \return The number of cells along each axis; 0 along y and z: cubes, so many along
+   * the longest side. */
+  std::array<std::uint32_t, 3>
+  getCells() const
+  {
+    return {parameters_.cells_x, parameters_.cells_y, parameters_.cells_z};
   }
 
   /** \brief More cubes on each side of the box; default 0. */

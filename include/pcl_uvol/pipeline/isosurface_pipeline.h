@@ -340,9 +340,23 @@ public:
   void
   setInput(const std::shared_ptr<const Dataset>& samples);
 
+  /** \return The samples; null before they are set. */
+  const std::shared_ptr<const Dataset>&
+  getInput() const
+  {
+    return samples_;
+  }
+
   /** \brief The samples to take; null, the default: all of them. */
   void
   setIndices(const pcl::IndicesPtr& indices);
+
+  /** \return The samples to take; null: all of them. */
+  const pcl::IndicesPtr&
+  getIndices() const
+  {
+    return indices_;
+  }
 
   /** \brief Run from the samples to the surface; getReport() is that of the result.
    * \throws InvalidArgument without an input, as checkParameters, and as the stages do
@@ -445,6 +459,13 @@ public:
   setInput(const std::shared_ptr<const Dataset>& part)
   {
     part_ = part;
+  }
+
+  /** \return The samples of this process; null before they are set. */
+  const std::shared_ptr<const Dataset>&
+  getInput() const
+  {
+    return part_;
   }
 
   /** \brief True: the first process gets the whole surface, in the order in which

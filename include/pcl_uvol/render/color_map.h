@@ -3,6 +3,7 @@
 // shade with (thesis 4.2.2, 4.3.1); and scalars to colours.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 
 #include <Eigen/Core>

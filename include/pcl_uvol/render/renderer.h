@@ -2,6 +2,7 @@
 // What the renderers have in common: the pinhole camera, and pictures in memory.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 

@@ -3,6 +3,7 @@
 // drawn: splats, spheres and planes with their materials, lights and background.
 #pragma once
 
+#include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/point_types.h>
 #include <pcl_uvol/render/color_map.h>
