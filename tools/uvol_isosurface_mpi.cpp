@@ -16,11 +16,13 @@
 #include <vtkNew.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 namespace {
 
@@ -156,7 +158,17 @@ tellSamples(const std::string& field,
   return facts;
 }
 
-/** \return what there is to tell of the samples */
+/** Isopoints of each isovalue, of all processes. */
+uvol_tools::Fact
+countIsopoints(const pcl_uvol::IsosurfaceResult& result,
+               pcl_uvol::Communicator& communicator)
+{
+  std::vector<std::uint64_t> counts(result.isopoints.begin(), result.isopoints.end());
+  communicator.allReduce(counts);
+  return {"isopoints per isovalue", uvol_tools::toNumbers(counts)};
+}
+
+/** \return what there is to tell of the samples and of the surface */
 uvol_tools::Facts
 extract(Arguments& arguments,
         unsigned threads,
@@ -177,7 +189,12 @@ extract(Arguments& arguments,
   const pcl_uvol::IsosurfaceResult result = pipeline.run();
   report.merge(result.report);
   save(arguments, result.field, result.surface, communicator, report);
-  return tellSamples(result.field, *part, arguments.parameters.periodic, communicator);
+  uvol_tools::Facts facts =
+      tellSamples(result.field, *part, arguments.parameters.periodic, communicator);
+  const auto& isovalues = arguments.parameters.isosurface.isovalues;
+  facts.emplace_back("isovalues", joined(isovalues), isovalues);
+  facts.push_back(countIsopoints(result, communicator));
+  return facts;
 }
 
 int
@@ -219,10 +236,7 @@ run(int argc, char** argv, pcl_uvol::Communicator& communicator)
   facts.insert(facts.end(), of_samples.begin(), of_samples.end());
   facts.insert(
       facts.end(),
-      {{"isovalues",
-        joined(arguments.parameters.isosurface.isovalues),
-        arguments.parameters.isosurface.isovalues},
-       {"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
+      {{"scale", uvol_tools::toNumbers(arguments.parameters.isosurface.scale)},
        {"interpolation", toWord(arguments.parameters.isosurface.interpolation)}});
   if (communicator.rank() == 0)
     uvol_tools::printReport(

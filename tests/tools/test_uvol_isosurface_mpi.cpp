@@ -288,12 +288,31 @@ TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
   const auto result = run(3, "in.pcd out.pvtp -iso 40 -field intensity");
   EXPECT_EQ(0, result.exit_code);
   EXPECT_NE(std::string::npos, result.out.find("processes: 3"));
-  EXPECT_EQ(result.out.find("isopoints"), result.out.rfind("isopoints"));
+  EXPECT_EQ(result.out.find("isopoints per isovalue: 0\n"),
+            result.out.rfind("isopoints per"));
   EXPECT_NE(std::string::npos, result.err.find("it lies outside the range"));
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
   EXPECT_EQ(std::string::npos, result.out.find('\033'));
   const auto progress = run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress");
   EXPECT_EQ(0, progress.exit_code);
+}
+
+TEST_F(IsosurfaceMpi, CountsIsopointsOfEachIsovalue)
+{
+  save("in.pcd", labelled(*uvol_test::makeCloud("uniform", 3000, 4)));
+  const auto countsOf = [](const CommandResult& result) {
+    std::smatch found;
+    std::regex_search(result.out, found, std::regex("isopoints per isovalue: .*"));
+    return found.str();
+  };
+  const std::string options = " -iso 0.3,0.4,40 -field intensity";
+  const auto alone = countsOf(runCommand(
+      "cd " + folder_ / "" + " && uvol_isosurface in.pcd alone.pcd" + options));
+  EXPECT_TRUE(std::regex_match(
+      alone, std::regex("isopoints per isovalue: [1-9][0-9]+,[1-9][0-9]+,0")))
+      << alone;
+  EXPECT_EQ(alone, countsOf(run(3, "in.pcd out.pvtp" + options)));
+  EXPECT_EQ(alone, countsOf(run(2, "in.pcd out.pcd" + options)));
 }
 
 TEST_F(IsosurfaceMpi, EndsWithOneSentenceAndNoOutput)
