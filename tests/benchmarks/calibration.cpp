@@ -112,19 +112,27 @@ printScattered(std::size_t n, std::uint64_t seed)
 }
 
 void
-printStretched(const std::string& shape, double ratio, int side)
+printStretched(const std::string& name,
+               const std::string& shape,
+               double ratio,
+               int side)
 {
-  const auto field = uvol_test::makeSmoothField(
-      "radial", static_cast<std::size_t>(side) * side * side);
+  const auto field =
+      uvol_test::makeSmoothField(name, static_cast<std::size_t>(side) * side * side);
   const auto samples = uvol_test::makeStretchedSamples(shape, ratio, side);
   const Surface surface = extract(samples.sample(field, side, 1), field.isovalue);
   auto moved = field;
   moved.value = [&](const Eigen::Vector3d& x) {
     return field.value(samples.to_index(x));
   };
-  char name[80];
-  std::snprintf(name, sizeof name, "%s, 1 : 1 : %g", shape.c_str(), ratio);
-  printRow(name, surface, uvol_test::deviations(moved, surface), isAny);
+  char row[80];
+  std::snprintf(row,
+                sizeof row,
+                "%s%s, 1 : 1 : %g",
+                name == "radial" ? "" : (name + ", ").c_str(),
+                shape.c_str(),
+                ratio);
+  printRow(row, surface, uvol_test::deviations(moved, surface), isAny);
 }
 
 /** Samples with holes on the surface, as wide as some of the neighbourhoods. */
@@ -262,9 +270,11 @@ main(int argc, char** argv)
     printScattered(n, seed);
   const int side = static_cast<int>(std::cbrt(static_cast<double>(n)) + 1e-9);
   if (isWanted("stretched"))
-    for (const char* const shape : {"lattice", "rotated", "wall", "jittered", "shaken"})
-      for (const double ratio : {1.0, 10.0, 100.0})
-        printStretched(shape, ratio, side);
+    for (const char* const field : {"radial", "waves", "gyroid"})
+      for (const char* const shape :
+           {"lattice", "rotated", "wall", "jittered", "shaken"})
+        for (const double ratio : {1.0, 10.0, 100.0})
+          printStretched(field, shape, ratio, side);
   if (isWanted("holes"))
     printHoles(n, seed);
   if (isWanted("lines"))

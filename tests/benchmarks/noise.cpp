@@ -223,18 +223,18 @@ printComparison(const std::string& name, const Clouds& clouds)
 }
 
 Clouds
-draw(const char* shape, double size, double noise)
+draw(const char* shape, double size, double noise, std::uint64_t first_seed = 1)
 {
   constexpr std::uint64_t seeds = 2;
   Clouds clouds;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+  for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed)
     clouds.push_back(
         uvol_test::makeNoisyCloud(uvol_test::makeSmallShape(shape, size), noise, seed));
   return clouds;
 }
 
 void
-printTable(const std::string& word)
+printTable(const std::string& word, std::uint64_t first_seed)
 {
   std::puts("| shape | direct | automatic mu | best fixed mu | automatic / best | "
             "automatic / direct | steps | ms | isopoints, direct and automatic |\n"
@@ -258,10 +258,10 @@ printTable(const std::string& word)
       std::snprintf(name, sizeof name, "%s %g, noise %.1f", shape, size, noise);
       if (std::string(name).find(word) == std::string::npos)
         continue;
-      printComparison(name, draw(shape, size, noise));
+      printComparison(name, draw(shape, size, noise, first_seed));
     }
   for (const double spike : {1e3, 1e10}) {
-    Clouds clouds = draw("sphere", 8.0, 0.1);
+    Clouds clouds = draw("sphere", 8.0, 0.1, first_seed);
     for (const NoisyCloud& noisy : clouds)
       for (std::size_t i = 0; i < noisy.cloud->size(); i += 100)
         (*noisy.cloud)[i].intensity = static_cast<float>(spike);
@@ -291,9 +291,10 @@ printUnits()
 
 } // namespace
 
-/** noise table [WORD]: the rows whose names hold the word. noise units: other units.
- * noise SHAPE uniform|clustered PERCENT MU...: one row per method; a negative MU
- * stands for the automatic one. */
+/** noise table [WORD [SEED]]: the rows whose names hold the word, of the clouds with
+ * the seed, by default 1, and the next. noise units: other units. noise SHAPE
+ * uniform|clustered PERCENT MU...: one row per method; a negative MU stands for the
+ * automatic one. */
 int
 main(int argc, char** argv)
 {
@@ -301,7 +302,8 @@ main(int argc, char** argv)
   using pcl_uvol::FitScheme;
   using pcl_uvol::Interpolation;
   if (argc >= 2 && std::string(argv[1]) == "table") {
-    printTable(argc > 2 ? argv[2] : "");
+    printTable(argc > 2 ? argv[2] : "",
+               argc > 3 ? static_cast<std::uint64_t>(std::atoi(argv[3])) : 1);
     return 0;
   }
   if (argc == 2 && std::string(argv[1]) == "units") {
@@ -309,7 +311,7 @@ main(int argc, char** argv)
     return 0;
   }
   if (argc < 4) {
-    std::fputs("usage: noise table [WORD]\n       noise units\n       noise "
+    std::fputs("usage: noise table [WORD [SEED]]\n       noise units\n       noise "
                "sphere|torus|two_spheres "
                "uniform|clustered PERCENT MU...\n",
                stderr);
