@@ -366,4 +366,35 @@ TEST(SplatGeneration, SheetsBackToBackAreNotMixed)
   EXPECT_GT(largest, 0.5); // the other sheet does not end a disc
 }
 
+/** Of sheets that look away from each other each place has a disc of its own sheet. */
+TEST(SplatGeneration, SheetsHalfASpacingApartHaveNoHoles)
+{
+  constexpr std::size_t points = 4000;
+  const double spacing = spacingOf(4.0, points / 2);
+  for (const double lambda : {0.2, 1.0})
+    for (const double delta : {0.02 * spacing, 0.5 * spacing}) {
+      const auto cloud = makePlate(points, 0.0, 4);
+      for (std::size_t i = 0; i < points; ++i) {
+        const float side = i % 2 == 0 ? 1.0f : -1.0f;
+        (*cloud)[i].z = 0.25f * side * static_cast<float>(spacing);
+        (*cloud)[i].normal_z = side;
+      }
+      const auto discs = discsOf(makeSplats(cloud, delta, lambda));
+      Random random(7);
+      const double inner = 1.0 - 3.0 * spacing; // where the sheets surely go on
+      std::size_t open = 0;
+      for (int i = 0; i < 20000; ++i) {
+        const double side = i % 2 == 0 ? 1.0 : -1.0;
+        const Vector3d place(inner * (2.0 * random.uniform() - 1.0),
+                             inner * (2.0 * random.uniform() - 1.0),
+                             0.25 * side * spacing);
+        open += std::none_of(discs.begin(), discs.end(), [&](const Disc& disc) {
+          return disc.normal().z() * side > 0.0 &&
+                 disc.covers(place, side * Vector3d::UnitZ());
+        });
+      }
+      EXPECT_EQ(0u, open) << "lambda " << lambda << ", delta " << delta;
+    }
+}
+
 } // namespace
