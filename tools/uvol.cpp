@@ -113,8 +113,8 @@ printFormats()
          "Volumes, read:   .nrrd .nhdr .vti .mha .mhd .vtk (structured points)\n"
          "Grids, written:  .vti, of uvol_probe also .vts .nrrd .mha\n"
          "Scenes, read:    .scene .txt\n"
-         "Pictures:        .png, .svg, .pdf; of uvol_render also .html, which turns in any "
-         "browser\n";
+         "Pictures:        .png, .svg, .pdf; of uvol_render also .html, which turns in "
+         "any browser\n";
 }
 
 /** \throws UsageError unless the process becomes the tool */

@@ -48,6 +48,35 @@ TEST(SplatTracing, TheNearerOfTwoSurfacesIsSeen)
   EXPECT_NEAR(0.0, channelAt(image, 0, 0, 1), step);
 }
 
+TEST(SplatTracing, CracksBetweenSplatsDoNotShowTheInsideOfWhatIsBehind)
+{
+  const Camera camera = looking({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, 0.01, {0, 1, 0});
+  const auto isRed = [&](std::vector<pcl_uvol::PointSplat> splats, double behind) {
+    std::vector<Rgba> colors(splats.size(), red);
+    splats.push_back(discAt({0, 0, -5}, {0, 0, behind}, 1.0));
+    colors.push_back(green);
+    const Image image = trace(sceneOf(splats, colors), camera, 1);
+    EXPECT_NEAR(1.0, channelAt(image, 0, 0, 0) + channelAt(image, 0, 0, 1), step);
+    return channelAt(image, 0, 0, 0) > 0.5;
+  };
+  const auto ring = [](double distance, double up) {
+    std::vector<pcl_uvol::PointSplat> splats;
+    for (const auto& [x, y] : {std::pair(1.0, 0.0), {-0.6, 0.8}, {-0.6, -0.8}})
+      splats.push_back(discAt({distance * x, distance * y, x}, {0.2 * x, 0, up}, 1.0));
+    return splats;
+  };
+  EXPECT_TRUE(isRed(ring(1.3, 1.0), -1.0));
+  EXPECT_TRUE(isRed(ring(1.7, 1.0), -1.0));
+  // A hole, a front behind it, backs in front of it, and a rim.
+  EXPECT_FALSE(isRed(ring(2.2, 1.0), -1.0));
+  EXPECT_FALSE(isRed(ring(1.3, 1.0), 1.0));
+  EXPECT_FALSE(isRed(ring(1.3, -1.0), -1.0));
+  EXPECT_FALSE(isRed({discAt({1.3, 0.0, 0.0}, {0, 0, 1}, 1.0),
+                      discAt({1.2, 0.6, 0.0}, {0, 0, 1}, 1.0),
+                      discAt({1.2, -0.6, 0.0}, {0, 0, 1}, 1.0)},
+                     -1.0));
+}
+
 TEST(SplatTracing, OverlappingSplatsAreAveraged)
 {
   // Figure 4.4: 0.8 and 0.3 radii off their centres.

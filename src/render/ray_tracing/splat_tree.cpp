@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace pcl_uvol {
 
@@ -23,6 +25,17 @@ constexpr std::size_t block_splats = 1u << 12;
 /** Splats that a ray meets not farther behind another one than this part of its radius
  * are one surface with it. */
 constexpr float same_surface = 0.5f;
+
+/** Splats of which at least so many lie on all sides of a ray, which misses each by
+ * less than its radius, and not farther behind one another than that part of it, have a
+ * crack between them: on rough surfaces discs are tilted against each other. @{ */
+constexpr std::size_t fewest_around = 3;
+constexpr float slip = 2.0f, crack_depth = 3.0f;
+/** @} */
+
+/** Cosine of the angle to the mean direction: a splat beyond it lies on the other side.
+ */
+constexpr float opposite = -0.2f;
 
 /** Room around splats, for rounding: in parts of their distances to the centre. */
 constexpr float box_room = 1e-6f;
@@ -200,6 +213,87 @@ SplatTree::isBlocked(const Ray& ray,
   return kernels_->isBlocked(arrays(), local);
 }
 
+SplatTree::HitRange
+SplatTree::collect(const TreeRay& ray,
+                   float part,
+                   std::size_t begin,
+                   std::vector<SplatHit>& hits) const
+{
+  if (hits.size() < begin + first_room)
+    hits.resize(begin + first_room);
+  for (;;) {
+    const std::size_t room = hits.size() - begin;
+    const std::size_t count =
+        kernels_->collect(arrays(), ray, part, hits.data() + begin, room);
+    if (count <= room)
+      return {begin, begin + count};
+    hits.resize(4 * hits.size());
+  }
+}
+
+std::pair<const SplatHit*, float>
+SplatTree::findFirst(const std::vector<SplatHit>& hits, const HitRange& range) const
+{
+  float limit = std::numeric_limits<float>::infinity();
+  const SplatHit* first = &hits[range.begin];
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const SplatHit& other = hits[i];
+    limit =
+        std::min(limit, other.distance + same_surface * splats_[other.splat].radius);
+    if (other.distance < first->distance ||
+        (other.distance == first->distance && other.splat < first->splat))
+      first = &other;
+  }
+  return {first, limit};
+}
+
+bool
+SplatTree::isBehind(const TreeRay& ray, const SplatHit& hit) const
+{
+  return toVector(splats_[hit.splat].normal).dot(toVector(ray.direction)) > 0.0f;
+}
+
+bool
+SplatTree::surround(const TreeRay& ray,
+                    const std::vector<SplatHit>& hits,
+                    const HitRange& range) const
+{
+  const auto sideOf = [&](const SplatHit& hit) -> Eigen::Vector3f {
+    const Eigen::Vector3f place =
+        toVector(ray.origin) + hit.distance * toVector(ray.direction);
+    return (toVector(splats_[hit.splat].center) - place).normalized();
+  };
+  const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(range.begin),
+             end = hits.begin() + static_cast<std::ptrdiff_t>(range.end);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (auto hit = begin; hit != end; ++hit)
+    sum += sideOf(*hit);
+  const Eigen::Vector3f most = sum.normalized();
+  return std::any_of(
+      begin, end, [&](const auto& hit) { return sideOf(hit).dot(most) < opposite; });
+}
+
+SplatTree::HitRange
+SplatTree::findAround(const TreeRay& ray,
+                      const SplatHit& first,
+                      std::vector<SplatHit>& hits,
+                      std::size_t begin) const
+{
+  TreeRay wide = ray;
+  wide.sq_reach = slip * slip;
+  wide.far = first.distance;
+  HitRange range = collect(wide, crack_depth, begin, hits);
+  const auto from = hits.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto fronts_end =
+      std::remove_if(from,
+                     hits.begin() + static_cast<std::ptrdiff_t>(range.end),
+                     [&](const SplatHit& hit) { return isBehind(ray, hit); });
+  range.end = begin + static_cast<std::size_t>(fronts_end - from);
+  if (range.end - begin < fewest_around || !surround(ray, hits, range))
+    range.end = begin;
+  return range;
+}
+
 bool
 SplatTree::intersect(const Ray& ray,
                      double near,
@@ -211,24 +305,20 @@ SplatTree::intersect(const Ray& ray,
   if (!entry)
     return false;
   const TreeRay local = localRay(ray, *entry, near, far);
-  if (hits.empty())
-    hits.resize(first_room);
-  std::size_t count;
-  while ((count = kernels_->collect(
-              arrays(), local, same_surface, hits.data(), hits.size())) > hits.size())
-    hits.resize(4 * hits.size());
-  if (count == 0)
+  HitRange range = collect(local, same_surface, 0, hits);
+  if (range.begin == range.end)
     return false;
   // Which of them belong to the surface is known now that all are known.
-  float limit = local.far;
-  const SplatHit* first = hits.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const SplatHit& other = hits[i];
-    limit =
-        std::min(limit, other.distance + same_surface * splats_[other.splat].radius);
-    if (other.distance < first->distance ||
-        (other.distance == first->distance && other.splat < first->splat))
-      first = &other;
+  auto [first, limit] = findFirst(hits, range);
+  float reach = 1.0f;
+  if (isBehind(local, *first)) {
+    const SplatHit behind = *first;
+    const HitRange around = findAround(local, behind, hits, range.end);
+    if (around.begin != around.end) {
+      range = around;
+      reach = slip;
+    }
+    std::tie(first, limit) = findFirst(hits, range);
   }
   const Eigen::Vector3f side = toVector(splats_[first->splat].normal);
   const Eigen::Vector3f origin = toVector(local.origin),
@@ -236,7 +326,7 @@ SplatTree::intersect(const Ray& ray,
   Eigen::Vector3f normal = Eigen::Vector3f::Zero(), color = normal;
   float weights = 0.0f, nearest = 2.0f, thickness = 0.0f;
   const SplatHit* chosen = first;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
     const SplatHit& other = hits[i];
     const SplatRecord& splat = splats_[other.splat];
     if (other.distance > limit || !(toVector(splat.normal).dot(side) > 0.0f))
@@ -246,7 +336,7 @@ SplatTree::intersect(const Ray& ray,
       nearest = offset;
       chosen = &other;
     }
-    const float weight = std::max(0.0f, 1.0f - offset);
+    const float weight = std::max(0.0f, reach - offset);
     normal += weight * fieldAt(splat, origin + other.distance * direction);
     color += weight * toVector(splat.color);
     weights += weight;

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pcl_uvol {
@@ -87,6 +88,42 @@ public:
   }
 
 private:
+  /** Hits of a ray, among others. */
+  struct HitRange {
+    std::size_t begin, end;
+  };
+
+  /** Add all hits of a ray that may count, see SplatTreeKernels::collect.
+   * \param begin where they are put */
+  HitRange
+  collect(const TreeRay& ray,
+          float part,
+          std::size_t begin,
+          std::vector<SplatHit>& hits) const;
+
+  /** The nearest hit, and the distance behind which hits are on other surfaces. */
+  std::pair<const SplatHit*, float>
+  findFirst(const std::vector<SplatHit>& hits, const HitRange& range) const;
+
+  /** True for a hit of the back of a splat. */
+  bool
+  isBehind(const TreeRay& ray, const SplatHit& hit) const;
+
+  /** Where a ray has slipped through between splats that look to its start and lie
+   * around it, and has met what is behind: those that it misses. Empty for others.
+   * \param first that it meets */
+  HitRange
+  findAround(const TreeRay& ray,
+             const SplatHit& first,
+             std::vector<SplatHit>& hits,
+             std::size_t begin) const;
+
+  /** True if the centres of splats lie on all sides of a ray. */
+  bool
+  surround(const TreeRay& ray,
+           const std::vector<SplatHit>& hits,
+           const HitRange& range) const;
+
   /** Distance at which a ray comes into the ball around all splats, 0 within it;
    * nothing if it does not. */
   std::optional<double>

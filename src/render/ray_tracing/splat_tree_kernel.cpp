@@ -95,7 +95,7 @@ public:
         const Floats d = t * ray_.direction[axis] - offset[axis];
         sq += d * d;
       }
-      const Ints is_met = (sq <= load<Floats>(leaf.sq_radius + first)) &
+      const Ints is_met = (sq <= ray_.sq_reach * load<Floats>(leaf.sq_radius + first)) &
                           (t >= fill(ray_.near)) & (t <= fill(far_));
       store(distance + first, t);
       store(sq_offset + first, sq);

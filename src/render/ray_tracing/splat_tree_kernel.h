@@ -40,6 +40,7 @@ struct TreeArrays {
 struct TreeRay {
   float origin[3], direction[3]; ///< of length 1
   float near, far;               ///< distances between which it is looked at
+  float sq_reach = 1.0f;         ///< squares of radii count as so many times as large
   /** Normal, on the side of the ray, of the surface of splats that it starts on, and
    * the distance from there to the origin; 0: it starts elsewhere. @{ */
   float own_normal[3], from_start;
