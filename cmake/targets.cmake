@@ -10,8 +10,9 @@ target_compile_options(pcl_uvol_warnings INTERFACE
   $<$<BOOL:${PCL_UVOL_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # A reader that writes out of bounds, which no test has met, ends in an error instead of somebody else's code. Core, which
-# meets no files, has only what is linked so: its tree would take 10 % more instructions with the rest. Sanitizers have
-# checks of their own.
+# meets no files, has only what is linked so: with the rest in its twelve hottest sources a whole extraction takes 1.0 % more
+# instructions (uvol_isosurface, 20,000 and 60,000 samples of a gyroid, one thread, callgrind), but the tree alone 10 % and an
+# isovalue of a tree that is there 11 % (tests/instructions). Sanitizers have checks of their own.
 add_library(pcl_uvol_hardening INTERFACE)
 target_compile_options(pcl_uvol_hardening INTERFACE
   $<$<CONFIG:Release>:-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=3>)
