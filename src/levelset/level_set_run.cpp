@@ -349,10 +349,7 @@ private:
     if (parameters_.reinitialization == Reinitialization::None ||
         measureSlopeError(*band_, gatherPhi(), threads_) <= most_slope_error)
       return;
-    const std::vector<float> distance = make_distance();
-    band_->forPlaces([&](std::size_t place, std::uint32_t sample) {
-      phi_[sample] = distance[place];
-    });
+    setInBand(make_distance());
   }
 
   /** A new band where the zero level has come near the border of the old one: a sample
@@ -423,6 +420,32 @@ private:
     // Isopoints would move the surface by what fits of them leave.
     makeDistance(level_set.final_slope_error,
                  [&] { return scaleToDistance(*band_, gatherPhi(), threads_); });
+    if (parameters_.reinitialization != Reinitialization::None)
+      makeDistanceAwayFromSurface();
+  }
+
+  /** Slopes at the surface are not those farther out, where no isopoint's fit reaches.
+   */
+  void
+  makeDistanceAwayFromSurface()
+  {
+    std::vector<float> phi = gatherPhi();
+    const std::vector<float> distance = makeDistanceOfBand();
+    for (std::size_t place = 0; place < phi.size(); ++place) {
+      const double length = std::abs(distance[place]) / spacing_;
+      const auto part =
+          static_cast<float>(std::clamp(length - level_set.kept_distance, 0.0, 1.0));
+      phi[place] += part * (distance[place] - phi[place]);
+    }
+    setInBand(phi);
+  }
+
+  /** \param phi by place */
+  void
+  setInBand(const std::vector<float>& phi)
+  {
+    band_->forPlaces(
+        [&](std::size_t place, std::uint32_t sample) { phi_[sample] = phi[place]; });
   }
 
   /** What the weight that was given leaves of the noise, where some of the samples next

@@ -3,6 +3,7 @@
 // smooth, and starts that are no distances.
 #include "levelset/level_set_setup.h"
 #include "support/noisy_shapes.h"
+#include "support/smooth_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -121,6 +122,29 @@ TEST(LevelSetRobust, PhiIsADistanceWhereNothingIsSmoothed)
   EXPECT_LT(deviation(phi, 4.0f), 0.05);
   evolution.setReinitialization(Reinitialization::None); // as it is asked for
   EXPECT_GT(deviation(evolve(evolution, cubes), 4.0f), 0.5);
+}
+
+/** The same with noise: smoothed, phi was f over its slope at every distance. */
+TEST(LevelSetRobust, PhiIsADistanceWhereItIsSmoothed)
+{
+  const auto noisy = makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 1).cloud;
+  std::vector<float> values;
+  for (const auto& point : *noisy)
+    values.push_back(512.0f - std::pow(8.0f - point.intensity, 3.0f));
+  Evolution evolution;
+  const auto phi = evolve(evolution, withValues(*noisy, values));
+  EXPECT_TRUE(evolution.getSummary().smoothed);
+  std::vector<double> near, far;
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    const double distance = 8.0 - (*noisy)[i].getVector3fMap().norm();
+    if (std::abs(distance) < 1.0)
+      near.push_back(std::abs(distance - phi[i]));
+    else if (std::abs(distance) > 3.5 && std::abs(distance) < 4.5)
+      far.push_back(std::abs(distance - phi[i]));
+  }
+  EXPECT_LT(uvol_test::quantile(near, 0.5), 0.1);
+  EXPECT_LT(uvol_test::quantile(far, 0.5), 0.1);
+  EXPECT_LT(uvol_test::quantile(far, 0.9), 0.2);
 }
 
 TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
