@@ -2,6 +2,7 @@
 #include "gl/point_pass.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace pcl_uvol {
@@ -200,6 +201,8 @@ PointPass::drawDiscs(const Frame& frame, const VisibleRanges& ranges, double bac
   const float away = frame.hasSides() ? away_depth : 0.0f;
   const Program& small = use(shaders::small_discs, "#define WITH_PIXELS\n", frame);
   small.set("back", back);
+  small.set("smallest_cover",
+            back > 0.0 ? std::numeric_limits<float>::max() : smallest_cover);
   small.set("away_depth", away);
   drawPoints(ranges.points);
   const Program& large = use(shaders::large_discs, "", frame);

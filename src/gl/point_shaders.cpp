@@ -118,6 +118,10 @@ uniform float back;       // how much deeper than they are discs lie, in radii
 uniform float away_depth; // and how much more, if they look away
 flat out float disc_back; // of this disc
 #endif
+#ifdef WITH_PIXELS
+uniform float smallest_cover; // larger discs replace the pixel of a point, in pixels
+flat out uint disc_has_pixel;
+#endif
 
 void setDisc(uint index, vec3 c, float radius, vec3 direction)
 {
@@ -149,6 +153,14 @@ bool isDisc(vec3 c, float radius)
   return size > smallest_footprint;
 }
 
+#ifdef WITH_PIXELS
+bool hasPixel(vec3 c, float radius)
+{
+  EXACT float size = radius * (focal * (1.0 / c.z));
+  return !isDisc(c, radius) || size <= smallest_cover;
+}
+#endif
+
 // Half of the width and height in the image, pixels.
 vec2 reach(vec3 c, float radius)
 {
@@ -178,10 +190,13 @@ void main()
   const float slack = 0.1; // hardware rounds corners
   gl_PointSize = is_disc ? 2.0 * max(size.x, size.y) + slack : 1.0;
   gl_Position = atPixel(is_disc ? place : floor(place) + 0.5);
-#ifdef BLENDED
-  if (!is_disc)
-    gl_Position = nowhere;
+  bool is_drawn = is_disc;
+#ifdef WITH_PIXELS
+  disc_has_pixel = uint(hasPixel(c, unstretched));
+  is_drawn = is_drawn || disc_has_pixel == 1u;
 #endif
+  if (!is_drawn)
+    gl_Position = nowhere;
   if (isHidden(c, direction))
     gl_Position = nowhere;
 }
@@ -248,6 +263,9 @@ bool isCovered(out float depth, out float part)
 // The pixel of the point itself is the nearer one of point and disc.
 const char* const discs_fragment = R"(
 flat in float disc_back;
+#ifdef WITH_PIXELS
+flat in uint disc_has_pixel;
+#endif
 layout(location = 0) out uvec2 state;
 
 bool isOwnPixel()
@@ -263,7 +281,8 @@ void main()
   EXACT float disc_depth = depth + disc_center.w * (disc_back * per_far);
   depth = is_covered ? disc_depth : 1.0;
 #ifdef WITH_PIXELS
-  depth = isOwnPixel() ? min(depth, depthOf(disc_center.xyz)) : depth;
+  if (disc_has_pixel == 1u && isOwnPixel())
+    depth = min(depth, depthOf(disc_center.xyz));
 #endif
   if (depth >= 1.0)
     discard;

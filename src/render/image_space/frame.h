@@ -131,6 +131,11 @@ resizePlanes(const Frame& frame, Image& image);
  * half as wide, and the masks close no more than sqrt(2) around its middle. */
 constexpr float largest_filler = 2.8f;
 
+/** Discs of a larger radius, in pixels, which are blended, cover the middles of all
+ * pixels that show the surface: points have no pixel of their own besides, which would
+ * stand out at outlines. Half of a pixel's diagonal. */
+constexpr float smallest_cover = 0.7072f;
+
 /** \brief Discs are blended over so many of their radii: normals and colours then
  * change smoothly from point to point, while the discs themselves stay as large as they
  * are. */

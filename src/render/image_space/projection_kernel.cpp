@@ -94,12 +94,14 @@ projectPoints(const Projection& projection,
     const Floats per_z = pixelsPerLength(projection, c);
     const Floats px = projection.center_x + c.x * per_z;
     const Floats py = projection.center_y + c.y * per_z;
+    Ints has_pixel = seen;
     if (points.radii != nullptr) {
       const Floats radius = discRadius(projection,
                                        loadSome<Floats>(points.radii + i, here),
                                        loadSome<Floats>(points.footprints + i, here),
                                        per_z);
       const Ints is_disc = seen & (radius * per_z > projection.smallest_footprint);
+      has_pixel &= ~(is_disc & (radius * per_z > points.smallest_cover));
       std::uint32_t bits = laneBits(is_disc);
       if (bits != 0)
         bits = laneBits(is_disc &
@@ -110,7 +112,8 @@ projectPoints(const Projection& projection,
     const Floats depth =
         squareRoot(c.x * c.x + c.y * c.y + c.z * c.z) * projection.per_far;
     // Conversion goes towards zero: what is left of the first column stays out.
-    seen &= (px >= 0.0f) & (py >= 0.0f) & (px < pixel_limit) & (py < pixel_limit);
+    seen = has_pixel & (px >= 0.0f) & (py >= 0.0f) & (px < pixel_limit) &
+           (py < pixel_limit);
     const Ints column = toInts(seen ? px : Floats{});
     const Ints row = toInts(seen ? py : Floats{});
     seen &= (column < fill(band.width)) & (row >= fill(band.first_row)) &

@@ -7,6 +7,7 @@
 #include "render/image_space/side_kernel.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pcl_uvol {
 
@@ -102,7 +103,8 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
              cloud.getNormals().data(),
              footprints,
              footprints,
-             blend_reach};
+             blend_reach,
+             smallest_cover};
 }
 
 PixelBand
@@ -147,6 +149,7 @@ Projector::project(StepTimer& step)
       else if (!is_blended) {
         points.radii = frame_.cloud.getFillers().data();
         points.stretch = 1.0f;
+        points.smallest_cover = std::numeric_limits<float>::max();
       }
       const std::size_t known = discs.size();
       discs.resize(known + projected_points);

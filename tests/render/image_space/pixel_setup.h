@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -118,7 +119,8 @@ struct PointArrays {
             normals.data(),
             radii.data(),
             footprints.data(),
-            stretch};
+            stretch,
+            std::numeric_limits<float>::max()};
   }
 };
 

@@ -176,4 +176,41 @@ TEST(ProjectionKernel, DiscsAreThoseLargerThanAPixelThatMayReachTheBand)
   });
 }
 
+TEST(ProjectionKernel, LargeDiscsReplaceThePixelsOfTheirPoints)
+{
+  const TestCamera camera;
+  const Projection& p = camera.projection;
+  const PointArrays points = randomPoints(camera);
+  uvol_test::forLevels(kernels, [&](ProjectionKernel kernel) {
+    const auto draw = [&](const ProjectedPoints& view) {
+      PixelRows rows;
+      std::vector<std::uint32_t> discs(projected_points);
+      kernel(p, view, 0, point_count, rows.band(0, PixelRows::height), discs.data());
+      return rows;
+    };
+    ProjectedPoints view = points.view(1.0f);
+    const PixelRows all = draw(view);
+    view.smallest_cover = 3.0f;
+    const PixelRows others = draw(view);
+    std::size_t replaced = 0, kept = 0;
+    for (std::size_t i = 0; i < all.keys.size(); ++i) {
+      if (all.keys[i] == background_key) {
+        EXPECT_EQ(background_key, others.keys[i]);
+        continue;
+      }
+      const std::uint32_t point = readPoint(all.keys[i]);
+      const SeenPoint seen(camera, points.place(point), points.normal(point));
+      const double per_length = p.focal / seen.place.z();
+      const double radius = points.footprints[point] * per_length > p.largest_filler
+                                ? points.footprints[point]
+                                : points.radii[point];
+      const bool is_replaced = radius * per_length > view.smallest_cover;
+      (is_replaced ? replaced : kept) += 1;
+      EXPECT_EQ(!is_replaced, all.keys[i] == others.keys[i]) << point;
+    }
+    EXPECT_GT(replaced, 3u);
+    EXPECT_GT(kept, 3u);
+  });
+}
+
 } // namespace
