@@ -10,11 +10,39 @@ namespace {
 /** Directions along an axis are no smaller: their inverses stay finite. */
 constexpr float least_direction = 1e-20f;
 
-/** A child that is put aside. */
-struct Aside {
-  std::uint32_t child;
-  float near; ///< distance of its box
-};
+/** A child that is put aside, and above it the bits of the distance of its box: what is
+ * written as a whole is read as a whole, without waiting for two halves. */
+using Aside = std::uint64_t;
+
+Aside
+makeAside(std::uint32_t child, float near)
+{
+  std::uint32_t bits = 0;
+  __builtin_memcpy(&bits, &near, sizeof bits);
+  return Aside{bits} << 32 | child;
+}
+
+std::uint32_t
+childOf(Aside aside)
+{
+  return static_cast<std::uint32_t>(aside);
+}
+
+/** Distances are not negative: their bits are in their order. */
+std::uint32_t
+nearBitsOf(Aside aside)
+{
+  return static_cast<std::uint32_t>(aside >> 32);
+}
+
+float
+nearOf(Aside aside)
+{
+  const std::uint32_t bits = nearBitsOf(aside);
+  float near = 0.0f;
+  __builtin_memcpy(&near, &bits, sizeof near);
+  return near;
+}
 
 /** In which order children are gone through. */
 enum class Order {
@@ -59,18 +87,19 @@ public:
   {
     if (!is_finite_) // it would meet children that are not there
       return;
-    aside_[0] = {0, ray_.near};
+    aside_[0] = makeAside(0, ray_.near);
     std::size_t count = 1;
     while (count > 0) {
       const Aside next = aside_[--count];
-      if (next.near > far_)
+      if (nearOf(next) > far_)
         continue;
-      if ((next.child & leaf_bit) != 0) {
-        if (!visit(next.child & ~leaf_bit))
+      const std::uint32_t child = childOf(next);
+      if ((child & leaf_bit) != 0) {
+        if (!visit(child & ~leaf_bit))
           return;
       }
       else
-        count = putAside(tree_.nodes[next.child], count);
+        count = putAside(tree_.nodes[child], count);
     }
   }
 
@@ -130,10 +159,11 @@ private:
     const std::size_t begin = count;
     for (; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
-      const Aside found = {node.child[child], nears[child]};
+      const Aside found = makeAside(node.child[child], nears[child]);
       std::size_t place = count++;
       if (order == Order::NearestFirst)
-        for (; place > begin && aside_[place - 1].near < found.near; --place)
+        for (; place > begin && nearBitsOf(aside_[place - 1]) < nearBitsOf(found);
+             --place)
           aside_[place] = aside_[place - 1];
       aside_[place] = found;
     }
@@ -157,16 +187,18 @@ collect(const TreeArrays& tree,
 {
   Traversal<Order::NearestFirst> traversal(tree, ray);
   std::size_t count = 0;
-  alignas(64) float distance[tree_width], sq_offset[tree_width];
+  alignas(64) float distance[tree_width], sq_offset[tree_width], behind[tree_width];
   traversal.run([&](std::uint32_t number) {
     const TreeLeaf& leaf = tree.leaves[number];
     std::uint32_t met = traversal.meet(leaf, distance, sq_offset);
     if (met == 0)
       return true;
-    for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
-      const int i = __builtin_ctz(rest);
-      traversal.shorten(distance[i] + part * __builtin_sqrtf(leaf.sq_radius[i]));
-    }
+    for (int first = 0; first < tree_width; first += lanes)
+      store(behind + first,
+            load<Floats>(distance + first) +
+                part * squareRoot(load<Floats>(leaf.sq_radius + first)));
+    for (std::uint32_t rest = met; rest != 0; rest &= rest - 1)
+      traversal.shorten(behind[__builtin_ctz(rest)]);
     for (; met != 0; met &= met - 1) {
       const int i = __builtin_ctz(met);
       if (distance[i] > traversal.far())
