@@ -225,8 +225,11 @@ SplatTree::collect(const TreeRay& ray,
     const std::size_t room = hits.size() - begin;
     const std::size_t count =
         kernels_->collect(arrays(), ray, part, hits.data() + begin, room);
-    if (count <= room)
+    if (count <= room) {
+      for (std::size_t i = begin; i < begin + count; ++i)
+        __builtin_prefetch(&splats_[hits[i].splat]); // they are read one after another
       return {begin, begin + count};
+    }
     hits.resize(4 * hits.size());
   }
 }
