@@ -323,11 +323,17 @@ private:
     last_reinitialization_ = count;
   }
 
-  /** The distance to the zero level, by place. */
+  /** The distance to the zero level, by place, that phi becomes. */
   std::vector<float>
   makeDistanceOfBand()
   {
     report_.count("reinitializations", 1);
+    return measureDistance();
+  }
+
+  std::vector<float>
+  measureDistance()
+  {
     if (parameters_.reinitialization != Reinitialization::Eikonal)
       return distanceToZeroLevel(*band_, samples_, phi_, spacing_, threads_, report_);
     if (parameters_.scheme == FitScheme::Quadratic)
@@ -430,7 +436,7 @@ private:
   makeDistanceAwayFromSurface()
   {
     std::vector<float> phi = gatherPhi();
-    const std::vector<float> distance = makeDistanceOfBand();
+    const std::vector<float> distance = measureDistance();
     for (std::size_t place = 0; place < phi.size(); ++place) {
       const double length = std::abs(distance[place]) / spacing_;
       const auto part =
