@@ -85,7 +85,7 @@ toVector(Rgba color)
 float
 bendOf(const SplatRecord& splat)
 {
-  return std::hypot(splat.tilt[0], splat.tilt[1]) +
+  return std::sqrt(splat.tilt[0] * splat.tilt[0] + splat.tilt[1] * splat.tilt[1]) +
          std::max(std::abs(splat.slope[0]), std::abs(splat.slope[1]));
 }
 
