@@ -220,6 +220,18 @@ ValueReader::appendBytes(std::vector<float>& values)
   }
 }
 
+/** Names from within a file may be of any length. */
+void
+checkExists(const std::string& path, const std::string& file)
+{
+  std::error_code ignored; // of a name that is too long
+  if (!std::filesystem::exists(file, ignored))
+    throwUnreadable(path,
+                    "there is no file " +
+                        quoteText(std::filesystem::path(file).filename().string()) +
+                        " of its data");
+}
+
 void
 readFiles(const std::string& path, const VolumeData& data, Volume& volume)
 {
@@ -231,8 +243,10 @@ readFiles(const std::string& path, const VolumeData& data, Volume& volume)
                         " layers cannot be shared by " +
                         std::to_string(data.files.size()) + " files of data");
   const std::uint64_t part = count / data.files.size();
-  for (const std::string& file : data.files)
+  for (const std::string& file : data.files) {
+    checkExists(path, file);
     ValueReader(file, data, part);
+  }
   // Reserved and then filled: memory that damaged data promise is not touched.
   volume.values.reserve(static_cast<std::size_t>(count));
   for (const std::string& file : data.files)
@@ -322,10 +336,7 @@ expandPattern(const std::string& path, const std::vector<std::string_view>& word
     name += number;
     name += pattern.substr(end + 1);
     files.push_back(besideFile(path, name));
-    std::error_code ignored; // of a name that is too long
-    if (!std::filesystem::exists(files.back(),
-                                 ignored)) // a list is no longer than its folder
-      throwUnreadable(path, "there is no file " + quoteText(name) + " of its data");
+    checkExists(path, files.back()); // a list is no longer than its folder
   }
   return files;
 }

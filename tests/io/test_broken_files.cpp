@@ -136,6 +136,7 @@ TEST(BrokenFiles, MetaImages)
                  with("LOCAL", "v%d.raw 2 1 1"),
                  with("LOCAL", "."),
                  with("LOCAL", "/dev/zero"),
+                 with("LOCAL", "/none/" + std::string(400, 'R')),
                  with("MET_SHORT", "MET_STRING"),
                  with("MET_SHORT", "MET_SHORT\nElementNumberOfChannels = 2000000000"),
                  with("MET_SHORT", "MET_SHORT\nCompressedData = True"),
