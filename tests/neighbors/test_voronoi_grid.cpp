@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -212,7 +213,7 @@ struct Points {
 TEST(VoronoiDiagram, TellsItsCells)
 {
   using Cells = std::array<std::uint32_t, 3>;
-  VoronoiDiagram<pcl::PointXYZ> diagram;
+  pcl_uvol::VoronoiDiagram<pcl::PointXYZ> diagram;
   EXPECT_EQ((Cells{128, 0, 0}), diagram.getCells());
   diagram.setCells(5, 6, 7);
   EXPECT_EQ((Cells{5, 6, 7}), diagram.getCells());
