@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The numbers that the level set was tuned by, each with its reason: what was measured
-// stands in tests/benchmarks/README.md under "Noise and level sets".
+// stands in tests/benchmarks/README.md under "Noise and level sets", and what half and
+// twice of each does under "What its constants do".
 #pragma once
 
 #include <cstddef>
@@ -110,6 +111,12 @@ struct LevelSetConstants {
    * others' 1. */
   double diffusion_weight = 0.5;
 
+  // What is told of the result (deviation.cpp)
+
+  /** Share of the noise: where less was taken away, residuals do not tell how much
+   * there is. */
+  double least_residual = 0.2;
+
   // The band and its function (level_set_run.cpp)
 
   /** The zero level keeps that far from the border of the band, and how many steps
@@ -143,6 +150,9 @@ struct LevelSetConstants {
   /** Part of the step that the viscosity allows, its viscosity, and the time until what
    * starts at the zero level has crossed a stencil. */
   double relaxation_safety = 0.5, viscosity = 0.3, relaxation_time = 6.0;
+  /** Slopes count as no greater than so many times those to the neighbours on one side:
+   * 2 where these are symmetric. */
+  float most_upwind = 3.0f;
 };
 
 constexpr LevelSetConstants level_set;

@@ -3,6 +3,7 @@
 
 #include "common/dispatch.h"
 #include "common/parallel.h"
+#include "levelset/constants.h"
 #include "levelset/evolution_kernel.h"
 
 #include <algorithm>
@@ -13,10 +14,6 @@ namespace pcl_uvol {
 namespace {
 
 constexpr std::size_t block_groups = 64;
-
-/** Share of the noise: where less was taken away, residuals do not tell how much there
- * is. */
-constexpr double least_residual = 0.2;
 
 const KernelTable<const EvolutionKernels*> kernel_table{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
@@ -53,7 +50,7 @@ findDeviations(const Band& band,
                unsigned threads)
 {
   std::vector<float> deviations(band.centers.size(), 0.0f);
-  if (!(shares.of_residual >= least_residual))
+  if (!(shares.of_residual >= level_set.least_residual))
     return deviations;
   // The mean of residuals and that of their squares become variance and squared shift.
   std::vector<float> variance(band.centerPlaces(), 0.0f), shift = variance;

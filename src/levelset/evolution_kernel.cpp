@@ -2,15 +2,13 @@
 #include "levelset/evolution_kernel.h"
 
 #include "derivatives/stencil_lanes.h"
+#include "levelset/constants.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
 namespace {
 
 constexpr std::size_t first_derivatives = 3;
-
-/** Slope over that of the neighbours on one side: 2 where these are symmetric. */
-constexpr float most_upwind = 3.0f;
 
 /** Slopes below it have no direction. */
 constexpr float smallest_slope = 1e-12f;
@@ -200,7 +198,7 @@ relaxToDistance(const DistanceStep& step, std::size_t first, std::size_t last)
     store(step.slope + i, slope);
     // Distances stay: for them it is 0.
     const Floats along = alongNormal(d, per_slope);
-    const Floats steepness = minimum(slope, most_upwind * normOf(half));
+    const Floats steepness = minimum(slope, level_set.most_upwind * normOf(half));
     store(step.next + i,
           own + step.change * sign * (1.0f - steepness) +
               step.damping * absolute(sign) * along);
