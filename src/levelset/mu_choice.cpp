@@ -264,7 +264,8 @@ private:
   void
   look(const std::vector<float>& phi, const std::vector<float>& probed)
   {
-    const double risk = estimateRisk(phi, probed);
+    const double least = level_set.least_risk * term_.noise * term_.noise;
+    const double risk = std::max(least, estimateRisk(phi, probed));
     ++misses_;
     if (!(risk < best_risk_))
       return;

@@ -147,6 +147,17 @@ TEST(LevelSetRobust, PhiIsADistanceWhereItIsSmoothed)
   EXPECT_LT(uvol_test::quantile(far, 0.9), 0.2);
 }
 
+/** Noise that is told a few per cent too large made the expected deviation fall below
+ * 0, and the sheet was smoothed until it was 0.43 off. */
+TEST(LevelSetRobust, ThinSheetsStayInNoiseOfASpacing)
+{
+  const auto noisy = makeNoisyCloud(makeSmallShape("sheet", 4.0), 1.0, 1);
+  Evolution evolution;
+  const double deviation = deviationOf(noisy, evolve(evolution, noisy.cloud));
+  EXPECT_LT(deviation, 0.35);
+  EXPECT_LT(evolution.getSummary().steps.size(), 300u);
+}
+
 TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
 {
   for (const auto& [name, size] : {std::pair("sheet", 4.0),
