@@ -68,14 +68,15 @@ SizeOption::declarePixels(Options& options)
   options.text(name_, "WxH", text_, withDefault("pixels of the window", text_));
 }
 
-void
+Options&
 SizeOption::declareSize(Options& options)
 {
   takes_lengths_ = true;
-  options.text(name_,
-               "WxH",
-               text_,
-               withDefault("pixels of the picture, or lengths, as 85x60mm", text_));
+  return options.text(
+      name_,
+      "WxH",
+      text_,
+      withDefault("pixels of the picture, or lengths, as 85x60mm", text_));
 }
 
 void
@@ -95,7 +96,7 @@ SizeOption::declareDpi(Options& options)
 void
 SizeOption::declareChart(Options& options)
 {
-  declareSize(options);
+  declareSize(options).rare();
   declareDpi(options);
 }
 

@@ -26,7 +26,7 @@ public:
   declarePixels(Options& options);
 
   /** \brief The size in pixels or as lengths, for tools that call declareDpi(). */
-  void
+  Options&
   declareSize(Options& options);
 
   void

@@ -101,7 +101,10 @@ VariogramOutput::declare(Options& options)
               "samples and of those along an axis, and its model")
       .rare();
   options
-      .output("variogram-png", "out.png|.svg|.pdf", picture_, "with kriging: draw that variogram")
+      .output("variogram-png",
+              "out.png|.svg|.pdf",
+              picture_,
+              "with kriging: draw that variogram")
       .rare();
 }
 
