@@ -18,8 +18,10 @@ struct Paper {
   int
   leastLetters(int room) const;
 
-  /** \brief Pixels of letters of a chart, which grow with its size unless it is
-   * printed. \param usual paper of a chart of this kind, with letters of 14 pixels */
+  /** \brief Pixels of letters of a chart, which grow with its size if nobody says how
+   * it is printed.
+   *
+   * \param usual paper of a chart of this kind, with letters of 14 pixels */
   int
   chartLetters(const Paper& usual) const;
 
