@@ -86,9 +86,19 @@ VtkMessages::~VtkMessages()
   vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(verbosity_));
 }
 
+/** VTK's writers and their compressor die where they find no memory for their blocks.
+ * \throws std::bad_alloc in front of them */
+void
+checkRoomForBlocks()
+{
+  constexpr std::size_t bytes = 1 << 20;
+  ::operator delete(::operator new(bytes)); // no compiler leaves this out
+}
+
 void
 writeXml(vtkXMLWriter& writer, const std::string& file, const std::string& path)
 {
+  checkRoomForBlocks();
   const VtkMessages messages;
   writer.SetFileName(file.c_str());
   writer.SetDataModeToAppended();

@@ -107,13 +107,16 @@ public:
   }
 
 private:
-  /** Gives phi by input index, in the input's unit of length.
+  /** Gives phi by input index, in the input's unit of length: in stretched spaces that
+   * is more than a float can be, where the sign is what counts.
    * \param phi by sample */
   std::vector<float>
   expandToCloud(std::vector<float> values) const
   {
+    constexpr double largest = std::numeric_limits<float>::max();
     for (float& value : values)
-      value = static_cast<float>(samples_.getUnit().toInput(value));
+      value = static_cast<float>(
+          std::clamp(samples_.getUnit().toInput(value), -largest, largest));
     std::vector<float> phi(cloud_size_, std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < samples_.size(); ++i)
       phi[samples_.getInputIndex(i)] = values[i];

@@ -12,11 +12,13 @@ hasMpirun()
 }
 
 std::string
-mpirun(std::size_t processes)
+mpirun(std::size_t processes, int seconds)
 {
   // Bound processes share the first cores with those of other jobs.
   return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-         "OMPI_MCA_odls_base_sigkill_timeout=0 timeout 120 mpirun "
+         "OMPI_MCA_odls_base_sigkill_timeout=0 timeout -k 1 " +
+         std::to_string(seconds) +
+         " mpirun "
          "-q --oversubscribe --bind-to none -np " +
          std::to_string(processes) + " ";
 }

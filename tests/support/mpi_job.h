@@ -11,8 +11,9 @@ bool
 hasMpirun();
 
 /** \brief What stands before the command of that many processes: more than there are
- * cores are fine, and so is root. */
+ * cores are fine, and so is root.
+ * \param seconds after which it is killed */
 std::string
-mpirun(std::size_t processes);
+mpirun(std::size_t processes, int seconds = 120);
 
 } // namespace uvol_test
