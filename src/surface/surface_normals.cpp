@@ -78,7 +78,7 @@ public:
   /** \param unit lengths of directions are near 1 in it */
   Orientation(const CloudView& cloud, const Eigen::Array3f& view_point, float unit)
       : cloud_(cloud)
-      , view_point_(unit * view_point)
+      , view_point_(view_point)
       , unit_(unit)
   {
     constexpr const char* names[] = {"normal_x", "normal_y", "normal_z"};
@@ -87,6 +87,7 @@ public:
         own_normal_.emplace_back(cloud.fields, name);
   }
 
+  /** Zero where it is unknown. */
   Eigen::Vector3f
   at(std::uint32_t index) const
   {
@@ -95,13 +96,26 @@ public:
       Eigen::Vector3f own(static_cast<float>(own_normal_[0].read(point)),
                           static_cast<float>(own_normal_[1].read(point)),
                           static_cast<float>(own_normal_[2].read(point)));
-      if (own.allFinite() && !own.isZero(0.0f))
+      if (hasDirection(own))
         return own;
     }
-    return view_point_ - unit_ * Eigen::Vector3f(cloud_.xyz(index));
+    const Eigen::Vector3f place(cloud_.xyz(index)),
+        view = unit_ * view_point_ - unit_ * place;
+    if (hasDirection(view))
+      return view;
+    const Eigen::Vector3f far_view = view_point_ - place; // too far away in that unit
+    return hasDirection(far_view) ? far_view : Eigen::Vector3f(0.0f, 0.0f, 0.0f);
   }
 
 private:
+  /** Of shorter vectors too few digits are left to give them length 1. */
+  static bool
+  hasDirection(const Eigen::Vector3f& vector)
+  {
+    return vector.allFinite() &&
+           vector.cwiseAbs().maxCoeff() >= std::numeric_limits<float>::min();
+  }
+
   const CloudView& cloud_;
   Eigen::Vector3f view_point_;
   float unit_;
@@ -254,6 +268,9 @@ estimateSurfaceNormals(const CloudView& input,
     }
     step.advance(end - begin);
   });
+  // Near 1, so that no square of a length is beyond float.
+  const Eigen::Array3f stretch =
+      scale * std::ldexp(1.0f, -std::ilogb(scale.maxCoeff()));
   const std::vector<std::uint32_t> sample_of = collectSamples(*samples, cloud.count);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<SurfaceNormal> normals(indices.size(), {{nan, nan, nan}, nan});
@@ -264,7 +281,7 @@ estimateSurfaceNormals(const CloudView& input,
       if (sample == no_sample)
         continue;
       normals[i] =
-          orient(fits[sample], indices[i], graph[sample], sides, orientation, scale);
+          orient(fits[sample], indices[i], graph[sample], sides, orientation, stretch);
       if (axes.areTurned()) {
         Eigen::Map<Eigen::Vector3f> normal(normals[i].normal);
         normal = (rows.transpose() * normal).eval();

@@ -163,6 +163,41 @@ TEST(SurfaceNormals, ScaleGivesTheNormalsOfTheOriginalSpace)
   }
 }
 
+/** A plane across x, of which nothing else is left where x is stretched so much. */
+TEST(SurfaceNormals, StretchedBeyondSquaresOfFloatsTheyAreUnitVectors)
+{
+  Cloud::Ptr cloud(new Cloud);
+  for (int i = 0; i < 100; ++i) {
+    pcl::PointNormal point;
+    point.getVector3fMap() << 0.0f, static_cast<float>(i % 10),
+        static_cast<float>(i / 10);
+    point.getNormalVector3fMap() << -1.0f, 0.5f, 0.0f;
+    cloud->push_back(point);
+  }
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setKSearch(9);
+  estimation.setScale({1e30f, 1.0f, 1.0f});
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  for (const pcl::Normal& normal : normals)
+    EXPECT_EQ(Eigen::Vector3f(-1, 0, 0), normal.getNormalVector3fMap());
+}
+
+/** Of the shortest vectors that a float can hold no direction is left. */
+TEST(SurfaceNormals, OwnNormalsNearZeroAreNone)
+{
+  Cloud::Ptr cloud(new Cloud);
+  for (int i = 0; i < 20; ++i) {
+    pcl::PointNormal point;
+    point.getVector3fMap() << static_cast<float>(i), 0.0f, 1.0f;
+    point.getNormalVector3fMap() << 2e-43f, 0.0f, 5e-44f;
+    cloud->push_back(point);
+  }
+  for (const pcl::Normal& normal : estimate(cloud, 5))
+    EXPECT_NEAR(1.0f, normal.getNormalVector3fMap().norm(), 1e-6f);
+}
+
 TEST(SurfaceNormals, SameForAnyNumberOfThreads)
 {
   const auto cloud = makeSphere(5000, 1.0f, {0, 0, 0}, 1.0f);
