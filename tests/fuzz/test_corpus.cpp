@@ -7,8 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <thread>
 
 namespace {
@@ -38,16 +43,45 @@ runOn(const Target& target, const std::string& bytes, const std::string& name)
   }
 }
 
-/** A few bytes replaced, removed or doubled. */
-std::string
-mutate(std::string bytes, uvol_test::Random& random)
-{
-  const auto below = [&random](std::size_t count) {
-    return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
-  };
-  for (std::size_t change = 0; change <= below(4) && !bytes.empty(); ++change) {
-    const std::size_t at = below(bytes.size()), count = 1 + below(8);
-    switch (below(4)) {
+/** Changes files as fuzzers do. */
+class Mutator {
+public:
+  Mutator(const std::vector<std::string>& files, std::uint64_t seed)
+      : files_(files)
+      , random_(seed)
+  {
+  }
+
+  /** A few bytes replaced, removed, doubled or moved, numbers put in, and now and then
+   * the end of another file. */
+  std::string
+  mutate(std::string bytes)
+  {
+    if (below(4) == 0)
+      join(bytes, files_[below(files_.size())]);
+    for (std::size_t change = 0; change <= below(8) && !bytes.empty(); ++change)
+      changeBytes(bytes);
+    return bytes;
+  }
+
+private:
+  std::size_t
+  below(std::size_t count)
+  {
+    return static_cast<std::size_t>(random_.uniform() * static_cast<double>(count));
+  }
+
+  void
+  join(std::string& bytes, const std::string& other)
+  {
+    bytes = bytes.substr(0, below(bytes.size())) + other.substr(below(other.size()));
+  }
+
+  void
+  changeBytes(std::string& bytes)
+  {
+    const std::size_t at = below(bytes.size()), count = 1 + below(16);
+    switch (below(6)) {
     case 0:
       bytes[at] = static_cast<char>(below(256));
       break;
@@ -57,13 +91,33 @@ mutate(std::string bytes, uvol_test::Random& random)
     case 2:
       bytes.insert(at, bytes.substr(at, count));
       break;
+    case 3:
+      bytes.replace(at, count, bytes.substr(below(bytes.size()), count));
+      break;
+    case 4:
+      putFloat(bytes, at);
+      break;
     default:
       bytes.insert(at, std::to_string(-9 + static_cast<int>(below(1000))));
       break;
     }
   }
-  return bytes;
-}
+
+  void
+  putFloat(std::string& bytes, std::size_t at)
+  {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr std::array<float, 10> special{
+        {0.0f, 1.0f, -0.5f, 1e-43f, 1e-30f, 1e20f, -1e30f, 3e38f, infinity, NAN}};
+    const float number = special[below(special.size())];
+    char text[sizeof(number)];
+    std::memcpy(text, &number, sizeof(number));
+    bytes.replace(at, sizeof(number), text, sizeof(number));
+  }
+
+  const std::vector<std::string>& files_;
+  uvol_test::Random random_;
+};
 
 /** 200, or what a call asks for: fuzzers are 25 times as slow on stages. */
 std::size_t
@@ -86,17 +140,15 @@ TEST_P(Corpus, BreaksNoPromise)
 TEST_P(Corpus, MutatedBreaksNoPromise)
 {
   constexpr std::size_t most_bytes = 20000;
+  std::vector<std::string> files;
+  for (const fs::path& file : listCorpus(GetParam()))
+    if (fs::file_size(file) <= most_bytes)
+      files.push_back(uvol_test::readFile(file));
   const std::size_t mutants = countMutants();
-  const auto files = listCorpus(GetParam());
-  for (std::size_t i = 0; i < mutants; ++i) {
-    const fs::path& file = files[i % files.size()];
-    if (fs::file_size(file) > most_bytes)
-      continue;
-    uvol_test::Random random(i);
+  for (std::size_t i = 0; i < mutants; ++i)
     runOn(GetParam(),
-          mutate(uvol_test::readFile(file), random),
-          file.filename().string() + " with seed " + std::to_string(i));
-  }
+          Mutator(files, i).mutate(files[i % files.size()]),
+          "seed " + std::to_string(i));
 }
 
 /** Readers and stages share nothing that threads of a user could spoil: tsan looks on.
