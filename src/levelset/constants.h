@@ -74,7 +74,7 @@ struct LevelSetConstants {
   /** Mean square deviations are expected to be no smaller, over that of the noise: it
    * is known no better, and where it is told too large they fell below 0 while sheets
    * and cylinders went. */
-  double least_risk = 0.03;
+  double least_risk = 0.005;
   /** The share of the expected mean square deviation: smoothing has to take away the
    * rest. These fits leave more noise than isopoints have, so that with 0.78 waves 6
    * long with noise of 0.1 were smoothed and got worse by 8 %; with 0.7 one of two
