@@ -215,7 +215,7 @@ expectBlocked(bool is_blocked, double alignment, double distance, bool goes_in)
       node.high[axis][i] = -std::numeric_limits<float>::infinity();
     }
   }
-  TreeRay ray{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.0f, 10.0f, {}, 0.0f};
+  TreeRay ray{{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, 0.0f, 10.0f, 1.0f, {}, 0.0f};
   for (int axis = 0; axis < 3; ++axis) {
     node.low[axis][0] = axis == 0 ? static_cast<float>(distance) - 0.1f : -0.1f;
     node.high[axis][0] = axis == 0 ? static_cast<float>(distance) + 0.1f : 0.1f;
