@@ -13,7 +13,7 @@ bash tools/install_dependencies.sh \
   build-essential cmake ninja-build ccache \
   libpcl-dev libvtk9-dev libflann-dev liblz4-dev zlib1g-dev nlohmann-json3-dev libmuparser-dev libbz2-dev libzstd-dev libnetcdf-dev \
   pybind11-dev python3-dev python3-numpy python3-pytest \
-  libcairo2-dev pkg-config libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
+  libcairo2-dev pkgconf libgl-dev libegl-dev libx11-dev libopenmpi-dev openmpi-bin \
   libgtest-dev libgmock-dev "$@"
 # A compiler cache that is empty can only cost time: a first build does not fill it.
 [ -e "build/$preset" ] || ccache --print-stats | grep -qP '^files_in_cache\t[1-9]' || export CCACHE_DISABLE=1
