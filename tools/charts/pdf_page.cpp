@@ -33,7 +33,7 @@ public:
   {
     std::string all;
     for (const auto& [keyword, text] : texts)
-      all += (all.empty() ? "" : "; ") + keyword + ": " + text;
+      all.append(all.empty() ? "" : "; ").append(keyword).append(": ").append(text);
     cairo_pdf_surface_set_metadata(
         surface_.get(), CAIRO_PDF_METADATA_SUBJECT, all.c_str());
   }

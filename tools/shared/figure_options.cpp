@@ -45,13 +45,16 @@ FigureOptions::check(const Options& options, const Paper& paper)
                        " both say where the camera is: give one of them.");
   figure_.views = parseNames("views", views_text_);
   const auto& names = pcl_uvol::Camera::viewNames();
-  for (const std::string& view : figure_.views)
-    if (std::find(names.begin(), names.end(), view) == names.end()) {
-      std::string all;
-      for (const std::string& name : names)
-        all += (all.empty() ? "" : ", ") + name;
-      throw UsageError("-views has names of sides, " + all + ", not '" + view + "'.");
-    }
+  const auto unknown =
+      std::find_if(figure_.views.begin(), figure_.views.end(), [&](const auto& view) {
+        return std::find(names.begin(), names.end(), view) == names.end();
+      });
+  if (unknown != figure_.views.end()) {
+    std::string all;
+    for (const std::string& name : names)
+      all += (all.empty() ? "" : ", ") + name;
+    throw UsageError("-views has names of sides, " + all + ", not '" + *unknown + "'.");
+  }
   if (!figure_.fits(paper.width, paper.height))
     throw UsageError("The picture is too small for -views and -title: a larger -size "
                      "helps.");

@@ -134,9 +134,10 @@ SizeOption::checkChart(const Options& options,
                        const std::string& asked_by,
                        bool is_asked_for)
 {
-  for (const std::string& name : {name_, std::string("dpi")})
-    if (options.given(name) && !is_asked_for)
-      throw UsageError("-" + name + " needs -" + asked_by + ".");
+  const auto asked =
+      options.given(name_) ? name_ : std::string(options.given("dpi") ? "dpi" : "");
+  if (!asked.empty() && !is_asked_for)
+    throw UsageError("-" + asked + " needs -" + asked_by + ".");
   parse();
   constexpr int least = 128, most = pcl_uvol::Renderer::largest_size;
   if (options.given(name_) && (std::min(paper_.width, paper_.height) < least ||
