@@ -17,7 +17,8 @@ positions()
 {
   static const auto made = [] {
     std::vector<pcl_uvol::Position> all;
-    for (const auto& point : *radialCloud(samples).cloud)
+    const auto cloud = radialCloud(samples).cloud;
+    for (const auto& point : *cloud)
       all.push_back({{point.x, point.y, point.z}});
     return all;
   }();

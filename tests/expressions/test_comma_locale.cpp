@@ -72,6 +72,7 @@ TEST_F(CommaLocale, FilesAreTheSame)
   const std::vector<std::string> files{"a.csv", "a.pcd", "a.ply", "a.vtp", "a.npz"};
   const Dataset expected = read(samples);
   std::vector<std::string> bytes;
+  bytes.reserve(files.size());
   for (const std::string& file : files)
     bytes.push_back(write(file, expected));
   if (!use())

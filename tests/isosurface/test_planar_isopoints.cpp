@@ -97,6 +97,8 @@ TEST(PlanarIsopoints, OfACircleLieOnIt)
       ASSERT_GT(curve.points.size(), 80u);
       for (std::size_t i = 0; i < curve.points.size(); ++i) {
         const PointIso& point = curve.points[i];
+        if (isBridged(point))
+          continue;
         ASSERT_LE(curve.fits[i].outcome, RootOutcome::Quadratic);
         const Vector3d x = positionOf(point);
         EXPECT_NEAR(1.0, x.norm(), 2e-6);

@@ -218,7 +218,8 @@ TEST(LevelSetRobust, SaysThatTheSurfaceHasVanished)
 TEST(LevelSetRobust, TellsWhatSmoothingTookAway)
 {
   const auto both = makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 1).cloud;
-  for (auto point : *makeNoisyCloud(makeSmallShape("sphere", 3.0), 0.1, 1).cloud) {
+  const auto other = makeNoisyCloud(makeSmallShape("sphere", 3.0), 0.1, 1).cloud;
+  for (auto point : *other) {
     point.x += 60.0f;
     both->push_back(point);
   }

@@ -48,6 +48,7 @@ float
 medianAt(const std::vector<float>& f, const std::vector<std::uint32_t>& samples)
 {
   std::vector<float> sizes;
+  sizes.reserve(samples.size());
   for (const std::uint32_t sample : samples)
     sizes.push_back(std::abs(f[sample]));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);

@@ -50,14 +50,15 @@ const std::string in_plane = "probe in.csv o.csv -field r -plane z=0.5";
 
 TEST_F(PrintedCharts, EveryToolWritesTheSizeThatIsAskedFor)
 {
-  for (const std::string& arguments :
-       {on_line + " -png chart.png" + png_print,
-        in_plane + " -png chart.png" + png_print,
-        on_line + " -model kriging -variogram-png chart.png" + png_print,
-        "levelset in.csv o.ply -field r -iso 0.6 -steps 3 -plot chart.png" + print,
-        "measure in.csv o.csv -field r -iso 0.5,0.6 -png chart.png" + print,
-        "project in.csv o.ply -attributes x,y,r -png chart.png" + print,
-        "voronoi in.csv o.vti -grid 8 -png chart.png" + print})
+  const std::vector<std::string> commands{
+      on_line + " -png chart.png" + png_print,
+      in_plane + " -png chart.png" + png_print,
+      on_line + " -model kriging -variogram-png chart.png" + png_print,
+      "levelset in.csv o.ply -field r -iso 0.6 -steps 3 -plot chart.png" + print,
+      "measure in.csv o.csv -field r -iso 0.5,0.6 -png chart.png" + print,
+      "project in.csv o.ply -attributes x,y,r -png chart.png" + print,
+      "voronoi in.csv o.vti -grid 8 -png chart.png" + print};
+  for (const std::string& arguments : commands)
     expectSize(arguments, 600, 450);
   expectSize("voronoi in.csv o.vti -grid 8 -axis y -slices 2 -dpi 300 -png chart.png",
              2 * 296 + 4,
