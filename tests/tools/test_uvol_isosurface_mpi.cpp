@@ -182,14 +182,16 @@ TEST_F(IsosurfaceMpi, WritesTheFileOfOneProcess)
   const std::string options =
       " -iso 0.3,0.45 -interpolation linear -criterion all -outside higher "
       "-scale 1,2,0.5 -field intensity -where \"label>=100\"";
-  for (const std::string ending : {".ply", ".pcd", ".csv", ".vtp"}) {
+  const auto expectSameFile = [&](std::size_t processes, const std::string& ending) {
     runAlone("in.ply alone" + ending + options + " -normals edge");
-    const auto alone = uvol_test::readFile(folder_ / ("alone" + ending));
-    for (const std::size_t processes : {1, 3}) {
-      expectSuccess(processes, "in.ply out" + ending + options + " -threads 2");
-      EXPECT_EQ(alone, uvol_test::readFile(folder_ / ("out" + ending))) << ending;
-    }
-  }
+    expectSuccess(processes, "in.ply out" + ending + options + " -threads 2");
+    EXPECT_EQ(uvol_test::readFile(folder_ / ("alone" + ending)),
+              uvol_test::readFile(folder_ / ("out" + ending)))
+        << ending;
+  };
+  for (const char* const ending : {".ply", ".pcd", ".csv", ".vtp"})
+    for (const std::size_t processes : {1, 3})
+      expectSameFile(processes, ending);
 }
 
 TEST_F(IsosurfaceMpi, TakesPiecesWhereverTheirPointsAre)

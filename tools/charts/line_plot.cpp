@@ -215,8 +215,9 @@ drawLinePlot(const std::vector<PlotLine>& lines,
               TextAnchor::Right,
               black);
   }
+  const int end_of_ticks = bottom + font / 2;
   for (const double i : roundValues(1.0, static_cast<double>(count))) {
-    drawLine(image, x(i), bottom, x(i), bottom + font / 2, sheet.thin_line, black);
+    drawLine(image, x(i), bottom, x(i), end_of_ticks, sheet.thin_line, black);
     writeText(image,
               shortNumber(i),
               font,
