@@ -99,8 +99,8 @@ public:
       if (hasDirection(own))
         return own;
     }
-    const Eigen::Vector3f place(cloud_.xyz(index)),
-        view = unit_ * view_point_ - unit_ * place;
+    const Eigen::Vector3f place(cloud_.xyz(index));
+    Eigen::Vector3f view = unit_ * view_point_ - unit_ * place;
     if (hasDirection(view))
       return view;
     const Eigen::Vector3f far_view = view_point_ - place; // too far away in that unit

@@ -5,6 +5,7 @@
 #include <pcl_uvol/neighbors/voronoi_diagram.h>
 
 #include <gtest/gtest.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <array>
