@@ -11,7 +11,7 @@ cmake --build "$folder/build"
 "$folder/build/consumer" | tee "$folder/out"
 grep -Eq '^[1-9][0-9]* isopoints' "$folder/out"
 test "$("$folder/build/algorithms_consumer")" = "2 clusters, some triangles"
-test "$("$folder/build/normals_consumer")" = "2 clusters, some triangles"
+grep -Eq '^1 clusters, [1-9][0-9]* triangles$' <("$folder/build/normals_consumer")
 test "$("$folder/build/window_consumer")" = "bounds from 3"
 if [ -e "$folder/prefix/include/pcl_uvol/mpi" ]; then
   test "$("$folder/build/ranks_consumer")" = "rank 0 of 1"
