@@ -54,7 +54,7 @@ check_tidy() {
   bash tools/build.sh help clang-tidy libomp-dev >/dev/null &&
     cmake --preset release -B build/tidy -DPCL_UVOL_PRECOMPILE_HEADERS=OFF >/dev/null || return
   local headers
-  headers=$(fingerprint .clang-tidy '*.h' '*.hpp')
+  headers=$(fingerprint '*.clang-tidy' '*.h' '*.hpp')
   sed -n "s|.*\"file\": \"$PWD/\(.*\.cpp\)\".*|\1|p" build/tidy/compile_commands.json | sort -u |
     xargs -P "$(nproc)" -I{} bash -c 'tidy_file "$@"' - {} "$headers"
 }

@@ -8,6 +8,7 @@
 #include "shared/periodic_option.h"
 #include "shared/point_files.h"
 #include "shared/progress_bar.h"
+#include "shared/sampling_fact.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/mpi/mpi_communicator.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -194,6 +195,7 @@ extract(Arguments& arguments,
   const auto& isovalues = arguments.parameters.isosurface.isovalues;
   facts.emplace_back("isovalues", joined(isovalues), isovalues);
   facts.push_back(countIsopoints(result, communicator));
+  facts.push_back(uvol_tools::describeSampling(*result.sampling));
   return facts;
 }
 

@@ -6,6 +6,7 @@
 #include "distributed/byte_stream.h"
 #include "distributed/rank_store.h"
 #include "distributed/scratch_store.h"
+#include "neighbors/sampling.h"
 
 #include <algorithm>
 #include <utility>
@@ -26,7 +27,7 @@ public:
   {
   }
 
-  void
+  SamplingSummary
   run()
   {
     store_.redistribute();
@@ -38,6 +39,7 @@ public:
     for (std::size_t batch = 0; batch < store_.countBatches(); ++batch)
       runBatch(batch);
     store_.returnToOwner(stage_);
+    return summarizeSampling(allGatherItems(communicator_, seen_));
   }
 
 private:
@@ -48,15 +50,13 @@ private:
   buildPieces()
   {
     values_ = no_range;
+    seen_.clear();
+    const Decomposition& parts = store_.getDecomposition();
     std::vector<std::uint64_t> coinciding{0};
     for (const std::size_t piece : store_.getOwnPieces()) {
       Samples samples = store_.takeSamples(piece);
-      auto built = Piece::build(store_.getDecomposition(),
-                                piece,
-                                std::move(samples),
-                                stage_.getScale(),
-                                threads_,
-                                report_);
+      auto built = Piece::build(
+          parts, piece, std::move(samples), stage_.getScale(), threads_, report_);
       if (!built) {
         // NOLINTNEXTLINE(bugprone-use-after-move): null leaves them where they were
         store_.putBack(piece, std::move(samples));
@@ -66,6 +66,9 @@ private:
       const auto& values = built->getValues();
       const auto [min, max] = std::minmax_element(values.begin(), values.end());
       values_ = values_.joined({*min, *max});
+      const auto seen = lookAtSome(
+          built->getSamples(), parts.getBegin(piece), parts.getSampleCount(), threads_);
+      seen_.insert(seen_.end(), seen.begin(), seen.end());
       store_.put(piece, std::move(*built));
     }
     communicator_.allReduce(coinciding);
@@ -137,6 +140,7 @@ private:
   unsigned threads_;
   Report& report_;
   NodeRanges::Range values_ = no_range; // of the pieces built
+  std::vector<LocalSampling> seen_;     // by some of their samples
 };
 
 } // namespace
@@ -145,7 +149,7 @@ BlockStore::~BlockStore() = default;
 PieceTask::~PieceTask() = default;
 PieceStage::~PieceStage() = default;
 
-void
+SamplingSummary
 runOnRanks(PieceStage& stage,
            Samples&& samples,
            Communicator& communicator,
@@ -153,17 +157,17 @@ runOnRanks(PieceStage& stage,
            Report& report)
 {
   RankStore store(std::move(samples), communicator, threads, report);
-  StageRun(stage, store, threads, report).run();
+  return StageRun(stage, store, threads, report).run();
 }
 
-void
+SamplingSummary
 runOutOfCore(PieceStage& stage,
              ScratchSamples&& samples,
              const OutOfCoreSettings& settings,
              Report& report)
 {
   ScratchStore store(std::move(samples).takeLog(), stage, settings, report);
-  StageRun(stage, store, settings.threads, report).run();
+  return StageRun(stage, store, settings.threads, report).run();
 }
 
 } // namespace pcl_uvol

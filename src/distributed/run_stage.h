@@ -8,6 +8,7 @@
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
 #include <pcl_uvol/distributed/communicator.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,9 +29,11 @@ namespace pcl_uvol {
  * \param report gets the counts and times of the stage for this process, the counts
  * "duplicates", "conflicting_duplicates", "pieces", "samples", "bytes_redistributed"
  * and "bytes_exchanged", and the times of "decomposition", "tree" and "exchange"
+ * \return what the samples of all processes are like, in their unit, as far as pieces
+ * tell, whose ends see neighbours on one side only; on all processes
  * \throws InvalidArgument on all processes if there is no sample at all.
  * Memory: about 130 bytes per sample. */
-PCL_UVOL_EXPORTS void
+PCL_UVOL_EXPORTS SamplingSummary
 runOnRanks(PieceStage& stage,
            Samples&& samples,
            Communicator& communicator,
@@ -90,9 +93,10 @@ private:
  * beside the samples; pieces are made that small.
  * \param report as of runOnRanks, with the count "scratch_bytes" (records apart) and
  * the time of "scratch" instead of what is sent
+ * \return as runOnRanks
  * \throws InvalidArgument without a sample, for a bound that is too small
  * \throws IOError if the disk is full */
-PCL_UVOL_EXPORTS void
+PCL_UVOL_EXPORTS SamplingSummary
 runOutOfCore(PieceStage& stage,
              ScratchSamples&& samples,
              const OutOfCoreSettings& settings,

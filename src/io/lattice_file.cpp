@@ -359,10 +359,10 @@ latticeFiles(const std::string& path, const std::vector<LatticeArray>& arrays)
   std::vector<std::string> paths{path};
   if (holdsOneArray(path))
     for (std::size_t i = 1; i < arrays.size(); ++i) {
-      std::string name = arrays[i].name;
+      std::string name = '_' + arrays[i].name;
       std::replace(name.begin(), name.end(), '/', '_');
-      paths.push_back(path.substr(0, path.size() - ending.size()) + '_' + name +
-                      ending);
+      paths.push_back(path);
+      paths.back().insert(path.size() - ending.size(), name);
     }
   for (const std::string& file : paths)
     io::checkWritable(file);

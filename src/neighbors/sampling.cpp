@@ -129,16 +129,32 @@ diagnoseSampling(const SampleSet& samples,
   return found;
 }
 
+std::vector<LocalSampling>
+lookAtSome(const SampleSet& samples,
+           std::uint64_t begin,
+           std::uint64_t total,
+           unsigned threads)
+{
+  const std::uint64_t step = (total + most_looks - 1) / most_looks;
+  const std::uint64_t before = (begin + step - 1) / step; // that other parts look at
+  std::vector<LocalSampling> found((begin + samples.size() + step - 1) / step - before);
+  parallelBlocks(found.size(), block_samples, threads, [&](auto first, auto last) {
+    SamplingFinder finder(samples);
+    for (std::size_t i = first; i < last; ++i)
+      found[i] = finder.find(static_cast<std::uint32_t>((before + i) * step - begin));
+  });
+  return found;
+}
+
 SamplingSummary
 summarizeSampling(const SampleSet& samples, unsigned threads)
 {
-  const std::size_t step = (samples.size() + most_looks - 1) / most_looks;
-  std::vector<LocalSampling> found((samples.size() + step - 1) / step);
-  parallelBlocks(found.size(), block_samples, threads, [&](auto begin, auto end) {
-    SamplingFinder finder(samples);
-    for (std::size_t i = begin; i < end; ++i)
-      found[i] = finder.find(static_cast<std::uint32_t>(i * step));
-  });
+  return summarizeSampling(lookAtSome(samples, 0, samples.size(), threads));
+}
+
+SamplingSummary
+summarizeSampling(const std::vector<LocalSampling>& found)
+{
   SamplingSummary summary;
   for (const LocalSampling& one : found)
     ++summary.shares[static_cast<std::size_t>(one.dimension)];

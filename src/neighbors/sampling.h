@@ -59,6 +59,32 @@ diagnoseSampling(const SampleSet& samples,
 PCL_UVOL_EXPORTS SamplingSummary
 summarizeSampling(const SampleSet& samples, unsigned threads);
 
+/** \brief What summarizeSampling() looks at, for samples that are a part of a cloud,
+ * consecutive in its leaf order: the same samples of all parts together, but each sees
+ * no neighbours beyond its part.
+ * \param begin samples of the cloud before this part
+ * \param total samples of the cloud */
+std::vector<LocalSampling>
+lookAtSome(const SampleSet& samples,
+           std::uint64_t begin,
+           std::uint64_t total,
+           unsigned threads);
+
+/** \brief What they say together.
+ * \param found at least one */
+SamplingSummary
+summarizeSampling(const std::vector<LocalSampling>& found);
+
+/** \brief A summary of samples whose unit they did not know, with lengths of the
+ * stretched input. */
+inline SamplingSummary
+toInput(SamplingSummary summary, const LengthUnit& unit)
+{
+  summary.along = static_cast<float>(unit.toInput(summary.along));
+  summary.across = static_cast<float>(unit.toInput(summary.across));
+  return summary;
+}
+
 /** \brief The same where there is no tree over the samples: it is built, and given
  * back.
  * \param field that samples have a finite value of

@@ -120,7 +120,7 @@ DistributedIsosurfacePipeline::run()
   const CloudView view = viewOf(part.getPoints().cloud);
   const ScalarField field(view.fields, isosurface.field);
   const ValueFrame frame = findValueFrame(view, field, communicator_, threads_);
-  Isopoints isopoints =
+  auto [isopoints, sampling] =
       extractFromRanks(part.readSamples(field, frame, threads_, report_),
                        withErrors(parameters),
                        frame,
@@ -132,6 +132,7 @@ DistributedIsosurfacePipeline::run()
   part.numberByPoints(isopoints);
   IsosurfaceResult result = finishIsopoints(
       isopoints, part, parameters, communicator_, threads_, std::move(report_));
+  result.sampling = sampling;
   warnTogether(parameters, communicator_, result.report);
   report_ = result.report;
   return result;

@@ -4,12 +4,13 @@
 #include "common/parallel.h"
 #include "distributed/byte_stream.h"
 #include "distributed/run_stage.h"
+#include "neighbors/sampling.h"
 
 #include <utility>
 
 namespace pcl_uvol {
 
-std::vector<std::vector<GlobalIsopoint>>
+RankIsosurface
 extractFromRanks(Samples&& samples,
                  const IsosurfaceParameters& settings,
                  const ValueFrame& frame,
@@ -21,8 +22,9 @@ extractFromRanks(Samples&& samples,
   const LengthUnit unit = normalizeTogether(
       samples, toPosition(settings.scale), communicator, threads, report);
   IsosurfaceStage stage(settings, unit, frame);
-  runOnRanks(stage, std::move(samples), communicator, threads, report);
-  return std::move(stage).take();
+  const SamplingSummary sampling =
+      runOnRanks(stage, std::move(samples), communicator, threads, report);
+  return {std::move(stage).take(), toInput(sampling, unit)};
 }
 
 std::vector<std::vector<GlobalIsopoint>>

@@ -7,10 +7,17 @@
 #include "isosurface/piece_isopoints.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/distributed/communicator.h>
+#include <pcl_uvol/neighbors/neighbor_graph.h>
 
 #include <vector>
 
 namespace pcl_uvol {
+
+/** \brief What one of several processes has of an isosurface. */
+struct RankIsosurface {
+  std::vector<std::vector<GlobalIsopoint>> isopoints; ///< per isovalue
+  SamplingSummary sampling; ///< of the samples of all processes
+};
 
 /** \brief Extract the isosurface of the samples of all processes.
  *
@@ -18,13 +25,12 @@ namespace pcl_uvol {
  * same settings, byte for byte.
  * \param samples of this process, see readSamples, values in the frame; there may be
  * none
- * \return per isovalue the isopoints that lie in this process's pieces, ordered by
- * their edges
+ * \return the isopoints that lie in this process's pieces, ordered by their edges
  * \param report gets the counts, times and warnings of IsosurfaceExtraction for this
  * process, and those of runOnRanks
  * \throws InvalidArgument for bad settings, and on all processes if there is no sample
  * at all. Memory: about 130 bytes per sample. */
-PCL_UVOL_EXPORTS std::vector<std::vector<GlobalIsopoint>>
+PCL_UVOL_EXPORTS RankIsosurface
 extractFromRanks(Samples&& samples,
                  const IsosurfaceParameters& settings,
                  const ValueFrame& frame,

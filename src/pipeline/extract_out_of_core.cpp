@@ -5,6 +5,7 @@
 #include "common/scalar_field.h"
 #include "common/stretch_axes.h"
 #include "isosurface/edge_ends.h"
+#include "neighbors/sampling.h"
 #include "pipeline/finish_isosurface.h"
 #include "pipeline/isopoint_choice.h"
 #include "pipeline/isopoint_filter.h"
@@ -97,9 +98,10 @@ extractOutOfCore(PointSource& points,
   checkParameters(settings);
   ReadSamples read = readPoints(points, settings, out_of_core, report);
   IsosurfaceStage stage(settings, read.unit, read.frame);
-  runOutOfCore(stage, std::move(read.samples), out_of_core, report);
-  const auto found = std::move(stage).take();
   OutOfCoreIsosurface surface;
+  surface.sampling = toInput(
+      runOutOfCore(stage, std::move(read.samples), out_of_core, report), read.unit);
+  const auto found = std::move(stage).take();
   for (std::size_t i = 0; i < found.size(); ++i)
     for (const GlobalIsopoint& isopoint : found[i])
       surface.isopoints.push_back(toPointIso(isopoint, settings.isovalues[i]));
@@ -141,6 +143,7 @@ runPipelineOutOfCore(PointSource& points,
                                              resolved,
                                              out_of_core.threads,
                                              std::move(report));
+  result.sampling = surface.sampling;
   warnOfLosses(resolved, result.surface.cloud.width, result.report);
   return result;
 }

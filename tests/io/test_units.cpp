@@ -338,7 +338,8 @@ TEST_P(Units, RanksAndDisksGiveTheSame)
     for (std::size_t i = communicator.rank(); i < all.size(); i += communicator.size())
       own.append(all.span(i, 1));
     const auto parts = gatherIsopoints(
-        extractFromRanks(std::move(own), settings, {}, communicator, 1, report),
+        extractFromRanks(std::move(own), settings, {}, communicator, 1, report)
+            .isopoints,
         communicator,
         1);
     const std::lock_guard lock(mutex);

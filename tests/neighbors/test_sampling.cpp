@@ -77,6 +77,25 @@ TEST(Sampling, ContrastsAreThoseOfCells)
             summarize(makeLattice(40, 8, 8, 1.0f, 6.0f, 6.0f)).most);
 }
 
+/** Of 3,000 samples every third one, wherever parts begin. */
+TEST(Sampling, PartsLookAtWhatTheWholeLooksAt)
+{
+  const auto samples =
+      makeSamples(makeLattice(10, 10, 10, 1.0f, 1.0f, 12.0f), {{1.0f, 1.0f, 1.0f}});
+  const auto all = diagnoseSampling(*samples, 0);
+  for (const std::size_t begin : {0, 1, 2, 1000, 1999, 2000}) {
+    const auto some = lookAtSome(*samples, begin, 3000, 2);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((begin + i) % 3 == 0) {
+        ASSERT_LT(next, some.size());
+        EXPECT_EQ(all[i].along, some[next].along);
+        EXPECT_EQ(all[i].across, some[next++].across);
+      }
+    EXPECT_EQ(next, some.size()) << begin;
+  }
+}
+
 TEST(Sampling, SpacingsAreThoseOfTheStretchedSpace)
 {
   const auto positions = makeLattice(60, 8, 8, 1.0f, 12.0f, 12.0f);

@@ -297,7 +297,7 @@ TEST(VoronoiGrid, RefusesWhatDoesNotFit)
   GridShape shape;
   const auto refuses = [&](const std::string& part) {
     try {
-      VoronoiGrid(shape, points.xyz.data(), 3, points.use, way, 0, report);
+      const VoronoiGrid grid(shape, points.xyz.data(), 3, points.use, way, 0, report);
       ADD_FAILURE() << part;
     }
     catch (const InvalidArgument& error) {

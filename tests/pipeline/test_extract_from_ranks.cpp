@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several ranks find together what one process finds alone, byte for byte.
+#include "neighbors/sampling.h"
 #include "pipeline/extract_from_ranks.h"
 #include "support/clouds.h"
 #include "support/thread_ranks.h"
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <tuple>
 
 namespace {
@@ -20,6 +22,7 @@ using pcl_uvol::AngleCriterion;
 using pcl_uvol::GlobalIsopoint;
 using pcl_uvol::Interpolation;
 using pcl_uvol::IsosurfaceParameters;
+using pcl_uvol::LocalDimension;
 using pcl_uvol::Report;
 using pcl_uvol::Samples;
 using uvol_test::runRanks;
@@ -50,7 +53,8 @@ struct Alone {
 /** What all ranks find, in the order of the edges. */
 struct Together {
   Isopoints isopoints;
-  Report report; ///< of all ranks
+  pcl_uvol::SamplingSummary sampling; ///< as each rank says
+  Report report;                      ///< of all ranks
 
   /** \param owner of point i among the ranks */
   Together(const Cloud& cloud,
@@ -68,9 +72,10 @@ struct Together {
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner(all.sources[i]) == communicator.rank())
           samples.append(all.span(i, 1));
-      const auto found =
+      const auto [found, looks] =
           extractFromRanks(std::move(samples), settings, {}, communicator, 1, own);
       const std::lock_guard lock(mutex);
+      sampling = looks;
       report.merge(own);
       for (std::size_t i = 0; i < found.size(); ++i)
         isopoints[i].insert(isopoints[i].end(), found[i].begin(), found[i].end());
@@ -272,6 +277,41 @@ TEST(RankExtraction, TakesManyRanks)
   const Alone alone(cloud, settings);
   EXPECT_GT(alone.isopoints.size(), 300u);
   expectRanksFind(alone, *cloud, settings, {64, 70});
+}
+
+/** Pieces end where neighbours would be, which changes little. */
+TEST(RankExtraction, TellsWhatTheSamplesAreLike)
+{
+  IsosurfaceParameters settings;
+  settings.field = "intensity";
+  settings.isovalues = {7.0}; // none is found
+  settings.scale = {1.0f, 1.0f, 3e6f};
+  for (const float across : {1e-6f, 2e-5f}) {
+    const Cloud::Ptr cloud(new Cloud);
+    for (int i = 0; i < 32000; ++i)
+      cloud->push_back({across * static_cast<float>(i / 100 % 20),
+                        across * static_cast<float>(i / 2000),
+                        static_cast<float>(i % 100) / 3e12f,
+                        0.0f});
+    pcl::Indices all(cloud->size());
+    std::iota(all.begin(), all.end(), 0);
+    const auto alone = pcl_uvol::summarizeSampling(pcl_uvol::viewOf(*cloud),
+                                                   all,
+                                                   settings.field,
+                                                   settings.scale,
+                                                   Eigen::Array3d::Zero(),
+                                                   1);
+    EXPECT_EQ(across > 1e-5f ? LocalDimension::Line : LocalDimension::Volume,
+              alone.most);
+    for (const std::size_t ranks : {1, 3}) {
+      const auto found = Together(*cloud, settings, ranks, in_turn(ranks)).sampling;
+      EXPECT_EQ(alone.most, found.most) << ranks;
+      EXPECT_NEAR(alone.along, found.along, 0.02f * alone.along) << ranks;
+      EXPECT_NEAR(alone.across, found.across, 0.02f * alone.across) << ranks;
+      for (std::size_t i = 0; i < found.shares.size(); ++i)
+        EXPECT_NEAR(alone.shares[i], found.shares[i], 0.03) << ranks << ' ' << i;
+    }
+  }
 }
 
 TEST(RankExtraction, RefusesNothingAtAll)

@@ -56,6 +56,7 @@ TEST_F(MaxMemory, WritesTheSameFile)
     EXPECT_EQ(expected, uvol_test::readFile(out_)) << options;
     EXPECT_TRUE(std::regex_search(result.out, std::regex("pieces [2-9]")))
         << result.out;
+    EXPECT_NE(std::string::npos, result.out.find("sampling: all around")) << result.out;
     EXPECT_NE(std::string::npos, result.err.find("No isopoints for 2")) << result.err;
   }
 }

@@ -305,8 +305,8 @@ struct PCL_UVOL_EXPORTS IsosurfaceResult {
    */
   std::vector<LevelSetSummary> level_sets;
   std::optional<ErrorSummary> errors; ///< none where no error is estimated
-  /** What the samples are like in the stretched space; none where they are not in
-   * memory all at once. */
+  /** What the samples are like in the stretched space; of several processes, those of
+   * all of them. */
   std::optional<SamplingSummary> sampling;
   std::optional<GapFilling> gaps;          ///< if they were to be filled
   std::vector<ValidationScore> validation; ///< one per isovalue, if asked for
