@@ -142,13 +142,11 @@ Place
 QueryLattice::at(std::size_t index) const
 {
   const std::size_t row = index / counts[0];
-  const double along[] = {static_cast<double>(index % counts[0]),
-                          static_cast<double>(row % counts[1]),
-                          static_cast<double>(row / counts[1])};
+  const std::size_t along[] = {index % counts[0], row % counts[1], row / counts[1]};
   Place place = origin;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      place[axis] += along[k] * steps[k][axis];
+      place[axis] += static_cast<double>(along[k]) * steps[k][axis];
   return place;
 }
 

@@ -90,6 +90,7 @@ drawScatter(const std::vector<std::array<float, 3>>& places,
             int height)
 {
   std::vector<uvol_tools::ScatterAxis> named;
+  named.reserve(axes.size());
   for (const auto& [name, direction] : axes)
     named.push_back({name, direction});
   return toPixels(
