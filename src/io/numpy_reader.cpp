@@ -110,7 +110,7 @@ HeaderParser::takeText()
   const std::size_t end = rest_.find(rest_[0], 1);
   if (end == std::string_view::npos)
     fail();
-  const std::string text(rest_.substr(1, end - 1));
+  std::string text(rest_.substr(1, end - 1));
   rest_.remove_prefix(end + 1);
   return text;
 }
@@ -402,6 +402,7 @@ openNpz(const std::string& path)
   if (arrays.size() == 1)
     return openTable(path, arrays[0]);
   std::vector<NumberTable> tables;
+  tables.reserve(arrays.size());
   for (const Array& array : arrays)
     tables.push_back(
         {array.name, array.rows(), array.is_structured ? 0 : array.components()});
