@@ -154,8 +154,8 @@ ClusterSeparation::centreAxes(bool favours_close) const
   for (const Pair& pair : separable_) {
     const VectorXd offset = computeOffset(pair);
     const double sq_dist = offset.squaredNorm();
-    between.selfadjointView<Eigen::Lower>().rankUpdate(
-        offset, favours_close ? 1.0 / (sq_dist * sq_dist) : 1.0);
+    const double weight = favours_close ? 1.0 / (sq_dist * sq_dist) : 1.0;
+    between += offset * (weight * offset).transpose();
   }
   const EigenPairs pairs = computeEigenPairs(between);
   const double least = least_eigenvalue * pairs.values[m - 1];

@@ -330,9 +330,9 @@ AxisCycle
 KdTree::cycleOver(const std::array<bool, 3>& axes)
 {
   std::vector<std::int8_t> used;
-  for (std::int8_t axis = 0; axis < 3; ++axis)
-    if (axes[static_cast<std::size_t>(axis)])
-      used.push_back(axis);
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+    if (axes[axis])
+      used.push_back(static_cast<std::int8_t>(axis));
   AxisCycle cycle{};
   for (std::size_t depth = 0; depth < cycle.size() && !used.empty(); ++depth)
     cycle[depth] = used[depth % used.size()];
