@@ -184,7 +184,9 @@ Stretch::ofMap(const Matrix3d& map)
   if (!map.allFinite())
     throw InvalidArgument("The nine numbers of the scale must be finite.");
   const Eigen::JacobiSVD<Matrix3d> singular(map, Eigen::ComputeFullV);
-  const Vector3d& factors = singular.singularValues(); // descending
+  // gcc takes what a reference refers to for uninitialized.
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
+  const Vector3d factors = singular.singularValues(); // descending
   if (!(factors[2] > least_singular_value * factors[0]))
     throw InvalidArgument("The nine numbers of the scale leave a direction without "
                           "length: their rows must not lie in one plane.");

@@ -285,6 +285,13 @@ reachOfFit(const FitResult& result, std::size_t lane, const Surroundings& surrou
 
 } // namespace
 
+double
+computeRounding(const PointIso& point)
+{
+  return std::sqrt(3.0) * 0x1p-24 *
+         std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+}
+
 void
 keepInGap(const IsoEdge& edge, PointIso& point)
 {
@@ -342,11 +349,8 @@ setIsopoint(const IsopointInput& input,
   for (int axis = 0; axis < 3; ++axis)
     point.data_n[axis] = static_cast<float>(side * gradient[axis] / slope);
   point.mean_curvature = static_cast<float>(side * (trace - along) / (2.0 * slope));
-  const double rounding =
-      std::sqrt(3.0) * 0x1p-24 *
-      std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
   const double error = errorOfFit(result, lane) * std::sqrt(sq_fit_slope) / slope;
-  point.error = static_cast<float>(std::hypot(error, rounding));
+  point.error = static_cast<float>(std::hypot(error, computeRounding(point)));
 }
 
 } // namespace pcl_uvol

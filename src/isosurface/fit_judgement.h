@@ -92,6 +92,10 @@ isFarFromJump(const FitResult& result,
 void
 leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result);
 
+/** \brief How far an isopoint may be moved by float holding its coordinates. */
+double
+computeRounding(const PointIso& point);
+
 /** \brief Leave an isopoint on its edge across a wide gap. */
 void
 keepInGap(const IsoEdge& edge, PointIso& point);

@@ -2,8 +2,9 @@
 #include "pipeline/isopoint_choice.h"
 
 #include "common/parallel.h"
-#include "common/scalar_field.h"
 #include "neighbors/nearest_finder.h"
+#include "pipeline/edge_errors.h"
+#include "pipeline/stretched_edges.h"
 #include <pcl_uvol/surface/surface_normals.h>
 
 #include <Eigen/Core>
@@ -56,69 +57,6 @@ isSupport(const PointIso& point, IsoSupport support)
   return point.support == static_cast<std::uint8_t>(support);
 }
 
-/** Edges of isopoints in the stretched space. */
-class StretchedEdges {
-public:
-  StretchedEdges(const CloudView& samples,
-                 const IsoEdges& edges,
-                 const IsosurfaceParameters& parameters)
-      : samples_(samples)
-      , edges_(edges)
-      , field_(samples.fields, parameters.field)
-      , scale_(parameters.scale.cast<double>())
-      , is_lower_outside_(parameters.outside == Outside::Lower)
-  {
-  }
-
-  /** \brief The unit vector along an edge that points to the outside. */
-  Vector3d
-  findOutside(std::size_t i) const
-  {
-    const auto [a, b, t] = edges_[i];
-    const bool falls = field_.read(samples_.point(b)) < field_.read(samples_.point(a));
-    const Vector3d along = (placeOf(b) - placeOf(a)).cwiseProduct(scale_.matrix());
-    return (falls == is_lower_outside_ ? along : Vector3d(-along)).normalized();
-  }
-
-  /** \brief Its linear root, in the original space. */
-  Vector3d
-  findRoot(std::size_t i) const
-  {
-    const auto [a, b, t] = edges_[i];
-    return placeOf(a) + static_cast<double>(t) * (placeOf(b) - placeOf(a));
-  }
-
-  /** \brief The samples at its ends, the inner one first. */
-  std::pair<Vector3d, Vector3d>
-  findEnds(std::size_t i) const
-  {
-    const auto [a, b, t] = edges_[i];
-    const bool falls = field_.read(samples_.point(b)) < field_.read(samples_.point(a));
-    return falls == is_lower_outside_ ? std::pair(placeOf(a), placeOf(b))
-                                      : std::pair(placeOf(b), placeOf(a));
-  }
-
-  /** \brief A covector of the stretched space in the original one. */
-  Eigen::Vector3f
-  carryBack(const Vector3d& covector) const
-  {
-    return covector.cwiseProduct(scale_.matrix()).normalized().cast<float>();
-  }
-
-private:
-  Vector3d
-  placeOf(std::uint32_t sample) const
-  {
-    return Eigen::Map<const Eigen::Vector3f>(samples_.xyz(sample)).cast<double>();
-  }
-
-  const CloudView& samples_;
-  const IsoEdges& edges_;
-  ScalarField field_;
-  Eigen::Array3d scale_;
-  bool is_lower_outside_;
-};
-
 /** Put an isopoint back to where its edge has it. */
 void
 returnToEdge(const StretchedEdges& edges, float t, std::size_t i, PointIso& point)
@@ -157,6 +95,13 @@ public:
                                toPosition(parameters.isosurface.scale),
                                threads,
                                report);
+  }
+
+  /** \brief Where the isopoints were, as samples. */
+  const SampleSet&
+  getPlaces() const
+  {
+    return *places_;
   }
 
   NearestFinder
@@ -246,14 +191,14 @@ judgeSurface(const Surface& surface,
       if (!isDoubtful(edges, i, point))
         continue;
       surface.findAround(finder, point, around);
-      bisectors[i] = edges.carryBack(surface.bisect(i, around));
+      bisectors[i - first] = edges.carryBack(surface.bisect(i, around));
       const std::size_t as_it_is = surface.countRightEnds(
           point.getVector3fMap().cast<double>(), point.getNormalVector3fMap(), around);
       const std::size_t by_edges =
-          surface.countRightEnds(edges.findRoot(i), bisectors[i], around);
-      returns[i] = static_cast<double>(by_edges) >=
-                   static_cast<double>(as_it_is) +
-                       least_gain * 2.0 * static_cast<double>(around.size());
+          surface.countRightEnds(edges.findRoot(i), bisectors[i - first], around);
+      returns[i - first] = static_cast<double>(by_edges) >=
+                           static_cast<double>(as_it_is) +
+                               least_gain * 2.0 * static_cast<double>(around.size());
     }
     step.advance(end - begin);
   });
@@ -318,41 +263,84 @@ orientIsopoints(const IsosurfacePipelineParameters& parameters,
   become(IsoOrientation::Pca);
 }
 
-/** Put isopoints back to their edges that rest on these alone. */
+/** Put isopoints of one isovalue back to their edges that rest on these alone. */
 void
-returnDoubtful(const StretchedEdges& stretched,
+returnDoubtful(const Surface& surface,
+               const StretchedEdges& stretched,
                const IsoEdges& edges,
                const IsosurfacePipelineParameters& parameters,
+               std::size_t first,
+               std::size_t last,
                unsigned threads,
                StepTimer& step,
                pcl::PointCloud<PointIso>& isopoints,
                IsopointChoice& choice)
 {
-  std::vector<std::uint8_t> returns(isopoints.size(), 0);
-  std::vector<Eigen::Vector3f> bisectors(isopoints.size());
-  for (std::size_t first = 0, last = 0; first < isopoints.size(); first = last) {
-    while (last < isopoints.size() &&
-           isopoints[last].isovalue == isopoints[first].isovalue)
-      ++last;
-    const Surface surface(isopoints, first, last, stretched, parameters, threads);
-    judgeSurface(
-        surface, stretched, first, last, isopoints, threads, step, returns, bisectors);
-  }
-  for (std::size_t i = 0; i < isopoints.size(); ++i) {
-    if (returns[i] == 0)
+  std::vector<std::uint8_t> returns(last - first, 0);
+  std::vector<Eigen::Vector3f> bisectors(last - first);
+  judgeSurface(
+      surface, stretched, first, last, isopoints, threads, step, returns, bisectors);
+  for (std::size_t i = first; i < last; ++i) {
+    if (returns[i - first] == 0)
       continue;
     PointIso& point = isopoints[i];
     const Eigen::Vector3f normal = point.getNormalVector3fMap();
     returnToEdge(stretched, edges[i].t, i, point);
     choice.method[i] = IsoMethod::Linear;
     if (parameters.normals == NormalMethod::Auto) {
-      point.getNormalVector3fMap() = bisectors[i];
+      point.getNormalVector3fMap() = bisectors[i - first];
       choice.orientation[i] = IsoOrientation::Bisector;
     }
     else if (parameters.normals == NormalMethod::Edge)
       choice.orientation[i] = IsoOrientation::Edge;
     else
       point.getNormalVector3fMap() = normal;
+  }
+}
+
+/** Lower the errors of isopoints of one isovalue on edges to what those around tell. */
+void
+lowerEdgeErrors(const SampleSet& places,
+                const StretchedEdges& edges,
+                std::size_t first,
+                std::size_t last,
+                unsigned threads,
+                pcl::PointCloud<PointIso>& isopoints)
+{
+  parallelBlocks(last - first, block_points, threads, [&](auto begin, auto end) {
+    EdgeErrorFinder finder(places, isopoints, edges);
+    for (std::size_t i = first + begin; i < first + end; ++i)
+      if (PointIso& point = isopoints[i]; !hasFit(point))
+        point.error = std::min(point.error, finder.find(i));
+  });
+}
+
+/** Choose between fit and edge, isovalue by isovalue. */
+void
+chooseEach(const StretchedEdges& stretched,
+           const IsoEdges& edges,
+           const IsosurfacePipelineParameters& parameters,
+           unsigned threads,
+           StepTimer& step,
+           pcl::PointCloud<PointIso>& isopoints,
+           IsopointChoice& choice)
+{
+  for (std::size_t first = 0, last = 0; first < isopoints.size(); first = last) {
+    while (last < isopoints.size() &&
+           isopoints[last].isovalue == isopoints[first].isovalue)
+      ++last;
+    const Surface surface(isopoints, first, last, stretched, parameters, threads);
+    returnDoubtful(surface,
+                   stretched,
+                   edges,
+                   parameters,
+                   first,
+                   last,
+                   threads,
+                   step,
+                   isopoints,
+                   choice);
+    lowerEdgeErrors(surface.getPlaces(), stretched, first, last, threads, isopoints);
   }
 }
 
@@ -384,7 +372,7 @@ chooseIsopoints(const CloudView& samples,
   choice.orientation.resize(isopoints.size());
   orientIsopoints(parameters, threads, isopoints, choice, report);
   if (returnsToEdges(parameters))
-    returnDoubtful(*stretched, edges, parameters, threads, step, isopoints, choice);
+    chooseEach(*stretched, edges, parameters, threads, step, isopoints, choice);
   return choice;
 }
 

@@ -145,7 +145,8 @@ TEST(Variogram, FitsFindWhatIsThere)
   for (const auto& word : listWords(VariogramKind())) {
     const Variogram truth{word.value, 0.3, 2.0, 0.4};
     EmpiricalVariogram empirical;
-    for (double h = 0.02; h < 2.0; h *= 1.25) {
+    for (int i = 0; i < 21; ++i) {
+      const double h = 0.02 * std::pow(1.25, i);
       empirical.distance.push_back(h);
       empirical.value.push_back(truth.value(h));
       empirical.pairs.push_back(100.0);

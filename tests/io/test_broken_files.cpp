@@ -445,7 +445,7 @@ TEST(BrokenFiles, EveryOneEverFound)
       continue;
     const bool measured = !isSanitized() && resetPeakMemory();
     const auto before = static_cast<double>(residentMemory());
-    const bool refused = pointsOf(path) != "" && makeVolume(path) != "";
+    const bool refused = !pointsOf(path).empty() && !makeVolume(path).empty();
     sentenceOf(path, [&] { loadMesh(path); });
     if (ending.rfind(".vt", 0) == 0)
       cellsOf(path);

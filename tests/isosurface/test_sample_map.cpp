@@ -62,8 +62,7 @@ TEST(SampleMap, SurfacesAreThoseOfAFreshCloud)
   ASSERT_EQ(expected.size(), surface.isopoints.size());
   ASSERT_GT(expected.size(), 500u);
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(
-        0, std::memcmp(expected[i].data, surface.isopoints[i].data, 3 * sizeof(float)));
+    EXPECT_EQ(expected[i].getVector3fMap(), surface.isopoints[i].getVector3fMap());
     EXPECT_EQ(extraction.getEdges()[i].first, surface.edges[i].first);
   }
   EXPECT_EQ(6000u, surface.samples->size());

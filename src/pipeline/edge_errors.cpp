@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/edge_errors.h"
+
+#include "isosurface/fit_judgement.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pcl_uvol {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/** Isopoints that the paraboloid rests on: those of edges that fan out from one line of
+ * samples are many, and 15 were nearly always of one fan, which a paraboloid follows.
+ */
+constexpr std::size_t most_around = 40;
+
+/** Fewer do not tell. */
+constexpr std::size_t least_around = 20;
+
+constexpr Eigen::Index terms = 6;
+
+/** Residuals by which nine in ten deviations are covered on tracks, casts and holes of
+ * three fields (tests/benchmarks, calibration). */
+constexpr double residual_factor = 5.0;
+
+/** Isopoints around lie on a line rather than a surface where that is less wide. */
+constexpr double least_width = 0.1;
+
+/** Cosine between the normal of the paraboloid's plane and the edge: isopoints in a
+ * plane of samples have no heights over it. */
+constexpr double least_crossing = 0.1;
+
+/** Part of the range of the values around that half of the edges span where these jump:
+ * between rock types it is all of it. */
+constexpr double jump_span = 0.8;
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/** Axes of the extents of points around their mean, the smallest first. */
+struct Extents {
+  Eigen::Matrix3d axes;
+  Vector3d lengths;
+
+  explicit Extents(const Eigen::Matrix3Xd& points)
+  {
+    const Eigen::Matrix3Xd offsets = points.colwise() - points.rowwise().mean();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(offsets *
+                                                                offsets.transpose());
+    axes = solver.eigenvectors();
+    lengths = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  }
+};
+
+/** How far points stray from the paraboloid over a plane that fits them best: the
+ * deviation, or that of the point at the origin if it is larger. */
+double
+findStraying(const Eigen::Matrix3Xd& points, const Extents& extents)
+{
+  const double radius = std::sqrt(points.colwise().squaredNorm().maxCoeff());
+  const Eigen::Matrix3Xd local = extents.axes.transpose() * points / radius;
+  const auto heights = local.row(0).transpose(), x = local.row(1).transpose(),
+             y = local.row(2).transpose();
+  Eigen::MatrixXd matrix(points.cols(), terms);
+  matrix << Eigen::VectorXd::Ones(points.cols()), x, y, x.cwiseProduct(x),
+      x.cwiseProduct(y), y.cwiseProduct(y);
+  const Eigen::VectorXd paraboloid = matrix.colPivHouseholderQr().solve(heights);
+  const double free = static_cast<double>(points.cols() - terms);
+  const double deviation = (matrix * paraboloid - heights).norm() / std::sqrt(free);
+  return radius * std::max(deviation, std::abs(paraboloid[0]));
+}
+
+} // namespace
+
+EdgeErrorFinder::EdgeErrorFinder(const SampleSet& places,
+                                 const pcl::PointCloud<PointIso>& isopoints,
+                                 const StretchedEdges& edges)
+    : places_(places)
+    , isopoints_(isopoints)
+    , edges_(edges)
+    , finder_(places, most_around)
+{
+}
+
+Vector3d
+EdgeErrorFinder::stretch(const PointIso& point) const
+{
+  const Position& scale = places_.getUnit().scale;
+  return point.getVector3fMap().cast<double>().cwiseProduct(
+      Vector3d(scale[0], scale[1], scale[2]));
+}
+
+void
+EdgeErrorFinder::findAround(const PointIso& point)
+{
+  const auto row =
+      finder_.find(places_.getUnit().apply({{point.x, point.y, point.z}}), 1.0f);
+  around_.clear();
+  for (std::size_t i = 0; i < row.size; ++i)
+    around_.push_back(places_.getInputIndex(row.samples[i]));
+}
+
+bool
+EdgeErrorFinder::valuesJump() const
+{
+  std::vector<double> spans;
+  auto lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const std::uint32_t i : around_) {
+    const auto [first, second] = edges_.readValues(i);
+    spans.push_back(std::abs(second - first));
+    lowest = std::min({lowest, first, second});
+    highest = std::max({highest, first, second});
+  }
+  const auto middle = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
+  std::nth_element(spans.begin(), middle, spans.end());
+  return !(*middle <= jump_span * (highest - lowest));
+}
+
+float
+EdgeErrorFinder::find(std::size_t isopoint)
+{
+  const PointIso& point = isopoints_[isopoint];
+  findAround(point);
+  if (around_.size() < least_around || valuesJump())
+    return infinite;
+  Eigen::Matrix3Xd points(3, around_.size());
+  for (std::size_t i = 0; i < around_.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) =
+        stretch(isopoints_[around_[i]]) - stretch(point);
+  const Extents extents(points);
+  const Vector3d normal = extents.axes.col(0);
+  if (!(extents.lengths[1] > least_width * extents.lengths[2]) ||
+      !(std::abs(normal.dot(edges_.findOutside(isopoint))) > least_crossing))
+    return infinite;
+  // The normal is a covector: heights over the plane shrink by its length when it is
+  // carried back.
+  const Position& scale = places_.getUnit().scale;
+  const double slope =
+      normal.cwiseProduct(Vector3d(scale[0], scale[1], scale[2])).norm();
+  const double error = residual_factor * findStraying(points, extents) / slope;
+  return static_cast<float>(std::hypot(error, computeRounding(point)));
+}
+
+} // namespace pcl_uvol
