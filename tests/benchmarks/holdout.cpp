@@ -152,6 +152,8 @@ printCase(const DataCase& data, std::size_t folds_at_most)
               static_cast<double>(scale[1]),
               static_cast<double>(scale[2]));
   for (const Method& method : methods) {
+    if (method.fill_gaps && data.field[0] == '|')
+      continue; // gaps of vectors' lengths are not filled
     parameters.isosurface.interpolation = method.interpolation;
     parameters.normals = method.normals;
     parameters.fill_gaps = method.fill_gaps;
@@ -159,7 +161,8 @@ printCase(const DataCase& data, std::size_t folds_at_most)
     const auto told =
         pcl_uvol::holdOut(samples, all, parameters, folds, 0, report).front();
     const auto score = pcl_uvol::scoreHeldOut(told);
-    if (by_delaunay.empty())
+    const bool is_first = by_delaunay.empty();
+    if (is_first)
       for (const HeldOutSample& sample : told)
         by_delaunay.push_back(delaunay.isAbove(sample) == sample.is_above);
     double near = 0.0, everywhere = 0.0;
@@ -167,7 +170,7 @@ printCase(const DataCase& data, std::size_t folds_at_most)
       near += told[i].is_covered && by_delaunay[i];
       everywhere += by_delaunay[i];
     }
-    if (&method == methods)
+    if (is_first)
       std::printf("  class          all %7zu          field %.3f nearest %.3f delaunay "
                   "%.3f base %.3f\n",
                   score.tested,
