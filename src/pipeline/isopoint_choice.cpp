@@ -307,11 +307,16 @@ lowerEdgeErrors(const SampleSet& places,
                 unsigned threads,
                 pcl::PointCloud<PointIso>& isopoints)
 {
-  parallelBlocks(last - first, block_points, threads, [&](auto begin, auto end) {
+  std::vector<std::size_t> on_edges;
+  for (std::size_t i = first; i < last; ++i)
+    if (!hasFit(isopoints[i]))
+      on_edges.push_back(i);
+  parallelBlocks(on_edges.size(), block_points, threads, [&](auto begin, auto end) {
     EdgeErrorFinder finder(places, isopoints, edges);
-    for (std::size_t i = first + begin; i < first + end; ++i)
-      if (PointIso& point = isopoints[i]; !hasFit(point))
-        point.error = std::min(point.error, finder.find(i));
+    for (std::size_t i = begin; i < end; ++i) {
+      float& error = isopoints[on_edges[i]].error;
+      error = std::min(error, finder.find(on_edges[i]));
+    }
   });
 }
 
