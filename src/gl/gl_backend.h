@@ -20,7 +20,7 @@ struct GlFramebuffer {
 };
 
 /** \brief Keeps the last cloud and the textures of the last size on the graphics card:
- * 20 bytes per point, 28 with footprints; 42 per pixel, and 32 more each for normals or
+ * 20 bytes per point, 32 with footprints; 42 per pixel, and 32 more each for normals or
  * feature lines and for footprints. Larger pictures are drawn in tiles. All members may
  * be called from any thread that the context can be used from, one at a time. */
 class PCL_UVOL_EXPORTS GlBackend : public ImageSpaceBackend {

@@ -13,6 +13,7 @@ namespace {
 constexpr GLuint look_attribute = 3;
 constexpr GLuint footprint_attribute = 4;
 constexpr GLuint filler_attribute = 5;
+constexpr GLuint bend_attribute = 6;
 
 /** Discs with a greater radius, in pixels, are rather drawn as two triangles. */
 constexpr float most_reach = 16.0f;
@@ -94,6 +95,7 @@ PointPass::upload(const SurfaceCloud& cloud)
   if (has_footprints_)
     footprints_texture_ = makeBufferTexture(gl_, GL_R32F, footprints_);
   fillBuffer(gl_, fillers_, cloud.getFillers());
+  fillBuffer(gl_, bends_, cloud.getBends());
   // New ones, which know nothing of the buffers of another cloud.
   points_array_ = makeVertexArray(gl_);
   discs_array_ = makeVertexArray(gl_);
@@ -114,16 +116,23 @@ PointPass::bindAttributes(std::uint32_t first, GLuint divisor) const
   };
   for (GLuint axis = 0; axis < 3; ++axis)
     bindFloats(axis, coordinates_[axis]);
+  const auto bindWords = [&](GLuint attribute, const GlName& buffer, GLint count) {
+    const auto stride = static_cast<GLsizei>(count * sizeof(std::uint32_t));
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.get());
+    gl_.VertexAttribIPointer(attribute,
+                             count,
+                             GL_UNSIGNED_INT,
+                             stride,
+                             offsetOf(first * static_cast<std::size_t>(stride)));
+    gl_.EnableVertexAttribArray(attribute);
+    gl_.VertexAttribDivisor(attribute, divisor);
+  };
   if (has_footprints_) {
     bindFloats(footprint_attribute, footprints_);
     bindFloats(filler_attribute, *radii_);
+    bindWords(bend_attribute, bends_, 1);
   }
-  constexpr auto stride = sizeof(SurfaceCloud::Look);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, looks_.get());
-  gl_.VertexAttribIPointer(
-      look_attribute, 2, GL_UNSIGNED_INT, stride, offsetOf(first * stride));
-  gl_.EnableVertexAttribArray(look_attribute);
-  gl_.VertexAttribDivisor(look_attribute, divisor);
+  bindWords(look_attribute, looks_, 2);
 }
 
 void
@@ -163,6 +172,9 @@ PointPass::use(const shaders::Pass& pass,
   program.set("culls", frame.culls());
   program.set("smallest_footprint", frame.smallestDisc());
   program.set("largest_filler", largest_filler);
+  program.set("smallest_bend", smallest_bend);
+  program.set("smallest_turn", smallest_turn);
+  program.set("per_bend", packed_bend_scale);
   program.set("largest_reach", largest_reach_);
   return program;
 }

@@ -40,6 +40,7 @@ layout(location = 2) in float z;
 layout(location = 3) in uvec2 look; // packed normal, colour
 layout(location = 4) in float footprint;
 layout(location = 5) in float filler; // or footprint, among sparse points
+layout(location = 6) in uint bend;    // of the surface over the footprint, packed
 
 uniform mat3 rotation;
 uniform vec3 translation;
@@ -52,6 +53,9 @@ uniform bool is_two_sided;
 uniform float outward; // factor that makes normals look outwards
 uniform float smallest_footprint;
 uniform float largest_filler;
+uniform float smallest_bend;
+uniform float smallest_turn;
+uniform float per_bend; // packed bends are whole numbers of these
 uniform float largest_reach; // of what is drawn as one point, pixels
 
 const vec4 nowhere = vec4(2.0, 2.0, 2.0, 1.0);
@@ -106,10 +110,15 @@ void main()
 const char* const disc_vertex = R"(
 flat out vec4 disc_center; // and radius, 0 for a mere pixel
 flat out uvec3 disc_tilt;  // change of 1 / z per pixel, as bits; index
+flat out vec4 disc_axes;   // change of the place in both of its axes per pixel
+flat out vec3 disc_slant;  // the way to the eye in these, inverse of that to the plane
+flat out vec3 disc_bend;   // of the surface in these, 0 where no pixel shows it
 #ifdef BLENDED
 uniform float stretch; // discs reach so many of their radii
 uniform bool has_sides;
 flat out vec3 disc_normal; // in the cloud's axes
+flat out vec3 disc_turn_a; // by what it changes along the axes of the disc
+flat out vec3 disc_turn_b;
 flat out vec3 disc_color;
 flat out uint disc_side;
 #else
@@ -123,17 +132,61 @@ uniform float smallest_cover; // larger discs replace the pixel of a point, in p
 flat out uint disc_has_pixel;
 #endif
 
-void setDisc(uint index, vec3 c, float radius, vec3 direction)
+vec3 rotate(vec3 v)
 {
-  EXACT vec3 axis =
-    rotation[0] * direction.x + rotation[1] * direction.y + rotation[2] * direction.z;
-  EXACT float facing = axis.x * c.x + axis.y * c.y + axis.z * c.z;
-  EXACT vec2 tilt = axis.xy * (c.z * per_focal * (1.0 / facing));
+  EXACT vec3 rotated = rotation[0] * v.x + rotation[1] * v.y + rotation[2] * v.z;
+  return rotated;
+}
+
+float dotExactly(vec3 a, vec3 b)
+{
+  EXACT float product = a.x * b.x + a.y * b.y + a.z * b.z;
+  return product;
+}
+
+// Bends as the surface does where pixels show it, which depends on the unstretched
+// radius; the plain C++ backend tells more.
+void setDisc(uint index, vec3 c, float unstretched, float radius)
+{
+  vec3 direction = unpackDirection(look.x);
+  EXACT float per_length = 1.0 / sqrt(dotExactly(direction, direction));
+  EXACT vec3 n = direction * per_length;
+  float sign = n.z < 0.0 ? -1.0 : 1.0;
+  EXACT float p = -(1.0 / (sign + n.z));
+  EXACT float q = n.x * n.y * p;
+  EXACT float tangent_a = 1.0 + sign * (n.x * n.x * p);
+  EXACT float tangent_b = sign + n.y * n.y * p;
+  vec3 of_a = vec3(tangent_a, sign * q, -(sign * n.x));
+  vec3 of_b = vec3(q, tangent_b, -n.y);
+  vec3 a = rotate(of_a), b = rotate(of_b), axis = rotate(direction);
+  float along = dotExactly(axis, c);
+  float facing = outward * along;
+  EXACT float per_along = 1.0 / along;
+  EXACT float size = c.z * per_focal;
+  EXACT vec2 tilt = axis.xy * (size * per_along);
+  EXACT float towards = per_along * (1.0 / per_length);
+  float ca = dotExactly(a, c), cb = dotExactly(b, c);
+  EXACT vec2 eye_ward = vec2(ca, cb) * towards;
+  EXACT vec2 line_a = size * a.xy - tilt * ca;
+  EXACT vec2 line_b = size * b.xy - tilt * cb;
+  EXACT float per_radius = 1.0 / (per_bend * footprint);
+  EXACT vec3 whole = vec3(ivec3(uvec3(bend << 22, bend << 12, bend << 2)) >> 22) *
+                     per_radius;
+  EXACT float turn = (max(abs(whole.x), abs(whole.z)) + abs(whole.y)) * unstretched;
+  EXACT float height = turn * (unstretched * (focal * (1.0 / c.z)));
+  EXACT float steepness = dotExactly(c, c) * (towards * towards) - 1.0;
+  EXACT float turning = turn * turn * steepness;
+  bool is_bent = height > smallest_bend && turning > smallest_turn;
   disc_center = vec4(c, radius);
   disc_tilt = uvec3(floatBitsToUint(tilt), index);
+  disc_axes = vec4(line_a, line_b);
+  disc_slant = vec3(eye_ward, towards);
+  disc_bend = is_bent ? whole : vec3(0.0);
 #ifdef BLENDED
-  vec3 normal = normalize(direction);
-  disc_normal = is_two_sided && facing > 0.0 ? -normal : normal;
+  float side = is_two_sided && facing > 0.0 ? -outward : outward;
+  disc_normal = side * n;
+  disc_turn_a = side * (whole.x * of_a + whole.y * of_b);
+  disc_turn_b = side * (whole.y * of_a + whole.z * of_b);
   disc_color = unpackColor(look.y);
   disc_side = sideOf(look.y, has_sides && facing > 0.0);
 #else
@@ -180,12 +233,11 @@ bool isLarge(vec3 c, float radius)
 const char* const small_discs_vertex = R"(
 void main()
 {
-  vec3 direction = outward * unpackDirection(look.x);
   vec3 c = toCamera();
   float unstretched = discRadius(c), radius = unstretched * stretch;
   bool is_disc = isDisc(c, unstretched) && !isLarge(c, radius);
   vec2 place = placeOf(c);
-  setDisc(uint(gl_VertexID), c, is_disc ? radius : 0.0, direction);
+  setDisc(uint(gl_VertexID), c, unstretched, is_disc ? radius : 0.0);
   vec2 size = reach(c, radius);
   const float slack = 0.1; // hardware rounds corners
   gl_PointSize = is_disc ? 2.0 * max(size.x, size.y) + slack : 1.0;
@@ -197,7 +249,7 @@ void main()
 #endif
   if (!is_drawn)
     gl_Position = nowhere;
-  if (isHidden(c, direction))
+  if (isHidden(c, outward * unpackDirection(look.x)))
     gl_Position = nowhere;
 }
 )";
@@ -208,12 +260,11 @@ uniform int first; // index of the first instance
 
 void main()
 {
-  vec3 direction = outward * unpackDirection(look.x);
   vec3 c = toCamera();
   float unstretched = discRadius(c), radius = unstretched * stretch;
-  setDisc(uint(first + gl_InstanceID), c, radius, direction);
+  setDisc(uint(first + gl_InstanceID), c, unstretched, radius);
   gl_Position = nowhere;
-  if (isHidden(c, direction) || !isDisc(c, unstretched) || !isLarge(c, radius))
+  if (isHidden(c, outward * unpackDirection(look.x)) || !isDisc(c, unstretched) || !isLarge(c, radius))
     return;
   vec2 low = origin, high = origin + extent;
   if (c.z - radius >= near) {
@@ -230,33 +281,49 @@ void main()
 const char* const disc_fragment = R"(
 flat in vec4 disc_center;
 flat in uvec3 disc_tilt;
+flat in vec4 disc_axes;
+flat in vec3 disc_slant;
+flat in vec3 disc_bend;
 
-// Does the disc cover this pixel? Its depth there, and the part of the squared radius.
-// The polynomial in the way e from the projected centre is that of the plain C++
-// backend: not positive within the disc.
-bool isCovered(out float depth, out float part)
+// Where a ray meets the surface about a disc.
+struct Place {
+  bool is_covered;
+  float depth;
+  vec2 on_disc; // in the axes of the disc
+  float part;   // of the squared radius
+};
+
+// As the plain C++ backend has it, which tells why.
+Place findPlace()
 {
   vec3 c = disc_center.xyz;
   vec2 tilt = uintBitsToFloat(disc_tilt.xy);
+  vec3 bend = disc_bend;
   EXACT vec2 e = gl_FragCoord.xy - margin - placeOf(c);
-  EXACT float size = c.z * per_focal;
-  EXACT vec3 u = vec3(size, 0.0, 0.0) - tilt.x * c;
-  EXACT vec3 v = vec3(0.0, size, 0.0) - tilt.y * c;
-  EXACT vec2 r = disc_center.w * tilt;
-  EXACT float xx = u.x * u.x + u.y * u.y + u.z * u.z - r.x * r.x;
-  EXACT float xy = 2.0 * (u.x * v.x + u.y * v.y + u.z * v.z - r.x * r.y);
-  EXACT float yy = v.x * v.x + v.y * v.y + v.z * v.z - r.y * r.y;
-  EXACT vec2 linear = -2.0 * (disc_center.w * r);
-  EXACT float beyond = (xx * e.x + (xy * e.y + linear.x)) * e.x +
-                       ((yy * e.y + linear.y) * e.y - disc_center.w * disc_center.w);
   EXACT float toward = 1.0 + tilt.y * e.y + tilt.x * e.x;
+  EXACT float per_toward = 1.0 / toward;
+  EXACT float flat_a = (disc_axes.x * e.x + disc_axes.y * e.y) * per_toward;
+  EXACT float flat_b = (disc_axes.z * e.x + disc_axes.w * e.y) * per_toward;
+  EXACT float eye_a = disc_slant.x + flat_a * disc_slant.z;
+  EXACT float eye_b = disc_slant.y + flat_b * disc_slant.z;
+  EXACT float turn_a = bend.x * eye_a + bend.y * eye_b;
+  EXACT float turn_b = bend.y * eye_a + bend.z * eye_b;
+  EXACT float ahead = 1.0 + (turn_a * flat_a + turn_b * flat_b);
+  EXACT float height = (bend.x * flat_a + 2.0 * (bend.y * flat_b)) * flat_a +
+                       bend.z * flat_b * flat_b;
+  EXACT float square = ahead * ahead - (eye_a * turn_a + eye_b * turn_b) * height;
+  EXACT float sum = ahead + sqrt(max(square, 0.0));
+  EXACT float sunk = height * (1.0 / sum);
+  EXACT float a = flat_a - eye_a * sunk;
+  EXACT float b = flat_b - eye_b * sunk;
+  EXACT float sq_distance = a * a + b * b + sunk * sunk;
+  EXACT float sq_radius = disc_center.w * disc_center.w;
   EXACT vec2 ray = (gl_FragCoord.xy - margin - center) * per_focal;
-  EXACT float per_z = sqrt(ray.x * ray.x + (ray.y * ray.y + 1.0));
-  EXACT float there = c.z * (1.0 / toward) * per_z * per_far;
-  depth = there;
-  float radius = disc_center.w * toward;
-  part = 1.0 + beyond / (radius * radius);
-  return toward > 0.0 && beyond <= 0.0;
+  EXACT float ray_length = sqrt(ray.x * ray.x + (ray.y * ray.y + 1.0));
+  EXACT float there = c.z * (per_toward * (1.0 - sunk * disc_slant.z));
+  EXACT float depth = there * ray_length * per_far;
+  return Place(toward > 0.0 && sum > 0.0 && square >= 0.0 && sq_distance <= sq_radius,
+               depth, vec2(a, b), sq_distance / sq_radius);
 }
 )";
 
@@ -276,10 +343,9 @@ bool isOwnPixel()
 
 void main()
 {
-  float depth, part;
-  bool is_covered = isCovered(depth, part);
-  EXACT float disc_depth = depth + disc_center.w * (disc_back * per_far);
-  depth = is_covered ? disc_depth : 1.0;
+  Place place = findPlace();
+  EXACT float disc_depth = place.depth + disc_center.w * (disc_back * per_far);
+  float depth = place.is_covered ? disc_depth : 1.0;
 #ifdef WITH_PIXELS
   if (disc_has_pixel == 1u && isOwnPixel())
     depth = min(depth, depthOf(disc_center.xyz));
@@ -306,6 +372,8 @@ uniform float facing_weight;
 uniform float facing_reach;
 
 flat in vec3 disc_normal;
+flat in vec3 disc_turn_a;
+flat in vec3 disc_turn_b;
 flat in vec3 disc_color;
 flat in uint disc_side;
 layout(location = 0) out vec4 normal_weight;
@@ -313,8 +381,7 @@ layout(location = 1) out vec4 color;
 
 void main()
 {
-  float depth, part;
-  bool is_covered = isCovered(depth, part);
+  Place place = findPlace();
   uvec2 state = texture(states, gl_FragCoord.xy).xy;
   float seen = uintBitsToFloat(state.x);
   int point = state.x != background_bits ? int(state.y) : 0;
@@ -332,10 +399,13 @@ void main()
   bool is_before = difference == 1u && looks_away && is_edge_on &&
                    seen - shift > depthOf(disc_center.xyz);
   float most = is_before ? facing_reach * room : room;
-  if (!is_covered || abs(depth - seen) > most || !(difference == 0u || is_before))
+  if (!place.is_covered || abs(place.depth - seen) > most || !(difference == 0u || is_before))
     discard;
-  float weight = (1.0 - part) * (1.0 - part) * (is_before ? facing_weight : 1.0);
-  normal_weight = weight * vec4(disc_normal, 1.0);
+  float rest = 1.0 - place.part;
+  float weight = rest * rest * (is_before ? facing_weight : 1.0);
+  vec3 normal =
+    disc_normal + disc_turn_a * place.on_disc.x + disc_turn_b * place.on_disc.y;
+  normal_weight = weight * vec4(normal, 1.0);
   color = weight * vec4(disc_color, 1.0);
 }
 )";

@@ -32,7 +32,7 @@ struct SurfaceBlock {
 /** \brief Points with normals and colours, in the leaf order of a kd-tree.
  *
  * Coordinates and footprints are relative to the centre of getBounds() and in a unit
- * that chooseLengthUnit() gives for them, as those of a View are. Memory: 36 bytes per
+ * that chooseLengthUnit() gives for them, as those of a View are. Memory: 40 bytes per
  * point. */
 class PCL_UVOL_EXPORTS SurfaceCloud {
 public:
@@ -173,6 +173,14 @@ public:
     return fillers_;
   }
 
+  /** \brief How the surface bends over the footprint of every point; empty before
+   * computeFootprints(). */
+  const std::vector<PackedBend>&
+  getBends() const
+  {
+    return bends_;
+  }
+
   /** \brief Median of the radii, 0 before computeFootprints(). */
   float
   getTypicalFootprint() const
@@ -213,6 +221,7 @@ private:
   std::vector<std::uint32_t> input_indices_;
   std::vector<SurfaceBlock> blocks_;
   std::vector<float> footprints_, fillers_;
+  std::vector<PackedBend> bends_;
   float typical_footprint_ = 0.0f;
   BoundingSphere bounds_;
   float length_factor_ = 1.0f; ///< from the samples' unit to that of drawing

@@ -90,6 +90,7 @@ public:
     float all = 0.0f, first = 0.0f;
     bool on_rim = true;
     float around = 0.0f;
+    SurfaceBend bend = SurfaceBend::Zero();
   };
 
   /** \param nearest set to the indices of the nearest other points */
@@ -117,6 +118,7 @@ public:
       reach = reachAmong(point);
     }
     reach.around = around;
+    reach.bend = bendAmong(point, 0.5f * reach.all);
     const float edges = edgesAbout(!reach.on_rim && isMeasured());
     const float most = std::min(around, edges);
     const bool is_alone = to_company > 2.0f * most;
@@ -243,7 +245,29 @@ private:
       if (is_first)
         sq_first = std::max(sq_first, sq_dist);
     });
-    return {std::sqrt(sq_all), std::sqrt(sq_first), on_rim, 0.0f};
+    Reach reach;
+    reach.all = std::sqrt(sq_all);
+    reach.first = std::sqrt(sq_first);
+    reach.on_rim = on_rim;
+    return reach;
+  }
+
+  /** As the normals of the neighbours on the same side tell. */
+  SurfaceBend
+  bendAmong(std::uint32_t point, float near) const
+  {
+    const Eigen::Matrix<float, 3, 2> axes = tangentAxes(normals_[point]);
+    BendFit fit(near);
+    for (std::size_t i = 0; i < std::min(neighbors_.size(), few_neighbors); ++i) {
+      const Eigen::Vector3f normal = normalOf(neighbors_[i].second);
+      const float agreement = normal_.dot(normal);
+      if ((two_sided_ ? std::abs(agreement) : agreement) < least_agreement)
+        continue;
+      const Eigen::Vector3f turn = (agreement < 0.0f ? -normal : normal) - normal_;
+      const Eigen::Vector3f offset = positionOf(neighbors_[i].second) - here_;
+      fit.add(axes.transpose() * offset, axes.transpose() * turn, offset.dot(normal_));
+    }
+    return fit.solve();
   }
 
   /** Bring the next neighbour into the plane; false for one on another side. */
@@ -341,6 +365,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   footprints.radii.resize(samples.size());
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
+  footprints.bends.resize(samples.size());
   parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const NearestPoints& nearest = footprints.nearest[i];
@@ -356,6 +381,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
       footprints.on_rim[i] = reach[i].on_rim || is_lonely ? 1 : 0;
       if (!points.bridged.empty() && points.bridged[i])
         footprints.radii[i] = footprints.fillers[i] = 0.0f;
+      footprints.bends[i] = packBend(reach[i].bend, footprints.radii[i]);
     }
     step.advance(end - begin);
   });

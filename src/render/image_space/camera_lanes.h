@@ -23,6 +23,21 @@ toCamera(const Projection& p, const Vector& v)
           r[6] * v.x + r[7] * v.y + r[8] * v.z + p.translation[2]};
 }
 
+inline Floats
+dot(const Vector& a, const Vector& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline Vector
+rotate(const Projection& p, const Vector& v)
+{
+  const float* const r = p.rotation;
+  return {r[0] * v.x + r[1] * v.y + r[2] * v.z,
+          r[3] * v.x + r[4] * v.y + r[5] * v.z,
+          r[6] * v.x + r[7] * v.y + r[8] * v.z};
+}
+
 /** Pixels that a unit of length has at a depth. Divided and multiplied as shaders do,
  * which know reciprocals only: all backends agree to the last bit. */
 inline Floats

@@ -3,6 +3,7 @@
 
 #include "render/image_space/camera_lanes.h"
 #include "render/image_space/side_kernel.h"
+#include "surface/bend_scale.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -19,6 +20,66 @@ slopeOf(const Ints& pixels, float center, float focal)
   return (toFloats(pixels) + 0.5f - center) * (1.0f / focal);
 }
 
+/** What is known of up to a register of discs. */
+struct DiscPoints {
+  Vector position;
+  Ints normal, bend; ///< packed
+  Floats radius, footprint;
+
+  DiscPoints(const ProjectedPoints& points, const std::uint32_t* discs, int count)
+  {
+    alignas(64) float x[3][lanes], radii[lanes], footprints[lanes];
+    alignas(64) std::int32_t normals[lanes], bends[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t disc = discs[lane < count ? lane : 0];
+      for (int axis = 0; axis < 3; ++axis)
+        x[axis][lane] = points.x[axis][disc];
+      normals[lane] = static_cast<std::int32_t>(points.normals[disc]);
+      bends[lane] = static_cast<std::int32_t>(points.bends[disc]);
+      radii[lane] = points.radii[disc];
+      footprints[lane] = points.footprints[disc];
+    }
+    position = {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])};
+    normal = load<Ints>(normals);
+    bend = load<Ints>(bends);
+    radius = load<Floats>(radii);
+    footprint = load<Floats>(footprints);
+  }
+};
+
+/** Two axes of the plane that a normal stands on, as tangentAxes() has them, and the
+ * inverse length of what unpackDirection() gives. */
+struct TangentLanes {
+  Vector a, b;
+  Floats per_length;
+
+  explicit TangentLanes(const Floats* direction)
+      : per_length(1.0f / squareRoot(direction[0] * direction[0] +
+                                     direction[1] * direction[1] +
+                                     direction[2] * direction[2]))
+  {
+    const Floats x = direction[0] * per_length, y = direction[1] * per_length,
+                 z = direction[2] * per_length;
+    const Floats sign = z < 0.0f ? fill(-1.0f) : fill(1.0f);
+    const Floats p = -(1.0f / (sign + z)), q = x * y * p;
+    a = {1.0f + sign * (x * x * p), sign * q, -(sign * x)};
+    b = {q, sign + y * y * p, -y};
+  }
+};
+
+/** How surfaces bend, in the axes of TangentLanes. */
+struct BendLanes {
+  Floats aa, ab, bb;
+
+  explicit BendLanes(const DiscPoints& points)
+  {
+    const Floats per_radius = 1.0f / (packed_bend_scale * points.footprint);
+    aa = toFloats((points.bend << 22) >> 22) * per_radius;
+    ab = toFloats((points.bend << 12) >> 22) * per_radius;
+    bb = toFloats((points.bend << 2) >> 22) * per_radius;
+  }
+};
+
 /** Discs, or one disc in all lanes, in camera space. */
 struct DiscLanes {
   Vector center;
@@ -26,31 +87,64 @@ struct DiscLanes {
   Floats facing;         ///< positive: seen from behind
   Floats tilt_x, tilt_y; ///< relative change of 1 / z along the image, per pixel
   Floats px, py;         ///< the centre in the image, pixels
+  Vector a, b;           ///< axes of the disc
+  Floats saa, sab, sbb;  ///< in these: how its surface bends, 0 where no pixel shows it
+  Floats towards;        ///< inverse of the centre's distance along the normal
 
-  DiscLanes(const Projection& projection,
-            const Vector& position,
-            const Ints& packed_normal,
-            const Floats& disc_radius,
-            const Floats& footprint)
-      : center(toCamera(projection, position))
+  /** \param stretch how many of their radii they reach */
+  DiscLanes(const Projection& projection, const DiscPoints& point, float stretch)
+      : center(toCamera(projection, point.position))
   {
     const Floats per_length = pixelsPerLength(projection, center);
-    radius = discRadius(projection, disc_radius, footprint, per_length);
-    Floats n[3];
-    unpackDirection(packed_normal, n);
-    for (Floats& part : n)
-      part *= projection.outward;
-    const float* const r = projection.rotation;
-    const Vector axis = {r[0] * n[0] + r[1] * n[1] + r[2] * n[2],
-                         r[3] * n[0] + r[4] * n[1] + r[5] * n[2],
-                         r[6] * n[0] + r[7] * n[1] + r[8] * n[2]};
-    facing = axis.x * center.x + axis.y * center.y + axis.z * center.z;
-    // Infinite where a disc is seen edge-on, so that no pixel is covered.
-    const Floats slant = pixelSize(projection) * (1.0f / facing);
-    tilt_x = axis.x * slant;
-    tilt_y = axis.y * slant;
+    const Floats unstretched =
+        discRadius(projection, point.radius, point.footprint, per_length);
+    radius = stretch * unstretched;
     px = projection.center_x + center.x * per_length;
     py = projection.center_y + center.y * per_length;
+    Floats n[3];
+    unpackDirection(point.normal, n);
+    const TangentLanes tangent(n);
+    a = rotate(projection, tangent.a);
+    b = rotate(projection, tangent.b);
+    const Vector axis = rotate(projection, {n[0], n[1], n[2]});
+    const Floats along = dot(axis, center);
+    facing = projection.outward * along;
+    // Infinite where a disc is seen edge-on, so that no pixel is covered.
+    const Floats per_along = 1.0f / along;
+    tilt_x = axis.x * (pixelSize(projection) * per_along);
+    tilt_y = axis.y * (pixelSize(projection) * per_along);
+    towards = per_along * (1.0f / tangent.per_length);
+    const BendLanes bend(point);
+    const Floats turn =
+        (maximum(absolute(bend.aa), absolute(bend.bb)) + absolute(bend.ab)) *
+        unstretched;
+    const Floats steepness = dot(center, center) * (towards * towards) - 1.0f;
+    const Ints is_bent =
+        (turn * (unstretched * per_length) > projection.smallest_bend) &
+        (turn * turn * steepness > projection.smallest_turn);
+    saa = is_bent ? bend.aa : Floats{};
+    sab = is_bent ? bend.ab : Floats{};
+    sbb = is_bent ? bend.bb : Floats{};
+  }
+
+  /** One of them in all lanes. */
+  DiscLanes
+  lane(int index) const
+  {
+    DiscLanes one;
+    Floats parts[sizeof(DiscLanes) / sizeof(Floats)];
+    __builtin_memcpy(parts, this, sizeof parts);
+    for (Floats& part : parts)
+      part = fill(part[index]);
+    __builtin_memcpy(static_cast<void*>(&one), parts, sizeof parts);
+    return one;
+  }
+
+  /** Lanes whose surface bends away from the disc. */
+  std::uint32_t
+  bentLanes() const
+  {
+    return laneBits((saa != 0.0f) | (sab != 0.0f) | (sbb != 0.0f));
   }
 
   /** Side of a pixel in the centres. */
@@ -67,54 +161,113 @@ struct DiscLanes {
     return projection.focal * radius * squareRoot(1.0f + slope * slope) /
            (center.z - radius);
   }
+
+private:
+  DiscLanes() = default;
 };
 
-/** \param z of the place where a ray meets a disc */
+/** Where a ray meets the surface about a disc. */
+struct BentPlace {
+  Floats per_toward; ///< z in the disc's plane, as a part of that in the centre
+  Floats a, b;       ///< in the axes of the disc
+  Floats sunk;       ///< below its plane
+  Ints covered;
+
+  Floats
+  square() const
+  {
+    return a * a + b * b + sunk * sunk;
+  }
+};
+
+/** The surface about discs, which bends away from them as a paraboloid does. At an
+ * outline it ends where it turns away from the eye, while a flat disc goes on. */
+class BentDisc {
+  // With e the way in pixels from the projected centre, s their size in the centre c, t
+  // the tilt: rays meet the plane of the disc where z is c.z / T, T = 1 + t.e, in the
+  // place q = (s e - (t.e) c) / T, whose numerator vanishes in the centre. With n the
+  // normal, v = ((a, b).c + q) / n.c goes along the plane towards the eye. The ray
+  // meets the paraboloid of the bend S in w with q = w + v S(w, w) / 2: a quadratic
+  // equation.
+public:
+  BentDisc(const Projection& projection, const DiscLanes& disc)
+      : disc_(disc)
+  {
+    const Floats size = disc.pixelSize(projection);
+    const Floats ca = dot(disc.a, disc.center), cb = dot(disc.b, disc.center);
+    ax_ = size * disc.a.x - disc.tilt_x * ca;
+    ay_ = size * disc.a.y - disc.tilt_y * ca;
+    bx_ = size * disc.b.x - disc.tilt_x * cb;
+    by_ = size * disc.b.y - disc.tilt_y * cb;
+    va_ = ca * disc.towards;
+    vb_ = cb * disc.towards;
+  }
+
+  BentPlace
+  at(const Floats& ex, const Floats& ey) const
+  {
+    BentPlace place = inPlane(ex, ey);
+    const Floats &saa = disc_.saa, &sab = disc_.sab, &sbb = disc_.sbb;
+    const Floats &a = place.a, &b = place.b;
+    const Floats va = va_ + a * disc_.towards, vb = vb_ + b * disc_.towards;
+    const Floats turn_a = saa * va + sab * vb, turn_b = sab * va + sbb * vb;
+    const Floats ahead = 1.0f + (turn_a * a + turn_b * b);
+    const Floats bend = (saa * a + 2.0f * (sab * b)) * a + sbb * b * b;
+    const Floats square = ahead * ahead - (va * turn_a + vb * turn_b) * bend;
+    const Floats sum = ahead + squareRoot(maximum(square, Floats{}));
+    place.sunk = bend * (1.0f / sum);
+    place.a = a - va * place.sunk;
+    place.b = b - vb * place.sunk;
+    place.covered &= (sum > 0.0f) & (square >= 0.0f) & isInside(place);
+    return place;
+  }
+
+  /** The same for a disc that does not bend. */
+  BentPlace
+  atFlat(const Floats& ex, const Floats& ey) const
+  {
+    BentPlace place = inPlane(ex, ey);
+    place.covered &= isInside(place);
+    return place;
+  }
+
+private:
+  BentPlace
+  inPlane(const Floats& ex, const Floats& ey) const
+  {
+    const Floats toward = (1.0f + disc_.tilt_y * ey) + disc_.tilt_x * ex;
+    const Floats per_toward = 1.0f / toward;
+    return {per_toward,
+            (ax_ * ex + ay_ * ey) * per_toward,
+            (bx_ * ex + by_ * ey) * per_toward,
+            Floats{},
+            toward > 0.0f};
+  }
+
+  Ints
+  isInside(const BentPlace& place) const
+  {
+    return place.square() <= disc_.radius * disc_.radius;
+  }
+
+  DiscLanes disc_;
+  Floats ax_, ay_, bx_, by_; ///< change of the numerator of q, in the axes of the disc
+  Floats va_, vb_;           ///< v in the centre
+};
+
+/** \param qx and qy: a ray as (qx, qy, 1) that meets a disc */
 Floats
 depthAt(const Projection& projection,
-        const Floats& z,
+        const DiscLanes& disc,
+        const BentPlace& place,
         const Floats& qx,
         const Floats& qy)
 {
-  return z * squareRoot(qx * qx + (qy * qy + 1.0f)) * projection.per_far;
+  const Floats length = squareRoot(qx * qx + (qy * qy + 1.0f));
+  const Floats z =
+      disc.center.z * (place.per_toward * (1.0f - place.sunk * disc.towards));
+  return z * length * projection.per_far;
 }
-
-/** Which pixels discs cover, as polynomials of the way from the projected centres, in
- * pixels: cheaper than meeting every ray with its plane, and more exact far away. */
-struct DiscPolynomials {
-  Floats xx, xy, yy, x, y, one; ///< not positive: covered
-
-  DiscPolynomials(const Projection& projection, const DiscLanes& disc)
-  {
-    // With e the way in pixels, s their size in the centre c, t the tilt: rays meet the
-    // plane of the disc where z is c.z / (1 + t.e), so that the disc is
-    // |s e - (t.e) c| <= radius |1 + t.e|. The left side vanishes in the centre.
-    const Vector& c = disc.center;
-    const Floats size = disc.pixelSize(projection), tx = disc.tilt_x, ty = disc.tilt_y;
-    const Vector u = {size - tx * c.x, -(tx * c.y), -(tx * c.z)};
-    const Vector v = {-(ty * c.x), size - ty * c.y, -(ty * c.z)};
-    const Floats r = disc.radius, rx = r * tx, ry = r * ty;
-    xx = u.x * u.x + u.y * u.y + u.z * u.z - rx * rx;
-    xy = 2.0f * (u.x * v.x + u.y * v.y + u.z * v.z - rx * ry);
-    yy = v.x * v.x + v.y * v.y + v.z * v.z - ry * ry;
-    x = -2.0f * (r * rx);
-    y = -2.0f * (r * ry);
-    one = -(r * r);
-  }
-
-  /** In one row, as a polynomial of the way along it: linear and constant term. @{ */
-  Floats
-  linearAt(const Floats& ey) const
-  {
-    return xy * ey + x;
-  }
-  Floats
-  constantAt(const Floats& ey) const
-  {
-    return (yy * ey + y) * ey + one;
-  }
-  /** @} */
-};
 
 void
 keepFront(PixelKey& pixel, float depth, std::uint32_t point)
@@ -152,22 +305,66 @@ struct Patch {
   }
 };
 
+/** All sums of a pixel. */
+using PixelSums = float __attribute__((vector_size(blended_values * sizeof(float))));
+
+/** What a disc adds to pixels: its normal changes over it. */
+struct DiscValues {
+  PixelSums middle, along_a, along_b;
+};
+
+/** Normals of discs, which look to the eye if surfaces have two sides, and by what they
+ * change along the axes of the discs. */
+class NormalLanes {
+public:
+  NormalLanes(const Projection& projection,
+              const DiscPoints& points,
+              const Floats& facing)
+  {
+    Floats n[3];
+    unpackDirection(points.normal, n);
+    const TangentLanes tangent(n);
+    const BendLanes bend(points);
+    const Floats away = fill(-projection.outward), towards = fill(projection.outward);
+    const Floats sign =
+        projection.two_sided ? (facing > 0.0f ? away : towards) : towards;
+    const Floats a[] = {tangent.a.x, tangent.a.y, tangent.a.z},
+                 b[] = {tangent.b.x, tangent.b.y, tangent.b.z};
+    for (int k = 0; k < 3; ++k) {
+      normal_[k] = sign * (n[k] * tangent.per_length);
+      along_a_[k] = sign * (bend.aa * a[k] + bend.ab * b[k]);
+      along_b_[k] = sign * (bend.ab * a[k] + bend.bb * b[k]);
+    }
+  }
+
+  DiscValues
+  valuesOf(int lane, std::uint32_t color) const
+  {
+    DiscValues values{};
+    for (int k = 0; k < 3; ++k) {
+      values.middle[k] = normal_[k][lane];
+      values.middle[3 + k] = static_cast<float>((color >> (8 * k)) & 0xff);
+      values.along_a[k] = along_a_[k][lane];
+      values.along_b[k] = along_b_[k][lane];
+    }
+    values.middle[6] = 1.0f;
+    return values;
+  }
+
+private:
+  Floats normal_[3], along_a_[3], along_b_[3];
+};
+
 /** One disc in a band: pixels side by side. */
 class LargeDisc {
 public:
   LargeDisc(const Projection& projection,
-            const ProjectedPoints& points,
-            std::uint32_t point,
-            float stretch,
+            const DiscLanes& group,
+            int lane,
             const PixelBand& band)
-      : disc_(projection,
-              {fill(points.x[0][point]),
-               fill(points.x[1][point]),
-               fill(points.x[2][point])},
-              fill(static_cast<std::int32_t>(points.normals[point])),
-              fill(stretch * points.radii[point]),
-              fill(stretch * points.footprints[point]))
-      , polynomials_(projection, disc_)
+      : disc_(group.lane(lane))
+      , bent_(projection, disc_)
+      , is_bent_(disc_.bentLanes() != 0)
       , projection_(projection)
       , first_row_(band.first_row)
       , last_row_(band.last_row)
@@ -209,8 +406,8 @@ public:
     return false;
   }
 
-  /** Call visit(row, column, covered lanes, depths, parts of the squared radius) for
-   * every patch with a pixel that is covered; row and column of its first pixel. */
+  /** Call visit(row, column, covered lanes, depths, place) for every patch with a pixel
+   * that is covered; row and column of its first pixel. */
   template <typename Visit>
   void
   forPatches(const Visit& visit) const
@@ -266,23 +463,20 @@ private:
     const Ints columns = column + (lane & (patch_columns - 1));
     const Floats ex = toFloats(columns) + 0.5f - disc_.px,
                  ey = toFloats(rows) + 0.5f - disc_.py;
-    const Floats beyond = (polynomials_.xx * ex + polynomials_.linearAt(ey)) * ex +
-                          polynomials_.constantAt(ey);
-    const Floats toward = (1.0f + disc_.tilt_y * ey) + disc_.tilt_x * ex;
-    const Ints inside = (toward > 0.0f) & (beyond <= 0.0f) & (rows < fill(last_row_)) &
-                        (columns < fill(last_column_));
+    const BentPlace place = is_bent_ ? bent_.at(ex, ey) : bent_.atFlat(ex, ey);
+    const Ints inside =
+        place.covered & (rows < fill(last_row_)) & (columns < fill(last_column_));
     if (laneBits(inside) == 0)
       return;
     const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
     const Floats qy = slopeOf(rows, projection_.center_y, projection_.focal);
-    const Floats depth = depthAt(projection_, disc_.center.z * (1.0f / toward), qx, qy);
-    const Floats radius = disc_.radius * toward;
-    visit(
-        row, column, inside & (depth < 1.0f), depth, 1.0f + beyond / (radius * radius));
+    const Floats depth = depthAt(projection_, disc_, place, qx, qy);
+    visit(row, column, inside & (depth < 1.0f), depth, place);
   }
 
   DiscLanes disc_;
-  DiscPolynomials polynomials_;
+  BentDisc bent_;
+  bool is_bent_;
   const Projection& projection_;
   int first_row_, last_row_, first_column_ = 0, last_column_;
 };
@@ -303,7 +497,7 @@ public:
             const ProjectedPoints& points,
             const std::uint32_t* discs,
             int count)
-      : disc_(gather(projection, points, discs, count))
+      : disc_(projection, DiscPoints(points, discs, count), 1.0f)
       , projection_(projection)
       , discs_(discs)
   {
@@ -333,12 +527,31 @@ public:
     return large_;
   }
 
+  const DiscLanes&
+  discs() const
+  {
+    return disc_;
+  }
+
   void
   drawSmall(float back, const PixelBand& band) const
   {
-    if (laneBits(small_) == 0)
-      return;
-    const DiscPolynomials p(projection_, disc_);
+    const BentDisc bent(projection_, disc_);
+    if ((laneBits(small_) & disc_.bentLanes()) != 0)
+      drawPlaces(back, band, [&](const Floats& ex, const Floats& ey) {
+        return bent.at(ex, ey);
+      });
+    else if (laneBits(small_) != 0)
+      drawPlaces(back, band, [&](const Floats& ex, const Floats& ey) {
+        return bent.atFlat(ex, ey);
+      });
+  }
+
+private:
+  template <typename PlaceAt>
+  void
+  drawPlaces(float back, const PixelBand& band, const PlaceAt& place_at) const
+  {
     const Floats depth_in_radii =
         disc_.facing > 0.0f ? fill(back + projection_.away_depth) : fill(back);
     const Floats behind = disc_.radius * (depth_in_radii * projection_.per_far);
@@ -353,50 +566,24 @@ public:
       const Ints in_band =
           small_ & (row >= fill(band.first_row)) & (row < fill(band.last_row));
       const Floats ey = y + static_cast<float>(dy);
-      const Floats linear = p.linearAt(ey), constant = p.constantAt(ey);
       const Floats qy = slopeOf(row, projection_.center_y, projection_.focal);
-      const Floats toward = 1.0f + disc_.tilt_y * ey;
       const int columns = columnsAt(dy);
       for (int dx = -columns; dx <= columns; ++dx) {
         const Floats ex = x + static_cast<float>(dx);
         const Ints column = column_ + dx;
-        const Ints covered = in_band & ((p.xx * ex + linear) * ex + constant <= 0.0f) &
-                             (column >= 0) & (column < fill(band.width));
+        const BentPlace place = place_at(ex, ey);
+        const Ints covered =
+            in_band & place.covered & (column >= 0) & (column < fill(band.width));
         if (laneBits(covered) == 0)
           continue;
         const Floats qx = slopeOf(column, projection_.center_x, projection_.focal);
-        const Floats z = disc_.center.z * (1.0f / (toward + disc_.tilt_x * ex));
-        const Floats depth = depthAt(projection_, z, qx, qy) + behind;
+        const Floats depth = depthAt(projection_, disc_, place, qx, qy) + behind;
         keepLanes(laneBits(covered & (depth < 1.0f)),
                   depth,
                   places + (dy * static_cast<int>(band.stride) + dx),
                   band);
       }
     }
-  }
-
-private:
-  static DiscLanes
-  gather(const Projection& projection,
-         const ProjectedPoints& points,
-         const std::uint32_t* discs,
-         int count)
-  {
-    alignas(64) float x[3][lanes], radius[lanes], footprint[lanes];
-    alignas(64) std::int32_t normal[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t disc = discs[lane < count ? lane : 0];
-      for (int axis = 0; axis < 3; ++axis)
-        x[axis][lane] = points.x[axis][disc];
-      normal[lane] = static_cast<std::int32_t>(points.normals[disc]);
-      radius[lane] = points.radii[disc];
-      footprint[lane] = points.footprints[disc];
-    }
-    return DiscLanes(projection,
-                     {load<Floats>(x[0]), load<Floats>(x[1]), load<Floats>(x[2])},
-                     load<Ints>(normal),
-                     load<Floats>(radius),
-                     load<Floats>(footprint));
   }
 
   /** How many columns beside their centres' discs can reach so many rows away. */
@@ -450,9 +637,9 @@ draw(const Projection& projection,
         projection, points, discs + i, here < lanes ? static_cast<int>(here) : lanes);
     group.drawSmall(back, band);
     for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
-      const std::uint32_t point =
-          discs[i + static_cast<std::size_t>(__builtin_ctz(bits))];
-      const LargeDisc disc(projection, points, point, 1.0f, band);
+      const int lane_of_disc = __builtin_ctz(bits);
+      const std::uint32_t point = discs[i + static_cast<std::size_t>(lane_of_disc)];
+      const LargeDisc disc(projection, group.discs(), lane_of_disc, band);
       const float depth_in_radii =
           disc.looksAway() ? back + projection.away_depth : back;
       const float room = disc.radius() * (depth_in_radii * projection.per_far);
@@ -460,7 +647,7 @@ draw(const Projection& projection,
                           int column,
                           const Ints& covered,
                           const Floats& depth,
-                          const Floats&) {
+                          const BentPlace&) {
         const Floats deeper = depth + room;
         const Patch patch(band, row, column);
         alignas(64) float depths[lanes];
@@ -476,9 +663,6 @@ draw(const Projection& projection,
   }
 }
 
-/** All sums of a pixel. */
-using PixelSums = float __attribute__((vector_size(blended_values * sizeof(float))));
-
 /** Clear the sums of a pixel's segment if it is the first one there. */
 void
 reachSegment(const BlendSums& blended, std::ptrdiff_t pixel)
@@ -493,13 +677,18 @@ reachSegment(const BlendSums& blended, std::ptrdiff_t pixel)
                    sizeof(float) * blended_values * blend_segment);
 }
 
+/** Of the pixels of a row: places on a disc in its axes, and weights. */
+struct DiscPlaces {
+  const float *a, *b, *weights;
+};
+
 /** Add weighted values to the pixels of a row of a patch that have a bit. */
 void
 addToRow(const BlendSums& blended,
          std::ptrdiff_t pixel,
          std::uint32_t bits,
-         const float* values,
-         const float* weights)
+         const DiscValues& values,
+         const DiscPlaces& places)
 {
   if (bits == 0)
     return;
@@ -509,7 +698,9 @@ addToRow(const BlendSums& blended,
   for (; bits != 0; bits &= bits - 1) {
     const int lane = __builtin_ctz(bits);
     float* const sums = blended.values + blended_values * (pixel + lane);
-    store(sums, load<PixelSums>(sums) + load<PixelSums>(values) * weights[lane]);
+    const PixelSums here = (values.middle + values.along_a * places.a[lane]) +
+                           values.along_b * places.b[lane];
+    store(sums, load<PixelSums>(sums) + here * places.weights[lane]);
   }
 }
 
@@ -574,6 +765,56 @@ findDeepest(const PixelBand& band, float* deepest)
     }
 }
 
+/** Add one disc to the pixels that it covers. */
+void
+blendDisc(const Projection& projection,
+          const ProjectedPoints& points,
+          const LargeDisc& disc,
+          const DiscValues& values,
+          std::uint8_t side,
+          const PixelBand& band,
+          const BlendSums& blended)
+{
+  const float room = disc.radius() * projection.per_far;
+  const float facing_room = room * projection.facing_reach;
+  const float center_depth = disc.distance() * projection.per_far;
+  const float per_square = 1.0f / (disc.radius() * disc.radius());
+  disc.forPatches([&](int row,
+                      int column,
+                      const Ints& covered,
+                      const Floats& depth,
+                      const BentPlace& place) {
+    const Patch patch(band, row, column);
+    const Floats behind = absolute(depth - patch.seenDepths(band));
+    std::uint32_t bits = laneBits(covered & (behind <= room)), facing = 0;
+    if (blended.sides != nullptr) {
+      const SideLanes sides(
+          blended.sides + patch.first, blended.sides + patch.second, side);
+      bits &= sides.same;
+      facing = sides.away & laneBits(covered & (behind <= facing_room));
+      facing = lanesBehind(projection, points, band, patch, facing, center_depth);
+      bits |= facing;
+    }
+    if (bits == 0)
+      return;
+    // Falls smoothly to zero at the rim.
+    const Floats rest = 1.0f - place.square() * per_square;
+    alignas(64) float weights[lanes], a[lanes], b[lanes];
+    store(weights, rest * rest);
+    store(a, place.a);
+    store(b, place.b);
+    for (; facing != 0; facing &= facing - 1)
+      weights[__builtin_ctz(facing)] *= projection.facing_weight;
+    constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
+    addToRow(blended, patch.first, bits & row_bits, values, {a, b, weights});
+    addToRow(blended,
+             patch.second,
+             bits >> patch_columns,
+             values,
+             {a + patch_columns, b + patch_columns, weights + patch_columns});
+  });
+}
+
 void
 blend(const Projection& projection,
       const ProjectedPoints& points,
@@ -584,59 +825,25 @@ blend(const Projection& projection,
       const float* deepest,
       const BlendSums& blended)
 {
-  for (std::size_t i = 0; i < count; ++i) {
-    const LargeDisc disc(projection, points, discs[i], points.stretch, band);
-    const float room = disc.radius() * projection.per_far;
-    if (!disc.mayBeSeen(band, deepest, room))
-      continue;
-    Floats direction[3];
-    unpackDirection(fill(static_cast<std::int32_t>(looks[2 * discs[i]])), direction);
-    const Floats length =
-        squareRoot(direction[0] * direction[0] + direction[1] * direction[1] +
-                   direction[2] * direction[2]);
-    const float side = projection.two_sided && disc.looksAway() ? -1.0f : 1.0f;
-    const std::uint32_t color = looks[2 * discs[i] + 1];
-    float values[blended_values] = {};
-    for (int k = 0; k < 3; ++k) {
-      values[k] = side * projection.outward * direction[k][0] / length[0];
-      values[3 + k] = static_cast<float>((color >> (8 * k)) & 0xff);
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(lanes)) {
+    const int here = count - i < lanes ? static_cast<int>(count - i) : lanes;
+    const DiscPoints group(points, discs + i, here);
+    const DiscLanes in_view(projection, group, points.stretch);
+    const NormalLanes normals(projection, group, in_view.facing);
+    for (int lane = 0; lane < here; ++lane) {
+      const LargeDisc disc(projection, in_view, lane, band);
+      if (!disc.mayBeSeen(band, deepest, disc.radius() * projection.per_far))
+        continue;
+      const std::uint32_t color =
+          looks[2 * discs[i + static_cast<std::size_t>(lane)] + 1];
+      blendDisc(projection,
+                points,
+                disc,
+                normals.valuesOf(lane, color),
+                sideOf(color, projection.has_sides && disc.looksAway()),
+                band,
+                blended);
     }
-    values[6] = 1.0f;
-    const std::uint8_t disc_side =
-        sideOf(color, projection.has_sides && disc.looksAway());
-    const float facing_room = room * projection.facing_reach;
-    const float center_depth = disc.distance() * projection.per_far;
-    disc.forPatches([&](int row,
-                        int column,
-                        const Ints& covered,
-                        const Floats& depth,
-                        const Floats& part) {
-      const Patch patch(band, row, column);
-      const Floats behind = absolute(depth - patch.seenDepths(band));
-      std::uint32_t bits = laneBits(covered & (behind <= room)), facing = 0;
-      if (blended.sides != nullptr) {
-        const SideLanes sides(
-            blended.sides + patch.first, blended.sides + patch.second, disc_side);
-        bits &= sides.same;
-        facing = sides.away & laneBits(covered & (behind <= facing_room));
-        facing = lanesBehind(projection, points, band, patch, facing, center_depth);
-        bits |= facing;
-      }
-      if (bits == 0)
-        return;
-      // Falls smoothly to zero at the rim.
-      alignas(64) float weights[lanes];
-      store(weights, (1.0f - part) * (1.0f - part));
-      for (; facing != 0; facing &= facing - 1)
-        weights[__builtin_ctz(facing)] *= projection.facing_weight;
-      constexpr std::uint32_t row_bits = (1u << patch_columns) - 1;
-      addToRow(blended, patch.first, bits & row_bits, values, weights);
-      addToRow(blended,
-               patch.second,
-               bits >> patch_columns,
-               values,
-               weights + patch_columns);
-    });
   }
 }
 

@@ -27,10 +27,11 @@ struct PixelBand {
 struct ProjectedPoints {
   const float* x[3];
   const std::uint32_t* normals;
-  const float* radii;      ///< of their discs; null: no footprints
-  const float* footprints; ///< radii where these are too large for a filler
-  float stretch;           ///< discs may reach so many of their radii
-  float smallest_cover;    ///< larger discs replace the pixel of a point, in pixels
+  const float* radii;         ///< of their discs; null: no footprints
+  const float* footprints;    ///< radii where these are too large for a filler
+  const std::uint32_t* bends; ///< of the surface over the footprints, packed
+  float stretch;              ///< discs may reach so many of their radii
+  float smallest_cover;       ///< larger discs replace the pixel of a point, in pixels
 };
 
 /** A view, and which points are seen. */
@@ -48,7 +49,8 @@ struct Projection {
    * others do. @{ */
   float edge_on_cosine, facing_weight, facing_reach;
   /** @} */
-  float smallest_footprint, largest_filler; ///< in pixels: see backend.h
+  float smallest_footprint, largest_filler, smallest_bend,
+      smallest_turn; ///< in pixels: see frame.h
 };
 
 /** Points that projectPoints takes at once, at most. */

@@ -51,6 +51,8 @@ projectionOf(const Frame& frame)
   projection.facing_reach = facing_reach;
   projection.smallest_footprint = frame.smallestDisc();
   projection.largest_filler = largest_filler;
+  projection.smallest_bend = smallest_bend;
+  projection.smallest_turn = smallest_turn;
   return projection;
 }
 
@@ -103,6 +105,7 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
              cloud.getNormals().data(),
              footprints,
              footprints,
+             cloud.getBends().data(),
              blend_reach,
              smallest_cover};
 }

@@ -5,6 +5,7 @@
 
 #include "src/render/image_space/projection_kernel.h"
 #include "surface/packed_normal.h"
+#include "surface/surface_bend.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -79,10 +80,13 @@ private:
 /** \brief What kernels read of points. */
 struct PointArrays {
   std::vector<float> x[3], radii, footprints;
-  std::vector<std::uint32_t> normals;
+  std::vector<std::uint32_t> normals, bends;
 
   void
-  add(const Eigen::Vector3d& place, const Eigen::Vector3d& normal, float radius)
+  add(const Eigen::Vector3d& place,
+      const Eigen::Vector3d& normal,
+      float radius,
+      const pcl_uvol::SurfaceBend& bend = pcl_uvol::SurfaceBend::Zero())
   {
     const Eigen::Vector3f n = normal.cast<float>();
     for (int axis = 0; axis < 3; ++axis)
@@ -90,6 +94,7 @@ struct PointArrays {
     normals.push_back(pcl_uvol::packNormal(n.data()));
     radii.push_back(radius);
     footprints.push_back(radius);
+    bends.push_back(pcl_uvol::packBend(bend, radius));
   }
 
   std::size_t
@@ -119,6 +124,7 @@ struct PointArrays {
             normals.data(),
             radii.data(),
             footprints.data(),
+            bends.data(),
             stretch,
             std::numeric_limits<float>::max()};
   }

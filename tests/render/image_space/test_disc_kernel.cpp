@@ -128,6 +128,117 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheDisc)
     });
 }
 
+/** Where a ray meets the paraboloid about a disc on the side that its centre shows, in
+ * the axes of the disc: the quadratic equation of the way along the ray. */
+struct BentMeeting {
+  double depth = 0.0, part = 1e6; ///< as of a Meeting
+  Eigen::Vector2d turn;           ///< of the normal
+  double fold = 0.0;              ///< how near the outline is: 0 on it
+
+  BentMeeting(const TestCamera& camera,
+              const PointArrays& points,
+              std::uint32_t point,
+              double radius,
+              int column,
+              int row)
+  {
+    const Projection& p = camera.projection;
+    const Vector3d c = camera.toCamera(points.place(point));
+    const Vector3d ray(
+        (column + 0.5 - p.center_x) / p.focal, (row + 0.5 - p.center_y) / p.focal, 1.0);
+    const Eigen::Matrix<double, 3, 2> axes =
+        camera.rotation * tangentAxes(points.normals[point]).cast<double>();
+    const Vector3d n = camera.rotation * points.normal(point);
+    const auto part_of = [&](int i) {
+      const auto bits = static_cast<std::int32_t>(points.bends[point] << (22 - 10 * i));
+      return (bits >> 22) / double{packed_bend_scale} / points.footprints[point];
+    };
+    Eigen::Matrix2d bend;
+    bend << part_of(0), part_of(1), part_of(1), part_of(2);
+    // Of t ray - c: height over the plane, and place in it.
+    const Eigen::Vector2d from = -(axes.transpose() * c),
+                          along = axes.transpose() * ray;
+    const double a = 0.5 * along.dot(bend * along),
+                 b = n.dot(ray) + along.dot(bend * from),
+                 constant = -n.dot(c) + 0.5 * from.dot(bend * from);
+    const double square = b * b - 4.0 * a * constant;
+    fold = square / (n.dot(ray) * n.dot(ray));
+    if (square < 0.0)
+      return;
+    // Beyond the outline of a saddle there is another part of it, far away.
+    const Eigen::Vector2d in_plane =
+        axes.transpose() * (n.dot(c) / n.dot(ray) * ray - c);
+    if (1.0 + along.dot(bend * in_plane) / n.dot(ray) + std::sqrt(fold) < 0.0)
+      return;
+    // The derivative of the height over the paraboloid is the cosine there.
+    const double root = n.dot(c) > 0.0 ? std::sqrt(square) : -std::sqrt(square);
+    const double t = -2.0 * constant / (b + root);
+    const Vector3d place = t * ray;
+    depth = place.norm() * p.per_far;
+    turn = bend * (axes.transpose() * (place - c));
+    part = t > 0.0 && depth < 1.0 ? (place - c).norm() / radius : 1e6;
+  }
+};
+
+/** Discs of bent surfaces, some nearly edge-on. */
+PointArrays
+bentDiscs(const TestCamera& camera, std::size_t count)
+{
+  PixelRandom random(4);
+  PointArrays points;
+  while (points.size() < count) {
+    const Vector3d x(
+        random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(-1, 1));
+    const Vector3d normal = random.direction();
+    if (std::abs(normal.dot((camera.eye - x).normalized())) < 0.1)
+      continue;
+    const double radius = random.between(0.04, 0.4);
+    const auto part = [&] {
+      return static_cast<float>(random.between(-0.5, 0.5) / radius);
+    };
+    points.add(x, normal, static_cast<float>(radius), {part(), 0.5f * part(), part()});
+  }
+  return points;
+}
+
+TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheBentSurface)
+{
+  const TestCamera camera;
+  const PointArrays points = bentDiscs(camera, 200);
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    std::size_t covered = 0, behind_outline = 0;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      PixelRows rows;
+      kernel->draw(camera.projection,
+                   points.view(1.0f),
+                   &i,
+                   1,
+                   0.0f,
+                   rows.band(first_row, last_row));
+      for (int row = first_row; row < last_row; ++row)
+        for (int column = 0; column < PixelRows::width; ++column) {
+          const PixelKey key = rows.at(column, row);
+          const double radius = points.radii[i];
+          const BentMeeting meeting(camera, points, i, radius, column, row);
+          const Meeting flat(
+              camera, points.place(i), points.normal(i), radius, column, row);
+          behind_outline += flat.part < 1.0 && meeting.fold < 0.0;
+          // On its border rounding decides.
+          if (std::abs(meeting.part - 1.0) < 5e-3 || std::abs(meeting.fold) < 5e-3)
+            continue;
+          ASSERT_EQ(meeting.part < 1.0, key != background_key)
+              << i << ": " << column << ", " << row;
+          if (key == background_key)
+            continue;
+          ++covered;
+          EXPECT_NEAR(meeting.depth, readDepth(key), 1e-5);
+        }
+    }
+    EXPECT_GT(covered, 5000u);
+    EXPECT_GT(behind_outline, 200u);
+  });
+}
+
 /** Sums of a pixel: normal, colour, weight. */
 struct Sums {
   double values[7] = {};
@@ -252,6 +363,60 @@ TEST(DiscKernel, BlendsWithSmoothWeightsWhatLiesInTheLayer)
               k < 3 || k == 6 ? 1e-4 : 2e-2);
       }
     EXPECT_GT(blended, 500u);
+  });
+}
+
+TEST(DiscKernel, BlendsNormalsThatTurnAsTheSurfaceDoes)
+{
+  const TestCamera camera;
+  const PointArrays points = bentDiscs(camera, 30);
+  constexpr float stretch = 1.5f;
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    std::size_t blended = 0;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      std::vector<std::uint32_t> looks(2 * points.size(), 0x00ffffff);
+      looks[2 * i] = points.normals[i];
+      const double radius = stretch * points.radii[i];
+      PixelRows rows;
+      for (int row = first_row; row < last_row; ++row)
+        for (int column = 0; column < PixelRows::width; ++column) {
+          const BentMeeting meeting(camera, points, i, radius, column, row);
+          if (meeting.part < 1.0)
+            rows.first()[row * PixelRows::stride + column] =
+                uvol_test::makeKey(static_cast<float>(meeting.depth), i);
+        }
+      std::vector<float> values(blended_values * rows.keys.size());
+      std::vector<std::uint8_t> marks(rows.keys.size() / blend_segment);
+      constexpr std::ptrdiff_t first = PixelRows::stride + PixelRows::margin;
+      const std::vector<float> deepest = findDeepest(*kernel, rows);
+      kernel->blend(camera.projection,
+                    points.view(stretch),
+                    looks.data(),
+                    &i,
+                    1,
+                    rows.band(first_row, last_row),
+                    deepest.data(),
+                    {values.data() + blended_values * first,
+                     marks.data() + first / blend_segment});
+      const Eigen::Matrix<double, 3, 2> axes =
+          tangentAxes(points.normals[i]).cast<double>();
+      for (int row = first_row; row < last_row; ++row)
+        for (int column = 0; column < PixelRows::width; ++column) {
+          const BentMeeting meeting(camera, points, i, radius, column, row);
+          if (meeting.part > 0.9 || meeting.fold < 1e-2)
+            continue;
+          ++blended;
+          const float* const sums =
+              values.data() +
+              blended_values * (first + row * PixelRows::stride + column);
+          const double rest = 1.0 - meeting.part * meeting.part;
+          ASSERT_NEAR(rest * rest, sums[6], 1e-3);
+          const Vector3d normal = points.normal(i) + axes * meeting.turn;
+          const Vector3d sum(sums[0], sums[1], sums[2]);
+          EXPECT_LT((sum / sums[6] - normal).norm(), 1e-3);
+        }
+    }
+    EXPECT_GT(blended, 2000u);
   });
 }
 
