@@ -178,6 +178,55 @@ TEST(Footprints, OccludedLayersDoNotShineThrough)
   }
 }
 
+/** Rows of points in the plane of a height, which looks along a normal. */
+void
+addRows(pcl::PointCloud<pcl::PointNormal>& cloud,
+        float height,
+        const Eigen::Vector3f& normal,
+        float along,
+        float across)
+{
+  constexpr float half = 0.6f;
+  for (float y = -half; y < half; y += across)
+    for (float x = -half; x < half; x += along) {
+      pcl::PointNormal point;
+      point.getVector3fMap() = Eigen::Vector3f(x, y, height);
+      point.getNormalVector3fMap() = normal;
+      cloud.push_back(point);
+    }
+}
+
+TEST(Footprints, CloseGapsBetweenRowsOfFinePixels)
+{
+  constexpr int size = 100;
+  Camera camera;
+  camera.eye = {0.0, 0.0, 100.0};
+  camera.at = Eigen::Vector3d::Zero();
+  camera.up = upwards;
+  camera.vertical_fov = 2.0 * std::atan(0.5 / 100.0) * 180.0 / 3.14159265;
+  for (const int supersampling : {2, 3})
+    for (const float gap : {1.3f, 1.7f, 2.1f, 2.6f}) {
+      const float pixel = 1.0f / static_cast<float>(size * supersampling);
+      const SurfaceCloudPtr cloud(new pcl::PointCloud<pcl::PointNormal>);
+      addRows(*cloud, 0.0f, Eigen::Vector3f::UnitZ(), 0.4f * pixel, gap * pixel);
+      // Behind it a wall that is dark.
+      addRows(*cloud, -0.2f, {0.0f, 1.0f, 0.02f}, 0.7f * pixel, 0.7f * pixel);
+      Renderer renderer;
+      prepare(renderer, cloud, size, size);
+      renderer.setPlanes({});
+      renderer.setCamera(camera);
+      renderer.setSupersampling(supersampling);
+      pcl_uvol::Light light;
+      light.position = {0.0, 0.0, 1.0};
+      renderer.settings().lights = {light};
+      Image image;
+      renderer.render(image);
+      for (std::size_t i = 0; i < image.pixels(); ++i)
+        ASSERT_NEAR(image.color[0], image.color[4 * i], 2)
+            << supersampling << ", " << gap << ": pixel " << i;
+    }
+}
+
 TEST(Footprints, CloseTenfoldZoomAndStayOnTheSurface)
 {
   const auto cloud = uvol_test::makeTorusKnot(60000, 1);

@@ -54,19 +54,6 @@ checkParameters(const ImageSpaceSettings& settings)
   checkLights(settings.lights);
 }
 
-/** Lengths in pixels of the picture in finer ones; those of lines are WideSilhouettes'.
- * Discs are single pixels only where holes between these are filled.
- */
-ImageSpaceSettings
-scaledSettings(ImageSpaceSettings settings, int supersampling)
-{
-  // Pixels that masks fill around a point, and a little.
-  constexpr double largest_hole = 2.1;
-  settings.smallest_disc = std::min(settings.smallest_disc * supersampling,
-                                    std::max(settings.smallest_disc, largest_hole));
-  return settings;
-}
-
 /** Mean of factor x factor pixels, weighted by their opacity. */
 void
 average(const Image& fine, int factor, Image& image)
@@ -317,12 +304,11 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
     const auto find_view = [&](const BoundingSphere& part) {
       return View(camera, part, width_ * supersampling_, height_ * supersampling_);
     };
-    const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
     const bool is_fine = supersampling_ > 1;
     WideSilhouettes fine_backend(*backend_, supersampling_);
     renderLayers(cloud,
                  *indices,
-                 {find_view, settings, is_fine ? fine_backend : *backend_, false},
+                 {find_view, settings_, is_fine ? fine_backend : *backend_, false},
                  is_fine ? fine_ : image);
     if (is_fine)
       average(fine_, supersampling_, image);
@@ -333,9 +319,8 @@ ImageSpaceRendererBase::renderFrom(const CloudView& cloud,
       backend_->render(frame, image, report);
       return;
     }
-    const ImageSpaceSettings settings = scaledSettings(settings_, supersampling_);
     WideSilhouettes(*backend_, supersampling_)
-        .render({frame.cloud, frame.view, settings, frame.planes, frame.threads},
+        .render({frame.cloud, frame.view, frame.settings, frame.planes, frame.threads},
                 fine_,
                 report);
     average(fine_, supersampling_, image);

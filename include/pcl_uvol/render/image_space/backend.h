@@ -34,8 +34,8 @@ struct ImageSpaceSettings {
   bool footprints = true;
   /** Pixels, above 0: points whose disc has a smaller radius are single pixels, and
    * larger discs are blended into each other. Smaller numbers are smoother, larger ones
-   * faster. With supersampling it counts pixels of the picture, but no more than 2.1 of
-   * the finer ones unless it is larger itself. */
+   * faster. With supersampling it counts the finer pixels: masks close no gaps between
+   * rows of points, as lattices have, that are wider than a pixel. */
   double smallest_disc = 0.7;
 
   // Pixel filling (4.3.2): most iterations; fewer if nothing changes, 0 leaves it out
