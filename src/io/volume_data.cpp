@@ -224,8 +224,10 @@ ValueReader::appendBytes(std::vector<float>& values)
 void
 checkExists(const std::string& path, const std::string& file)
 {
+  // The system would take what stands before a zero byte for the name.
+  const bool is_name = file.find('\0') == std::string::npos;
   std::error_code ignored; // of a name that is too long
-  if (!std::filesystem::exists(file, ignored))
+  if (!is_name || !std::filesystem::exists(file, ignored))
     throwUnreadable(path,
                     "there is no file " +
                         quoteText(std::filesystem::path(file).filename().string()) +
