@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Frames of a window while the camera goes round a surface, whole and as a mouse drags
-// it, and steps of the isovalue,
-// as in uvol_viewer, by OpenGL and by the CPU whose picture OpenGL shows. Needs a
-// display:
+// it, and steps of the isovalue, one by one and as a slider is dragged, as in
+// uvol_viewer, by OpenGL and by the CPU whose picture OpenGL shows. Needs a display:
 //   xvfb-run -s "-screen 0 1280x1024x24" build/release/bin/window samples.ply FIELD
 //   ISOVALUE...
 #include <pcl_uvol/io/dataset.h>
@@ -60,23 +59,23 @@ run(IsosurfacePipeline& pipeline,
   window->SetMultiSamples(0);
   window->SetSize(1024, 768);
   window->AddRenderer(renderer);
-  std::vector<double> steps, frames, dragged;
+  std::vector<double> steps, slid, frames, dragged;
   std::size_t points = 0;
-  bool is_first = true;
+  const auto step = [&](double isovalue, bool is_hasty) {
+    parameters.isosurface.isovalues = {isovalue};
+    pipeline.setParameters(parameters);
+    const auto result = std::make_shared<IsosurfaceResult>(pipeline.run());
+    points = result->surface.cloud.width;
+    prop->renderer().setHasty(is_hasty);
+    prop->setInputCloud({result, &result->surface.cloud});
+    if (steps.empty())
+      renderer->ResetCamera();
+    window->Render();
+  };
+  step(isovalues.front(), false); // builds the tree and compiles shaders
   for (const double isovalue : isovalues) {
-    const double step = measure([&] {
-      parameters.isosurface.isovalues = {isovalue};
-      pipeline.setParameters(parameters);
-      const auto result = std::make_shared<IsosurfaceResult>(pipeline.run());
-      points = result->surface.cloud.width;
-      prop->setInputCloud({result, &result->surface.cloud});
-      if (is_first)
-        renderer->ResetCamera();
-      window->Render();
-    });
-    if (!is_first) // the first one builds the tree and compiles shaders
-      steps.push_back(step);
-    is_first = false;
+    slid.push_back(measure([&] { step(isovalue, true); }));
+    steps.push_back(measure([&] { step(isovalue, false); }));
     for (int side = 0; side < 18; ++side) {
       const bool is_dragged = side >= 9;
       window->SetDesiredUpdateRate(is_dragged ? 15.0 : 1e-4); // as VTK's interactors
@@ -88,12 +87,13 @@ run(IsosurfacePipeline& pipeline,
     }
   }
   std::printf("%s: %zu points, frame %.1f ms, dragged %.1f ms, step of the isovalue "
-              "%.1f ms\n",
+              "%.1f ms, slid %.1f ms\n",
               prop->describeBackend().c_str(),
               points,
               findMedian(frames),
               findMedian(dragged),
-              findMedian(steps));
+              findMedian(steps),
+              findMedian(slid));
 }
 
 } // namespace
