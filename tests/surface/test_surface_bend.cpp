@@ -65,11 +65,10 @@ TEST(SurfaceBend, OfASphereIsTheInverseOfItsRadius)
   const auto depth = [](const Vector2f& x) {
     return std::sqrt(radius * radius - x.squaredNorm());
   };
-  const SurfaceBend bend = fitTo([&](const Vector2f& x) { return depth(x) - radius; },
-                                 [&](const Vector2f& x) -> Vector2f {
-                                   return -x / depth(x);
-                                 },
-                                 0.2f);
+  const SurfaceBend bend =
+      fitTo([&](const Vector2f& x) { return depth(x) - radius; },
+            [&](const Vector2f& x) -> Vector2f { return -x / depth(x); },
+            0.2f);
   EXPECT_LT((bend - SurfaceBend(0.5f, 0.0f, 0.5f)).norm(), 2e-3f);
 }
 
@@ -100,9 +99,9 @@ unpackBend(PackedBend packed)
 {
   SurfaceBend bend;
   for (int i = 0; i < 3; ++i)
-    bend[i] = static_cast<float>(static_cast<std::int32_t>(packed << (22 - 10 * i)) >>
-                                 22) /
-              packed_bend_scale;
+    bend[i] =
+        static_cast<float>(static_cast<std::int32_t>(packed << (22 - 10 * i)) >> 22) /
+        packed_bend_scale;
   return bend;
 }
 

@@ -137,8 +137,8 @@ constexpr float largest_filler = 2.8f;
 constexpr float smallest_cover = 0.7072f;
 
 /** \brief Discs bend as the surface about them does where pictures show it, others are
- * drawn flat, which is faster: the least distance of the surface at the rim of a disc to
- * its plane, in pixels and doubled, and the least square of the turn of its normal,
+ * drawn flat, which is faster: the least distance of the surface at the rim of a disc
+ * to its plane, in pixels and doubled, and the least square of the turn of its normal,
  * divided by the cosine of the angle to the eye: the outline is not far then. @{ */
 constexpr float smallest_bend = 0.2f, smallest_turn = 0.0625f;
 /** @} */
