@@ -187,10 +187,15 @@ addRows(pcl::PointCloud<pcl::PointNormal>& cloud,
         float across)
 {
   constexpr float half = 0.6f;
-  for (float y = -half; y < half; y += across)
-    for (float x = -half; x < half; x += along) {
+  const auto rows = static_cast<int>(2.0f * half / across),
+             columns = static_cast<int>(2.0f * half / along);
+  for (int row = 0; row <= rows; ++row)
+    for (int column = 0; column <= columns; ++column) {
       pcl::PointNormal point;
-      point.getVector3fMap() = Eigen::Vector3f(x, y, height);
+      point.getVector3fMap() =
+          Eigen::Vector3f(-half + along * static_cast<float>(column),
+                          -half + across * static_cast<float>(row),
+                          height);
       point.getNormalVector3fMap() = normal;
       cloud.push_back(point);
     }
