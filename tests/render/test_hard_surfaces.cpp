@@ -225,12 +225,13 @@ TEST(HardSurfaces, AStrayNormalMakesNoBlackSquare)
 TEST(HardSurfaces, SilhouettesAreAsWideWithSupersampling)
 {
   // A wall, whose upper half stands before the lower one: the line lies in the middle.
+  // Discs of fewer points would make a jagged edge, whose line is as much wider.
   const SurfaceCloudPtr wall(new pcl::PointCloud<pcl::PointNormal>);
-  for (int y = -150; y <= 150; ++y)
-    for (int x = -150; x <= 150; ++x) {
+  for (int y = -300; y <= 300; ++y)
+    for (int x = -300; x <= 300; ++x) {
       pcl::PointNormal point;
-      point.x = 0.01f * static_cast<float>(x);
-      point.y = 0.01f * static_cast<float>(y);
+      point.x = 0.005f * static_cast<float>(x);
+      point.y = 0.005f * static_cast<float>(y);
       point.z = y > 0 ? 0.5f : 0.0f;
       point.normal_z = 1.0f;
       wall->push_back(point);
