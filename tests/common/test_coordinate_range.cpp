@@ -164,9 +164,9 @@ frameOf(const std::vector<double>& values)
 
 TEST(ValueFrame, LeavesWhatFloatHolds)
 {
-  std::vector<double> values;
+  std::vector<double> values(1000);
   for (int i = 0; i < 1000; ++i)
-    values.push_back(0.001 * i - 0.3);
+    values[static_cast<std::size_t>(i)] = 0.001 * i - 0.3;
   EXPECT_EQ(pcl_uvol::ValueFrame(), frameOf(values));
   values[3] = 1e300;
   EXPECT_EQ(pcl_uvol::ValueFrame(), frameOf(values));
@@ -177,9 +177,9 @@ TEST(ValueFrame, LeavesWhatFloatHolds)
 
 TEST(ValueFrame, SubtractsWhatValuesHaveInCommon)
 {
-  std::vector<double> values;
+  std::vector<double> values(1000);
   for (int i = 0; i < 1000; ++i)
-    values.push_back(1e7 + 0.001 * i);
+    values[static_cast<std::size_t>(i)] = 1e7 + 0.001 * i;
   const pcl_uvol::ValueFrame frame = frameOf(values);
   EXPECT_EQ(1.0, frame.factor);
   EXPECT_NEAR(1e7 + 0.5, frame.reference, 0.5);

@@ -23,7 +23,7 @@ sentenceOf(const std::string& path, const Reader& read)
 {
   const auto start = std::chrono::steady_clock::now();
   testing::internal::CaptureStderr();
-  const std::string message = messageOf<IOError>(read);
+  std::string message = messageOf<IOError>(read);
   EXPECT_EQ("", testing::internal::GetCapturedStderr()) << path;
   const std::chrono::duration<double> seconds =
       std::chrono::steady_clock::now() - start;

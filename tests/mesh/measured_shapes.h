@@ -33,18 +33,24 @@ struct MeasuredShape {
   }
 
   void
-  append(MeasuredShape other) // a copy: a shape may be appended to itself
+  append(const MeasuredShape& other)
   {
     const auto first = static_cast<std::uint32_t>(places.size());
     const auto join = [](auto& to, const auto& from) {
-      to.insert(to.end(), from.begin(), from.end());
+      const std::size_t count = from.size(); // a shape may be appended to itself
+      to.reserve(to.size() + count);
+      for (std::size_t i = 0; i < count; ++i)
+        to.push_back(from[i]);
     };
     join(places, other.places);
     join(normals, other.normals);
     join(isovalues, other.isovalues);
     join(caps, other.caps);
-    for (const auto& [a, b, c] : other.triangles)
-      triangles.push_back({a + first, b + first, c + first});
+    const std::size_t own = triangles.size();
+    join(triangles, other.triangles);
+    for (std::size_t i = own; i < triangles.size(); ++i)
+      for (std::uint32_t& corner : triangles[i])
+        corner += first;
   }
 
   /** Vertices of one place become one. */
@@ -181,8 +187,9 @@ makeBox(const Eigen::Vector3d& sides)
 {
   MeasuredShape box;
   for (std::uint32_t corner = 0; corner < 8; ++corner)
-    box.places.emplace_back(
-        corner % 2 * sides[0], corner / 2 % 2 * sides[1], corner / 4 * sides[2]);
+    box.places.emplace_back((corner & 1) != 0 ? sides[0] : 0.0,
+                            (corner & 2) != 0 ? sides[1] : 0.0,
+                            (corner & 4) != 0 ? sides[2] : 0.0);
   for (const std::array<std::uint32_t, 4>& face :
        {std::array<std::uint32_t, 4>{0, 2, 3, 1},
         {4, 5, 7, 6},

@@ -44,6 +44,7 @@ talkInGroups(MpiCommunicator& communicator, std::size_t groups)
   // Groups do not talk equally often.
   for (std::size_t round = 0; round <= color; ++round) {
     std::vector<Bytes> messages;
+    messages.reserve(members.size());
     for (const std::size_t to : members)
       messages.push_back(makeMessage(communicator.rank(), to, round));
     const auto received = group->allToAll(std::move(messages));
@@ -84,8 +85,7 @@ talk(MpiCommunicator& communicator)
   }
   communicator.barrier();
   for (const std::size_t groups : {1, 2, 3})
-    if (const std::string complaint = talkInGroups(communicator, groups);
-        !complaint.empty())
+    if (std::string complaint = talkInGroups(communicator, groups); !complaint.empty())
       return complaint;
   return "";
 }

@@ -73,11 +73,14 @@ TEST(LocalMetric, DoesNotDependOnWhatWasAskedBefore)
 TEST(LocalMetric, IsEvenWhereSpacingsAre)
 {
   for (const bool is_stretched : {false, true}) {
-    std::vector<Position> places;
-    for (int i = 0; i < 1000; ++i)
-      places.push_back({{static_cast<float>(i % 10),
-                         static_cast<float>(i / 10 % 10),
-                         static_cast<float>((is_stretched ? 2 : 1) * (i / 100))}});
+    std::vector<Position> places(1000);
+    for (int i = 0; i < 1000; ++i) {
+      const int layer = i / 100;
+      places[static_cast<std::size_t>(i)] = {
+          {static_cast<float>(i % 10),
+           static_cast<float>(i / 10 % 10),
+           static_cast<float>((is_stretched ? 2 : 1) * layer)}};
+    }
     const auto samples = makeSamples(places);
     LocalMetricFinder metrics(*samples);
     for (std::uint32_t i = 0; i < 1000; ++i) {

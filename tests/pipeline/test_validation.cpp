@@ -32,7 +32,8 @@ makeSphere(std::size_t n, bool is_noise = false, float factor = 1.0f)
     point.intensity = is_noise ? noise : 0.6f - point.getVector3fMap().norm();
     point.getVector3fMap() *= factor;
     cloud.push_back(point);
-    track.push_back(static_cast<float>(i / 100));
+    const std::size_t number = i / 100;
+    track.push_back(static_cast<float>(number));
   }
   auto samples = std::make_shared<Dataset>();
   pcl::toPCLPointCloud2(cloud, samples->cloud);

@@ -239,6 +239,7 @@ TEST(SplatTracing, SplatsAtTheLimitOfTheirReachAreATree)
 {
   constexpr double reach = pcl_uvol::most_splat_reach;
   std::vector<pcl_uvol::PointSplat> splats;
+  splats.reserve(500);
   for (int i = 0; i < 500; ++i)
     splats.push_back(discAt({0.0, reach / 500.0 * i, 0.0}, {0, 0, 1}, 0.1 * reach));
   const Camera camera =

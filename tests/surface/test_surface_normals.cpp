@@ -129,8 +129,9 @@ TEST(SurfaceNormals, APointThatLooksTheWrongWayKeepsThePlaneOfItsNeighbors)
 TEST(SurfaceNormals, WithoutNormalsTheViewPointDecides)
 {
   pcl::PointCloud<pcl::PointXYZ>::Ptr plane(new pcl::PointCloud<pcl::PointXYZ>);
-  for (int i = 0; i < 100; ++i)
-    plane->push_back({static_cast<float>(i % 10), static_cast<float>(i / 10), 5.0f});
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 10; ++column)
+      plane->push_back({static_cast<float>(column), static_cast<float>(row), 5.0f});
   pcl_uvol::SurfaceNormalEstimation<pcl::PointXYZ> estimation;
   estimation.setInputCloud(plane);
   for (const float z : {9.0f, 0.0f}) {
@@ -167,13 +168,14 @@ TEST(SurfaceNormals, ScaleGivesTheNormalsOfTheOriginalSpace)
 TEST(SurfaceNormals, StretchedBeyondSquaresOfFloatsTheyAreUnitVectors)
 {
   Cloud::Ptr cloud(new Cloud);
-  for (int i = 0; i < 100; ++i) {
-    pcl::PointNormal point;
-    point.getVector3fMap() << 0.0f, static_cast<float>(i % 10),
-        static_cast<float>(i / 10);
-    point.getNormalVector3fMap() << -1.0f, 0.5f, 0.0f;
-    cloud->push_back(point);
-  }
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 10; ++column) {
+      pcl::PointNormal point;
+      point.getVector3fMap() << 0.0f, static_cast<float>(column),
+          static_cast<float>(row);
+      point.getNormalVector3fMap() << -1.0f, 0.5f, 0.0f;
+      cloud->push_back(point);
+    }
   Estimation estimation;
   estimation.setInputCloud(cloud);
   estimation.setKSearch(9);
@@ -249,8 +251,9 @@ TEST(SurfaceNormals, OfSeveralIsosurfacesAreFittedOneByOne)
   for (const float z : {0.0f, 0.5f}) // as near to each other as their points
     for (int i = 0; i < 400; ++i) {
       pcl_uvol::PointIso point;
+      const int row = i / 20;
       point.x = static_cast<float>(i % 20);
-      point.y = static_cast<float>(i / 20);
+      point.y = static_cast<float>(row);
       point.z = z;
       point.isovalue = z;
       point.normal_x = 0.6f;

@@ -225,17 +225,15 @@ TEST_F(GrowingBalls, PicturesShareCameraAndColours)
   }
   std::ostringstream range;
   range.precision(17);
-  range << low << ',' << high;
+  range << "-range " << low << ',' << high << ' ' << camera;
   for (int number = 0; number < count; ++number) {
     const std::string name = std::to_string(number);
     EXPECT_EQ(camera, cameraOf("p_" + name + ".png"));
     expectSamePixels("p_" + name + ".png", "r_" + name + ".png");
-    ASSERT_EQ(0,
-              runTool("render o_" + name +
-                      ".ply one.png -color T -size 120x90 -title "
-                      "'file " +
-                      name + "' -range " + range.str() + " " + camera)
-                  .exit_code);
+    std::ostringstream command;
+    command << "render o_" << name << ".ply one.png -color T -size 120x90 -title 'file "
+            << name << "' " << range.str();
+    ASSERT_EQ(0, runTool(command.str()).exit_code);
     expectSamePixels("p_" + name + ".png", "one.png");
   }
 }

@@ -269,9 +269,13 @@ TEST_F(Isosurface, ShiftedCloudsGiveShiftedIsopoints)
     for (const char* ascii : {"", " -ascii"}) {
       const std::string a = folder_ / ("a." + std::string(ending));
       const std::string b = folder_ / ("b." + std::string(ending));
-      ASSERT_EQ(0, run(in_ + " " + a + " -field density -iso 15" + ascii).exit_code);
-      ASSERT_EQ(0,
-                run(shifted + " " + b + " -field density -iso 15" + ascii).exit_code);
+      const auto extract = [&](const std::string& from, const std::string& to) {
+        std::ostringstream command;
+        command << from << ' ' << to << " -field density -iso 15" << ascii;
+        return run(command.str()).exit_code;
+      };
+      ASSERT_EQ(0, extract(in_, a));
+      ASSERT_EQ(0, extract(shifted, b));
       const auto expected = readCoordinates(a), found = readCoordinates(b);
       ASSERT_EQ(expected.size(), found.size()) << ending << ascii;
       for (std::size_t i = 0; i < found.size(); ++i)
