@@ -85,7 +85,7 @@ EdgeErrorFinder::EdgeErrorFinder(const SampleSet& places,
     : places_(places)
     , isopoints_(isopoints)
     , edges_(edges)
-    , finder_(places, most_around)
+    , search_(places, most_around)
 {
 }
 
@@ -97,23 +97,13 @@ EdgeErrorFinder::stretch(const PointIso& point) const
       Vector3d(scale[0], scale[1], scale[2]));
 }
 
-void
-EdgeErrorFinder::findAround(const PointIso& point)
-{
-  const auto row =
-      finder_.find(places_.getUnit().apply({{point.x, point.y, point.z}}), 1.0f);
-  around_.clear();
-  for (std::size_t i = 0; i < row.size; ++i)
-    around_.push_back(places_.getInputIndex(row.samples[i]));
-}
-
 bool
-EdgeErrorFinder::valuesJump() const
+EdgeErrorFinder::valuesJump(const std::vector<std::uint32_t>& around) const
 {
   std::vector<double> spans;
   auto lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
-  for (const std::uint32_t i : around_) {
+  for (const std::uint32_t i : around) {
     const auto [first, second] = edges_.readValues(i);
     spans.push_back(std::abs(second - first));
     lowest = std::min({lowest, first, second});
@@ -128,13 +118,13 @@ float
 EdgeErrorFinder::find(std::size_t isopoint)
 {
   const PointIso& point = isopoints_[isopoint];
-  findAround(point);
-  if (around_.size() < least_around || valuesJump())
+  const std::vector<std::uint32_t>& around = search_.find(point);
+  if (around.size() < least_around || valuesJump(around))
     return infinite;
-  Eigen::Matrix3Xd points(3, around_.size());
-  for (std::size_t i = 0; i < around_.size(); ++i)
+  Eigen::Matrix3Xd points(3, around.size());
+  for (std::size_t i = 0; i < around.size(); ++i)
     points.col(static_cast<Eigen::Index>(i)) =
-        stretch(isopoints_[around_[i]]) - stretch(point);
+        stretch(isopoints_[around[i]]) - stretch(point);
   const Extents extents(points);
   const Vector3d normal = extents.axes.col(0);
   if (!(extents.lengths[1] > least_width * extents.lengths[2]) ||

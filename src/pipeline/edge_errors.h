@@ -2,7 +2,7 @@
 // Errors of isopoints on edges: how far these stray from a smooth surface.
 #pragma once
 
-#include "neighbors/nearest_finder.h"
+#include "pipeline/isopoint_search.h"
 #include "pipeline/stretched_edges.h"
 #include <pcl_uvol/common/point_types.h>
 
@@ -44,17 +44,13 @@ private:
   Eigen::Vector3d
   stretch(const PointIso& point) const;
 
-  void
-  findAround(const PointIso& point);
-
   bool
-  valuesJump() const;
+  valuesJump(const std::vector<std::uint32_t>& around) const;
 
   const SampleSet& places_;
   const pcl::PointCloud<PointIso>& isopoints_;
   const StretchedEdges& edges_;
-  NearestFinder finder_;
-  std::vector<std::uint32_t> around_;
+  IsopointSearch search_;
 };
 
 } // namespace pcl_uvol

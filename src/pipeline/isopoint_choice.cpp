@@ -2,8 +2,8 @@
 #include "pipeline/isopoint_choice.h"
 
 #include "common/parallel.h"
-#include "neighbors/nearest_finder.h"
 #include "pipeline/edge_errors.h"
+#include "pipeline/isopoint_search.h"
 #include "pipeline/stretched_edges.h"
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -104,23 +104,10 @@ public:
     return *places_;
   }
 
-  NearestFinder
-  makeFinder() const
+  IsopointSearch
+  makeSearch() const
   {
     return {*places_, neighbors_};
-  }
-
-  /** \brief Isopoints around one, itself among them. */
-  void
-  findAround(NearestFinder& finder,
-             const PointIso& point,
-             std::vector<std::uint32_t>& around) const
-  {
-    const auto row =
-        finder.find(places_->getUnit().apply({{point.x, point.y, point.z}}), 1.0f);
-    around.clear();
-    for (std::size_t j = 0; j < row.size; ++j)
-      around.push_back(places_->getInputIndex(row.samples[j]));
   }
 
   /** \brief The bisector of an isopoint's edge and the mean of the edges around. */
@@ -184,13 +171,12 @@ judgeSurface(const Surface& surface,
              std::vector<Eigen::Vector3f>& bisectors)
 {
   parallelBlocks(last - first, block_points, threads, [&](auto begin, auto end) {
-    NearestFinder finder = surface.makeFinder();
-    std::vector<std::uint32_t> around;
+    IsopointSearch search = surface.makeSearch();
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const PointIso& point = isopoints[i];
       if (!isDoubtful(edges, i, point))
         continue;
-      surface.findAround(finder, point, around);
+      const std::vector<std::uint32_t>& around = search.find(point);
       bisectors[i - first] = edges.carryBack(surface.bisect(i, around));
       const std::size_t as_it_is = surface.countRightEnds(
           point.getVector3fMap().cast<double>(), point.getNormalVector3fMap(), around);
