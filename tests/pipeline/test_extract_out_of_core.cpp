@@ -206,7 +206,7 @@ TEST_F(OutOfCore, RefusesWhatCannotWork)
   IsosurfaceParameters settings;
   settings.field = "intensity";
   settings.isovalues = {0.3};
-  const auto run = [&](const std::string& field, OutOfCoreSettings out_of_core) {
+  const auto run = [&](const std::string& field, const OutOfCoreSettings& out_of_core) {
     return [&, field, out_of_core] {
       PointStream points(path_);
       Report report;
