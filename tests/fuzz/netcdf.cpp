@@ -98,7 +98,9 @@ public:
                                           NC_64BIT_OFFSET,
                                           0,
                                           NC_64BIT_OFFSET}};
-    nc_create(path.c_str(), NC_CLOBBER | formats[bytes.choose(formats.size())], &file_);
+    const int format = formats[bytes.choose(formats.size())];
+    is_hdf5_ = (format & NC_NETCDF4) != 0;
+    nc_create(path.c_str(), NC_CLOBBER | format, &file_);
   }
   NetcdfMaker(const NetcdfMaker&) = delete;
   NetcdfMaker&
@@ -156,18 +158,25 @@ private:
   {
     if (bytes_.flip()) {
       const std::string text = chooseName(bytes_, texts);
-      nc_put_att_text(
-          file_, variable, chooseName(bytes_, text_names), text.size(), text.data());
+      const char* const name = chooseName(bytes_, text_names);
+      if (canHave(name, text.size(), type == NC_CHAR))
+        nc_put_att_text(file_, variable, name, text.size(), text.data());
       return;
     }
     const char* const name = chooseName(bytes_, number_names);
     const std::array<double, 2> numbers{{takeNumber(bytes_), takeNumber(bytes_)}};
-    nc_put_att_double(file_,
-                      variable,
-                      name,
-                      bytes_.flip() ? type : NC_DOUBLE,
-                      1 + bytes_.choose(numbers.size()),
-                      numbers.data());
+    const nc_type own_type = bytes_.flip() ? type : NC_DOUBLE;
+    const std::size_t size = 1 + bytes_.choose(numbers.size());
+    if (canHave(name, size, own_type == type))
+      nc_put_att_double(file_, variable, name, own_type, size, numbers.data());
+  }
+
+  /** In files of HDF5, NetCDF reads fill values out of bounds when it writes some that
+   * are not one number of their variable's type, and cannot close others. */
+  bool
+  canHave(const std::string& attribute, std::size_t size, bool has_same_type) const
+  {
+    return !is_hdf5_ || attribute != "_FillValue" || (size == 1 && has_same_type);
   }
 
   void
@@ -189,6 +198,7 @@ private:
 
   Bytes& bytes_;
   int file_ = -1;
+  bool is_hdf5_ = false;
 };
 
 } // namespace
