@@ -298,8 +298,10 @@ TEST_F(IsosurfaceMpi, SpeaksWithOneVoice)
   EXPECT_NE(std::string::npos, result.err.find("it lies outside the range"));
   EXPECT_EQ(1, std::count(result.err.begin(), result.err.end(), '\n')) << result.err;
   EXPECT_EQ(std::string::npos, result.out.find('\033'));
-  const auto progress = run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress");
-  EXPECT_EQ(0, progress.exit_code);
+  EXPECT_EQ(std::string::npos, result.out.find("bytes")); // these are for -v
+  const auto verbose = run(2, "in.pcd out.pvtp -iso 0.4 -field intensity -progress -v");
+  EXPECT_EQ(0, verbose.exit_code);
+  EXPECT_NE(std::string::npos, verbose.out.find("bytes_redistributed"));
 }
 
 TEST_F(IsosurfaceMpi, CountsIsopointsOfEachIsovalue)

@@ -76,13 +76,13 @@ printRow(const std::string& name, const T& value, const char* unit, bool in_colo
   std::cout << unit << '\n';
 }
 
-/** A line of what was counted at all. */
+/** A line of what was counted at all; bytes are for those who ask for everything. */
 void
 printCounts(const pcl_uvol::Report& report, bool in_colour)
 {
   const char* before = "";
   for (const auto& [name, value] : report.counts)
-    if (value > 0) {
+    if (value > 0 && name.find("bytes") == std::string::npos) {
       std::string words = name;
       std::replace(words.begin(), words.end(), '_', ' ');
       std::cout << before << words << ' ';
