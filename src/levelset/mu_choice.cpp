@@ -169,6 +169,30 @@ private:
   std::size_t total_, done_ = 0;
 };
 
+/** What fits at samples near the surface tell of a smoothed function. Means of squares
+ * are in squared lengths. */
+struct Residuals {
+  double removed; ///< of what the data have besides it
+  double left;    ///< share of the known noise
+  double kept;    ///< square of that share, by fit
+
+  /** The variance of the noise if the function is the true one but for what is left. */
+  double
+  noiseVariance() const
+  {
+    return removed / (1.0 - 2.0 * left + kept);
+  }
+
+  /** Stein's estimate of the mean square deviation. */
+  double
+  risk(double variance) const
+  {
+    // In this order what is not a number stays so.
+    return std::max(removed + variance * (2.0 * left - 1.0),
+                    level_set.least_risk * variance);
+  }
+};
+
 /** The data and a copy with known noise on it, smoothed alike. */
 class Search {
 public:
@@ -188,7 +212,7 @@ public:
       , threads_(threads)
       , progress_(progress)
       , shift_(static_cast<float>(level_set.probe_part * term.noise))
-      , best_risk_(std::numeric_limits<double>::infinity())
+      , variance_(term.noise * term.noise)
   {
     parameters_.integration = Integration::Asynchronous;
     for (std::size_t i = 0; i < band.centers.size(); ++i)
@@ -207,7 +231,9 @@ public:
     stages_.resize(best_stages_);
     if (!stages_.empty())
       stages_.back().time = best_time_;
-    if (!(best_risk_ < level_set.worthwhile * direct_risk_))
+    const double direct_risk =
+        findResiduals(term_.target, probe_.target).risk(variance_);
+    if (!best_ || !(best_->risk(variance_) < level_set.worthwhile * direct_risk))
       return {};
     return {stages_, best_shares_};
   }
@@ -244,6 +270,7 @@ private:
       look(evolver.getPhi(), other.getPhi());
     }
     progress_.advance(level_set.steps_of_weight + 1 - step);
+    correctNoise();
     phi_ = evolver.getPhi();
     probed_ = other.getPhi();
   }
@@ -258,19 +285,19 @@ private:
     };
     fits_ = fit(level_set.look_samples);
     wide_fits_ = fit(level_set.share_samples);
-    direct_risk_ = estimateRisk(term_.target, probe_.target);
   }
 
   void
   look(const std::vector<float>& phi, const std::vector<float>& probed)
   {
-    const double least = level_set.least_risk * term_.noise * term_.noise;
-    const double risk = std::max(least, estimateRisk(phi, probed));
+    last_ = findResiduals(phi, probed);
     ++misses_;
-    if (!(risk < best_risk_))
+    const double least =
+        best_ ? best_->risk(variance_) : std::numeric_limits<double>::infinity();
+    if (!(last_.risk(variance_) < least))
       return;
     misses_ = 0;
-    best_risk_ = risk;
+    best_ = last_;
     best_stages_ = stages_.size();
     best_time_ = stages_.back().time;
     best_shares_ = measureShares(phi, probed);
@@ -291,20 +318,33 @@ private:
     return {std::sqrt(left / count), std::sqrt(taken / count)};
   }
 
-  /** Expected mean square deviation of fits, in squared lengths. */
-  double
-  estimateRisk(const std::vector<float>& phi, const std::vector<float>& probed) const
+  /** Less deviation than none is expected where the noise is told too large, as between
+   * two surfaces. Then what is removed tells the same smaller noise whatever the
+   * weight. What takes a thin sheet away removes less and less. */
+  void
+  correctNoise()
   {
-    double removed = 0.0, left = 0.0;
+    const double told = last_.noiseVariance();
+    const bool is_none = last_.risk(variance_) <= level_set.least_risk * variance_;
+    if (is_none &&
+        std::abs(told - told_before_) < level_set.same_variance * told_before_)
+      variance_ = std::min(variance_, told);
+    told_before_ = told;
+  }
+
+  Residuals
+  findResiduals(const std::vector<float>& phi, const std::vector<float>& probed) const
+  {
+    Residuals sums{};
     for (const FitWeights& fit : fits_) {
       const double value = fit.apply(phi);
-      removed += std::pow(term_.target[fit.center] - value, 2);
-      left +=
-          drawSign(band_.centers[fit.center]) * (fit.apply(probed) - value) / shift_;
+      const double answer = (fit.apply(probed) - value) / shift_;
+      sums.removed += std::pow(term_.target[fit.center] - value, 2);
+      sums.left += drawSign(band_.centers[fit.center]) * answer;
+      sums.kept += answer * answer;
     }
-    const double variance = term_.noise * term_.noise;
-    return (removed + 2.0 * variance * left) / static_cast<double>(fits_.size()) -
-           variance;
+    const auto count = static_cast<double>(fits_.size());
+    return {sums.removed / count, sums.left / count, sums.kept / count};
   }
 
   const Band& band_;
@@ -319,7 +359,11 @@ private:
   std::vector<float> phi_, probed_;
   std::vector<FitWeights> fits_, wide_fits_; ///< that look, and that tell shares
   std::vector<MuStage> stages_;              ///< all that were tried
-  double direct_risk_ = 0.0, best_risk_, best_time_ = 0.0;
+  double variance_;                          ///< of the noise
+  double told_before_ = 0.0;                 ///< that by what the weight before removed
+  Residuals last_{};
+  std::optional<Residuals> best_;
+  double best_time_ = 0.0;
   NoiseShares best_shares_;
   std::size_t best_stages_ = 0;
   std::size_t misses_ = 0; ///< looks at this weight since the best one

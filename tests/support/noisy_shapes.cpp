@@ -190,13 +190,14 @@ SurfaceQuality
 measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surface)
 {
   constexpr double degrees = 180.0 / 3.14159265358979;
-  double sum = 0.0, squares = 0.0, angles = 0.0, count = 0.0;
+  double sum = 0.0, squares = 0.0, all_squares = 0.0, angles = 0.0, count = 0.0;
   for (const pcl_uvol::PointIso& point : surface) {
     const Eigen::Vector3d x = point.getVector3fMap().cast<double>();
+    const double inside = noisy.shape.distance(x);
+    all_squares += inside * inside;
     if (x.cwiseAbs().maxCoeff() > noisy.shape.extent - rim)
       continue;
     ++count;
-    const double inside = noisy.shape.distance(x);
     const Eigen::Vector3d outwards = -gradientOf(noisy.shape, x);
     const Eigen::Vector3d normal = point.getNormalVector3fMap().cast<double>();
     const double angle =
@@ -206,6 +207,7 @@ measure(const NoisyCloud& noisy, const pcl::PointCloud<pcl_uvol::PointIso>& surf
     angles += angle * angle;
   }
   return {std::sqrt(squares / count),
+          std::sqrt(all_squares / static_cast<double>(surface.size())),
           sum / count,
           std::sqrt(angles / count),
           countComponents(surface)};

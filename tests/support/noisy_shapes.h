@@ -66,6 +66,7 @@ isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
  * the cube do not count. */
 struct SurfaceQuality {
   double rms;             ///< of the deviation
+  double whole_rms;       ///< that with those near the border
   double shift;           ///< its mean; positive: the surface has shrunk
   double normal_rms;      ///< degrees
   std::size_t components; ///< of the graph that links isopoints closer than 2
