@@ -14,6 +14,7 @@ constexpr GLuint look_attribute = 3;
 constexpr GLuint footprint_attribute = 4;
 constexpr GLuint filler_attribute = 5;
 constexpr GLuint bend_attribute = 6;
+constexpr GLuint rim_attribute = 7;
 
 /** Discs with a greater radius, in pixels, are rather drawn as two triangles. */
 constexpr float most_reach = 16.0f;
@@ -96,6 +97,7 @@ PointPass::upload(const SurfaceCloud& cloud)
     footprints_texture_ = makeBufferTexture(gl_, GL_R32F, footprints_);
   fillBuffer(gl_, fillers_, cloud.getFillers());
   fillBuffer(gl_, bends_, cloud.getBends());
+  fillBuffer(gl_, rims_, cloud.getRims());
   // New ones, which know nothing of the buffers of another cloud.
   points_array_ = makeVertexArray(gl_);
   discs_array_ = makeVertexArray(gl_);
@@ -131,6 +133,7 @@ PointPass::bindAttributes(std::uint32_t first, GLuint divisor) const
     bindFloats(footprint_attribute, footprints_);
     bindFloats(filler_attribute, *radii_);
     bindWords(bend_attribute, bends_, 1);
+    bindWords(rim_attribute, rims_, 1);
   }
   bindWords(look_attribute, looks_, 2);
 }
@@ -210,17 +213,20 @@ PointPass::drawLargeDiscs(const Program& program,
 void
 PointPass::drawDiscs(const Frame& frame, const VisibleRanges& ranges, double back) const
 {
-  const float away = frame.hasSides() ? away_depth : 0.0f;
-  const Program& small = use(shaders::small_discs, "#define WITH_PIXELS\n", frame);
-  small.set("back", back);
+  const auto use_drawing = [&](const shaders::Pass& pass,
+                               const std::string& defines) -> const Program& {
+    const Program& program = use(pass, defines, frame);
+    program.set("back", back);
+    program.set("away_depth", frame.hasSides() ? away_depth : 0.0f);
+    program.set("rim_depth_bits", rim_depth_bits);
+    program.set("rim_directions", rim_directions);
+    return program;
+  };
+  const Program& small = use_drawing(shaders::small_discs, "#define WITH_PIXELS\n");
   small.set("smallest_cover",
             back > 0.0 ? std::numeric_limits<float>::max() : smallest_cover);
-  small.set("away_depth", away);
   drawPoints(ranges.points);
-  const Program& large = use(shaders::large_discs, "", frame);
-  large.set("back", back);
-  large.set("away_depth", away);
-  drawLargeDiscs(large, ranges.large_discs);
+  drawLargeDiscs(use_drawing(shaders::large_discs, ""), ranges.large_discs);
 }
 
 void

@@ -89,7 +89,8 @@ private:
   float largest_reach_ = 0.0f; // of those that are, on this canvas
   int largest_viewport_;
   PixelBox viewport_{0, 0, 0, 0};
-  GlName coordinates_[3], footprints_, fillers_, bends_, looks_; // buffers
+  GlName coordinates_[3], footprints_, fillers_, bends_, rims_,
+      looks_;                          // buffers
   const GlName* radii_ = &footprints_; // of the discs drawn next
   GlName looks_texture_, footprints_texture_;
   GlName points_array_, discs_array_;

@@ -41,6 +41,7 @@ layout(location = 3) in uvec2 look; // packed normal, colour
 layout(location = 4) in float footprint;
 layout(location = 5) in float filler; // or footprint, among sparse points
 layout(location = 6) in uint bend;    // of the surface over the footprint, packed
+layout(location = 7) in uint rim;     // lines where the footprint ends, packed
 
 uniform mat3 rotation;
 uniform vec3 translation;
@@ -126,6 +127,7 @@ const float stretch = 1.0;
 uniform float back;       // how much deeper than they are discs lie, in radii
 uniform float away_depth; // and how much more, if they look away
 flat out float disc_back; // of this disc
+flat out uvec2 disc_rim;  // lines where it ends, packed; footprint, as bits
 #endif
 #ifdef WITH_PIXELS
 uniform float smallest_cover; // larger discs replace the pixel of a point, in pixels
@@ -191,6 +193,7 @@ void setDisc(uint index, vec3 c, float unstretched, float radius)
   disc_side = sideOf(look.y, has_sides && facing > 0.0);
 #else
   disc_back = facing > 0.0 ? back + away_depth : back;
+  disc_rim = uvec2(rim, floatBitsToUint(footprint));
 #endif
 }
 
@@ -330,6 +333,9 @@ Place findPlace()
 // The pixel of the point itself is the nearer one of point and disc.
 const char* const discs_fragment = R"(
 flat in float disc_back;
+flat in uvec2 disc_rim;
+uniform int rim_depth_bits;
+uniform int rim_directions;
 #ifdef WITH_PIXELS
 flat in uint disc_has_pixel;
 #endif
@@ -341,11 +347,37 @@ bool isOwnPixel()
   return disc_center.w == 0.0 || floor(gl_FragCoord.xy - margin) == own;
 }
 
+// Along the axis of a corner of the square, of a place so many steps from it.
+float towardsCorner(int steps)
+{
+  int half_way = rim_directions / 2;
+  return float(abs((steps & (rim_directions - 1)) - half_way) - half_way / 2);
+}
+
+bool isInside(vec2 on_disc, uint line)
+{
+  int steps = 1 << rim_depth_bits;
+  int depth = int(line) & (steps - 1);
+  int direction = int(line >> rim_depth_bits);
+  float a = towardsCorner(direction);
+  float b = towardsCorner(direction - rim_directions / 4);
+  float part = float(steps - depth) * (1.0 / float(steps));
+  EXACT float most = uintBitsToFloat(disc_rim.y) * part * sqrt(a * a + b * b);
+  EXACT float ahead = a * on_disc.x + b * on_disc.y;
+  return depth == 0 || ahead <= most;
+}
+
+bool isBeforeRim(vec2 on_disc)
+{
+  return disc_rim.x == 0u || (isInside(on_disc, disc_rim.x & 0xffffu) &&
+                              isInside(on_disc, disc_rim.x >> 16));
+}
+
 void main()
 {
   Place place = findPlace();
   EXACT float disc_depth = place.depth + disc_center.w * (disc_back * per_far);
-  float depth = place.is_covered ? disc_depth : 1.0;
+  float depth = place.is_covered && isBeforeRim(place.on_disc) ? disc_depth : 1.0;
 #ifdef WITH_PIXELS
   if (disc_has_pixel == 1u && isOwnPixel())
     depth = min(depth, depthOf(disc_center.xyz));

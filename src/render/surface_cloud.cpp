@@ -242,6 +242,7 @@ SurfaceCloud::setFootprints(Footprints footprints)
   footprints_ = std::move(footprints.radii);
   fillers_ = std::move(footprints.fillers);
   bends_ = std::move(footprints.bends);
+  rims_ = std::move(footprints.rims);
   for (auto* const radii : {&footprints_, &fillers_})
     for (float& radius : *radii)
       radius *= length_factor_;

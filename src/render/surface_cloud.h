@@ -32,7 +32,7 @@ struct SurfaceBlock {
 /** \brief Points with normals and colours, in the leaf order of a kd-tree.
  *
  * Coordinates and footprints are relative to the centre of getBounds() and in a unit
- * that chooseLengthUnit() gives for them, as those of a View are. Memory: 40 bytes per
+ * that chooseLengthUnit() gives for them, as those of a View are. Memory: 44 bytes per
  * point. */
 class PCL_UVOL_EXPORTS SurfaceCloud {
 public:
@@ -181,6 +181,14 @@ public:
     return bends_;
   }
 
+  /** \brief The lines at which the disc of every point ends at the rim of the surface;
+   * empty before computeFootprints(). */
+  const std::vector<PackedRim>&
+  getRims() const
+  {
+    return rims_;
+  }
+
   /** \brief Median of the radii, 0 before computeFootprints(). */
   float
   getTypicalFootprint() const
@@ -222,6 +230,7 @@ private:
   std::vector<SurfaceBlock> blocks_;
   std::vector<float> footprints_, fillers_;
   std::vector<PackedBend> bends_;
+  std::vector<PackedRim> rims_;
   float typical_footprint_ = 0.0f;
   BoundingSphere bounds_;
   float length_factor_ = 1.0f; ///< from the samples' unit to that of drawing

@@ -91,6 +91,7 @@ public:
     bool on_rim = true;
     float around = 0.0f;
     SurfaceBend bend = SurfaceBend::Zero();
+    PackedRim rim = 0; ///< of a disc of that radius
   };
 
   /** \param nearest set to the indices of the nearest other points */
@@ -98,6 +99,7 @@ public:
   find(std::uint32_t point, float typical_distance, NearestPoints& nearest)
   {
     const Position& position = samples_.getPositions()[point];
+    lookFrom(point);
     gather(few_.find(position, typical_distance), point);
     if (neighbors_.size() < few_neighbors &&
         !(surfaces_.empty() && bridged_.empty())) // others crowd them out
@@ -125,10 +127,20 @@ public:
     reach.on_rim |= is_alone || reach.all > edges;
     reach.all = is_alone ? 0.0f : std::min(reach.all, most);
     reach.first = std::min(reach.first, reach.all);
+    reach.rim = rimOf(point, reach.all);
     return reach;
   }
 
 private:
+  void
+  lookFrom(std::uint32_t point)
+  {
+    normal_ = normalOf(point);
+    here_ = positionOf(point);
+    axes_[0] = normal_.unitOrthogonal();
+    axes_[1] = normal_.cross(axes_[0]);
+  }
+
   /** The lengths of the edges of a point and of those that gather() found. */
   void
   sortEdges(std::uint32_t point)
@@ -176,6 +188,22 @@ private:
       if (row.samples[i] != point && isOfSameSurface(row.samples[i], point))
         neighbors_.emplace_back(row.sq_dists[i], row.samples[i]);
     std::sort(neighbors_.begin(), neighbors_.end());
+    sq_known_ = row.size < samples_.size()
+                    ? *std::max_element(row.sq_dists, row.sq_dists + row.size)
+                    : std::numeric_limits<float>::infinity();
+    placeInPlane();
+  }
+
+  /** Bring the neighbours into the plane. */
+  void
+  placeInPlane()
+  {
+    const Eigen::Vector3f here = here_, a = axes_[0], b = axes_[1];
+    places_.clear();
+    for (const auto& neighbor : neighbors_) {
+      const Eigen::Vector3f offset = positionOf(neighbor.second) - here;
+      places_.emplace_back(offset.dot(a), offset.dot(b));
+    }
   }
 
   bool
@@ -216,10 +244,6 @@ private:
   {
     if (neighbors_.empty())
       return {};
-    normal_ = normalOf(point);
-    here_ = positionOf(point);
-    axes_[0] = normal_.unitOrthogonal();
-    axes_[1] = normal_.cross(axes_[0]);
     in_plane_.clear();
     looked_at_ = 0;
     cell_.reset(2.0f * std::sqrt(neighbors_.back().first));
@@ -270,16 +294,35 @@ private:
     return fit.solve();
   }
 
-  /** Bring the next neighbour into the plane; false for one on another side. */
+  /** The lines at which a disc ends. Few neighbours tell that there is none, many
+   * whether one is. */
+  PackedRim
+  rimOf(std::uint32_t point, float radius)
+  {
+    const float reach = RimFinder::reachOf(radius);
+    RimLines lines = rim_.find(places_, radius);
+    if (sq_known_ < reach * reach || lines[0].distance < radius) {
+      gather(many_.find(samples_.getPositions()[point], radius), point);
+      lines = rim_.find(places_, radius);
+    }
+    if (sq_known_ < reach * reach || !(lines[0].distance < radius))
+      return 0;
+    const Eigen::Matrix<float, 3, 2> axes = tangentAxes(normals_[point]);
+    for (RimLine& line : lines)
+      line.outwards = axes.transpose() *
+                      (line.outwards[0] * axes_[0] + line.outwards[1] * axes_[1]);
+    return packRim(lines, room * radius);
+  }
+
+  /** Look at the next neighbour; false for one on another side. */
   bool
   lookAtNext()
   {
-    const std::uint32_t neighbor = neighbors_[looked_at_++].second;
-    const float facing = normal_.dot(normalOf(neighbor));
+    const std::size_t neighbor = looked_at_++;
+    const float facing = normal_.dot(normalOf(neighbors_[neighbor].second));
     if ((two_sided_ ? std::abs(facing) : facing) <= 0.0f)
       return false;
-    const Eigen::Vector3f offset = positionOf(neighbor) - here_;
-    in_plane_.emplace_back(offset.dot(axes_[0]), offset.dot(axes_[1]));
+    in_plane_.push_back(places_[neighbor]);
     return true;
   }
 
@@ -307,14 +350,17 @@ private:
   bool two_sided_;
   NearestFinder few_, many_;
   std::vector<std::pair<float, std::uint32_t>> neighbors_; ///< nearest first
+  std::vector<Eigen::Vector2f> places_; ///< of all that gather() found, in the plane
+  float sq_known_ = 0.0f;               ///< they are all that are nearer
 
   std::vector<float> lengths_; ///< of edges, the shortest first
 
   // The point that is looked at.
   Eigen::Vector3f here_, normal_, axes_[2];
   std::size_t looked_at_ = 0;             ///< neighbours
-  std::vector<Eigen::Vector2f> in_plane_; ///< of them, those on the same side
+  std::vector<Eigen::Vector2f> in_plane_; ///< of these, those on the same side
   detail::PlanarCell cell_;
+  RimFinder rim_;
 };
 
 /** Median of the distances of the 16th neighbours of points. */
@@ -366,6 +412,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
   footprints.fillers.resize(samples.size());
   footprints.on_rim.resize(samples.size());
   footprints.bends.resize(samples.size());
+  footprints.rims.resize(samples.size());
   parallelBlocks(samples.size(), block_points, threads, [&](auto begin, auto end) {
     for (std::size_t i = begin; i < end; ++i) {
       const NearestPoints& nearest = footprints.nearest[i];
@@ -382,6 +429,7 @@ computeFootprints(const OrientedPoints& points, unsigned threads, Report& report
       if (!points.bridged.empty() && points.bridged[i])
         footprints.radii[i] = footprints.fillers[i] = 0.0f;
       footprints.bends[i] = packBend(reach[i].bend, footprints.radii[i]);
+      footprints.rims[i] = reach[i].all <= most ? reach[i].rim : 0;
     }
     step.advance(end - begin);
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "surface/oriented_points.h"
+#include "surface/rim_lines.h"
 #include "surface/surface_bend.h"
 #include <pcl_uvol/common/export.h>
 #include <pcl_uvol/common/stage.h>
@@ -29,6 +30,7 @@ struct Footprints {
   /** 1 for points at the rim of the surface: no points bound their cell. */
   std::vector<std::uint8_t> on_rim;
   std::vector<PackedBend> bends; ///< times the radii
+  std::vector<PackedRim> rims;   ///< as parts of the radii
   std::vector<NearestPoints> nearest;
 };
 

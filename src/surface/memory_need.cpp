@@ -170,10 +170,11 @@ splatsNeed(double points, double splats, bool has_normals)
   forecast.hold(sizeof(PackedNormal) * points);
   forecast.release(of_input);
   const double oriented = forecast.getHeld();
-  // Radii, fillers, rims and nearest points; what they are made of.
-  constexpr double footprint_bytes =
-      2.0 * float_bytes + sizeof(std::uint8_t) + sizeof(NearestPoints);
-  constexpr double reach_bytes = 4.0 * float_bytes;
+  // Radii, fillers, rims, bends and nearest points; what they are made of.
+  constexpr double footprint_bytes = 2.0 * float_bytes + sizeof(std::uint8_t) +
+                                     sizeof(PackedBend) + sizeof(PackedRim) +
+                                     sizeof(NearestPoints);
+  constexpr double reach_bytes = 8.0 * float_bytes;
   forecast.hold(footprint_bytes * points);
   forecast.run({reach_bytes * points, 0.0});
   // The order, who is passed over, and the splats as they are grown.

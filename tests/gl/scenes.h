@@ -48,7 +48,7 @@ struct Scene {
 inline std::vector<std::string>
 sceneNames()
 {
-  return {"sphere", "knot", "waves", "sparse", "near", "two_sided"};
+  return {"sphere", "knot", "waves", "sparse", "near", "rims", "two_sided"};
 }
 
 inline Scene
@@ -72,6 +72,8 @@ makeScene(const std::string& name)
     return seen(*joined(*makeSphere(3000, 1), *makeWaves(40000, 2)), true, "iso", 2.5);
   if (name == "near") // discs of all sizes, many from outside of the image
     return seen(*makeSphere(100000, 8), true, "front", 2.2);
+  if (name == "rims") // of discs of all sizes
+    return seen(*makeWaves(300, 1), true);
   pcl::PointCloud<pcl::PointXYZ> places; // without normals: seen from both sides
   pcl::copyPointCloud(*makeWaves(30000, 4), places);
   return seen(places, true, "bottom");

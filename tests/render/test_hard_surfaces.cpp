@@ -224,7 +224,7 @@ TEST(HardSurfaces, AStrayNormalMakesNoBlackSquare)
 
 TEST(HardSurfaces, SilhouettesAreAsWideWithSupersampling)
 {
-  // A wall, whose upper half stands before the lower one: the line lies in the middle.
+  // A wall, before which its upper half stands once more: the line lies in the middle.
   // Discs of fewer points would make a jagged edge, whose line is as much wider.
   const SurfaceCloudPtr wall(new pcl::PointCloud<pcl::PointNormal>);
   for (int y = -300; y <= 300; ++y)
@@ -232,9 +232,11 @@ TEST(HardSurfaces, SilhouettesAreAsWideWithSupersampling)
       pcl::PointNormal point;
       point.x = 0.005f * static_cast<float>(x);
       point.y = 0.005f * static_cast<float>(y);
-      point.z = y > 0 ? 0.5f : 0.0f;
       point.normal_z = 1.0f;
       wall->push_back(point);
+      point.z = 0.5f;
+      if (y > 0)
+        wall->push_back(point);
     }
   Renderer renderer;
   renderer.setInputCloud(wall);

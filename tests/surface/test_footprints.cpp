@@ -181,7 +181,7 @@ findOutlier(const Surface& surface)
 TEST(Footprints, OfAPlantedOutlierAreAtMostThreeTimesThoseOfItsNeighbours)
 {
   const Surface surface(makeHoleWithOutlier(12.0f));
-  const auto& [radii, fillers, on_rim, bends, nearest] = surface.footprints;
+  const auto& [radii, fillers, on_rim, bends, rims, nearest] = surface.footprints;
   const std::size_t outlier = findOutlier(surface);
   constexpr std::size_t compared = 8;
   float largest = 0.0f;

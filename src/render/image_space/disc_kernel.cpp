@@ -248,6 +248,7 @@ public:
             const std::uint32_t* discs,
             int count)
       : disc_(projection, DiscPoints(points, discs, count), 1.0f)
+      , rim_(points, discs, count)
       , projection_(projection)
       , discs_(discs)
   {
@@ -283,15 +284,28 @@ public:
     return disc_;
   }
 
+  const RimLanes&
+  rims() const
+  {
+    return rim_;
+  }
+
   void
   drawSmall(float back, const PixelBand& band) const
   {
+    const std::uint32_t small = laneBits(small_);
     const BentDisc bent(projection_, disc_);
-    if ((laneBits(small_) & disc_.bentLanes()) != 0)
+    if ((small & rim_.lanesWithLines()) != 0)
+      drawPlaces(back, band, [&](const Floats& ex, const Floats& ey) {
+        BentPlace place = bent.at(ex, ey);
+        place.covered &= rim_.areInside(place.a, place.b);
+        return place;
+      });
+    else if ((small & disc_.bentLanes()) != 0)
       drawPlaces(back, band, [&](const Floats& ex, const Floats& ey) {
         return bent.at(ex, ey);
       });
-    else if (laneBits(small_) != 0)
+    else if (small != 0)
       drawPlaces(back, band, [&](const Floats& ex, const Floats& ey) {
         return bent.atFlat(ex, ey);
       });
@@ -366,6 +380,7 @@ private:
   }
 
   DiscLanes disc_;
+  RimLanes rim_;
   Ints small_, column_, row_;
   const Projection& projection_;
   const std::uint32_t* discs_;
@@ -390,6 +405,7 @@ draw(const Projection& projection,
       const int lane_of_disc = __builtin_ctz(bits);
       const std::uint32_t point = discs[i + static_cast<std::size_t>(lane_of_disc)];
       const LargeDisc disc(projection, group.discs(), lane_of_disc, band);
+      const bool has_rim = (group.rims().lanesWithLines() >> lane_of_disc & 1) != 0;
       const float depth_in_radii =
           disc.looksAway() ? back + projection.away_depth : back;
       const float room = disc.radius() * (depth_in_radii * projection.per_far);
@@ -397,13 +413,15 @@ draw(const Projection& projection,
                           int column,
                           const Ints& covered,
                           const Floats& depth,
-                          const BentPlace&) {
+                          const BentPlace& place) {
         const Floats deeper = depth + room;
         const Patch patch(band, row, column);
         alignas(64) float depths[lanes];
         store(depths, deeper);
         std::uint32_t front =
             laneBits(covered & (deeper < 1.0f) & (deeper <= patch.seenDepths(band)));
+        if (has_rim && front != 0)
+          front &= laneBits(group.rims().areInside(place.a, place.b, lane_of_disc));
         for (; front != 0; front &= front - 1) {
           const int lane = __builtin_ctz(front);
           keepFront(band.keys[patch.pixelOf(lane)], depths[lane], point);

@@ -5,6 +5,7 @@
 
 #include "render/image_space/camera_lanes.h"
 #include "surface/bend_scale.h"
+#include "surface/rim_scale.h"
 
 namespace pcl_uvol::PCL_UVOL_SIMD {
 
@@ -66,6 +67,95 @@ struct BendLanes {
     ab = toFloats((points.bend << 12) >> 22) * per_radius;
     bb = toFloats((points.bend << 2) >> 22) * per_radius;
   }
+};
+
+/** Lines at which up to a register of discs end at the rim of a surface, in the axes of
+ * TangentLanes. */
+class RimLanes {
+public:
+  RimLanes(const ProjectedPoints& points, const std::uint32_t* discs, int count)
+  {
+    alignas(64) std::int32_t rims[lanes];
+    alignas(64) float footprints[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::uint32_t disc = discs[lane < count ? lane : 0];
+      rims[lane] = static_cast<std::int32_t>(points.rims[disc]);
+      footprints[lane] = points.footprints[disc];
+    }
+    packed_ = load<Ints>(rims);
+    if (lanesWithLines() != 0)
+      for (int k = 0; k < 2; ++k)
+        lines_[k] = Line(packed_ >> (16 * k), load<Floats>(footprints));
+  }
+
+  /** Lanes of discs that end at a line. */
+  std::uint32_t
+  lanesWithLines() const
+  {
+    return laneBits(packed_ != 0);
+  }
+
+  /** Lanes whose place, in the axes of the disc, lies on this side of its lines. */
+  Ints
+  areInside(const Floats& a, const Floats& b) const
+  {
+    return lines_[0].isInside(a, b) & lines_[1].isInside(a, b);
+  }
+
+  /** The same for the disc of one lane. */
+  Ints
+  areInside(const Floats& a, const Floats& b, int lane) const
+  {
+    return lines_[0].lane(lane).isInside(a, b) & lines_[1].lane(lane).isInside(a, b);
+  }
+
+private:
+  struct Line {
+    Floats a, b, reach;
+
+    Line() = default;
+
+    Line(const Ints& packed, const Floats& footprint)
+    {
+      const Ints depth = packed & (rim_depth_steps - 1);
+      const Ints direction = packed >> rim_depth_bits;
+      a = towardsCorner(direction);
+      b = towardsCorner(direction - rim_directions / 4);
+      const Floats part = toFloats(rim_depth_steps - depth) * (1.0f / rim_depth_steps);
+      // Rounding must not move the outline where there is no line.
+      reach = depth == 0 ? fill(__builtin_inff())
+                         : footprint * part * squareRoot(a * a + b * b);
+    }
+
+    /** Along the axis of a corner of the square, of a place so many steps from it. */
+    static Floats
+    towardsCorner(const Ints& steps)
+    {
+      constexpr int half = rim_directions / 2;
+      const Ints from_opposite = (steps & (rim_directions - 1)) - half;
+      return toFloats(from_opposite < 0 ? -from_opposite : from_opposite) -
+             static_cast<float>(half / 2);
+    }
+
+    Line
+    lane(int index) const
+    {
+      Line one;
+      one.a = fill(a[index]);
+      one.b = fill(b[index]);
+      one.reach = fill(reach[index]);
+      return one;
+    }
+
+    Ints
+    isInside(const Floats& x, const Floats& y) const
+    {
+      return a * x + b * y <= reach;
+    }
+  };
+
+  Ints packed_;
+  Line lines_[2];
 };
 
 /** Discs, or one disc in all lanes, in camera space. */

@@ -30,6 +30,7 @@ struct ProjectedPoints {
   const float* radii;         ///< of their discs; null: no footprints
   const float* footprints;    ///< radii where these are too large for a filler
   const std::uint32_t* bends; ///< of the surface over the footprints, packed
+  const std::uint32_t* rims;  ///< lines where footprints end, packed
   float stretch;              ///< discs may reach so many of their radii
   float smallest_cover;       ///< larger discs replace the pixel of a point, in pixels
 };

@@ -106,6 +106,7 @@ Projector::Projector(const Frame& frame, PixelBuffer& buffer)
              footprints,
              footprints,
              cloud.getBends().data(),
+             cloud.getRims().data(),
              blend_reach,
              smallest_cover};
 }

@@ -5,6 +5,7 @@
 
 #include "src/render/image_space/projection_kernel.h"
 #include "surface/packed_normal.h"
+#include "surface/rim_lines.h"
 #include "surface/surface_bend.h"
 
 #include <Eigen/Core>
@@ -80,13 +81,14 @@ private:
 /** \brief What kernels read of points. */
 struct PointArrays {
   std::vector<float> x[3], radii, footprints;
-  std::vector<std::uint32_t> normals, bends;
+  std::vector<std::uint32_t> normals, bends, rims;
 
   void
   add(const Eigen::Vector3d& place,
       const Eigen::Vector3d& normal,
       float radius,
-      const pcl_uvol::SurfaceBend& bend = pcl_uvol::SurfaceBend::Zero())
+      const pcl_uvol::SurfaceBend& bend = pcl_uvol::SurfaceBend::Zero(),
+      const pcl_uvol::RimLines& rim = {})
   {
     const Eigen::Vector3f n = normal.cast<float>();
     for (int axis = 0; axis < 3; ++axis)
@@ -95,6 +97,7 @@ struct PointArrays {
     radii.push_back(radius);
     footprints.push_back(radius);
     bends.push_back(pcl_uvol::packBend(bend, radius));
+    rims.push_back(pcl_uvol::packRim(rim, radius));
   }
 
   std::size_t
@@ -125,6 +128,7 @@ struct PointArrays {
             radii.data(),
             footprints.data(),
             bends.data(),
+            rims.data(),
             stretch,
             std::numeric_limits<float>::max()};
   }

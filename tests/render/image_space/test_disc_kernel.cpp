@@ -144,6 +144,7 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheDisc)
  * the axes of the disc: the quadratic equation of the way along the ray. */
 struct BentMeeting {
   double depth = 0.0, part = 1e6; ///< as of a Meeting
+  Eigen::Vector2d on_disc;        ///< in the axes of the disc
   Eigen::Vector2d turn;           ///< of the normal
   double fold = 0.0;              ///< how near the outline is: 0 on it
 
@@ -187,7 +188,8 @@ struct BentMeeting {
     const double t = -2.0 * constant / (b + root);
     const Vector3d place = t * ray;
     depth = place.norm() * p.per_far;
-    turn = bend * (axes.transpose() * (place - c));
+    on_disc = axes.transpose() * (place - c);
+    turn = bend * on_disc;
     part = t > 0.0 && depth < 1.0 ? (place - c).norm() / radius : 1e6;
   }
 };
@@ -245,6 +247,78 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheBentSurface)
     }
     EXPECT_GT(covered, 5000u);
     EXPECT_GT(behind_outline, 200u);
+  });
+}
+
+/** How far in radii a place lies beyond the nearer end of a disc at its lines. */
+double
+beyondLines(const RimLines& lines, const Eigen::Vector2d& on_disc, double radius)
+{
+  double most = -1e6;
+  for (const RimLine& line : lines)
+    most = std::max(
+        most, (line.outwards.cast<double>().dot(on_disc) - line.distance) / radius);
+  return most;
+}
+
+TEST(DiscKernel, DrawsDiscsUpToTheirLines)
+{
+  const TestCamera camera;
+  PointArrays points = bentDiscs(camera, 200);
+  PixelRandom random(6);
+  std::vector<RimLines> lines(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float radius = points.radii[i];
+    for (RimLine& line : lines[i]) {
+      line.outwards = random.direction().head<2>().normalized().cast<float>();
+      line.distance = static_cast<float>(random.between(0.05, 1.0)) * radius;
+    }
+    if (i % 3 == 0)
+      lines[i][1] = {};
+    points.rims[i] = packRim(lines[i], radius);
+  }
+  // Directions and distances of packed lines are rounded.
+  constexpr double rounding = 0.025;
+  uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
+    std::size_t covered = 0, beyond = 0;
+    PixelRows all;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      PixelRows rows;
+      kernel->draw(camera.projection,
+                   points.view(1.0f),
+                   &i,
+                   1,
+                   0.0f,
+                   rows.band(first_row, last_row));
+      const double radius = points.radii[i];
+      for (int row = first_row; row < last_row; ++row)
+        for (int column = 0; column < PixelRows::width; ++column) {
+          const PixelKey key = rows.at(column, row);
+          const BentMeeting meeting(camera, points, i, radius, column, row);
+          const double after = beyondLines(lines[i], meeting.on_disc, radius);
+          if (std::abs(meeting.part - 1.0) < 5e-3 || std::abs(meeting.fold) < 5e-3 ||
+              std::abs(after) < rounding)
+            continue;
+          ASSERT_EQ(meeting.part < 1.0 && after < 0.0, key != background_key)
+              << i << ": " << column << ", " << row;
+          covered += key != background_key ? 1 : 0;
+          beyond += meeting.part < 1.0 && after > 0.0 ? 1 : 0;
+        }
+      for (std::size_t k = 0; k < rows.keys.size(); ++k)
+        all.keys[k] = std::min(all.keys[k], rows.keys[k]);
+    }
+    EXPECT_GT(covered, 3000u);
+    EXPECT_GT(beyond, 1000u);
+    std::vector<std::uint32_t> discs(points.size());
+    std::iota(discs.begin(), discs.end(), 0u);
+    PixelRows together;
+    kernel->draw(camera.projection,
+                 points.view(1.0f),
+                 discs.data(),
+                 discs.size(),
+                 0.0f,
+                 together.band(first_row, last_row));
+    EXPECT_EQ(all.keys, together.keys);
   });
 }
 

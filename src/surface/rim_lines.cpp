@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/rim_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace pcl_uvol {
+
+namespace {
+
+/** How far surfaces go on beyond their outermost points, in radii of the disc: less,
+ * and places between these and the rim stay open, more, and what is beyond is covered.
+ */
+constexpr float margin = 0.3f;
+
+/** Points within so many radii make the hull: fewer make lines that turn from disc to
+ * disc, more do not follow rims that curve inwards. */
+constexpr float hull_reach = 2.0f;
+
+/** Cosine of the angle to a line's direction within which points beyond the line tell
+ * that it is none. */
+constexpr float least_ahead = 0.5f;
+
+/** Twice the area of a triangle, positive if it is counter-clockwise. */
+float
+turnOf(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c)
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+std::uint32_t
+packDirection(const Eigen::Vector2f& direction)
+{
+  const float along = direction[0] / direction.lpNorm<1>();
+  const float quarters = direction[1] >= 0.0f ? 1.0f - along : 3.0f + along;
+  const auto step = std::lround(quarters * (rim_directions / 4));
+  return static_cast<std::uint32_t>(step % rim_directions);
+}
+
+std::uint32_t
+packLine(const RimLine& line, float radius)
+{
+  const float depth = std::floor(rim_depth_steps * (1.0f - line.distance / radius));
+  if (!(depth >= 1.0f))
+    return 0;
+  return packDirection(line.outwards) << rim_depth_bits |
+         static_cast<std::uint32_t>(std::min(depth, rim_depth_steps - 1.0f));
+}
+
+/** Whether a place lies beyond a line, and rather straight ahead. */
+bool
+haveOneBeyond(const std::vector<Eigen::Vector2f>& places, const RimLine& line)
+{
+  return std::any_of(places.begin(), places.end(), [&](const auto& place) {
+    const float ahead = place.dot(line.outwards);
+    return ahead > line.distance &&
+           ahead * ahead > least_ahead * least_ahead * place.squaredNorm();
+  });
+}
+
+/** Keep the lines that cut most. */
+void
+addLine(const RimLine& line, RimLines& lines)
+{
+  if (line.distance >= lines[1].distance)
+    return;
+  lines[1] = line;
+  if (lines[1].distance < lines[0].distance)
+    std::swap(lines[0], lines[1]);
+}
+
+} // namespace
+
+PackedRim
+packRim(const RimLines& lines, float radius)
+{
+  return packLine(lines[0], radius) | packLine(lines[1], radius) << 16;
+}
+
+float
+RimFinder::reachOf(float radius)
+{
+  return hull_reach * radius;
+}
+
+void
+RimFinder::makeHull(const std::vector<Eigen::Vector2f>& places, float distance)
+{
+  near_.assign(1, Eigen::Vector2f::Zero());
+  std::copy_if(places.begin(), places.end(), std::back_inserter(near_), [&](auto& x) {
+    return x.squaredNorm() <= distance * distance;
+  });
+  std::sort(near_.begin(), near_.end(), [](const auto& a, const auto& b) {
+    return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
+  });
+  hull_.clear();
+  const auto addChain = [&](auto place, auto end) { // Andrew 1979
+    const std::size_t first = hull_.size();
+    for (; place != end; ++place) {
+      while (hull_.size() >= first + 2 &&
+             turnOf(hull_[hull_.size() - 2], hull_.back(), *place) <= 0.0f)
+        hull_.pop_back();
+      hull_.push_back(*place);
+    }
+    hull_.pop_back();
+  };
+  addChain(near_.begin(), near_.end());
+  addChain(near_.rbegin(), near_.rend());
+}
+
+RimLines
+RimFinder::find(const std::vector<Eigen::Vector2f>& places, float radius)
+{
+  RimLines lines;
+  makeHull(places, reachOf(radius));
+  if (hull_.size() < 3)
+    return lines;
+  for (std::size_t i = 0; i < hull_.size(); ++i) {
+    const Eigen::Vector2f side = hull_[i + 1 < hull_.size() ? i + 1 : 0] - hull_[i];
+    const Eigen::Vector2f outwards = Eigen::Vector2f(side[1], -side[0]).normalized();
+    const RimLine line{outwards, outwards.dot(hull_[i]) + margin * radius};
+    if (line.distance < radius && !haveOneBeyond(places, line))
+      addLine(line, lines);
+  }
+  return lines;
+}
+
+} // namespace pcl_uvol
