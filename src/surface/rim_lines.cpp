@@ -59,6 +59,33 @@ haveOneBeyond(const std::vector<Eigen::Vector2f>& places, const RimLine& line)
   });
 }
 
+/** Of sixteen around the centre, counter-clockwise from the first axis. */
+int
+sectorOf(const Eigen::Vector2f& place)
+{
+  constexpr float slope = 0.41421356f; // of an eighth of a quarter turn and one more
+  const float x = std::abs(place[0]), y = std::abs(place[1]);
+  const int in_quarter = y > x ? (x > slope * y ? 2 : 3) : (y > slope * x ? 1 : 0);
+  if (place[1] >= 0.0f)
+    return place[0] >= 0.0f ? in_quarter : 7 - in_quarter;
+  return place[0] < 0.0f ? 8 + in_quarter : 15 - in_quarter;
+}
+
+/** False if there is no line for sure: those farther than two radii that lie straight
+ * ahead are beyond any line, so that a line leaves four sectors at least without. */
+bool
+haveOpenSide(const std::vector<Eigen::Vector2f>& places, float radius)
+{
+  static_assert(least_ahead == 0.5f, "60 degrees to both sides");
+  const float sq_far = 4.0f * radius * radius;
+  std::uint32_t sectors = 0;
+  for (const Eigen::Vector2f& place : places)
+    if (place.squaredNorm() >= sq_far)
+      sectors |= 0x10001u << sectorOf(place);
+  const std::uint32_t open = ~sectors;
+  return (open & open >> 1 & open >> 2 & open >> 3) != 0;
+}
+
 /** Keep the lines that cut most. */
 void
 addLine(const RimLine& line, RimLines& lines)
@@ -113,6 +140,8 @@ RimLines
 RimFinder::find(const std::vector<Eigen::Vector2f>& places, float radius)
 {
   RimLines lines;
+  if (!haveOpenSide(places, radius))
+    return lines;
   makeHull(places, reachOf(radius));
   if (hull_.size() < 3)
     return lines;

@@ -94,6 +94,13 @@ TEST(RimLines, LieAtTheRimOfALattice)
   EXPECT_EQ(Vector2f(0.0f, 1.0f), corner[1].outwards);
   EXPECT_FLOAT_EQ(margin, corner[0].distance);
   EXPECT_FLOAT_EQ(margin, corner[1].distance);
+  // Two points that stand out of it.
+  std::vector<Vector2f> jagged = latticeAround([](int, int y) { return y <= 0; });
+  jagged.emplace_back(-0.5f, 1.0f);
+  jagged.emplace_back(0.5f, 1.0f);
+  const RimLines standing_out = finder.find(jagged, 1.5f);
+  EXPECT_EQ(Vector2f(0.0f, 1.0f), standing_out[0].outwards);
+  EXPECT_FLOAT_EQ(1.0f + 0.3f * 1.5f, standing_out[0].distance);
   // A gap of two rows, beyond which the surface goes on.
   EXPECT_GT(lines_of([](int, int y) { return y <= 0 || y >= 3; })[0].distance, radius);
   // Points in a row have no sides, and those of no others no rim.

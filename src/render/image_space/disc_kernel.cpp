@@ -105,86 +105,85 @@ private:
   Floats normal_[3], along_a_[3], along_b_[3];
 };
 
-/** One disc in a band: pixels side by side. */
-class LargeDisc {
+/** Pixels, half-open ranges. */
+struct PixelRange {
+  int first_row, last_row, first_column, last_column;
+};
+
+/** How far up to a register of discs reach in the image. */
+class DiscReach {
 public:
-  LargeDisc(const Projection& projection,
-            const DiscLanes& group,
-            int lane,
-            const PixelBand& band)
-      : disc_(group.lane(lane))
-      , bent_(projection, disc_)
-      , is_bent_(disc_.bentLanes() != 0)
-      , projection_(projection)
-      , first_row_(band.first_row)
-      , last_row_(band.last_row)
-      , last_column_(band.width)
+  DiscReach(const Projection& projection, const DiscLanes& discs)
+      : touching_(laneBits(discs.center.z - discs.radius < projection.near))
   {
-    if (disc_.center.z[0] - disc_.radius[0] < projection.near)
-      return;
-    const Floats per_z = 1.0f / disc_.center.z;
-    range(disc_.px[0],
-          disc_.extent(projection, disc_.center.x * per_z)[0],
-          first_column_,
-          last_column_);
-    range(disc_.py[0],
-          disc_.extent(projection, disc_.center.y * per_z)[0],
-          first_row_,
-          last_row_);
+    const Floats per_z = 1.0f / discs.center.z;
+    const Floats x = discs.extent(projection, discs.center.x * per_z),
+                 y = discs.extent(projection, discs.center.y * per_z);
+    store(left_, discs.px - x);
+    store(right_, discs.px + x);
+    store(top_, discs.py - y);
+    store(bottom_, discs.py + y);
   }
 
-  /** Whether pixels may see it, stretched, within its radius and so much depth besides:
-   * not if it lies farther behind all that is seen in the cells that it reaches. */
-  bool
-  mayBeSeen(const PixelBand& band, const float* deepest, float room) const
+  /** The pixels of a band that one of them may cover: any, if it nearly touches the
+   * eye. */
+  PixelRange
+  rangeOf(int lane, const PixelBand& band) const
   {
-    const float facing = __builtin_fabsf(disc_.facing[0]);
-    if (facing < least_cosine * distance())
+    PixelRange range{band.first_row, band.last_row, 0, band.width};
+    if ((touching_ >> lane & 1) != 0)
+      return range;
+    shrink(left_[lane], right_[lane], range.first_column, range.last_column);
+    shrink(top_[lane], bottom_[lane], range.first_row, range.last_row);
+    return range;
+  }
+
+private:
+  /** To whole pixels. */
+  static void
+  shrink(float low, float high, int& first, int& last)
+  {
+    first = low > static_cast<float>(first) ? static_cast<int>(low) : first;
+    last = high < static_cast<float>(last) ? static_cast<int>(high) + 1 : last;
+  }
+
+  alignas(64) float left_[lanes], right_[lanes], top_[lanes], bottom_[lanes];
+  std::uint32_t touching_; ///< lanes
+};
+
+/** Tells which of up to a register of discs pixels may see, within their radius: not
+ * those that lie farther behind all that is seen in the cells that they reach. */
+class SightTest {
+public:
+  SightTest(const Projection& projection, const DiscLanes& discs)
+  {
+    const Floats distance = discs.distance(), radius = discs.radius;
+    const Floats nearest =
+        ((1.0f - depth_error) * distance - 2.0f * radius) * projection.per_far -
+        radius * projection.per_far;
+    edge_on_ = laneBits(absolute(discs.facing) < least_cosine * distance);
+    store(nearest_, nearest);
+  }
+
+  bool
+  maySee(int lane,
+         const PixelRange& range,
+         const PixelBand& band,
+         const float* deepest) const
+  {
+    if ((edge_on_ >> lane & 1) != 0)
       return true;
-    const float nearest =
-        ((1.0f - depth_error) * distance() - 2.0f * radius()) * projection_.per_far -
-        room;
+    const float nearest = nearest_[lane];
     const int cells = cellsInRow(band.width);
-    for (int row = (first_row_ - band.first_row) / cell_rows;
-         row * cell_rows < last_row_ - band.first_row;
+    for (int row = (range.first_row - band.first_row) / cell_rows;
+         row * cell_rows < range.last_row - band.first_row;
          ++row)
-      for (int column = first_column_ / cell_columns;
-           column * cell_columns < last_column_;
+      for (int column = range.first_column / cell_columns;
+           column * cell_columns < range.last_column;
            ++column)
         if (deepest[row * cells + column] >= nearest)
           return true;
     return false;
-  }
-
-  /** Call visit(row, column, covered lanes, depths, place) for every patch with a pixel
-   * that is covered; row and column of its first pixel. */
-  template <typename Visit>
-  void
-  forPatches(const Visit& visit) const
-  {
-    for (int row = first_row_; row < last_row_; row += 2)
-      for (int column = first_column_; column < last_column_; column += patch_columns)
-        visitPatch(row, column, visit);
-  }
-
-  float
-  radius() const
-  {
-    return disc_.radius[0];
-  }
-
-  /** The distance of its centre to the eye. */
-  float
-  distance() const
-  {
-    const Vector& c = disc_.center;
-    return squareRoot(c.x * c.x + c.y * c.y + c.z * c.z)[0];
-  }
-
-  bool
-  looksAway() const
-  {
-    return disc_.facing[0] > 0.0f;
   }
 
 private:
@@ -195,15 +194,56 @@ private:
   static constexpr float least_cosine = 0.05f, depth_error = 1e-4f;
   /** @} */
 
-  /** Whole pixels of a range, within bounds. */
-  static void
-  range(float center, float extent, int& first, int& last)
+  alignas(64) float nearest_[lanes];
+  std::uint32_t edge_on_; ///< lanes
+};
+
+/** One disc in some pixels, side by side. */
+class LargeDisc {
+public:
+  LargeDisc(const Projection& projection,
+            const DiscLanes& group,
+            int lane,
+            const PixelRange& range)
+      : disc_(group.lane(lane))
+      , bent_(projection, disc_)
+      , is_bent_(disc_.bentLanes() != 0)
+      , projection_(projection)
+      , range_(range)
   {
-    const float low = center - extent, high = center + extent;
-    first = low > static_cast<float>(first) ? static_cast<int>(low) : first;
-    last = high < static_cast<float>(last) ? static_cast<int>(high) + 1 : last;
   }
 
+  /** Call visit(row, column, covered lanes, depths, place) for every patch with a pixel
+   * that is covered; row and column of its first pixel. */
+  template <typename Visit>
+  void
+  forPatches(const Visit& visit) const
+  {
+    for (int row = range_.first_row; row < range_.last_row; row += 2)
+      for (int column = range_.first_column; column < range_.last_column;
+           column += patch_columns)
+        visitPatch(row, column, visit);
+  }
+
+  float
+  radius() const
+  {
+    return disc_.radius[0];
+  }
+
+  float
+  distance() const
+  {
+    return disc_.distance()[0];
+  }
+
+  bool
+  looksAway() const
+  {
+    return disc_.facing[0] > 0.0f;
+  }
+
+private:
   template <typename Visit>
   void
   visitPatch(int row, int column, const Visit& visit) const
@@ -214,8 +254,8 @@ private:
     const Floats ex = toFloats(columns) + 0.5f - disc_.px,
                  ey = toFloats(rows) + 0.5f - disc_.py;
     const BentPlace place = is_bent_ ? bent_.at(ex, ey) : bent_.atFlat(ex, ey);
-    const Ints inside =
-        place.covered & (rows < fill(last_row_)) & (columns < fill(last_column_));
+    const Ints inside = place.covered & (rows < fill(range_.last_row)) &
+                        (columns < fill(range_.last_column));
     if (laneBits(inside) == 0)
       return;
     const Floats qx = slopeOf(columns, projection_.center_x, projection_.focal);
@@ -228,7 +268,7 @@ private:
   BentDisc bent_;
   bool is_bent_;
   const Projection& projection_;
-  int first_row_, last_row_, first_column_ = 0, last_column_;
+  PixelRange range_;
 };
 
 float
@@ -401,10 +441,12 @@ draw(const Projection& projection,
     const DiscGroup group(
         projection, points, discs + i, here < lanes ? static_cast<int>(here) : lanes);
     group.drawSmall(back, band);
+    const DiscReach reach(projection, group.discs());
     for (std::uint32_t bits = group.largeLanes(); bits != 0; bits &= bits - 1) {
       const int lane_of_disc = __builtin_ctz(bits);
       const std::uint32_t point = discs[i + static_cast<std::size_t>(lane_of_disc)];
-      const LargeDisc disc(projection, group.discs(), lane_of_disc, band);
+      const LargeDisc disc(
+          projection, group.discs(), lane_of_disc, reach.rangeOf(lane_of_disc, band));
       const bool has_rim = (group.rims().lanesWithLines() >> lane_of_disc & 1) != 0;
       const float depth_in_radii =
           disc.looksAway() ? back + projection.away_depth : back;
@@ -597,11 +639,14 @@ blend(const Projection& projection,
     const int here = count - i < lanes ? static_cast<int>(count - i) : lanes;
     const DiscPoints group(points, discs + i, here);
     const DiscLanes in_view(projection, group, points.stretch);
+    const DiscReach reach(projection, in_view);
+    const SightTest sight(projection, in_view);
     const NormalLanes normals(projection, group, in_view.facing);
     for (int lane = 0; lane < here; ++lane) {
-      const LargeDisc disc(projection, in_view, lane, band);
-      if (!disc.mayBeSeen(band, deepest, disc.radius() * projection.per_far))
+      const PixelRange range = reach.rangeOf(lane, band);
+      if (!sight.maySee(lane, range, band, deepest))
         continue;
+      const LargeDisc disc(projection, in_view, lane, range);
       const std::uint32_t color =
           looks[2 * discs[i + static_cast<std::size_t>(lane)] + 1];
       blendDisc(projection,

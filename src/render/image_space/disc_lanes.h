@@ -225,6 +225,13 @@ struct DiscLanes {
     return laneBits((saa != 0.0f) | (sab != 0.0f) | (sbb != 0.0f));
   }
 
+  /** Of the centres to the eye. */
+  Floats
+  distance() const
+  {
+    return squareRoot(center.x * center.x + center.y * center.y + center.z * center.z);
+  }
+
   /** Side of a pixel in the centres. */
   Floats
   pixelSize(const Projection& projection) const
