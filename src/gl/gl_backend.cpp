@@ -128,12 +128,13 @@ GlBackend::renderToFramebuffer(const Frame& frame,
 
 void
 GlBackend::pasteToFramebuffer(const View& view,
+                              int factor,
                               const Image& image,
                               const GlFramebuffer& target,
                               Report& report)
 {
   implementation_->run(
-      [&](ImagePasses& passes) { passes.paste(view, image, target, report); });
+      [&](ImagePasses& passes) { passes.paste(view, factor, image, target, report); });
 }
 
 } // namespace pcl_uvol

@@ -59,10 +59,11 @@ public:
   /** \brief Draw an image over what a framebuffer holds already, as
    * renderToFramebuffer() does: where OpenGL is software, another backend is faster.
    * \param image with depths, on a transparent background
-   * \param view that it was made for, or whose half, View::halved(), it was made for
+   * \param view that it was made for, View::coarser() by a factor
    * \throws as render() */
   void
   pasteToFramebuffer(const View& view,
+                     int factor,
                      const Image& image,
                      const GlFramebuffer& target,
                      Report& report);

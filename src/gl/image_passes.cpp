@@ -374,6 +374,7 @@ ImagePasses::compose(const Frame& frame, const GlFramebuffer& target, Report& re
 
 void
 ImagePasses::paste(const View& view,
+                   int factor,
                    const Image& image,
                    const GlFramebuffer& target,
                    Report& report)
@@ -387,7 +388,7 @@ ImagePasses::paste(const View& view,
   const Program& program = programs_.use(shaders::composite, "#define OF_IMAGE\n");
   program.setTexture("colors", 0, colors);
   program.setTexture("depths", 1, depths);
-  program.set("scale", width < view.width ? 0.5 : 1.0);
+  program.set("scale", 1.0 / factor);
   drawOver(program, view, target);
 }
 

@@ -30,9 +30,11 @@ public:
   compose(const Frame& frame, const GlFramebuffer& target, Report& report);
 
   /** \brief Draw an image with depths into somebody's framebuffer, instead of draw()
-   * and compose(). */
+   * and compose().
+   * \param factor by which it is coarser than the view */
   void
   paste(const View& view,
+        int factor,
         const Image& image,
         const GlFramebuffer& target,
         Report& report);

@@ -44,6 +44,7 @@ layout(location = 0) out vec4 color;
 #ifdef OF_IMAGE
 uniform sampler2DRect depths;
 uniform float scale; // texels by pixels
+#define TEXEL (1.0 / scale)
 
 float depthAt(vec2 pixel)
 {
@@ -57,6 +58,7 @@ vec4 colorAt(vec2 pixel)
 }
 #else
 uniform usampler2DRect state;
+#define TEXEL 1.0
 
 float depthAt(vec2 pixel)
 {
@@ -75,7 +77,7 @@ float nearestAround(vec2 pixel)
   float depth = 1.0;
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x)
-      depth = min(depth, depthAt(pixel + vec2(x, y)));
+      depth = min(depth, depthAt(pixel + TEXEL * vec2(x, y)));
   return depth;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gl/gl_backend.h"
 #include "render/image_space/cpu_backend.h"
+#include "vtk/coarseness.h"
 #include "vtk/scoped_gl_state.h"
 #include "vtk/window_view.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
@@ -28,6 +29,7 @@ vtkStandardNewMacro(ImageSpaceProp);
 
 ImageSpaceProp::ImageSpaceProp()
     : cpu_(std::make_unique<CpuBackend>())
+    , coarseness_(std::make_unique<Coarseness>())
 {
 }
 
@@ -55,6 +57,12 @@ ImageSpaceProp::setInputCloud(const pcl::PCLPointCloud2::ConstPtr& cloud,
   measured_ = false;
   reported_.clear();
   Modified();
+}
+
+void
+ImageSpaceProp::setDragTime(double milliseconds)
+{
+  coarseness_->setGoal(milliseconds);
 }
 
 void
@@ -141,15 +149,15 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
   shown.target.name = drawing.getFramebuffer();
   is_by_cpu_ = choice_ == WindowBackend::Cpu ||
                (choice_ == WindowBackend::Auto && !context->isHardware());
-  is_halved_ = is_by_cpu_ && window->GetDesiredUpdateRate() >= least_hasty_rate &&
-               whole_time_ > drag_time_;
+  factor_ = coarseness_->choose(is_by_cpu_ &&
+                                window->GetDesiredUpdateRate() >= least_hasty_rate);
   const auto start = std::chrono::steady_clock::now();
   if (!renderer_.getOpacities().empty()) {
     ImageSpaceBackend& drawing_backend =
         is_by_cpu_ ? static_cast<ImageSpaceBackend&>(*cpu_) : backend;
-    renderer_.drawLayers(chooseView(shown.view), drawing_backend, image_);
+    renderer_.drawLayers(shown.view.coarser(factor_), drawing_backend, image_);
     Report ignored; // of a frame that is drawn already
-    backend.pasteToFramebuffer(shown.view, image_, shown.target, ignored);
+    backend.pasteToFramebuffer(shown.view, factor_, image_, shown.target, ignored);
   }
   else
     renderer_.draw(shown.view, [&](const Frame& frame, Report& report) {
@@ -158,16 +166,9 @@ ImageSpaceProp::draw(vtkRenderer& renderer)
       else
         backend.renderToFramebuffer(frame, shown.target, report);
     });
-  if (!is_halved_)
-    whole_time_ = std::chrono::duration<double, std::milli>(
-                      std::chrono::steady_clock::now() - start)
-                      .count();
-}
-
-View
-ImageSpaceProp::chooseView(const View& view) const
-{
-  return is_halved_ ? view.halved() : view;
+  coarseness_->tell(std::chrono::duration<double, std::milli>(
+                        std::chrono::steady_clock::now() - start)
+                        .count());
 }
 
 void
@@ -180,9 +181,9 @@ ImageSpaceProp::paste(const Frame& frame,
   settings.background.kind = Background::Kind::Transparent;
   ImagePlanes planes;
   planes.depth = true;
-  const View view = chooseView(frame.view);
+  const View view = frame.view.coarser(factor_);
   cpu_->render({frame.cloud, view, settings, planes, frame.threads}, image_, report);
-  backend.pasteToFramebuffer(frame.view, image_, target, report);
+  backend.pasteToFramebuffer(frame.view, factor_, image_, target, report);
 }
 
 GlBackend&

@@ -20,11 +20,11 @@ class vtkRenderer;
 
 namespace pcl_uvol {
 
+class Coarseness;
 class CpuBackend;
 class GlBackend;
 class GlContext;
 struct GlFramebuffer;
-struct View;
 
 /** \brief What draws the frames of a window. */
 enum class WindowBackend {
@@ -95,14 +95,11 @@ public:
     Modified();
   }
 
-  /** \brief Let the CPU draw at half the resolution while the window asks for a rate of
-   * frames, as it does when a mouse turns it, and a whole frame takes longer than so
+  /** \brief Let the CPU draw up to four times as coarsely while the window asks for a
+   * rate of frames, as it does when a mouse turns it, and frames take longer than so
    * many milliseconds; default 25. Infinite: never. */
   void
-  setDragTime(double milliseconds)
-  {
-    drag_time_ = milliseconds;
-  }
+  setDragTime(double milliseconds);
 
   /** \brief What drew the last frame, see ImageSpaceBackend::describe; "none" before.
    */
@@ -155,11 +152,6 @@ private:
         GlBackend& backend,
         Report& report);
 
-  /** The view that is drawn of a view that is shown: half of it where the window is in
-   * a hurry. */
-  View
-  chooseView(const View& view) const;
-
   /** The backend in the context of a window, which is current. */
   GlBackend&
   backendFor(vtkOpenGLRenderWindow& window, const std::shared_ptr<GlContext>& context);
@@ -178,10 +170,9 @@ private:
   WindowBackend choice_ = WindowBackend::Auto;
   std::unique_ptr<CpuBackend> cpu_;
   Image image_; // of cpu_, or of what lets light through
-  double drag_time_ = 25.0;
-  double whole_time_ = 0.0; // of the last frame of the full size, milliseconds
-  bool is_halved_ = false;  // the frame that is drawn
-  bool is_by_cpu_ = false;  // the last frame
+  std::unique_ptr<Coarseness> coarseness_;
+  int factor_ = 1;         // by which the frame that is drawn is coarser
+  bool is_by_cpu_ = false; // the last frame
   std::unique_ptr<GlBackend> backend_;
   vtkWeakPointer<vtkOpenGLRenderWindow> window_; // that backend_ draws in
   std::string reported_;

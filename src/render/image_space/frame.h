@@ -46,9 +46,10 @@ struct PCL_UVOL_EXPORTS View {
   View
   ofPart(const BoundingSphere& bounds, const BoundingSphere& part) const;
 
-  /** \brief The same view in an image of half the size, rounded up. */
+  /** \brief The same view in an image whose pixels are that many times as large. Its
+   * size is rounded up. */
   View
-  halved() const;
+  coarser(int factor) const;
 
   int
   bufferWidth() const

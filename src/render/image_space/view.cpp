@@ -68,15 +68,19 @@ View::ofPart(const BoundingSphere& bounds, const BoundingSphere& part) const
 }
 
 View
-View::halved() const
+View::coarser(int factor) const
 {
+  if (factor == 1)
+    return *this; // nothing is rounded
+  const auto shrunk = [&](int side) { return (side + factor - 1) / factor; };
+  const float scale = 1.0f / static_cast<float>(factor);
   View view = *this;
-  view.width = (width + 1) / 2;
-  view.height = (height + 1) / 2;
-  view.shorter_side = (shorter_side + 1) / 2;
-  view.focal *= 0.5f;
-  view.center_x = guard + 0.5f * (center_x - guard);
-  view.center_y = guard + 0.5f * (center_y - guard);
+  view.width = shrunk(width);
+  view.height = shrunk(height);
+  view.shorter_side = shrunk(shorter_side);
+  view.focal *= scale;
+  view.center_x = guard + scale * (center_x - guard);
+  view.center_y = guard + scale * (center_y - guard);
   return view;
 }
 
