@@ -209,12 +209,24 @@ struct DiscLanes {
   DiscLanes
   lane(int index) const
   {
+    const auto at = [index](const Floats& part) { return fill(part[index]); };
+    const auto vectorAt = [&](const Vector& v) {
+      return Vector{at(v.x), at(v.y), at(v.z)};
+    };
     DiscLanes one;
-    Floats parts[sizeof(DiscLanes) / sizeof(Floats)];
-    __builtin_memcpy(parts, this, sizeof parts);
-    for (Floats& part : parts)
-      part = fill(part[index]);
-    __builtin_memcpy(static_cast<void*>(&one), parts, sizeof parts);
+    one.center = vectorAt(center);
+    one.radius = at(radius);
+    one.facing = at(facing);
+    one.tilt_x = at(tilt_x);
+    one.tilt_y = at(tilt_y);
+    one.px = at(px);
+    one.py = at(py);
+    one.a = vectorAt(a);
+    one.b = vectorAt(b);
+    one.saa = at(saa);
+    one.sab = at(sab);
+    one.sbb = at(sbb);
+    one.towards = at(towards);
     return one;
   }
 
@@ -275,6 +287,7 @@ class BentDisc {
   // meets the paraboloid of the bend S in w with q = w + v S(w, w) / 2: a quadratic
   // equation.
 public:
+  /** \param disc must outlive it */
   BentDisc(const Projection& projection, const DiscLanes& disc)
       : disc_(disc)
   {
@@ -335,7 +348,7 @@ private:
     return place.square() <= disc_.radius * disc_.radius;
   }
 
-  DiscLanes disc_;
+  const DiscLanes& disc_;
   Floats ax_, ay_, bx_, by_; ///< change of the numerator of q, in the axes of the disc
   Floats va_, vb_;           ///< v in the centre
 };
