@@ -2,6 +2,7 @@
 #include "surface/rim_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -59,16 +60,35 @@ haveOneBeyond(const std::vector<Eigen::Vector2f>& places, const RimLine& line)
   });
 }
 
-/** Of sixteen around the centre, counter-clockwise from the first axis. */
-int
+/** Bits of sixteen sectors around the centre, counter-clockwise from the first axis,
+ * once more in the upper half, by what sectorOf() compares. */
+constexpr std::array<std::uint32_t, 16>
+listSectors()
+{
+  std::array<std::uint32_t, 16> sectors{};
+  for (int i = 0; i < 16; ++i) {
+    const bool is_left = (i & 1) != 0, is_below = (i & 2) != 0, is_steep = (i & 4) != 0,
+               is_diagonal = (i & 8) != 0;
+    const int in_quarter = is_steep ? (is_diagonal ? 2 : 3) : (is_diagonal ? 1 : 0);
+    const int upper = is_left ? 7 - in_quarter : in_quarter,
+              lower = is_left ? 8 + in_quarter : 15 - in_quarter;
+    sectors[static_cast<std::size_t>(i)] = 0x10001u << (is_below ? lower : upper);
+  }
+  return sectors;
+}
+
+/** The bits of a place's sector, without branches, which nothing would predict. */
+std::uint32_t
 sectorOf(const Eigen::Vector2f& place)
 {
-  constexpr float slope = 0.41421356f; // of an eighth of a quarter turn and one more
+  constexpr std::array<std::uint32_t, 16> sectors = listSectors();
+  constexpr float slope = 0.41421356f; // of 22.5 degrees
   const float x = std::abs(place[0]), y = std::abs(place[1]);
-  const int in_quarter = y > x ? (x > slope * y ? 2 : 3) : (y > slope * x ? 1 : 0);
-  if (place[1] >= 0.0f)
-    return place[0] >= 0.0f ? in_quarter : 7 - in_quarter;
-  return place[0] < 0.0f ? 8 + in_quarter : 15 - in_quarter;
+  const unsigned is_left = place[0]<0.0f,
+                                    is_below = place[1]<0.0f, is_steep = y> x,
+                                    is_diagonal = std::min(x, y)>
+                               slope * std::max(x, y);
+  return sectors[is_left | is_below << 1 | is_steep << 2 | is_diagonal << 3];
 }
 
 /** False if there is no line for sure: those farther than two radii that lie straight
@@ -80,8 +100,7 @@ haveOpenSide(const std::vector<Eigen::Vector2f>& places, float radius)
   const float sq_far = 4.0f * radius * radius;
   std::uint32_t sectors = 0;
   for (const Eigen::Vector2f& place : places)
-    if (place.squaredNorm() >= sq_far)
-      sectors |= 0x10001u << sectorOf(place);
+    sectors |= place.squaredNorm() >= sq_far ? sectorOf(place) : 0;
   const std::uint32_t open = ~sectors;
   return (open & open >> 1 & open >> 2 & open >> 3) != 0;
 }
