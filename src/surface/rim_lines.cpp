@@ -33,9 +33,10 @@ turnOf(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f
 std::uint32_t
 packDirection(const Eigen::Vector2f& direction)
 {
+  constexpr int of_quarter = rim_directions / 4;
   const float along = direction[0] / direction.lpNorm<1>();
   const float quarters = direction[1] >= 0.0f ? 1.0f - along : 3.0f + along;
-  const auto step = std::lround(quarters * (rim_directions / 4));
+  const auto step = std::lround(quarters * of_quarter);
   return static_cast<std::uint32_t>(step % rim_directions);
 }
 

@@ -172,6 +172,19 @@ private:
   Footprints footprints_;
 };
 
+/** The places of a square lattice about the origin. */
+std::vector<Vector2f>
+latticeWithin(float half_side, float step)
+{
+  const auto count = static_cast<int>(half_side / step);
+  std::vector<Vector2f> places;
+  for (int row = -count; row <= count; ++row)
+    for (int column = -count; column <= count; ++column)
+      places.emplace_back(step * static_cast<float>(column),
+                          step * static_cast<float>(row));
+  return places;
+}
+
 /** Where a sheet in the square of side 2 has points. */
 using Shape = std::function<bool(const Vector2f&)>;
 
@@ -214,16 +227,14 @@ struct Areas {
                         Vector2f(std::cos(0.3926991f * i), std::sin(0.3926991f * i)));
       return all;
     };
-    const float step = 0.25f * spacing;
-    for (float y = -1.3f; y < 1.3f; y += step)
-      for (float x = -1.3f; x < 1.3f; x += step) {
-        const auto [by_whole, by_cut] = discs.coverOf({x, y, 0.0f});
-        const bool is_opened = by_whole && !by_cut;
-        (on_sheet({x, y}) ? opened : beyond_whole) +=
-            on_sheet({x, y}) ? is_opened : by_whole;
-        beyond_cut += !on_sheet({x, y}) && by_cut ? 1 : 0;
-        opened_inside += is_opened && is_inside({x, y}) ? 1 : 0;
-      }
+    for (const Vector2f& place : latticeWithin(1.3f, 0.25f * spacing)) {
+      const auto [by_whole, by_cut] = discs.coverOf({place[0], place[1], 0.0f});
+      const bool is_opened = by_whole && !by_cut, is_on_sheet = on_sheet(place);
+      beyond_whole += !is_on_sheet && by_whole ? 1 : 0;
+      beyond_cut += !is_on_sheet && by_cut ? 1 : 0;
+      opened += is_on_sheet && is_opened ? 1 : 0;
+      opened_inside += is_opened && is_inside(place) ? 1 : 0;
+    }
     for (double* const places : {&beyond_whole, &beyond_cut, &opened, &opened_inside})
       *places *= 0.25 * 0.25;
   }
@@ -287,23 +298,22 @@ TEST(RimLines, OpenNoEdgeOfACube)
   for (const std::size_t n : {600, 3000}) {
     Cloud cube;
     std::mt19937_64 engine(n);
-    std::uniform_real_distribution<float> place(-1.0f, 1.0f);
+    std::uniform_real_distribution<float> coordinate(-1.0f, 1.0f);
     for (std::size_t i = 0; i < n; ++i) {
       const auto axis = static_cast<int>(i % 3);
       pcl::PointNormal point;
       for (int k = 0; k < 3; ++k)
-        point.data[k] = place(engine);
+        point.data[k] = coordinate(engine);
       point.data[axis] = point.data_n[axis] = i % 2 == 0 ? 1.0f : -1.0f;
       cube.push_back(point);
     }
     const Discs discs(cube);
     EXPECT_GT(discs.countCut(), n / 50);
     const float step = 0.25f * std::sqrt(24.0f / static_cast<float>(n));
-    for (float y = -1.0f; y < 1.0f; y += step)
-      for (float x = -1.0f; x < 1.0f; x += step) {
-        const auto [by_whole, by_cut] = discs.coverOf({x, y, 1.0f});
-        ASSERT_EQ(by_whole, by_cut) << n << ": " << x << ", " << y;
-      }
+    for (const Vector2f& place : latticeWithin(1.0f, step)) {
+      const auto [by_whole, by_cut] = discs.coverOf({place[0], place[1], 1.0f});
+      ASSERT_EQ(by_whole, by_cut) << n << ": " << place.transpose();
+    }
   }
 }
 

@@ -131,10 +131,10 @@ private:
     static Floats
     towardsCorner(const Ints& steps)
     {
-      constexpr int half = rim_directions / 2;
+      constexpr int half = rim_directions / 2, quarter = half / 2;
       const Ints from_opposite = (steps & (rim_directions - 1)) - half;
       return toFloats(from_opposite < 0 ? -from_opposite : from_opposite) -
-             static_cast<float>(half / 2);
+             static_cast<float>(quarter);
     }
 
     Line
