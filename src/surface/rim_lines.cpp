@@ -85,11 +85,11 @@ sectorOf(const Eigen::Vector2f& place)
   constexpr std::array<std::uint32_t, 16> sectors = listSectors();
   constexpr float slope = 0.41421356f; // of 22.5 degrees
   const float x = std::abs(place[0]), y = std::abs(place[1]);
-  const unsigned is_left = place[0]<0.0f,
-                                    is_below = place[1]<0.0f, is_steep = y> x,
-                                    is_diagonal = std::min(x, y)>
-                               slope * std::max(x, y);
-  return sectors[is_left | is_below << 1 | is_steep << 2 | is_diagonal << 3];
+  const bool is_left = place[0] < 0.0f;
+  const bool is_below = place[1] < 0.0f;
+  const bool is_steep = y > x;
+  const bool is_diagonal = std::min(x, y) > slope * std::max(x, y);
+  return sectors[is_left + 2u * is_below + 4u * is_steep + 8u * is_diagonal];
 }
 
 /** False if there is no line for sure: those farther than two radii that lie straight

@@ -71,9 +71,8 @@ INSTANTIATE_TEST_SUITE_P(LevelSetNoise,
                            std::string name = test.param.shape;
                            name += test.param.clustered ? "_clustered" : "_uniform";
                            name += test.param.noise < 0.03 ? "_2" : "_5";
-                           // Noise takes many steps: some stand for all.
+                           // Noise takes many steps: two shapes stand for all.
                            return name == "torus_clustered_5" ||
-                                          name == "two_spheres_clustered_5" ||
                                           name == "sphere_uniform_2"
                                       ? name
                                       : name + "_long";

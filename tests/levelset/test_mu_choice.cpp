@@ -52,6 +52,22 @@ TEST(MuChoice, NoiseThatNobodySeesIsLeft)
   EXPECT_FALSE(choose(0.0051).stages.empty());
 }
 
+TEST(MuChoice, NoiseThatIsToldTooLargeEndsNoSearch)
+{
+  Report report;
+  const LevelSetParameters parameters;
+  const auto choose = [&](double told) {
+    DataTerm term = makeTerm(0.5);
+    term.noise *= told;
+    return chooseMu(
+        band().band, *band().samples, term, parameters, band().spacing, 1, report);
+  };
+  const MuChoice right = choose(1.0), larger = choose(1.4);
+  ASSERT_FALSE(larger.stages.empty());
+  EXPECT_LE(larger.stages.back().mu, right.stages.back().mu);
+  EXPECT_NEAR(right.shares.of_surface, larger.shares.of_surface, 0.02);
+}
+
 TEST(MuChoice, LittleIsLeftOfTheNoiseOfAPlane)
 {
   Report report;

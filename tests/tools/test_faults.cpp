@@ -195,12 +195,14 @@ protected:
     }
   }
 
-  /** False where the tool's libraries find no room, before it begins. */
+  /** False where the tool's libraries find no room, before it begins: they are not
+   * loaded, or VTK's static objects end the program. */
   bool
   canLoad(const std::string& limit) const
   {
-    constexpr int not_loaded = 127;
-    return runCommand(limit + ' ' + toolName() + " -version").exit_code != not_loaded;
+    constexpr int not_loaded = 127, aborted = 128 + SIGABRT;
+    const int code = runCommand(limit + ' ' + toolName() + " -version").exit_code;
+    return code != not_loaded && code != aborted;
   }
 
   const uvol_test::TemporaryFolder folder_;
