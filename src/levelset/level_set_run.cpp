@@ -514,6 +514,9 @@ private:
          << " has not converged after " << summary_.steps.size()
          << " steps: it still moves by " << summary_.steps.back().change
          << " spacings per unit of time.";
+    if (!isLastStage())
+      text << " It ended at mu " << summary_.mu << ", where " << stages_.back().mu
+           << " was chosen.";
     report_.warnings.push_back(text.str());
   }
 

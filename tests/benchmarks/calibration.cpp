@@ -99,7 +99,8 @@ extract(const Cloud::ConstPtr& cloud, double isovalue)
 void
 printScattered(std::size_t n, std::uint64_t seed)
 {
-  for (const char* const name : {"radial", "waves", "gyroid"})
+  for (const char* const name :
+       {"radial", "waves", "gyroid", "decay", "fourth_power", "growth"})
     for (const bool clustered : {false, true}) {
       const auto field = uvol_test::makeSmoothField(name, n);
       const Surface surface = extract(

@@ -373,6 +373,8 @@ TEST(LevelSetEvolution, SaysWhenItHasNotConverged)
   ASSERT_EQ(1u, evolution.getReport().warnings.size());
   EXPECT_NE(std::string::npos,
             evolution.getReport().warnings[0].find("not converged after 3 steps"));
+  EXPECT_NE(std::string::npos,
+            evolution.getReport().warnings[0].find("It ended at mu 0.7, where 0."));
 }
 
 TEST(LevelSetEvolution, PlanarCloudsAreEvolvedInTheirPlane)

@@ -53,6 +53,17 @@ makeSmoothField(const std::string& name, std::size_t n)
   const auto r = [](const Vector& x) { return x.norm(); };
   if (name == "radial")
     return {"radial", r, radius, side};
+  if (name == "fourth_power")
+    return {"fourth_power",
+            [radius](const Vector& x) { return std::pow(x.norm() / radius, 4); },
+            1.0,
+            side};
+  if (name == "growth") // tenfold over ten spacings
+    return {
+        "growth",
+        [radius](const Vector& x) { return std::pow(10.0, 0.1 * (x.norm() - radius)); },
+        1.0,
+        side};
   if (name == "waves")
     return {"waves",
             [](const Vector& x) {

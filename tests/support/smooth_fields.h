@@ -26,7 +26,8 @@ struct SmoothField {
 };
 
 /** \brief radial (thesis Table 2.9), waves (of about 20 spacings on a radial field),
- * decay, gyroid or torus, in the cube for n samples. */
+ * decay, gyroid, torus, fourth_power or growth (both of the distance, the latter
+ * tenfold in ten spacings), in the cube for n samples. */
 SmoothField
 makeSmoothField(const std::string& name, std::size_t n);
 

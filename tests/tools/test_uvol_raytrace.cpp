@@ -189,6 +189,9 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
   EXPECT_EQ(2, wrong.exit_code);
   EXPECT_NE(std::string::npos, wrong.err.find("-raytrace has -occlusion-rays"))
       << wrong.err;
+  for (const char* const option : {"-culling", "-no-footprints", "-smoothings 3"})
+    EXPECT_EQ(2, runCommand(small + picture_ + " -silhouettes " + option).exit_code)
+        << option;
 }
 
 TEST_F(RaytraceTool, RefusesWhatIsWrong)

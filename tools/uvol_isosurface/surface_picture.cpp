@@ -4,7 +4,45 @@
 #include "charts/picture_file.h"
 #include "surface/memory_need.h"
 
+#include <string>
+#include <utility>
+
 namespace uvol_tools {
+
+namespace {
+
+/** \throws UsageError for what rays do not have */
+void
+refuseImageSpace(const Options& options)
+{
+  const std::pair<const char*, const char*> others[] = {
+      {"opacity", "-raytrace has -transparent."},
+      {"occlusion", "-raytrace has -occlusion-rays."}};
+  for (const auto& [name, other] : others)
+    if (options.given(name))
+      throw UsageError(std::string("-") + name + " is for pictures in image space; " +
+                       other);
+  for (const std::string name : {"culling",
+                                 "no-footprints",
+                                 "fill",
+                                 "occluded",
+                                 "layers",
+                                 "no-shading",
+                                 "smoothing",
+                                 "smoothings",
+                                 "silhouettes",
+                                 "silhouette-threshold",
+                                 "thickness",
+                                 "features",
+                                 "feature-threshold",
+                                 "line-color",
+                                 "no-antialias",
+                                 "antialias-threshold"})
+    if (options.given(name))
+      throw UsageError("-" + name + " is for pictures in image space, not for rays.");
+}
+
+} // namespace
 
 void
 SurfacePicture::declare(Options& options)
@@ -27,12 +65,8 @@ SurfacePicture::check(const Options& options)
 {
   if (is_ray_traced_ && path_.empty())
     throw UsageError("-raytrace needs -png.");
-  if (is_ray_traced_ && options.given("opacity"))
-    throw UsageError("-opacity is for pictures in image space; -raytrace has "
-                     "-transparent.");
-  if (is_ray_traced_ && options.given("occlusion"))
-    throw UsageError("-occlusion is for pictures in image space; -raytrace has "
-                     "-occlusion-rays.");
+  if (is_ray_traced_)
+    refuseImageSpace(options);
   look_.check(options);
   rays_.check(options);
   if (!path_.empty())
