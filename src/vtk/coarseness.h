@@ -11,7 +11,13 @@ public:
   /** Coarser ones hardly show what is dragged. */
   static constexpr int largest = 4;
 
-  /** \brief What dragged frames may take.
+  /** \param milliseconds what dragged frames may take */
+  explicit Coarseness(double milliseconds)
+      : goal_(milliseconds)
+  {
+  }
+
+  /** \brief Choose anew what dragged frames may take.
    * \param milliseconds infinite: they are as fine as others */
   void
   setGoal(double milliseconds)
@@ -69,8 +75,8 @@ private:
                : factor_;
   }
 
-  double goal_ = 25.0, last_ = 0.0; ///< milliseconds
-  int factor_ = 1, late_ = 0;       ///< frames one after another
+  double goal_, last_ = 0.0;  ///< milliseconds
+  int factor_ = 1, late_ = 0; ///< frames one after another
   bool was_dragged_ = false;
 };
 

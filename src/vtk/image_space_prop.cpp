@@ -23,13 +23,16 @@ namespace {
  * the mouse moves something 15. */
 constexpr double least_hasty_rate = 1.0;
 
+/** Milliseconds of drawing while a mouse drags: what shows it takes some 5 more. */
+constexpr double drag_time = 20.0;
+
 } // namespace
 
 vtkStandardNewMacro(ImageSpaceProp);
 
 ImageSpaceProp::ImageSpaceProp()
     : cpu_(std::make_unique<CpuBackend>())
-    , coarseness_(std::make_unique<Coarseness>())
+    , coarseness_(std::make_unique<Coarseness>(drag_time))
 {
 }
 

@@ -29,7 +29,7 @@ drag(Coarseness& coarseness, int frames, const std::function<double(int)>& time)
 
 TEST(Coarseness, FramesThatComeInTimeAreFine)
 {
-  Coarseness coarseness;
+  Coarseness coarseness(25.0);
   EXPECT_EQ(1, coarseness.choose(true)); // nothing is known
   const auto in_time = [](int) { return 24.0; };
   EXPECT_EQ(std::vector<int>(5, 1), drag(coarseness, 5, in_time));
@@ -41,7 +41,7 @@ TEST(Coarseness, TheFirstFrameIsAsCoarseAsTheOneBeforeTells)
 {
   for (const auto& [time, factor] :
        {std::pair(24.0, 1), {26.0, 2}, {49.0, 2}, {51.0, 3}, {99.0, 4}, {1e6, 4}}) {
-    Coarseness coarseness;
+    Coarseness coarseness(25.0);
     const auto falls = [time = time](int f) { return time / f; };
     EXPECT_EQ(factor, drag(coarseness, 1, falls)[0]) << time;
   }
@@ -49,7 +49,7 @@ TEST(Coarseness, TheFirstFrameIsAsCoarseAsTheOneBeforeTells)
 
 TEST(Coarseness, LateFramesAreCoarserUntilTheyAreInTime)
 {
-  Coarseness coarseness;
+  Coarseness coarseness(25.0);
   // Half of it are points, which coarser frames have as well.
   const auto time = [](int f) { return 20.0 + 20.0 / (f * f); };
   EXPECT_EQ((std::vector<int>{2, 2, 2, 2}), drag(coarseness, 4, time)); // 25 is in time
@@ -61,7 +61,7 @@ TEST(Coarseness, LateFramesAreCoarserUntilTheyAreInTime)
 
 TEST(Coarseness, AreFinerAgainWhereThereIsTime)
 {
-  Coarseness coarseness;
+  Coarseness coarseness(25.0);
   int frame = 0;
   // Zoomed out after some frames; a single late one changes nothing.
   const auto time = [&](int f) {
@@ -73,7 +73,7 @@ TEST(Coarseness, AreFinerAgainWhereThereIsTime)
 
 TEST(Coarseness, StillFramesAreFine)
 {
-  Coarseness coarseness;
+  Coarseness coarseness(25.0);
   drag(coarseness, 5, [](int) { return 100.0; });
   EXPECT_EQ(1, coarseness.choose(false));
 }

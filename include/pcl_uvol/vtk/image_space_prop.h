@@ -97,7 +97,7 @@ public:
 
   /** \brief Let the CPU draw up to four times as coarsely while the window asks for a
    * rate of frames, as it does when a mouse turns it, and frames take longer than so
-   * many milliseconds; default 25. Infinite: never. */
+   * many milliseconds; default 20, to which windows add some 5. Infinite: never. */
   void
   setDragTime(double milliseconds);
 
