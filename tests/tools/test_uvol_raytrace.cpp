@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <regex>
+#include <string>
 #include <utility>
 
 namespace {
@@ -189,9 +192,23 @@ TEST_F(RaytraceTool, IsosurfacesAreTracedAtOnce)
   EXPECT_EQ(2, wrong.exit_code);
   EXPECT_NE(std::string::npos, wrong.err.find("-raytrace has -occlusion-rays"))
       << wrong.err;
-  for (const char* const option : {"-culling", "-no-footprints", "-smoothings 3"})
-    EXPECT_EQ(2, runCommand(small + picture_ + " -silhouettes " + option).exit_code)
-        << option;
+  // Whatever image space has
+  const std::string help = runCommand("uvol_isosurface -h 'Drawing points'").out +
+                           runCommand("uvol_isosurface -h Lines").out +
+                           "  -silhouettes \n  -features \n";
+  const std::regex line("\n  -([a-z-]+) ([a-z0-9,]*)");
+  std::size_t refused = 0;
+  for (std::sregex_iterator option(help.begin(), help.end(), line), end; option != end;
+       ++option, ++refused) {
+    const std::map<std::string, std::string> values{
+        {"", ""}, {"n", "1"}, {"number", "0.5"}, {"none", "none"}, {"r,g,b", "0,0,0"}};
+    const CommandResult given = runCommand(
+        small + picture_ + " -" + (*option)[1].str() + ' ' + values.at((*option)[2]));
+    EXPECT_EQ(2, given.exit_code) << (*option)[1];
+    EXPECT_NE(std::string::npos, given.err.find("is for pictures in image space"))
+        << given.err;
+  }
+  EXPECT_EQ(17u, refused);
 }
 
 TEST_F(RaytraceTool, RefusesWhatIsWrong)

@@ -132,6 +132,29 @@ RenderOptions::declarePasses(Options& options)
   declareLighting(options);
 }
 
+const std::vector<std::string>&
+RenderOptions::passNames()
+{
+  static const std::vector<std::string> names{"culling",
+                                              "no-footprints",
+                                              "fill",
+                                              "occluded",
+                                              "layers",
+                                              "no-shading",
+                                              "occlusion",
+                                              "smoothing",
+                                              "smoothings",
+                                              "silhouettes",
+                                              "silhouette-threshold",
+                                              "thickness",
+                                              "features",
+                                              "feature-threshold",
+                                              "line-color",
+                                              "no-antialias",
+                                              "antialias-threshold"};
+  return names;
+}
+
 void
 RenderOptions::check(const Options& options)
 {

@@ -29,6 +29,10 @@ public:
   void
   declarePasses(Options& options);
 
+  /** \brief The names of these passes and thresholds, which rays do not have. */
+  static const std::vector<std::string>&
+  passNames();
+
   /** \brief True if light goes through surfaces, which are then drawn by themselves. */
   bool
   hasOpacities() const

@@ -5,7 +5,6 @@
 #include "surface/memory_need.h"
 
 #include <string>
-#include <utility>
 
 namespace uvol_tools {
 
@@ -15,29 +14,13 @@ namespace {
 void
 refuseImageSpace(const Options& options)
 {
-  const std::pair<const char*, const char*> others[] = {
-      {"opacity", "-raytrace has -transparent."},
-      {"occlusion", "-raytrace has -occlusion-rays."}};
-  for (const auto& [name, other] : others)
-    if (options.given(name))
-      throw UsageError(std::string("-") + name + " is for pictures in image space; " +
-                       other);
-  for (const std::string name : {"culling",
-                                 "no-footprints",
-                                 "fill",
-                                 "occluded",
-                                 "layers",
-                                 "no-shading",
-                                 "smoothing",
-                                 "smoothings",
-                                 "silhouettes",
-                                 "silhouette-threshold",
-                                 "thickness",
-                                 "features",
-                                 "feature-threshold",
-                                 "line-color",
-                                 "no-antialias",
-                                 "antialias-threshold"})
+  if (options.given("opacity"))
+    throw UsageError("-opacity is for pictures in image space; -raytrace has "
+                     "-transparent.");
+  if (options.given("occlusion"))
+    throw UsageError("-occlusion is for pictures in image space; -raytrace has "
+                     "-occlusion-rays.");
+  for (const std::string& name : RenderOptions::passNames())
     if (options.given(name))
       throw UsageError("-" + name + " is for pictures in image space, not for rays.");
 }

@@ -54,6 +54,37 @@ struct Meeting {
   }
 };
 
+/** The rows with some discs in them. */
+PixelRows
+drawDiscs(const DiscKernels& kernel,
+          const TestCamera& camera,
+          const PointArrays& points,
+          const std::vector<std::uint32_t>& discs,
+          float back = 0.0f)
+{
+  PixelRows rows;
+  kernel.draw(camera.projection,
+              points.view(1.0f),
+              discs.data(),
+              discs.size(),
+              back,
+              rows.band(first_row, last_row));
+  return rows;
+}
+
+/** All discs at once, as one after another makes them. */
+void
+expectTogether(const DiscKernels& kernel,
+               const TestCamera& camera,
+               const PointArrays& points,
+               const PixelRows& expected,
+               float back = 0.0f)
+{
+  std::vector<std::uint32_t> discs(points.size());
+  std::iota(discs.begin(), discs.end(), 0u);
+  EXPECT_EQ(expected.keys, drawDiscs(kernel, camera, points, discs, back).keys);
+}
+
 /** A place in view and a direction there.
  * \param steepest least cosine between that and the way to the eye */
 std::pair<Vector3d, Vector3d>
@@ -92,13 +123,7 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheDisc)
       std::size_t covered = 0;
       PixelRows all;
       for (std::uint32_t i = 0; i < points.size(); ++i) {
-        PixelRows rows;
-        kernel->draw(camera.projection,
-                     points.view(1.0f),
-                     &i,
-                     1,
-                     back,
-                     rows.band(first_row, last_row));
+        const PixelRows rows = drawDiscs(*kernel, camera, points, {i}, back);
         for (int row = -1; row <= PixelRows::height; ++row)
           for (int column = -1; column <= PixelRows::width; ++column) {
             const PixelKey key = rows.at(column, row);
@@ -127,16 +152,7 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheDisc)
       }
       EXPECT_GT(covered, 1000u);
       // Side by side they are the same, and the nearer one stays.
-      std::vector<std::uint32_t> discs(points.size());
-      std::iota(discs.begin(), discs.end(), 0u);
-      PixelRows together;
-      kernel->draw(camera.projection,
-                   points.view(1.0f),
-                   discs.data(),
-                   discs.size(),
-                   back,
-                   together.band(first_row, last_row));
-      EXPECT_EQ(all.keys, together.keys);
+      expectTogether(*kernel, camera, points, all, back);
     });
 }
 
@@ -219,13 +235,7 @@ TEST(DiscKernel, DrawsThePixelsWhoseRaysMeetTheBentSurface)
   uvol_test::forLevels(kernels, [&](const DiscKernels* kernel) {
     std::size_t covered = 0, behind_outline = 0;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-      PixelRows rows;
-      kernel->draw(camera.projection,
-                   points.view(1.0f),
-                   &i,
-                   1,
-                   0.0f,
-                   rows.band(first_row, last_row));
+      const PixelRows rows = drawDiscs(*kernel, camera, points, {i});
       for (int row = first_row; row < last_row; ++row)
         for (int column = 0; column < PixelRows::width; ++column) {
           const PixelKey key = rows.at(column, row);
@@ -283,13 +293,7 @@ TEST(DiscKernel, DrawsDiscsUpToTheirLines)
     std::size_t covered = 0, beyond = 0;
     PixelRows all;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-      PixelRows rows;
-      kernel->draw(camera.projection,
-                   points.view(1.0f),
-                   &i,
-                   1,
-                   0.0f,
-                   rows.band(first_row, last_row));
+      const PixelRows rows = drawDiscs(*kernel, camera, points, {i});
       const double radius = points.radii[i];
       for (int row = first_row; row < last_row; ++row)
         for (int column = 0; column < PixelRows::width; ++column) {
@@ -309,16 +313,7 @@ TEST(DiscKernel, DrawsDiscsUpToTheirLines)
     }
     EXPECT_GT(covered, 3000u);
     EXPECT_GT(beyond, 1000u);
-    std::vector<std::uint32_t> discs(points.size());
-    std::iota(discs.begin(), discs.end(), 0u);
-    PixelRows together;
-    kernel->draw(camera.projection,
-                 points.view(1.0f),
-                 discs.data(),
-                 discs.size(),
-                 0.0f,
-                 together.band(first_row, last_row));
-    EXPECT_EQ(all.keys, together.keys);
+    expectTogether(*kernel, camera, points, all);
   });
 }
 
