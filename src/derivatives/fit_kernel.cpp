@@ -12,6 +12,73 @@ constexpr int newton_steps = 6;
 /** Newton's last step in radii: far below what coordinates in float resolve. */
 constexpr double converged_step = 1e-7;
 
+/** The fourth power of the distance from the centre, what the terms of fourth degree
+ * have alike in all directions, as one more term of the fits. */
+class QuarticTerm {
+public:
+  explicit QuarticTerm(const NormalEquations& equations)
+      : square_(equations.fourth_square)
+      , right_(equations.fourth_right)
+  {
+    for (int i = 0; i < cubic_terms; ++i)
+      reduced_[i] =
+          i < quadratic_terms ? sumMoments(equations, i) : equations.fourth_power[i];
+    equations.forward(reduced_);
+  }
+
+  /** How much the term, as large as it is in the fit with it, adds to the value where
+   * the others and it have the given values; zero where the samples do not tell it
+   * from the others.
+   * \param is_cubic the others are those of a quadratic elsewhere
+   * \param values,others after the forward solution */
+  Lanes
+  computeBias(const Mask& is_cubic,
+              const Lanes* values,
+              const Lanes* others,
+              const Lanes& fourth_power) const
+  {
+    const Lanes pivot = leaveRest(square_, reduced_, is_cubic);
+    const Lanes bias = leaveRest(right_, values, is_cubic) / pivot *
+                       leaveRest(fourth_power, others, is_cubic);
+    return pivot > smallest_pivot * square_ ? bias : Lanes{};
+  }
+
+private:
+  /** The weighted sum of the products of the fourth power and a term of the quadratic:
+   * those of the cubic are of seventh degree, which no moment is. */
+  static Lanes
+  sumMoments(const NormalEquations& equations, int term)
+  {
+    Lanes sum{};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int* const of = monomials.power[term];
+        int power[3] = {of[0], of[1], of[2]};
+        power[i] += 2;
+        power[j] += 2;
+        sum += equations.moment[monomials.index[power[0]][power[1]][power[2]]];
+      }
+    return sum;
+  }
+
+  /** What the other terms leave of a product with the fourth power. */
+  Lanes
+  leaveRest(const Lanes& product, const Lanes* reduced, const Mask& is_cubic) const
+  {
+    const auto sumOf = [&](int begin, int end) {
+      Lanes sum{};
+      for (int i = begin; i < end; ++i)
+        sum += reduced_[i] * reduced[i];
+      return sum;
+    };
+    return product - sumOf(0, quadratic_terms) -
+           (is_cubic ? sumOf(quadratic_terms, cubic_terms) : Lanes{});
+  }
+
+  Lanes reduced_[cubic_terms]; // its products with the terms
+  Lanes square_, right_;       // its products with itself and with the values
+};
+
 /** The fits of one register, from the given lane on. */
 void
 fitRegister(const FitSample* samples,
@@ -93,6 +160,11 @@ fitRegister(const FitSample* samples,
            (is_cubic ? sumSquares(of, quadratic_terms, cubic_terms) : zero);
   };
   const Lanes variance = is_cubic ? cubic_variance : quadratic_variance;
+
+  const Lanes square = x * x + y * y + z * z;
+  const Lanes bias = QuarticTerm(equations).computeBias(
+                         is_cubic, reduced, influence, square * square) /
+                     slope;
   store(determined ? coefficient[0] : zero / zero, result.value + first);
   store(x, result.offset[0] + first);
   store(y, result.offset[1] + first);
@@ -103,6 +175,7 @@ fitRegister(const FitSample* samples,
     store(hessian[i], result.hessian[i] + first);
   store(equations.least_pivot, result.pivot + first);
   store(squareRoot(leverageOf(influence) * variance) / slope, result.error + first);
+  store(bias < zero ? -bias : bias, result.bias + first);
   store(squareRoot(leverageOf(slope_influence) * variance) / slope,
         result.slope_error + first);
   store(squareRoot((is_cubic ? cubic_residuals : quadratic_residuals) /

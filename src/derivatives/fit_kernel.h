@@ -31,6 +31,9 @@ struct alignas(64) FitResult {
   double gradient[3][fit_lanes]; ///< there; value per radius
   double hessian[6][fit_lanes];  ///< there: xx xy xz yy yz zz
   double error[fit_lanes];       ///< standard error of the zero level's place
+  double bias[fit_lanes];        ///< how far the fourth power of the distance from the
+                                 ///< centre, as large as the samples tell, moves the
+                                 ///< zero level, since the polynomial has no such term
   double slope_error[fit_lanes]; ///< standard error of the slope there, over the slope
   double residual[fit_lanes];    ///< weighted root mean square of the values' residuals
   double pivot[fit_lanes]; ///< least part of a term of the cubic that those before
@@ -44,11 +47,12 @@ struct alignas(64) FitResult {
  *
  * The standard error is that of a weighted mean with the weights as precisions: the
  * root of leverage times mean squared residual; residuals stand for noise and for the
- * terms that the polynomial lacks alike. A fit fails where the normal equations are
- * singular, no degree of freedom is left, or the zero level is not found within the
- * radius.
- * \param count neighbours per centre, those without weight included; even
- * \param weighted neighbours with a weight, per lane */
+ * terms that the polynomial lacks alike. Of the latter one leaves small residuals and
+ * moves the zero level nevertheless: the mean curvature of the Laplacian, the fourth
+ * power of the distance, for which value and curvature stand in. A fit fails where the
+ * normal equations are singular, no degree of freedom is left, or the zero level is not
+ * found within the radius. \param count neighbours per centre, those without weight
+ * included; even \param weighted neighbours with a weight, per lane */
 using FitKernel = void (*)(const FitSample* samples,
                            std::size_t count,
                            const int* weighted,

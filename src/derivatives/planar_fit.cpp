@@ -105,6 +105,26 @@ struct Polynomial {
     return std::sqrt(computeLeverage(influence) * variance);
   }
 
+  /** \brief How much one more term, as large as it is in the fit with it, adds to the
+   * value at a place; zero where the samples do not tell it from the others.
+   * \param weighted,values see the constructor
+   * \param term of the samples, as much weighted
+   * \param at_place the term there */
+  double
+  computeBias(const Eigen::MatrixXd& weighted,
+              const VectorXd& values,
+              const VectorXd& term,
+              const Terms& place,
+              double at_place) const
+  {
+    const VectorXd given = factors.solve(term);
+    const VectorXd rest = term - weighted.leftCols(terms) * given;
+    if (!(rest.norm() > smallest_pivot * term.norm()))
+      return 0.0;
+    return rest.dot(values) / rest.squaredNorm() *
+           (at_place - given.dot(place.head(terms)));
+  }
+
   double
   valueAt(const Vector2d& at) const
   {
@@ -180,15 +200,17 @@ fitZeroLevelInPlane(const FitSample* samples,
 {
   const auto rows = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd weighted(rows, cubic_terms);
-  VectorXd values(rows);
+  VectorXd values(rows), fourth_powers(rows);
   double weights = 0.0;
   Eigen::Index weight_count = 0;
   for (Eigen::Index j = 0; j < rows; ++j) {
     const FitSample& sample = samples[static_cast<std::size_t>(j)];
     const Eigen::Vector3d offset(sample.x[lane], sample.y[lane], sample.z[lane]);
     const double root_weight = std::max(0.0, 1.0 - offset.squaredNorm());
-    weighted.row(j) = root_weight * termsAt(axes.transpose() * offset);
+    const Vector2d in_plane = axes.transpose() * offset;
+    weighted.row(j) = root_weight * termsAt(in_plane);
     values[j] = root_weight * static_cast<double>(sample.value[lane]);
+    fourth_powers[j] = root_weight * std::pow(in_plane.squaredNorm(), 2);
     weights += root_weight * root_weight;
     weight_count += root_weight > 0.0;
   }
@@ -217,6 +239,12 @@ fitZeroLevelInPlane(const FitSample* samples,
     result.hessian[i][lane] = hessian(row[i], column[i]);
   result.value[lane] = fit.coefficients[0];
   result.error[lane] = fit.computeError(termsAt(root)) / slope;
+  result.bias[lane] = std::abs(fit.computeBias(weighted,
+                                               values,
+                                               fourth_powers,
+                                               termsAt(root),
+                                               std::pow(root.squaredNorm(), 2))) /
+                      slope;
   result.slope_error[lane] = fit.computeError(slopesAt(root, gradient / slope)) / slope;
   result.residual[lane] =
       std::sqrt(fit.variance * static_cast<double>(weight_count - fit.terms) / weights);

@@ -33,21 +33,23 @@ constexpr double least_freedom = 5.0;
  * degree come first, so that the quadratic fit is the leading part of the cubic one. */
 struct Monomials {
   int index[2 * degree + 1][2 * degree + 1][2 * degree + 1]{}; ///< by the three powers
+  int power[cubic_terms][3]{};                                 ///< of x, y and z
   int parent[cubic_terms]{}; ///< the term without one factor ...
   int axis[cubic_terms]{};   ///< ... and the coordinate that this factor is
   int product[cubic_terms][cubic_terms]{};
 
   constexpr Monomials()
   {
-    int power[moment_count][3]{};
     int count = 0;
     for (int sum = 0; sum <= 2 * degree; ++sum)
       for (int a = sum; a >= 0; --a)
         for (int b = sum - a; b >= 0; --b) {
-          index[a][b][sum - a - b] = count;
-          power[count][0] = a;
-          power[count][1] = b;
-          power[count++][2] = sum - a - b;
+          if (count < cubic_terms) {
+            power[count][0] = a;
+            power[count][1] = b;
+            power[count][2] = sum - a - b;
+          }
+          index[a][b][sum - a - b] = count++;
         }
     for (int i = 1; i < cubic_terms; ++i) {
       const int* const p = power[i];
@@ -130,9 +132,10 @@ differentiateTerms(const Lanes* value,
   }
 }
 
-/** A sample of every fit, and its weight. */
+/** A sample of every fit, its weight, and the fourth power of its distance from the
+ * centre. */
 struct Term {
-  Lanes x, y, z, value{}, weight;
+  Lanes x, y, z, value{}, weight, fourth_power;
 
   template <typename Sample>
   Term(const Sample& sample, std::size_t first)
@@ -142,8 +145,10 @@ struct Term {
   {
     if constexpr (Sample::has_value)
       value = load(sample.value + first);
-    const Lanes rest = atLeastZero(1.0 - (x * x + y * y + z * z));
+    const Lanes square = x * x + y * y + z * z;
+    const Lanes rest = atLeastZero(1.0 - square);
     weight = rest * rest;
+    fourth_power = square * square;
   }
 };
 
@@ -152,6 +157,8 @@ struct NormalEquations {
   Lanes moment[moment_count]{};
   Lanes right[cubic_terms]{};
   Lanes squares{};                        // of the values
+  Lanes fourth_power[cubic_terms]{};      // its products with the terms of third degree
+  Lanes fourth_square{}, fourth_right{};  // ... with itself and with the values
   Lanes factor[cubic_terms][cubic_terms]; // lower triangle
   Lanes inverse_pivot[cubic_terms];
   Lanes least_pivot; // of its own diagonal entry
@@ -165,9 +172,14 @@ struct NormalEquations {
   {
     for (std::size_t j = 0; j < count; j += 2) {
       const Term one(samples[j], first), two(samples[j + 1], first);
-      if constexpr (Sample::has_value)
+      if constexpr (Sample::has_value) {
         squares +=
             one.weight * one.value * one.value + two.weight * two.value * two.value;
+        const Lanes one_fourth = one.weight * one.fourth_power,
+                    two_fourth = two.weight * two.fourth_power;
+        fourth_square += one_fourth * one.fourth_power + two_fourth * two.fourth_power;
+        fourth_right += one_fourth * one.value + two_fourth * two.value;
+      }
       Lanes one_z = one.weight, two_z = two.weight;
 #pragma GCC unroll 7
       for (int c = 0; c <= 2 * degree; ++c) {
@@ -181,6 +193,9 @@ struct NormalEquations {
             moment[i] += one_xyz + two_xyz;
             if (Sample::has_value && a + b + c <= degree)
               right[i] += one_xyz * one.value + two_xyz * two.value;
+            if (Sample::has_value && a + b + c == degree)
+              fourth_power[i] +=
+                  one_xyz * one.fourth_power + two_xyz * two.fourth_power;
             one_xyz *= one.x;
             two_xyz *= two.x;
           }

@@ -14,9 +14,11 @@ namespace pcl_uvol {
 
 namespace {
 
-/** Error over standard error: covers 95 % of the deviations of analytic fields, whose
- * truncation errors have longer tails than noise. */
-constexpr double error_factor = 4.0;
+/** Error over standard error, and over bias: together they cover 95 % of the deviations
+ * of noisy and of analytic fields, whose truncation errors have longer tails than
+ * noise, and 99 % where fields grow tenfold in ten spacings, which leaves a third to
+ * the first alone (tests/benchmarks). */
+constexpr double error_factor = 3.5, bias_factor = 2.0;
 
 /** A slope whose standard error is a larger part of it may be as much less steep as so
  * many of these parts beyond: noise that is as large as a spacing puts isopoints where
@@ -41,11 +43,11 @@ constexpr double farthest_shift = 0.5;
 
 /** Share of the edge's length in the samples' own space: farther from an edge across
  * which values jump, as at the core of a planet, no fit in another metric may shift a
- * root, unless its error, in radii of the support, tells that nothing jumps there.
- * Smooth fields on rotated lattices have up to 0.021, jumps from 0.061 on
+ * root, unless its standard error, in radii of the support, tells that nothing jumps
+ * there. Smooth fields on rotated lattices have up to 0.005, jumps from 0.015 on
  * (tests/benchmarks).
  */
-constexpr double farthest_from_jump = 0.5, smooth_error = 0.036;
+constexpr double farthest_from_jump = 0.5, smooth_error = 0.009;
 
 /** Different whole numbers among the fitted samples that are labels. Quantised data on
  * a slope of 1.5 steps per spacing have more; of a flatter slope 40 samples tell
@@ -138,6 +140,13 @@ judgeSupport(const Surroundings& surroundings,
 
 namespace {
 
+/** Error of the place of a fit's zero level on its slope, in radii of the support. */
+double
+errorOfRoot(const FitResult& result, std::size_t lane)
+{
+  return std::hypot(error_factor * result.error[lane], bias_factor * result.bias[lane]);
+}
+
 /** The widest sector without a sample, in radians. */
 double
 findEmptySector(const Eigen::Matrix2Xd& places)
@@ -188,8 +197,7 @@ judge(const FitResult& result, std::size_t lane, const Surroundings& surrounding
   const double room =
       std::max(surroundings.edge_length, farthest_shift * surroundings.radius);
   // In this order an error that is no number is none that serves.
-  if (!(surroundings.radius * std::max(error_factor * result.error[lane], shift) <=
-        room))
+  if (!(surroundings.radius * std::max(errorOfRoot(result, lane), shift) <= room))
     return RootOutcome::Far;
   return result.order[lane] == fit_cubic ? RootOutcome::Cubic : RootOutcome::Quadratic;
 }
@@ -219,7 +227,7 @@ isFarFromJump(const FitResult& result,
       result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
   return surroundings.edge_span > step_span &&
          surroundings.radius * shift > farthest_from_jump * edge_length &&
-         !(error_factor * result.error[lane] <= smooth_error);
+         !(result.error[lane] <= smooth_error);
 }
 
 void
@@ -244,7 +252,8 @@ leaveMetric(const Eigen::Matrix3d& metric, std::size_t lane, FitResult& result)
     for (int j = 0; j < 3; ++j)
       result.hessian[entry[i][j]][lane] = hessian(i, j);
   }
-  result.error[lane] *= slope / gradient.norm();
+  for (double* const length : {result.error, result.bias})
+    length[lane] *= slope / gradient.norm();
 }
 
 namespace {
@@ -261,8 +270,7 @@ double
 errorOfFit(const FitResult& result, std::size_t lane)
 {
   const double doubt = std::max(0.0, result.slope_error[lane] - sure_slope);
-  return error_factor * result.error[lane] /
-         std::max(1.0 - slope_factor * doubt, least_slope);
+  return errorOfRoot(result, lane) / std::max(1.0 - slope_factor * doubt, least_slope);
 }
 
 /** How far from its edge a fit that does not serve would have an isopoint, at most, in

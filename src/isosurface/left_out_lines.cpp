@@ -17,8 +17,9 @@ constexpr double sure_lines = 2.0;
 /** In spacings: samples that lie no farther apart across lines are on the same one. */
 constexpr double same_line = 0.5;
 
-/** Over a gap twice as wide quadratics miss by eight times as much, cubics by 16. */
-constexpr double shorter_gap = 0.125;
+/** Over a gap twice as wide quadratics miss by eight times as much, cubics by 16. The
+ * share covers nine in ten together with the factor of standard errors. */
+constexpr double shorter_gap = 1.0 / 7.0;
 
 /** In radii: a zero level that is not found without a line may be anywhere in the
  * support. */

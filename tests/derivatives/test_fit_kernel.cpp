@@ -30,6 +30,12 @@ constexpr int powers[20][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0
                                {1, 0, 2}, {0, 3, 0}, {0, 2, 1}, {0, 1, 2}, {0, 0, 3}};
 constexpr int quadratic_terms = 10, cubic_terms = 20;
 
+Real
+fourthPower(const Vector3& x)
+{
+  return x.squaredNorm() * x.squaredNorm();
+}
+
 /** A term, or a derivative of it: so many times by x, y and z. */
 Real
 termAt(int term, const Vector3& x, std::array<int, 3> derivative = {0, 0, 0})
@@ -162,7 +168,8 @@ randomCubic(Places& places, std::size_t lane, int terms = cubic_terms)
 /** A weighted least-squares fit by a factorisation of its own. */
 struct Fit {
   Polynomial polynomial;
-  MatrixX inverse; ///< of the normal equations
+  MatrixX inverse;           ///< of the normal equations
+  VectorX with_fourth_power; ///< solution for one more term, which is the last
   Real sq_residuals, weights, variance;
   int terms;
 
@@ -186,6 +193,22 @@ struct Fit {
     sq_residuals = (values - rows * solution).squaredNorm();
     variance = sq_residuals / (n - terms);
     inverse = (rows.transpose() * rows).fullPivHouseholderQr().inverse();
+    rows.conservativeResize(n, terms + 1);
+    for (int i = 0; i < n; ++i) {
+      const Vector3 x = s.position(lane, i);
+      rows(i, terms) = (1.0L - x.squaredNorm()) * fourthPower(x);
+    }
+    with_fourth_power = rows.colPivHouseholderQr().solve(values);
+  }
+
+  /** How far the fourth power of the distance from the centre moves a value. */
+  Real
+  bias(const Vector3& x) const
+  {
+    Real moved = with_fourth_power[terms] * fourthPower(x) - polynomial.value(x);
+    for (int i = 0; i < terms; ++i)
+      moved += with_fourth_power[i] * termAt(i, x);
+    return std::abs(moved);
   }
 
   /** Squared standard error of the value at a place. */
@@ -243,6 +266,7 @@ TEST(FitKernel, CubicsAreExactOffTheCentre)
       // What double precision leaves of the squares.
       EXPECT_LT(result.residual[lane], 1e-7);
       EXPECT_LT(result.error[lane], 1e-7);
+      EXPECT_LT(result.bias[lane], exact);
     }
   });
 }
@@ -283,6 +307,7 @@ TEST(FitKernel, LeastSquaresAreThoseOfAnotherFactorisation)
         EXPECT_NEAR(gradient[axis], result.gradient[axis][lane], 1e-9);
       }
       EXPECT_NEAR(error, result.error[lane], 1e-9 * error);
+      EXPECT_NEAR(fit.bias(root) / gradient.norm(), result.bias[lane], 1e-9);
       const Real slope_error =
           std::sqrt(fit.sqSlopeError(root, gradient.normalized())) / gradient.norm();
       EXPECT_NEAR(slope_error, result.slope_error[lane], 1e-9 * slope_error);
@@ -291,6 +316,60 @@ TEST(FitKernel, LeastSquaresAreThoseOfAnotherFactorisation)
     }
     EXPECT_GE(cubics, 3);
     EXPECT_LE(cubics, 6);
+  });
+}
+
+/** Without it errors of such fields are too small: the residuals are. */
+TEST(FitKernel, FourthPowersAreWhatCubicsMiss)
+{
+  Places places;
+  Samples s(60);
+  const Vector3 from(0.25L, -0.5L, 1.0L);
+  for (std::size_t lane = 0; lane < fit_lanes; ++lane)
+    for (std::size_t i = 0; i < s.samples.size(); ++i) {
+      const Vector3 x = places.next();
+      s.add(lane,
+            x,
+            x[0] + 0.125L * x[2] * x[2] + 0.0625L * fourthPower(x - from) - 0.125L);
+    }
+  uvol_test::forLevels(kernels, [&](FitKernel kernel) {
+    FitResult result;
+    kernel(s.samples.data(), s.samples.size(), s.weighted, result);
+    for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
+      SCOPED_TRACE(lane);
+      ASSERT_EQ(fit_cubic, result.order[lane]);
+      const Vector3 root(
+          result.offset[0][lane], result.offset[1][lane], result.offset[2][lane]);
+      const Vector3 gradient(
+          result.gradient[0][lane], result.gradient[1][lane], result.gradient[2][lane]);
+      const Real truth = root[0] + 0.125L * root[2] * root[2] +
+                         0.0625L * fourthPower(root - from) - 0.125L;
+      EXPECT_GT(std::abs(truth), 1e-5L);
+      EXPECT_NEAR(std::abs(truth) / gradient.norm(), result.bias[lane], 1e-7);
+    }
+  });
+}
+
+/** On two spheres about the centre the fourth power is a sum of a constant and the
+ * square of the distance, which quadratics have. */
+TEST(FitKernel, BiasIsZeroWhereSamplesDoNotTellIt)
+{
+  Places places;
+  Samples s(40);
+  for (std::size_t lane = 0; lane < fit_lanes; ++lane)
+    for (std::size_t i = 0; i < s.samples.size(); ++i) {
+      const Vector3 x = places.next().normalized() * (i % 2 == 0 ? 0.5L : 0.75L);
+      const Real noise = static_cast<Real>(i % 7) / 64;
+      s.add(lane, x, x[0] + 0.25L * x[1] * x[1] - 0.25L + noise);
+    }
+  uvol_test::forLevels(kernels, [&](FitKernel kernel) {
+    FitResult result;
+    kernel(s.samples.data(), s.samples.size(), s.weighted, result);
+    for (std::size_t lane = 0; lane < fit_lanes; ++lane) {
+      ASSERT_NE(fit_failed, result.order[lane]);
+      EXPECT_GT(result.error[lane], 0.0);
+      EXPECT_EQ(0.0, result.bias[lane]);
+    }
   });
 }
 
@@ -346,6 +425,7 @@ numbersOf(const FitResult& result)
     for (const auto& hessian : result.hessian)
       numbers.push_back(hessian[lane]);
     numbers.push_back(result.error[lane]);
+    numbers.push_back(result.bias[lane]);
     numbers.push_back(result.slope_error[lane]);
     numbers.push_back(result.residual[lane]);
     numbers.push_back(result.order[lane]);

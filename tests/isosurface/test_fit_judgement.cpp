@@ -72,23 +72,28 @@ TEST(FitJudgement, ResidualsAreAStepWhereTheEdgeSpansMostOfTheValues)
 /** The room is half a radius, or the length of an edge that is longer. */
 TEST(FitJudgement, RootsStayInTheSurroundingsOfTheirEdge)
 {
-  const auto outcomeOf = [](double edge_length, double shift, double error) {
-    Surroundings surroundings = makeSurroundings();
-    surroundings.edge_length = edge_length;
-    FitResult fit = makeFit();
-    fit.offset[0][0] = 0.6 * shift / surroundings.radius;
-    fit.offset[1][0] = 0.8 * shift / surroundings.radius;
-    fit.error[0] = error / surroundings.radius;
-    return judge(fit, 0, surroundings);
-  };
+  const auto outcomeOf =
+      [](double edge_length, double shift, double error, double bias = 0.0) {
+        Surroundings surroundings = makeSurroundings();
+        surroundings.edge_length = edge_length;
+        FitResult fit = makeFit();
+        fit.offset[0][0] = 0.6 * shift / surroundings.radius;
+        fit.offset[1][0] = 0.8 * shift / surroundings.radius;
+        fit.error[0] = error / surroundings.radius;
+        fit.bias[0] = bias / surroundings.radius;
+        return judge(fit, 0, surroundings);
+      };
   EXPECT_EQ(RootOutcome::Cubic, outcomeOf(0.1, 0.99, 0.0));
   EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 1.01, 0.0));
   EXPECT_EQ(RootOutcome::Cubic, outcomeOf(1.5, 1.49, 0.0));
   EXPECT_EQ(RootOutcome::Far, outcomeOf(1.5, 1.51, 0.0));
-  // Four standard errors cover the deviations.
-  EXPECT_EQ(RootOutcome::Cubic, outcomeOf(0.1, 0.0, 0.249));
-  EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 0.0, 0.251));
+  // 3.5 standard errors cover the deviations, and twice the bias.
+  EXPECT_EQ(RootOutcome::Cubic, outcomeOf(0.1, 0.0, 0.285));
+  EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 0.0, 0.286));
   EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 0.0, std::nan("")));
+  EXPECT_EQ(RootOutcome::Cubic, outcomeOf(0.1, 0.0, 0.0, 0.499));
+  EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 0.0, 0.0, 0.501));
+  EXPECT_EQ(RootOutcome::Far, outcomeOf(0.1, 0.0, 0.2, 0.36)) << "hypot(0.7, 0.72)";
 }
 
 TEST(FitJudgement, JumpsKeepFitsInAMetricBesideTheirEdge)
@@ -101,7 +106,7 @@ TEST(FitJudgement, JumpsKeepFitsInAMetricBesideTheirEdge)
     fit.error[0] = error;
     return isFarFromJump(fit, 0, surroundings, 3.0);
   };
-  EXPECT_TRUE(isFar(0.61, 1.51, 0.01));
+  EXPECT_TRUE(isFar(0.61, 1.51, 0.0091));
   EXPECT_FALSE(isFar(0.59, 1.51, 0.01));
   EXPECT_FALSE(isFar(0.61, 1.49, 0.01));
   EXPECT_FALSE(isFar(0.61, 1.51, 0.0089));
@@ -218,6 +223,7 @@ TEST(FitJudgement, MetricsAreLeftAsCoordinatesAre)
   for (std::size_t i = 0; i < 6; ++i)
     fit.hessian[i][0] = hessian(row[i], column[i]);
   fit.error[0] = 0.25;
+  fit.bias[0] = 0.5;
   leaveMetric(metric, 0, fit);
   const Eigen::Vector3d back = metric.inverse() * offset,
                         slope = metric.transpose() * gradient;
@@ -229,6 +235,7 @@ TEST(FitJudgement, MetricsAreLeftAsCoordinatesAre)
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(curvature(row[i], column[i]), fit.hessian[i][0], 1e-14);
   EXPECT_DOUBLE_EQ(0.25 * gradient.norm() / slope.norm(), fit.error[0]);
+  EXPECT_DOUBLE_EQ(0.5 * gradient.norm() / slope.norm(), fit.bias[0]);
 }
 
 TEST(FitJudgement, IsopointsInGapsAreSureOfTheirEdgeOnly)

@@ -139,7 +139,7 @@ TEST(LeftOutLines, AreThoseOfCloudsThatNeverHadThem)
           (rootOf(moved, 0) - rootOf(result, lane)).dot(normalOf(result, lane)), 2);
     }
     ASSERT_LT(1e-3, std::sqrt(squares));
-    EXPECT_NEAR(0.125 * std::sqrt(squares),
+    EXPECT_NEAR(1.0 / 7.0 * std::sqrt(squares),
                 LeftOutLines(kernels.get())
                     .measureError(samples, lane, {along, spacing}, result),
                 1e-7);
@@ -166,7 +166,7 @@ TEST(LeftOutLines, WithoutWhichNoFitIsLeftMayBeAnywhere)
   const auto samples = makeSamples(lines, none, wave, 0, weighted);
   FitResult result{};
   result.gradient[1][0] = 1.0;
-  EXPECT_DOUBLE_EQ(0.125 * std::sqrt(3.0),
+  EXPECT_DOUBLE_EQ(1.0 / 7.0 * std::sqrt(3.0),
                    LeftOutLines(kernels.get())
                        .measureError(samples, 0, {Vector3d::UnitX(), spacing}, result));
 }

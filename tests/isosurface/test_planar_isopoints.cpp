@@ -138,6 +138,25 @@ TEST(PlanarIsopoints, DoNotFollowNoiseAcrossThePlane)
   }
 }
 
+/** Cubics of the plane miss the fourth power of the distance, by their bias. */
+TEST(PlanarIsopoints, ErrorsCoverFieldsThatGrowAlikeInAllDirections)
+{
+  const Sheet sheet(41, tilted(), 0.4, 0.0);
+  const Roots curve(
+      sheet.sample([](const Vector2d& x) { return x.squaredNorm() * x.squaredNorm(); }),
+      1.0f);
+  std::size_t biased = 0;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const double deviation =
+        std::abs(sheet.inPlane(positionOf(curve.points[i])).norm() - 1.0);
+    if (curve.fits[i].outcome != RootOutcome::Cubic || deviation < 2e-6)
+      continue;
+    ++biased;
+    EXPECT_GE(curve.points[i].error, 1.8 * deviation);
+  }
+  EXPECT_GT(4 * biased, curve.points.size());
+}
+
 double
 largestDeviation(int along, const PlaneFunction& function, double radius)
 {
