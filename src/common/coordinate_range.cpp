@@ -2,6 +2,7 @@
 // Where float holds no coordinate well enough, an origin is chosen amid them.
 #include "common/coordinate_range.h"
 
+#include "common/median.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -47,9 +48,7 @@ medianNearest(const std::vector<CoordinateRange::Point>& points, std::size_t cou
       nearest[i] = std::min(nearest[i], sq_dist);
       nearest[j] = std::min(nearest[j], sq_dist);
     }
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return std::sqrt(*middle);
+  return std::sqrt(computeMedian(nearest));
 }
 
 /** Estimates the spacing of all points, by how distances grow in random parts of them.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "isosurface/spike_test.h"
 
+#include "common/median.h"
 #include "common/parallel.h"
 
 #include <algorithm>
@@ -21,14 +22,6 @@ constexpr SpikeBounds bounds{20.0f, SpikeTest::most_alike};
 constexpr std::size_t least_neighbors = 6;
 
 } // namespace
-
-float
-computeMedian(std::vector<float>& values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 float
 settleValue(float own, std::vector<float>& others, const SpikeBounds& limits)

@@ -18,11 +18,6 @@ struct SpikeBounds {
   std::size_t companions; ///< of the neighbours, nearer to it than to the median
 };
 
-/** \brief The upper one of two in the middle.
- * \param values at least one; their order changes */
-PCL_UVOL_EXPORTS float
-computeMedian(std::vector<float>& values);
-
 /** \brief The median of the neighbours where a value is a spike among them, else the
  * value.
  * \param others values of the neighbours; changed */

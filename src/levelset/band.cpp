@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/band.h"
 
+#include "common/median.h"
 #include "common/parallel.h"
 #include "neighbors/nearest_finder.h"
 
@@ -198,9 +199,7 @@ medianSpacing(const SampleSet& samples,
       spacings[i] = spacingOf(std::sqrt(sq_reach), static_cast<double>(neighbors));
     }
   });
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return computeMedian(spacings);
 }
 
 Band

@@ -27,6 +27,10 @@ struct LevelSetConstants {
    * Gaussian noise makes one in 10,000. */
   double told_outliers = 0.001;
 
+  /** Samples that tell whether logarithms lie nearer to quadratics, at most: the median
+   * over so many is known to 4 %. */
+  std::size_t scale_fits = 512;
+
   // The data as a distance (data_term.cpp)
 
   /** Slopes count as no smaller than that part of their median at the surface: flat

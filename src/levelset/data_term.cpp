@@ -2,13 +2,12 @@
 #include "levelset/data_term.h"
 
 #include "common/dispatch.h"
+#include "common/median.h"
 #include "common/parallel.h"
 #include "levelset/constants.h"
 #include "levelset/evolution_kernel.h"
-#include "levelset/quadratic_terms.h"
+#include "levelset/quadratic_residuals.h"
 #include "neighbors/nearest_finder.h"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -24,15 +23,6 @@ constexpr std::size_t block_groups = 64, block_fits = 64;
 
 const KernelTable<const EvolutionKernels*> kernel_table{
     &baseline::evolution_kernels, &avx2::evolution_kernels, &avx512::evolution_kernels};
-
-template <typename T>
-T
-computeMedian(std::vector<T> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /** Call body(first, last) for blocks of a band's groups, in parallel. */
 template <typename Body>
@@ -250,7 +240,7 @@ findNoiseOfPairs(const Band& band,
   std::vector<double> differences;
   for (auto pair = pairs.begin(); pair <= middle; ++pair)
     differences.push_back(pair->difference);
-  return computeMedian(std::move(differences)) / (median_size * of_two);
+  return computeMedian(differences) / (median_size * of_two);
 }
 
 /** Standard deviation of a field about quadratics, per slope; the median over some of
@@ -269,27 +259,13 @@ findNoiseOfFits(const Band& band,
     NearestFinder finder(samples, level_set.noise_samples);
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t center = centers[i * centers.size() / count];
-      const Position& x = samples.getPositions()[band.centers[center]];
-      const auto row = finder.find(x, band.stencils.getReach()[center]);
-      const auto terms = static_cast<Eigen::Index>(quadratic_terms);
-      if (static_cast<Eigen::Index>(row.size) <= terms)
-        continue;
-      Eigen::MatrixXd a(static_cast<Eigen::Index>(row.size), terms);
-      Eigen::VectorXd b(static_cast<Eigen::Index>(row.size));
-      const double reach = band.stencils.getReach()[center];
-      for (std::size_t j = 0; j < row.size; ++j) {
-        const Position& y = samples.getPositions()[row.samples[j]];
-        const auto r = static_cast<Eigen::Index>(j);
-        a.row(r) = quadraticTerms(x, y, reach);
-        b[r] = f[row.samples[j]];
-      }
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(a);
-      const double sq_residual = (b - a * factor.solve(b)).squaredNorm();
-      const auto freedom = static_cast<double>(a.rows() - factor.rank());
-      noises[i] = std::sqrt(sq_residual / freedom) / slopes[center];
+      const float reach = band.stencils.getReach()[center];
+      const std::uint32_t sample = band.centers[center];
+      const auto row = finder.find(samples.getPositions()[sample], reach);
+      noises[i] = measureResidual(samples, sample, row, reach, f) / slopes[center];
     }
   });
-  return computeMedian(std::move(noises));
+  return computeMedian(noises);
 }
 
 /** How steep a function is. */
@@ -310,7 +286,7 @@ findSurfaceSlopes(const Band& band, const std::vector<float>& values, unsigned t
   known.reserve(slopes.surface.size());
   for (const std::uint32_t center : slopes.surface)
     known.push_back(slopes.own[center]);
-  slopes.median = computeMedian(std::move(known));
+  slopes.median = computeMedian(known);
   extendSlopes(band, slopes.own);
   for (float& slope : slopes.own)
     slope = std::max(slope, level_set.least_slope * slopes.median);

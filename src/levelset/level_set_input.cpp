@@ -5,6 +5,7 @@
 #include "levelset/band.h"
 #include "levelset/constants.h"
 #include "levelset/robust_values.h"
+#include "levelset/value_scale.h"
 #include "neighbors/sample_values.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/levelset/level_set_evolution.h>
@@ -150,8 +151,18 @@ readInput(const CloudView& cloud,
   const double threshold = frame.apply(parameters.isovalue);
   if (!(*low < threshold && threshold <= *high))
     refuseIsovalue(parameters, frame, *low, *high);
+  std::vector<float> logarithms;
+  if (parameters.isovalue != 0.0)
+    logarithms = takeLogarithms(input.f, frame, parameters.isovalue);
   for (float& value : input.f)
     value = static_cast<float>(static_cast<double>(value) - threshold);
+  if (!logarithms.empty() &&
+      areLogarithmsSmoother(*input.samples,
+                            findCrossing(*input.samples, input.f, threads),
+                            input.f,
+                            logarithms,
+                            threads))
+    input.f = std::move(logarithms);
   TamedValues tamed =
       tameValues(*input.samples, input.f, parameters.k, threads, report);
   input.crossing = std::move(tamed.crossing);

@@ -17,7 +17,8 @@ namespace pcl_uvol {
 /** \brief The samples of a cloud and their values. */
 struct LevelSetInput {
   SampleSet::ConstPtr samples;
-  std::vector<float> f; ///< minus the isovalue, by sample, see tameValues()
+  std::vector<float> f; ///< minus the isovalue or in logarithms, by sample, see
+                        ///< areLogarithmsSmoother() and tameValues()
   std::vector<std::uint32_t> sources;  ///< by sample, the points that they are of
   std::vector<std::uint32_t> crossing; ///< samples next to the zero level of f
   bool had_spikes;                     ///< see TamedValues

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/number_range.h"
+#include "common/numbers.h"
 #include "levelset/band.h"
 #include "levelset/constants.h"
 #include "levelset/data_term.h"
@@ -495,13 +496,13 @@ private:
       return;
     std::ostringstream text;
     text.precision(2);
-    text
-        << "Smoothing has taken features away: " << lost
-        << " samples that lie farther from the isovalue "
-        << describeNumbers({parameters_.isovalue})[0]
-        << " than noise explains are on the other side of the surface now. A larger mu "
-           "than "
-        << summary_.mu << " keeps more of them.";
+    text << "Smoothing has taken features away: "
+         << describeCount(lost, "sample that lies", "samples that lie")
+         << " farther from the isovalue " << describeNumbers({parameters_.isovalue})[0]
+         << " than noise explains " << (lost == 1 ? "is" : "are")
+         << " on the other side of the surface now. A larger mu "
+            "than "
+         << summary_.mu << " keeps more of them.";
     report_.warnings.push_back(text.str());
   }
 
@@ -511,8 +512,9 @@ private:
     std::ostringstream text;
     text.precision(2);
     text << "The level set at " << describeNumbers({parameters_.isovalue})[0]
-         << " has not converged after " << summary_.steps.size()
-         << " steps: it still moves by " << summary_.steps.back().change
+         << " has not converged after "
+         << describeCount(summary_.steps.size(), "step", "steps")
+         << ": it still moves by " << summary_.steps.back().change
          << " spacings per unit of time.";
     if (!isLastStage())
       text << " It ended at mu " << summary_.mu << ", where " << stages_.back().mu

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "levelset/robust_values.h"
 
+#include "common/median.h"
 #include "common/parallel.h"
 #include "isosurface/spike_test.h"
 #include "levelset/constants.h"
@@ -68,11 +69,11 @@ warnOfSpikes(std::size_t spikes, std::size_t crossing, Report& report)
 {
   std::ostringstream text;
   text.precision(2);
-  text << spikes << " samples ("
-       << 100.0 * static_cast<double>(spikes) / static_cast<double>(crossing)
-       << " % of those next to the surface) have values unlike those of all their "
-          "neighbours: the level set takes them for outliers and counts the median of "
-          "the neighbours instead.";
+  text
+      << 100.0 * static_cast<double>(spikes) / static_cast<double>(crossing)
+      << " % of the samples next to the surface (" << spikes
+      << ") have values unlike those of all their neighbours: the level set takes them "
+         "for outliers and counts the median of the neighbours instead.";
   report.warnings.push_back(text.str());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/edge_errors.h"
 
+#include "common/median.h"
 #include "isosurface/fit_judgement.h"
 
 #include <Eigen/Eigenvalues>
@@ -109,9 +110,7 @@ EdgeErrorFinder::valuesJump(const std::vector<std::uint32_t>& around) const
     lowest = std::min({lowest, first, second});
     highest = std::max({highest, first, second});
   }
-  const auto middle = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
-  std::nth_element(spans.begin(), middle, spans.end());
-  return !(*middle <= jump_span * (highest - lowest));
+  return !(computeMedian(spans) <= jump_span * (highest - lowest));
 }
 
 float

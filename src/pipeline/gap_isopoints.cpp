@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isopoints between samples some of which kriging has predicted.
+#include "common/median.h"
 #include "common/scalar_field.h"
 #include "isosurface/iso_edges.h"
 #include "pipeline/gap_filling.h"
@@ -100,15 +101,13 @@ warnOfDoubt(const pcl::PointCloud<PointIso>& isopoints,
     report.warnings.push_back(tellWhyNone(found));
   if (of_predicted.empty())
     return;
-  const auto middle =
-      of_predicted.begin() + static_cast<std::ptrdiff_t>(of_predicted.size() / 2);
-  std::nth_element(of_predicted.begin(), middle, of_predicted.end());
-  if (*middle >= least_confidence)
+  const float median = computeMedian(of_predicted);
+  if (median >= least_confidence)
     return;
   report.warnings.push_back(
       "Between the samples the surface is a guess: at half of the isopoints there, "
       "kriging explains no more than " +
-      std::to_string(static_cast<int>(100.0f * *middle)) +
+      std::to_string(static_cast<int>(100.0f * median)) +
       " % of the variance (field confidence). A hold-out test tells how good it is "
       "(-validate).");
 }

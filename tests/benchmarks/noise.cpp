@@ -133,7 +133,11 @@ struct Deviation {
   double milliseconds = 0.0;
 };
 
-using Clouds = std::vector<NoisyCloud>;
+/** Clouds with the same shape. */
+struct Clouds {
+  std::vector<NoisyCloud> clouds;
+  double isovalue = 0.0; ///< of the intensity, where the shape is
+};
 
 /** \param surface_of a cloud; tells the rest of the deviation as well */
 template <typename SurfaceOf>
@@ -142,7 +146,7 @@ averageOf(const Clouds& clouds, const SurfaceOf& surface_of)
 {
   Deviation all;
   double squares = 0.0, whole_squares = 0.0;
-  for (const NoisyCloud& noisy : clouds) {
+  for (const NoisyCloud& noisy : clouds.clouds) {
     const Surface surface = surface_of(noisy, all);
     const auto quality = uvol_test::measure(noisy, surface);
     squares += surface.empty() ? std::numeric_limits<double>::infinity()
@@ -150,7 +154,7 @@ averageOf(const Clouds& clouds, const SurfaceOf& surface_of)
     whole_squares += quality.whole_rms * quality.whole_rms;
     all.points += surface.size();
   }
-  const auto count = static_cast<double>(clouds.size());
+  const auto count = static_cast<double>(clouds.clouds.size());
   all.rms = std::sqrt(squares / count);
   all.whole_rms = std::sqrt(whole_squares / count);
   return all;
@@ -174,7 +178,7 @@ smooth(const Clouds& clouds,
     }
     pcl_uvol::LevelSetEvolution<pcl::PointXYZI> evolution;
     evolution.setInputCloud(given);
-    evolution.setIsoValue(0.0);
+    evolution.setIsoValue(value * clouds.isovalue);
     if (mu)
       evolution.setMu(*mu);
     std::vector<float> phi;
@@ -182,21 +186,24 @@ smooth(const Clouds& clouds,
     for (std::size_t i = 0; i < phi.size(); ++i)
       (*level)[i].intensity = static_cast<float>(phi[i] / length);
     const auto& summary = evolution.getSummary();
-    told.mu += summary.mu / static_cast<double>(clouds.size());
+    told.mu += summary.mu / static_cast<double>(clouds.clouds.size());
     told.steps += summary.steps.size();
     for (const auto& [step, spent] : evolution.getReport().milliseconds)
       told.milliseconds += spent;
     // As the pipeline does: what is not smoothed is extracted from the field itself.
-    return uvol_test::isopoints(summary.smoothed ? level : noisy.cloud,
-                                pcl_uvol::Interpolation::Fit);
+    return summary.smoothed ? uvol_test::isopoints(level, pcl_uvol::Interpolation::Fit)
+                            : uvol_test::isopoints(noisy.cloud,
+                                                   pcl_uvol::Interpolation::Fit,
+                                                   clouds.isovalue);
   });
 }
 
 void
 printComparison(const std::string& name, const Clouds& clouds)
 {
-  const Deviation direct = averageOf(clouds, [](const NoisyCloud& noisy, Deviation&) {
-    return uvol_test::isopoints(noisy.cloud, pcl_uvol::Interpolation::Fit);
+  const Deviation direct = averageOf(clouds, [&](const NoisyCloud& noisy, Deviation&) {
+    return uvol_test::isopoints(
+        noisy.cloud, pcl_uvol::Interpolation::Fit, clouds.isovalue);
   });
   const Deviation automatic = smooth(clouds, std::nullopt);
   Deviation best;
@@ -220,8 +227,8 @@ printComparison(const std::string& name, const Clouds& clouds)
       best.mu,
       automatic.rms / best.rms,
       automatic.rms / direct.rms,
-      automatic.steps / clouds.size(),
-      automatic.milliseconds / static_cast<double>(clouds.size()),
+      automatic.steps / clouds.clouds.size(),
+      automatic.milliseconds / static_cast<double>(clouds.clouds.size()),
       direct.points,
       automatic.points,
       automatic.whole_rms,
@@ -235,7 +242,7 @@ draw(const char* shape, double size, double noise, std::uint64_t first_seed = 1)
   constexpr std::uint64_t seeds = 2;
   Clouds clouds;
   for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed)
-    clouds.push_back(
+    clouds.clouds.push_back(
         uvol_test::makeNoisyCloud(uvol_test::makeSmallShape(shape, size), noise, seed));
   return clouds;
 }
@@ -270,7 +277,7 @@ printTable(const std::string& word, std::uint64_t first_seed)
     }
   for (const double spike : {1e3, 1e10}) {
     Clouds clouds = draw("sphere", 8.0, 0.1, first_seed);
-    for (const NoisyCloud& noisy : clouds)
+    for (const NoisyCloud& noisy : clouds.clouds)
       for (std::size_t i = 0; i < noisy.cloud->size(); i += 100)
         (*noisy.cloud)[i].intensity = static_cast<float>(spike);
     char name[80];
@@ -278,6 +285,27 @@ printTable(const std::string& word, std::uint64_t first_seed)
     if (std::string(name).find(word) != std::string::npos)
       printComparison(name, clouds);
   }
+}
+
+/** Values that grow by a factor from spacing to spacing: noise of the distance is a
+ * share of them. */
+void
+printGrowth(const std::string& word, std::uint64_t first_seed)
+{
+  for (const double factor : {2.0, 3.0})
+    for (const double noise : {0.0, 0.1, 0.3}) {
+      char name[80];
+      std::snprintf(
+          name, sizeof name, "sphere 8, growth %g, noise %.1f", factor, noise);
+      if (std::string(name).find(word) == std::string::npos)
+        continue;
+      Clouds clouds = draw("sphere", 8.0, noise, first_seed);
+      for (const NoisyCloud& noisy : clouds.clouds)
+        for (auto& point : *noisy.cloud)
+          point.intensity = std::pow(static_cast<float>(factor), point.intensity);
+      clouds.isovalue = 1.0;
+      printComparison(name, clouds);
+    }
 }
 
 /** One row per pair of units. */
@@ -310,8 +338,10 @@ main(int argc, char** argv)
   using pcl_uvol::FitScheme;
   using pcl_uvol::Interpolation;
   if (argc >= 2 && std::string(argv[1]) == "table") {
-    printTable(argc > 2 ? argv[2] : "",
-               argc > 3 ? static_cast<std::uint64_t>(std::atoi(argv[3])) : 1);
+    const std::string word = argc > 2 ? argv[2] : "";
+    const auto seed = static_cast<std::uint64_t>(argc > 3 ? std::atoi(argv[3]) : 1);
+    printTable(word, seed);
+    printGrowth(word, seed);
     return 0;
   }
   if (argc == 2 && std::string(argv[1]) == "units") {

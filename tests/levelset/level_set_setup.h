@@ -44,10 +44,10 @@ withValues(const LevelSetCloud& cloud, const std::vector<float>& values)
 }
 
 inline std::vector<float>
-evolve(Evolution& evolution, const LevelSetCloud::Ptr& cloud)
+evolve(Evolution& evolution, const LevelSetCloud::Ptr& cloud, double isovalue = 0.0)
 {
   evolution.setInputCloud(cloud);
-  evolution.setIsoValue(0.0);
+  evolution.setIsoValue(isovalue);
   std::vector<float> phi;
   evolution.evolve(phi);
   return phi;

@@ -173,6 +173,44 @@ TEST(LevelSetRobust, CleanAndThinDataAreLeftAsTheyAre)
   }
 }
 
+/** A ball of radius 8 whose values grow by a factor from spacing to spacing; the
+ * surface is that of the isovalue 1. \param noise of the distance, and so a share of
+ * the values */
+NoisyCloud
+makeGrowth(float factor, double noise)
+{
+  NoisyCloud noisy = makeNoisyCloud(makeSmallShape("sphere", 8.0), noise, 3);
+  for (auto& point : *noisy.cloud)
+    point.intensity = std::pow(factor, point.intensity);
+  return noisy;
+}
+
+/** What quadratics do not follow is no noise: such fields got worse by up to 2.3. */
+TEST(LevelSetRobust, CleanGrowthIsLeftAsItIs)
+{
+  for (const float factor : {1.5f, 2.0f, 3.0f}) {
+    Evolution evolution;
+    evolve(evolution, makeGrowth(factor, 0.0).cloud, 1.0);
+    EXPECT_FALSE(evolution.getSummary().smoothed) << factor;
+    EXPECT_LT(evolution.getSummary().noise, 0.005) << factor;
+  }
+}
+
+/** Noise that is a share of the values goes as if these grew along a line. */
+TEST(LevelSetRobust, NoisyGrowthIsSmoothedAsDistancesAre)
+{
+  const auto measureOf = [](const NoisyCloud& noisy, double isovalue) {
+    Evolution evolution;
+    const auto phi = evolve(evolution, noisy.cloud, isovalue);
+    EXPECT_NEAR(0.1, evolution.getSummary().noise, 0.02);
+    return deviationOf(noisy, phi);
+  };
+  const double of_distance =
+      measureOf(makeNoisyCloud(makeSmallShape("sphere", 8.0), 0.1, 3), 0.0);
+  EXPECT_LT(measureOf(makeGrowth(2.0f, 0.1), 1.0), 1.1 * of_distance);
+  EXPECT_LT(measureOf(makeGrowth(3.0f, 0.1), 1.0), 1.6 * of_distance);
+}
+
 TEST(LevelSetRobust, AutomaticWeightIsNearlyTheBestOnSmallShapes)
 {
   for (const auto& [name, size] : {std::pair("sphere", 3.0), std::pair("waves", 9.0)}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values as a level set takes them: near 1 at the surface whatever their unit, limited,
 // and without spikes.
-#include "src/common/random.h"
+#include "cube_samples.h"
 #include "src/levelset/constants.h"
 #include "src/levelset/robust_values.h"
 
@@ -9,33 +9,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace {
 
 using namespace pcl_uvol;
 
-/** Random samples of the unit cube, and their heights over its middle. */
-struct Heights {
-  SampleSet::ConstPtr samples;
-  std::vector<float> f;
+struct Heights : uvol_test::CubeSamples {
+  std::vector<float>& f = heights;
 
-  explicit Heights(std::size_t count)
-  {
-    std::vector<Position> places(count);
-    for (std::size_t i = 0; i < count; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        places[i][axis] =
-            static_cast<float>(uniformAt(3, i, static_cast<std::uint64_t>(axis)));
-    std::vector<std::uint32_t> all(count);
-    std::iota(all.begin(), all.end(), 0u);
-    Report report;
-    samples =
-        SampleSet::build(places[0].x, 3, all, Position{{1.0f, 1.0f, 1.0f}}, 1, report);
-    const float factor = samples->getUnit().factor;
-    for (const Position& place : samples->getPositions())
-      f.push_back(place[2] / factor - 0.5f);
-  }
+  using CubeSamples::CubeSamples;
 
   TamedValues
   tame(Report& report)

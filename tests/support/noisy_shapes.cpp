@@ -175,11 +175,12 @@ makeNoisyCloud(const std::string& name,
 
 pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
-          pcl_uvol::Interpolation interpolation)
+          pcl_uvol::Interpolation interpolation,
+          double isovalue)
 {
   pcl_uvol::IsosurfaceExtraction<pcl::PointXYZI> extraction;
   extraction.setInputCloud(cloud);
-  extraction.setIsoValue(0.0);
+  extraction.setIsoValue(isovalue);
   extraction.setInterpolation(interpolation);
   pcl::PointCloud<pcl_uvol::PointIso> surface;
   extraction.extract(surface);

@@ -60,7 +60,8 @@ makeNoisyCloud(const std::string& shape,
 /** \brief The zero level of the intensity. */
 pcl::PointCloud<pcl_uvol::PointIso>
 isopoints(const pcl::PointCloud<pcl::PointXYZI>::ConstPtr& cloud,
-          pcl_uvol::Interpolation interpolation);
+          pcl_uvol::Interpolation interpolation,
+          double isovalue = 0.0);
 
 /** \brief The deviation of isopoints from the true surface; those near the border of
  * the cube do not count. */
