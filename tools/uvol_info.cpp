@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What files of samples and volumes hold, before work is done with them.
 #include "common/number_range.h"
+#include "common/numbers.h"
 #include "common/printable.h"
 #include "common/records.h"
 #include "common/scalar_field.h"
@@ -207,7 +208,7 @@ addNames(const pcl_uvol::Dataset& dataset, Facts& facts)
   for (const auto& [field, all] : dataset.labels) {
     const std::vector<std::string> names = listNames(dataset, field, all);
     const bool is_cut = names.size() > most_shown;
-    std::string text = std::to_string(names.size()) + " names";
+    std::string text = pcl_uvol::describeCount(names.size(), "name", "names");
     for (std::size_t i = 0; i < (is_cut ? most_shown - 1 : names.size()); ++i)
       text += (i > 0 ? ", " : ": ") + pcl_uvol::shortenText(names[i]);
     if (is_cut)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/merged_positions.h"
 
+#include "common/numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -152,7 +154,7 @@ describe(const MergedPositions& merged)
     return "";
   std::ostringstream text;
   text.precision(2);
-  text << merged.count << (merged.count == 1 ? " position falls" : " positions fall")
+  text << describeCount(merged.count, "position falls", "positions fall")
        << " together with others once coordinates are rounded to float, though up to "
        << merged.distance
        << " apart: such points count as duplicates. Parts of the cloud in files of "

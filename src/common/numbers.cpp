@@ -172,6 +172,12 @@ floatHoldsDigits(std::string_view text, double value)
   return shortest == value;
 }
 
+std::string
+describeCount(std::uint64_t count, const std::string& one, const std::string& several)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
 std::string_view
 trimmed(std::string_view text)
 {

@@ -33,6 +33,10 @@ appendNumber(std::string& text, std::uint8_t datatype, const std::uint8_t* bytes
 PCL_UVOL_EXPORTS bool
 floatHoldsDigits(std::string_view text, double value);
 
+/** \brief A number and the words for it, which are those for one or for several. */
+PCL_UVOL_EXPORTS std::string
+describeCount(std::uint64_t count, const std::string& one, const std::string& several);
+
 PCL_UVOL_EXPORTS std::string_view
 trimmed(std::string_view text);
 

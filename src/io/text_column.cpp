@@ -2,12 +2,14 @@
 #include "io/text_column.h"
 
 #include "common/numbers.h"
+#include "io/ply_types.h"
 
 #include <pcl/PCLPointField.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace pcl_uvol {
 namespace io {
@@ -93,6 +95,24 @@ findLabel(std::string_view cell, const std::vector<std::string>& names)
   const auto name =
       std::lower_bound(names.begin(), names.end(), withoutDoubledQuotes(cell));
   return static_cast<double>(name - names.begin());
+}
+
+void
+nameNormals(const std::vector<TextColumn>& columns, Fields& fields)
+{
+  constexpr const char* names[][3] = {{ply_normals[0], ply_normals[1], ply_normals[2]},
+                                      {"Nx", "Ny", "Nz"}};
+  for (const auto& normal : names) {
+    const bool are_units =
+        std::all_of(columns.begin(), columns.end(), [&](const TextColumn& column) {
+          const bool is_part =
+              std::find(std::begin(normal), std::end(normal), column.name) !=
+              std::end(normal);
+          return !is_part || (column.low >= -1.0 && column.high <= 1.0);
+        });
+    if (are_units)
+      renameFields(fields, normal, cloud_normals);
+  }
 }
 
 void

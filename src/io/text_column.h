@@ -2,6 +2,8 @@
 // A column of a table as text: what its cells hold, and the type that keeps them.
 #pragma once
 
+#include "common/records.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -68,6 +70,13 @@ withoutDoubledQuotes(std::string_view cell);
 /** \brief The number of the name in a cell among all names of its column. */
 double
 findLabel(std::string_view cell, const std::vector<std::string>& names);
+
+/** \brief Call the normal of PLY files (nx) and of CloudCompare (Nx) by the names that
+ * clouds have for it, if all three columns may be parts of unit vectors: numbers of
+ * cells along the axes are not.
+ * \param fields one per column, in the same order */
+void
+nameNormals(const std::vector<TextColumn>& columns, Fields& fields);
 
 /** \brief Write a number as INT32, FLOAT32 or FLOAT64. */
 void

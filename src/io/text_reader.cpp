@@ -411,6 +411,7 @@ TextTable::describe()
     taken.push_back(std::move(column));
   }
   columns_ = std::move(taken);
+  nameNormals(columns_, info.fields);
   info.double_coordinates =
       !(columns_[0].floats && columns_[1].floats && columns_[2].floats);
   info.has_coordinates = has_coordinates_;

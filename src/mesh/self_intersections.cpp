@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/self_intersections.h"
 
+#include "common/numbers.h"
 #include "common/parallel.h"
 #include "mesh/exact_signs.h"
 #include "mesh/measured_mesh.h"
@@ -190,8 +191,8 @@ describeIntersections(const CloudView& vertices,
   report.count("intersections", found.size());
   if (!found.empty()) {
     std::ostringstream text;
-    text << "The surface goes through itself: " << found.size()
-         << (found.size() == 1 ? " pair" : " pairs")
+    text << "The surface goes through itself: "
+         << describeCount(found.size(), "pair", "pairs")
          << " of triangles intersect, the first at " << found[0].place[0] << ","
          << found[0].place[1] << "," << found[0].place[2] << ".";
     report.warnings.push_back(text.str());

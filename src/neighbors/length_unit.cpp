@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "neighbors/length_unit.h"
 
+#include "common/numbers.h"
 #include <pcl_uvol/common/exceptions.h>
 
 #include <algorithm>
@@ -115,7 +116,7 @@ Strays::warn(Report& report) const
   if (count == 0)
     return;
   std::ostringstream text;
-  text << (count == 1 ? "1 point lies" : std::to_string(count) + " points lie")
+  text << describeCount(count, "point lies", "points lie")
        << " 1e12 times as far out as most others and " << (count == 1 ? "is" : "are")
        << " left out: " << (count == 1 ? "it is" : "the first is") << " point " << first
        << " at (" << position[0] << ", " << position[1] << ", " << position[2] << ").";

@@ -25,6 +25,12 @@ namespace {
  * between the lines: 92 and 94 %. */
 constexpr float known_part = 0.5f;
 
+bool
+isKnown(const PointIso& point)
+{
+  return point.error <= known_part * point.edge_length;
+}
+
 /** Share of the samples next to the surface that are spikes: of 1 % of all samples it
  * is 3 %. */
 constexpr double told_spikes = 0.001;
@@ -59,9 +65,12 @@ warnOfNoneLeft(std::uint64_t isopoints, Report& report)
   const std::string options = by_error == 0  ? "-drop-bridged"
                               : bridged == 0 ? "-max-error"
                                              : "-max-error and -drop-bridged";
-  report.warnings.push_back("The last " + std::to_string(by_error + bridged) +
-                            " isopoints were left out by " + options +
-                            ": the samples tell of no part of the surface that well.");
+  const std::uint64_t removed = by_error + bridged;
+  report.warnings.push_back(
+      (removed == 1
+           ? "The last isopoint was left out by "
+           : "The last " + std::to_string(removed) + " isopoints were left out by ") +
+      options + ": the samples tell of no part of the surface that well.");
 }
 
 } // namespace
@@ -103,9 +112,7 @@ dropIsopoints(pcl::PointCloud<PointIso>& isopoints,
     drop("removed_by_error",
          [&](const PointIso& point) { return point.error <= *parameters.max_error; });
   if (parameters.automatic_max_error)
-    drop("removed_by_error", [](const PointIso& point) {
-      return point.error <= known_part * point.edge_length;
-    });
+    drop("removed_by_error", isKnown);
   if (parameters.drop_bridged)
     drop("removed_bridged", [](const PointIso& point) {
       return point.support != static_cast<std::uint8_t>(IsoSupport::Bridged);
@@ -118,20 +125,32 @@ warnOfGuesses(const pcl::PointCloud<PointIso>& isopoints,
               const IsosurfacePipelineParameters& parameters,
               Report& report)
 {
-  std::size_t guesses = 0, known = 0, predicted = 0;
+  std::size_t known = 0, predicted = 0, open = 0, at_border = 0;
   for (std::size_t i = 0; i < isopoints.size(); ++i) {
     const auto support = static_cast<IsoSupport>(isopoints[i].support);
     known += support != IsoSupport::Unknown;
     predicted += support == IsoSupport::Predicted;
-    guesses += support == IsoSupport::Bridged || support == IsoSupport::Rim ||
-               choice.orientation[i] == IsoOrientation::Bisector;
+    const bool is_rim = support == IsoSupport::Rim;
+    if (is_rim && choice.method[i] == IsoMethod::Fit && isKnown(isopoints[i]))
+      ++at_border;
+    else
+      open += is_rim || support == IsoSupport::Bridged ||
+              choice.orientation[i] == IsoOrientation::Bisector;
   }
   if (predicted > 0)
     report.count("predicted", predicted);
+  const std::size_t guesses = open + at_border;
   if (2 * guesses <= known || known == 0)
     return;
+  const std::string percent = std::to_string(100 * guesses / known);
+  if (at_border > open) {
+    report.warnings.push_back(percent +
+                              " % of the isopoints lie at the border of the samples: "
+                              "the surface may go on beyond it.");
+    return;
+  }
   report.warnings.push_back(
-      std::to_string(100 * guesses / known) +
+      percent +
       " % of the isopoints lie between lines of samples or beside gaps: where the "
       "surface crosses a line is known, how it runs from there is a guess." +
       (parameters.validation.folds > 0

@@ -71,6 +71,21 @@ TEST(TextTables, TypesOfColumns)
   EXPECT_EQ(load("x,y,z,id\n1,2,3,9007199254740993\n").notes.size(), 1u);
 }
 
+/** As PLY and CloudCompare call them; numbers of cells are none. */
+TEST(TextTables, NormalsHaveOneName)
+{
+  const std::string normals =
+      ", normal_x (float32), normal_y (float32), normal_z (float32)";
+  EXPECT_EQ(xyz + normals, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,0.6,-0.8,0.\n"));
+  EXPECT_EQ(xyz + normals, fieldsOf("x,y,z,Nx,Ny,Nz\n1,2,3,0.6,-0.8,-1.0\n"));
+  const std::string cells = ", nx (int32), ny (int32), nz (int32)";
+  EXPECT_EQ(xyz + cells, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,1,0,2\n"));
+  EXPECT_EQ(xyz + cells, fieldsOf("x,y,z,nx,ny,nz\n1,2,3,1,0,-2\n"));
+  EXPECT_EQ(xyz + ", nx (int32), ny (int32)", fieldsOf("x,y,z,nx,ny\n1,2,3,0,1\n"));
+  EXPECT_EQ(xyz + ", nx (int32), normal_x (int32), ny (int32), nz (int32)",
+            fieldsOf("x,y,z,nx,normal_x,ny,nz\n1,2,3,0,1,0,1\n"));
+}
+
 TEST(TextTables, NamesAreLabels)
 {
   const auto dataset = load("x,y,z,name,a\n1,2,3,b2,1\n1,2,3,7,2\n1,2,3,,3\n"

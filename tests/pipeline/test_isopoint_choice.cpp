@@ -96,6 +96,37 @@ meanCosine(const pcl::PointCloud<PointIso>& points, const Eigen::Vector3f& direc
   return sum / static_cast<double>(points.size());
 }
 
+/** What is said of most of the isopoints. */
+std::string
+findGuesses(const std::shared_ptr<Dataset>& samples, double isovalue)
+{
+  IsosurfacePipelineParameters parameters = makeParameters(Interpolation::Auto);
+  parameters.isosurface.isovalues = {isovalue};
+  std::string found;
+  for (const std::string& warning :
+       uvol_test::runPipeline(samples, parameters).report.warnings)
+    if (warning.find(" % of the isopoints lie ") != std::string::npos)
+      found += warning;
+  return found;
+}
+
+/** A surface that only cuts corners off a cube of samples lies on good fits, beside
+ * which there is no line. */
+TEST(IsopointChoice, BordersOfSamplesAreNoGapsBetweenLines)
+{
+  const std::string corners = findGuesses(makeSphere(20000), 0.6 - 1.62);
+  EXPECT_NE(std::string::npos,
+            corners.find(
+                "lie at the border of the samples: the surface may go on beyond it."))
+      << corners;
+  const std::string lines = findGuesses(makeProfiles(20), 0.0);
+  EXPECT_NE(std::string::npos,
+            lines.find("lie between lines of samples or beside gaps"))
+      << lines;
+  EXPECT_EQ(std::string::npos, lines.find("border")) << lines;
+  EXPECT_EQ("", findGuesses(makeSphere(20000), 0.0));
+}
+
 TEST(IsopointChoice, LeavesDenseSurfacesOnTheirFits)
 {
   const auto samples = makeSphere(20000);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shared/level_set.h"
 
+#include "common/numbers.h"
+
 #include <sstream>
 
 namespace uvol_tools {
@@ -43,8 +45,8 @@ describe(const pcl_uvol::LevelSetSummary& summary,
       "level set" + of_isovalue,
       text(summary.converged ? "converged" : "not converged",
            " after ",
-           summary.steps.size(),
-           " steps, moves by ",
+           pcl_uvol::describeCount(summary.steps.size(), "step", "steps"),
+           ", moves by ",
            last.change,
            " spacings per unit of time, | |grad phi| - 1 | is ",
            last.slope_error),

@@ -2,6 +2,7 @@
 #include "shared/measure_table.h"
 
 #include "common/number_range.h"
+#include "common/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ describe(const Measure& measure)
 std::string
 plural(std::int64_t count, const std::string& thing)
 {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+  return pcl_uvol::describeCount(static_cast<std::uint64_t>(count), thing, thing + "s");
 }
 
 std::string

@@ -76,13 +76,22 @@ printRow(const std::string& name, const T& value, const char* unit, bool in_colo
   std::cout << unit << '\n';
 }
 
-/** A line of what was counted at all; bytes are for those who ask for everything. */
+/** Whether a count is for those who ask for everything: bytes, and by which fit or for
+ * which reason isopoints lie where they do. */
+bool
+isDetail(const std::string& count)
+{
+  return count.find("bytes") != std::string::npos ||
+         count.find("_roots") != std::string::npos || count.rfind("linear_", 0) == 0;
+}
+
+/** A line of what was counted at all. */
 void
 printCounts(const pcl_uvol::Report& report, bool in_colour)
 {
   const char* before = "";
   for (const auto& [name, value] : report.counts)
-    if (value > 0 && name.find("bytes") == std::string::npos) {
+    if (value > 0 && !isDetail(name)) {
       std::string words = name;
       std::replace(words.begin(), words.end(), '_', ' ');
       std::cout << before << words << ' ';

@@ -116,7 +116,7 @@ describeMesh(const pcl_uvol::IsosurfaceResult& result, bool is_measured)
       text << (isovalues.empty() ? "" : "; ") << piece.triangles << " triangles, genus "
            << piece.genus;
       if (piece.rims > 0)
-        text << ", " << piece.rims << (piece.rims == 1 ? " rim" : " rims");
+        text << ", " << pcl_uvol::describeCount(piece.rims, "rim", "rims");
     }
     isovalues.push_back(piece.isovalue);
     triangles.push_back(piece.triangles);
