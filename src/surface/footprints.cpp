@@ -111,8 +111,7 @@ public:
     if (neighbors_.empty())
       return {};
     const float around = std::sqrt(neighbors_.back().first);
-    const std::size_t company = std::min(least_company, neighbors_.size());
-    const float to_company = std::sqrt(neighbors_[company - 1].first);
+    const float to_company = distanceToCompany();
     sortEdges(point);
     Reach reach = reachAmong(point);
     if (reach.on_rim) {
@@ -166,18 +165,36 @@ private:
            lengths_[lengths_.size() * percentile / 100];
   }
 
+  /** Whether another point lies on one smooth surface with the point. */
+  bool
+  isAlong(std::uint32_t other) const
+  {
+    const Eigen::Vector3f offset = positionOf(other) - here_;
+    const float height = std::abs(offset.dot(normal_));
+    const float agreement = normal_.dot(normalOf(other));
+    return (two_sided_ ? std::abs(agreement) : agreement) >= least_agreement &&
+           height * height <= steepest * steepest * offset.squaredNorm();
+  }
+
+  /** How far the last of the neighbours is that a disc has to meet; infinitely, where
+   * there are fewer on its surface, as around specks beside one. */
+  float
+  distanceToCompany() const
+  {
+    std::size_t company = 0;
+    for (const auto& [sq_dist, neighbor] : neighbors_)
+      if (isAlong(neighbor) && ++company == least_company)
+        return std::sqrt(sq_dist);
+    return std::numeric_limits<float>::infinity();
+  }
+
   /** Whether the points around the cell that reachAmong() cut lie on one surface with
    * its point. */
   bool
   isMeasured() const
   {
-    return cell_.allNeighbors([&](std::uint32_t neighbor) {
-      const Eigen::Vector3f offset = positionOf(neighbor) - here_;
-      const float height = std::abs(offset.dot(normal_));
-      const float agreement = normal_.dot(normalOf(neighbor));
-      return (two_sided_ ? std::abs(agreement) : agreement) >= least_agreement &&
-             height * height <= steepest * steepest * offset.squaredNorm();
-    });
+    return cell_.allNeighbors(
+        [&](std::uint32_t neighbor) { return isAlong(neighbor); });
   }
 
   void

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every mode of rendering as a small picture that somebody has looked at. Written anew
-// with PCL_UVOL_WRITE_GOLDEN_IMAGES set in the environment: look at them again then.
-#include "support/png.h"
+// Every mode of rendering as a small picture that somebody has looked at: see
+// golden_image.h.
+#include "golden_image.h"
 #include "support/surfaces.h"
-#include <pcl_uvol/io/image_file.h>
 #include <pcl_uvol/render/image_space/image_space_renderer.h>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -18,8 +16,6 @@ namespace {
 using pcl_uvol::Image;
 using pcl_uvol::ImageSpaceSettings;
 using Renderer = pcl_uvol::ImageSpaceRenderer<pcl::PointNormal>;
-
-constexpr int width = 160, height = 120;
 
 struct Mode {
   const char* name;
@@ -88,21 +84,6 @@ const Mode modes[] = {
 
 class GoldenImage : public testing::TestWithParam<Mode> {};
 
-/** Pixels of which no channel is off by more than what another compiler's or another
- * library's last bit makes. */
-double
-partOfAlike(const Image& a, const Image& b)
-{
-  std::size_t alike = 0;
-  for (std::size_t i = 0; i < a.pixels(); ++i) {
-    bool is_alike = true;
-    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
-      is_alike &= std::abs(a.color[k] - b.color[k]) <= 2;
-    alike += is_alike ? 1 : 0;
-  }
-  return static_cast<double>(alike) / static_cast<double>(a.pixels());
-}
-
 TEST_P(GoldenImage, IsWhatItWas)
 {
   const auto cloud = uvol_test::makeTorusKnot(9000, 3);
@@ -110,19 +91,11 @@ TEST_P(GoldenImage, IsWhatItWas)
     point.curvature = point.z;
   Renderer renderer;
   renderer.setInputCloud(cloud);
-  renderer.setSize(width, height);
+  renderer.setSize(uvol_test::golden_width, uvol_test::golden_height);
   GetParam().apply(renderer);
   Image image;
   renderer.render(image);
-  const std::string path = std::string(PCL_UVOL_SOURCE_DIR "/tests/render/golden/") +
-                           GetParam().name + ".png";
-  if (std::getenv("PCL_UVOL_WRITE_GOLDEN_IMAGES") != nullptr)
-    pcl_uvol::savePng(path, image);
-  int channels = 0;
-  const Image golden = uvol_test::readPng(path, channels);
-  ASSERT_EQ(golden.width, image.width) << path;
-  ASSERT_EQ(golden.height, image.height) << path;
-  EXPECT_GE(partOfAlike(image, golden), 0.998) << path;
+  uvol_test::expectGolden(GetParam().name, image);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes,

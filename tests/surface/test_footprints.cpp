@@ -201,6 +201,38 @@ TEST(Footprints, OfAPointThatIsAloneAreNone)
   EXPECT_EQ(1, surface.footprints.on_rim[outlier]);
 }
 
+/** No surface goes through them. Where the plane of one meets the ball, next to points
+ * that look nearly as it does, its disc is no larger than two spacings. */
+TEST(Footprints, OfSpecksBesideASurfaceAreNone)
+{
+  const auto ball = uvol_test::makeSphere(6000, 1);
+  const float spacing = std::sqrt(4.0f * 3.14159265f / 6000.0f);
+  constexpr float oblique = 0.8f;
+  auto cloud = *ball;
+  std::vector<float> most;
+  for (const float height : {2.5f, 4.0f, 6.0f})
+    for (const float tilt : {0.0f, oblique, 1.5f, 3.1f}) {
+      pcl::PointNormal speck;
+      const auto place = static_cast<float>(most.size());
+      const Eigen::Vector3f up(std::cos(place), std::sin(place), 0.0f);
+      speck.getVector3fMap() = (1.0f + height * spacing) * up;
+      speck.getNormalVector3fMap() =
+          std::cos(tilt) * up + std::sin(tilt) * Eigen::Vector3f::UnitZ();
+      cloud.push_back(speck);
+      most.push_back(tilt == oblique ? 2.0f * spacing : 0.0f);
+    }
+  const Surface clean(*ball), surface(cloud);
+  const float largest =
+      *std::max_element(clean.footprints.radii.begin(), clean.footprints.radii.end());
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const std::size_t input = surface.points.samples->getInputIndex(i);
+    const bool is_speck = input >= ball->size();
+    EXPECT_LE(surface.footprints.radii[i],
+              is_speck ? most[input - ball->size()] : largest)
+        << input;
+  }
+}
+
 /** Isopoints on a sphere about a place. */
 void
 addIsopoints(const Eigen::Vector3f& center,
