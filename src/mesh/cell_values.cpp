@@ -160,10 +160,11 @@ CellValues::fit(const std::vector<Candidate>& candidates, StepTimer& step)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const std::uint32_t sample = candidates[i].sample;
     BandCell& cell = cells_[first + i];
-    // A fit that is too rough to place a root is still better than a rough sample.
-    cell.value = std::isnan(fits[i].value)
-                     ? static_cast<double>(input_.values[sample]) - isovalue_
-                     : static_cast<double>(fits[i].value);
+    // A fit that is too rough to place a root is still better than a rough sample, but
+    // where it is steeper than float holds.
+    cell.value = std::isfinite(fits[i].value)
+                     ? static_cast<double>(fits[i].value)
+                     : static_cast<double>(input_.values[sample]) - isovalue_;
     cell.has_foot = fits[i].outcome <= RootOutcome::Quadratic;
     if (cell.has_foot) {
       cell.foot = feet[i].getVector3fMap().cast<double>();
