@@ -178,8 +178,8 @@ def splats(points, fields=None, *, delta=1e-4, delta_is_length=False, overlap=0.
     points, fields
         As those of `Samples`, a surface, or samples; without normals they are estimated.
     delta : float
-        Largest distance of points to their splat, in parts of the longest side of their
-        box, or with `delta_is_length` a length.
+        Largest distance of points to their splat, in parts of the longest side of the box
+        of all but a few far ones, or with `delta_is_length` a length.
     delta_is_length : bool
     overlap : float
         The thesis's lambda: part of a splat's radius in which no other one starts, from 0

@@ -4,6 +4,7 @@
 #include "common/random.h"
 #include "surface/memory_need.h"
 #include "surface/splat_growth.h"
+#include "surface/usual_extent.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/surface/surface_normals.h>
 
@@ -35,31 +36,32 @@ constexpr double usual_splats = 0.9;
  * for the last time, and what one says is covered: mostly none or a few. */
 constexpr double grown_part = 0.2, passed_over_bytes = 32.0;
 
-struct Extent {
-  std::vector<std::uint32_t> finite; ///< indices of points
-  float side = 0.0f;                 ///< the longest one
-};
-
-Extent
-measureExtent(const CloudView& cloud)
+/** Indices of the finite points. */
+std::vector<std::uint32_t>
+findFinite(const CloudView& cloud)
 {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  Extent extent;
-  extent.finite.reserve(cloud.count);
-  Position low{{infinity, infinity, infinity}}, high{{-infinity, -infinity, -infinity}};
+  std::vector<std::uint32_t> finite;
+  finite.reserve(cloud.count);
   for (std::uint32_t i = 0; i < cloud.count; ++i) {
     const float* const xyz = cloud.xyz(i);
-    if (!std::all_of(xyz, xyz + 3, [](float x) { return std::isfinite(x); }))
-      continue;
-    extent.finite.push_back(i);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], xyz[axis]);
-      high[axis] = std::max(high[axis], xyz[axis]);
-    }
+    if (std::all_of(xyz, xyz + 3, [](float x) { return std::isfinite(x); }))
+      finite.push_back(i);
   }
-  for (int axis = 0; axis < 3; ++axis)
-    extent.side = std::max(extent.side, high[axis] - low[axis]);
-  return extent;
+  return finite;
+}
+
+/** The longest one. */
+double
+findUsualSide(const CloudView& cloud, const std::vector<std::uint32_t>& points)
+{
+  if (points.empty())
+    return 0.0;
+  std::vector<Position> positions(points.size());
+  std::transform(points.begin(), points.end(), positions.begin(), [&](auto point) {
+    return toPosition(cloud.xyz(point));
+  });
+  const auto sides = findUsualSides(positions);
+  return *std::max_element(sides.begin(), sides.end());
 }
 
 /** A cell of the kd-tree with that many points at most: halves at random.
@@ -129,14 +131,14 @@ estimateSplats(const CloudView& cloud,
       std::min(patch_points, cloud.count / (patches * patches_part));
   if (most < fewest_points)
     return usual_splats;
-  Extent extent = measureExtent(cloud);
+  std::vector<std::uint32_t> finite = findFinite(cloud);
   SplatParameters of_patch = parameters;
   if (!parameters.delta_is_length)
-    of_patch.delta = parameters.delta * extent.side;
+    of_patch.delta = parameters.delta * findUsualSide(cloud, finite);
   of_patch.delta_is_length = true;
   std::size_t points = 0, splats = 0;
   for (std::uint64_t seed = 0; seed < patches; ++seed) {
-    const auto patch = takePatch(cloud, extent.finite, most, seed);
+    const auto patch = takePatch(cloud, finite, most, seed);
     try {
       Report ignored;
       const auto grown =

@@ -5,6 +5,7 @@
 #include "surface/footprints.h"
 #include "surface/splat_growth.h"
 #include "surface/splat_input.h"
+#include "surface/usual_extent.h"
 #include <pcl_uvol/surface/splat_generation.h>
 
 #include <algorithm>
@@ -40,21 +41,6 @@ checkParameters(const SplatParameters& parameters)
     throw InvalidArgument("The coverage factor lambda of splats lies in [0, 1], and is "
                           "not " +
                           std::to_string(parameters.lambda) + ".");
-}
-
-double
-longestSide(const std::vector<Position>& positions)
-{
-  double longest = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto range = std::minmax_element(
-        positions.begin(), positions.end(), [axis](const auto& a, const auto& b) {
-          return a[axis] < b[axis];
-        });
-    longest = std::max(
-        longest, static_cast<double>((*range.second)[axis]) - (*range.first)[axis]);
-  }
-  return longest;
 }
 
 /** Footprints; where a point has none, which is at corners, on lines and far off, half
@@ -236,7 +222,8 @@ detail::generateSplats(const CloudView& cloud,
   OrientedPoints points = orientPoints(cloud, use, threads, report);
   points.bridged.clear(); // splats stand for all points
   const LengthUnit& unit = points.samples->getUnit();
-  const double side = longestSide(points.samples->getPositions());
+  const auto sides = findUsualSides(points.samples->getPositions());
+  const double side = *std::max_element(sides.begin(), sides.end());
   const double delta = parameters.delta_is_length ? parameters.delta * unit.factor
                                                   : parameters.delta * side;
   if (!(delta > 0.0))

@@ -6,6 +6,7 @@
 #include "surface/oriented_points.h"
 #include "surface/packed_normal.h"
 #include "surface/splat_fields.h"
+#include "surface/usual_extent.h"
 
 #include <Eigen/Geometry>
 
@@ -24,8 +25,8 @@ namespace pcl_uvol {
 
 namespace {
 
-/** In parts of the diagonal of all points: somewhat more than half a pixel of a picture
- * of 1000 of them. */
+/** In parts of the usual diagonal of the points: somewhat more than half a pixel of a
+ * picture of 1000 of them. */
 constexpr float dot_radius = 7e-4f;
 
 /** Those that rays can meet: splats are generated in any unit, and drawn in that of the
@@ -46,11 +47,13 @@ takeDrawable(Splats&& splats, Report& report)
 float
 findDotRadius(const CloudView& cloud)
 {
-  Eigen::AlignedBox3f box;
+  std::vector<Position> places;
   for (std::size_t i = 0; i < cloud.count; ++i)
     if (const Eigen::Map<const Eigen::Vector3f> place(cloud.xyz(i)); place.allFinite())
-      box.extend(place);
-  return dot_radius * box.diagonal().norm();
+      places.push_back(toPosition(place));
+  const auto sides = findUsualSides(places);
+  const Eigen::Vector3d diagonal(sides.data());
+  return dot_radius * diagonal.cast<float>().norm();
 }
 
 /** A disc that a picture shows as a point.

@@ -54,7 +54,8 @@ generateSplats(const CloudView& cloud,
 
 /** \brief The usable splats that a cloud holds, which may be none, else those generated
  * for all its points; isopoints that bridge a gap become dots, and specks of noise no
- * more than that: a pixel in size in a picture of all points of 1000 by 1000 pixels.
+ * more than that: a pixel in size in a picture of 1000 by 1000 pixels of all points but
+ * a few far ones.
  * \param is_asked_for the user chose parameters: a warning tells where they go unused
  * \param cloud with splats, or points of a surface
  * \param parameters of splats that are generated

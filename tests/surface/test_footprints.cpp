@@ -3,6 +3,7 @@
 #include "support/surfaces.h"
 #include "surface/footprints.h"
 #include <pcl_uvol/common/point_types.h>
+#include <pcl_uvol/surface/splat_generation.h>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
@@ -254,13 +255,11 @@ addIsopoints(const Eigen::Vector3f& center,
   }
 }
 
-TEST(Footprints, OfSpecksOfNoiseAreNoLargerThanTheSpecks)
+/** Specks of noise above a surface. */
+void
+addSpecks(float edge, pcl::PointCloud<pcl_uvol::PointIso>& cloud)
 {
-  constexpr float edge = 0.06f;
-  constexpr std::size_t of_surface = 4000, specks = 60, of_speck = 14;
-  pcl::PointCloud<pcl_uvol::PointIso> cloud;
-  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, of_surface, 1.0f, edge, cloud);
-  const float usual = static_cast<float>(Surface(cloud).medianRadius());
+  constexpr std::size_t specks = 60, of_speck = 14;
   std::mt19937_64 engine(11);
   std::uniform_real_distribution<float> place(-3.0f, 3.0f);
   for (std::size_t speck = 0; speck < specks; ++speck)
@@ -270,6 +269,16 @@ TEST(Footprints, OfSpecksOfNoiseAreNoLargerThanTheSpecks)
                  1.0f,
                  edge,
                  cloud);
+}
+
+TEST(Footprints, OfSpecksOfNoiseAreNoLargerThanTheSpecks)
+{
+  constexpr float edge = 0.06f;
+  constexpr std::size_t of_surface = 4000;
+  pcl::PointCloud<pcl_uvol::PointIso> cloud;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, of_surface, 1.0f, edge, cloud);
+  const float usual = static_cast<float>(Surface(cloud).medianRadius());
+  addSpecks(edge, cloud);
   // Far from everything, at the ends of bridges.
   for (const float x : {20.0f, -25.0f})
     addIsopoints({x, 0.0f, 0.0f}, 0.01f, 1, 1.0f, std::abs(x), cloud);
@@ -288,6 +297,30 @@ TEST(Footprints, OfSpecksOfNoiseAreNoLargerThanTheSpecks)
   std::sort(of_specks.begin(), of_specks.end());
   EXPECT_LE(of_specks.back(), 2.2f * edge);
   EXPECT_LE(of_specks[of_specks.size() * 9 / 10], 1.1f * edge);
+}
+
+TEST(Footprints, AreTheRadiiOfSplatsThatDoNotGrow)
+{
+  pcl::PointCloud<pcl_uvol::PointIso> cloud;
+  addIsopoints({0.0f, 0.0f, 0.0f}, 1.0f, 4000, 1.0f, 0.06f, cloud);
+  addSpecks(0.06f, cloud);
+  const Surface surface(cloud);
+  std::vector<float> radii(cloud.size());
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    radii[surface.points.samples->getInputIndex(i)] = surface.footprints.radii[i];
+
+  pcl_uvol::SplatGeneration<pcl_uvol::PointIso> generation;
+  generation.setInputCloud(cloud.makeShared());
+  generation.setAbsoluteDelta(1e-12);
+  generation.setLambda(0.0);
+  pcl::PointCloud<pcl_uvol::PointSplat> splats;
+  generation.compute(splats);
+  ASSERT_EQ(cloud.size(), splats.size());
+  for (std::size_t i = 0; i < splats.size(); ++i)
+    if (const float radius = radii[generation.getSources()[i]]; radius > 0.0f)
+      EXPECT_EQ(radius, splats[i].radius);
+    else
+      EXPECT_LT(splats[i].radius, 0.06f);
 }
 
 TEST(Footprints, OfAnIsovalueDoNotSeeAnother)

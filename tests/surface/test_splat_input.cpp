@@ -85,12 +85,12 @@ TEST(SplatsOfPictures, SpecksAreDotsBesideASurface)
   Report report;
   const auto splats =
       pcl_uvol::findSplats(pcl_uvol::viewOf(*cloud), {}, false, 0, report).cloud;
-  const float diagonal = Vector3f(3.0f, 1.45f, 24.0f).norm();
+  const float diagonal = Vector3f(1.45f, 1.45f, 0.0f).norm(); // without the specks
   std::size_t dots = 0;
   for (const auto& splat : splats)
     if (splat.z > 10.0f) {
       ++dots;
-      EXPECT_NEAR(7e-4f * diagonal, splat.radius, 1e-4f);
+      EXPECT_NEAR(7e-4f * diagonal, splat.radius, 1e-8f);
     }
     else
       EXPECT_GT(splat.radius, 0.03f);
@@ -324,6 +324,30 @@ TEST(SplatGeneration, DeltaIsAPartOfTheLongestSide)
   SplatStage generation;
   generation.setAbsoluteDelta(7.0);
   generation.setDelta(1e-3); // what is said last counts
+  EXPECT_EQ(bytesOf(computeWith(generation, cloud)),
+            bytesOf(makeSplats(cloud, 1e-3 * side, 0.2)));
+}
+
+TEST(SplatGeneration, DeltaIsAPartOfTheSideWithoutAFewFarPoints)
+{
+  const auto cloud = makeSphere(5000, 3);
+  const auto [low, high] =
+      std::minmax_element(cloud->begin(),
+                          cloud->end(),
+                          [](const auto& a, const auto& b) { return a.y < b.y; });
+  low->y = -300.0f;
+  high->y = 500.0f;
+  for (auto& point : *cloud) {
+    point.x *= 0.5f;
+    point.z *= 0.25f;
+  }
+  std::vector<float> heights;
+  for (const auto& point : *cloud)
+    heights.push_back(point.y);
+  std::sort(heights.begin(), heights.end());
+  const double side = static_cast<double>(heights[5000 - 51]) - heights[50];
+  SplatStage generation;
+  generation.setDelta(1e-3);
   EXPECT_EQ(bytesOf(computeWith(generation, cloud)),
             bytesOf(makeSplats(cloud, 1e-3 * side, 0.2)));
 }

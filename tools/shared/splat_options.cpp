@@ -11,7 +11,7 @@ SplatOptions::declare(Options& options)
                  1e-12,
                  1.0,
                  "largest distance of points to their splat, in parts of the longest "
-                 "side of the bounding box");
+                 "side of the bounding box of all but a few far ones");
   options.number("delta-abs", length_, 1e-30, 1e15, "the same as a length");
   options.number("lambda",
                  parameters_.lambda,

@@ -23,7 +23,8 @@ struct PCL_UVOL_EXPORTS SplatParameters {
   /** Largest distance of covered points to their splat, > 0. */
   double delta = 1e-4;
   /** In units of the coordinates; else in parts of the longest side of the bounding
-   * box. */
+   * box. A few points that lie so far from the others that it is more than twice as
+   * long with them do not count. */
   bool delta_is_length = false;
   /** Part of a splat's radius within which no other one starts, in [0, 1]. */
   double lambda = 0.2;
@@ -97,7 +98,7 @@ public:
   using ConstPtr = std::shared_ptr<const SplatGeneration<PointT>>;
 
   /** \brief Largest distance of covered points to their splat, as a part of the longest
-   * side of the bounding box: > 0, default 1e-4. */
+   * side of the bounding box of all points but a few far ones: > 0, default 1e-4. */
   void
   setDelta(double delta)
   {
