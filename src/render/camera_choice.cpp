@@ -34,16 +34,19 @@ turnedUpwards(Camera camera, const Eigen::Vector3d& up)
   return camera;
 }
 
-/** The discs of points are found only if they are to be seen: from where all points
- * are. */
+} // namespace
+
 Camera
-fittedTo(const SeenSurface& seen,
-         const Camera& camera,
-         double aspect,
-         const CameraChoice& choice)
+fitToSurface(const Camera& camera,
+             const SeenSurface& seen,
+             double aspect,
+             double fill,
+             bool turns)
 {
+  if (seen.cloud == nullptr)
+    return camera;
   const auto fit = [&](const std::vector<FittedDisc>& discs) {
-    return fitToPoints(camera, {*seen.cloud, discs, choice.turns}, aspect, choice.fill);
+    return fitToPoints(camera, {*seen.cloud, discs, turns}, aspect, fill);
   };
   const Camera fitted = fit({});
   if (!seen.find_discs)
@@ -51,8 +54,6 @@ fittedTo(const SeenSurface& seen,
   const std::vector<FittedDisc> discs = seen.find_discs(fitted);
   return discs.empty() ? fitted : fit(discs);
 }
-
-} // namespace
 
 Camera
 chooseCamera(const CameraChoice& choice,
@@ -78,8 +79,7 @@ chooseCamera(const CameraChoice& choice,
   else {
     if (choice.up)
       camera = turnedUpwards(camera, *choice.up);
-    if (seen.cloud != nullptr)
-      camera = fittedTo(seen, camera, aspect, choice);
+    camera = fitToSurface(camera, seen, aspect, choice.fill, choice.turns);
   }
   return zoomed(camera, choice.zoom);
 }

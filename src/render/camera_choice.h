@@ -37,12 +37,24 @@ struct CameraChoice {
 /** \brief What a camera sees. */
 struct SeenSurface {
   BoundingSphere bounds;
-  /** That fills the picture where only a view is chosen; null: the bounds do. */
+  /** That fills the picture unless the camera has its place; null: the bounds do. */
   const CloudView* cloud = nullptr;
   /** Gives the discs of the points as a camera sees them; none: all points count, and
    * have no discs. */
   std::function<std::vector<FittedDisc>(const Camera&)> find_discs = nullptr;
 };
+
+/** \brief Move a camera to where a surface fills the picture, as fitToPoints() does.
+ * The discs of points are found only if they are to be seen: from where all points are.
+ * \param aspect width / height
+ * \param fill part of the picture that is filled
+ * \param turns the camera turns all around: it fills the picture from everywhere */
+PCL_UVOL_EXPORTS Camera
+fitToSurface(const Camera& camera,
+             const SeenSurface& seen,
+             double aspect,
+             double fill = 0.9,
+             bool turns = false);
 
 /** \brief The camera of a choice.
  * \param seen what it is chosen for

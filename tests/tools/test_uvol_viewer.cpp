@@ -379,7 +379,8 @@ TEST_F(UvolViewer, KeysForColorsHelpAndPictures)
 
 TEST_F(UvolViewer, PointsAreFoundUnderTheMouse)
 {
-  OpenWindow open(makeVolume(), "intensity", {"-view", "front"});
+  // So small that a point of the front is at hand everywhere.
+  OpenWindow open(makeVolume(), "intensity", {"-view", "front", "-zoom", "0.6"});
   open.shoot();
   const pcl::PCLPointCloud2& cloud = *open.surface.getCloud();
   const auto find = [&](double column, double row) {
@@ -648,6 +649,66 @@ TEST_F(UvolViewer, KeysLookFromSidesAndPrintTheCamera)
   const std::string camera = testing::internal::GetCapturedStdout();
   EXPECT_EQ(0u, camera.find("-eye ")) << camera;
   EXPECT_NE(std::string::npos, camera.find(" -up 0,1,0 -fov 30")) << camera;
+}
+
+/** Points of an ellipsoid of half axes of 1, 0.6 and 0.3, and one far from them. */
+pcl_uvol::Dataset
+makeEllipsoidAndOutlier()
+{
+  const auto points = uvol_test::makeSphere(6000, 1);
+  const Eigen::Vector3f axes(1.0f, 0.6f, 0.3f);
+  for (auto& point : *points) {
+    point.getVector3fMap() = point.getVector3fMap().cwiseProduct(axes).eval();
+    point.getNormalVector3fMap() =
+        point.getNormalVector3fMap().cwiseQuotient(axes).normalized().eval();
+  }
+  points->push_back(points->front());
+  points->back().getVector3fMap() = Eigen::Vector3f(40.0f, 30.0f, 20.0f);
+  pcl_uvol::Dataset surface;
+  pcl::toPCLPointCloud2(*points, surface.cloud);
+  return surface;
+}
+
+/** First and last column that a surface covers in the middle rows. */
+std::pair<int, int>
+columnsOf(const Image& image)
+{
+  int first = width, last = -1;
+  for (int row = height / 4; row < 3 * height / 4; ++row)
+    for (int column = 0; column < width; ++column)
+      if (image.color[4 * static_cast<std::size_t>(row * width + column)] < 200) {
+        first = std::min(first, column);
+        last = std::max(last, column);
+      }
+  return {first, last};
+}
+
+TEST_F(UvolViewer, PointsFillTheWindow)
+{
+  OpenWindow open(makeEllipsoidAndOutlier(), "", {"-view", "front"});
+  const auto expectFull = [&](const std::string& from) {
+    const auto [first, last] = columnsOf(open.shoot()); // nine tenths
+    EXPECT_NEAR(0.05 * width, first, 2.0) << from;
+    EXPECT_NEAR(0.95 * width, last, 2.0) << from;
+  };
+  expectFull("front");
+  for (const char key : std::string("xYzyXZ")) {
+    open.type(key);
+    expectFull(std::string(1, key));
+  }
+  for (int i = 0; i < 4; ++i)
+    open.window->interactor().InvokeEvent(vtkCommand::MouseWheelForwardEvent);
+  EXPECT_EQ(0, columnsOf(open.shoot()).first);
+  open.type('r');
+  expectFull("r");
+  open.type('k'); // half of it is left, and seen from where all was seen
+  open.type('r');
+  expectFull("k");
+  pcl_uvol::Dataset other = makeEllipsoidAndOutlier();
+  other.origin = {{500.0, 0.0, 0.0}};
+  pcl_uvol::saveDataset("other.ply", other);
+  open.drop({"other.ply"});
+  expectFull("drop");
 }
 
 TEST_F(UvolViewer, KeysSaveASurfaceAndAPictureThatRenderDrawsAgain)

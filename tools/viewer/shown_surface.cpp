@@ -120,6 +120,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
                            unsigned threads)
     : origin_(dataset.origin)
     , field_(field)
+    , threads_(threads)
 {
   if (dataset.cloud.width == 0)
     throw InvalidArgument("There are no points to be shown.");
@@ -127,6 +128,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   samples_ = Cloud::ConstPtr(samples, &samples->cloud);
   if (field_.empty()) {
     whole_ = cloud_ = samples_;
+    prepare();
     return;
   }
   range_ = findRange(*samples_, field_);
@@ -259,7 +261,15 @@ ShownSurface::setCut(const std::optional<Eigen::Hyperplane<double, 3>>& plane)
 {
   asked_.cut = shown_.cut = plane;
   cloud_ = triangles_.empty() ? cutAway(whole_, plane) : whole_;
+  prepare();
+}
+
+void
+ShownSurface::prepare()
+{
   prepared_.reset();
+  if (cloud_ && triangles_.empty())
+    prepared_ = std::make_shared<pcl_uvol::PreparedSurface>(*cloud_, threads_);
 }
 
 pcl_uvol::BoundingSphere

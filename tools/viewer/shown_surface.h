@@ -111,7 +111,7 @@ public:
   bool
   finish();
 
-  /** \brief What is drawn of getCloud(), ready for the first frame; null: it is not. */
+  /** \brief What is drawn of getCloud(), ready for the first frame; null for a mesh. */
   const std::shared_ptr<pcl_uvol::PreparedSurface>&
   getPrepared() const
   {
@@ -165,6 +165,10 @@ private:
   void
   ask(const SurfaceRequest& request);
 
+  /** Prepare what is shown to be drawn, unless it is a mesh. */
+  void
+  prepare();
+
   /** Show what the worker gives, if it gives something. */
   bool takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*give)());
 
@@ -173,6 +177,7 @@ private:
   std::shared_ptr<pcl_uvol::PreparedSurface> prepared_;
   std::array<double, 3> origin_;
   std::string field_;
+  unsigned threads_;
   std::array<double, 2> range_{{0.0, 0.0}};
   SurfaceRequest asked_, shown_;
   std::vector<pcl_uvol::Triangle> triangles_;

@@ -56,10 +56,50 @@ ViewerWindow::getCamera() const
 }
 
 void
+ViewerWindow::withSeenSurface(
+    const std::function<void(const pcl_uvol::SeenSurface&, const PictureCell&)>& call)
+{
+  const int* const size = window_->GetSize();
+  const PictureCell cell = ViewOptions::wholePicture(size[0], size[1]);
+  pcl_uvol::SeenSurface seen{surface_.getBounds()};
+  if (!surface_.getCloud()) {
+    call(seen, cell);
+    return;
+  }
+  const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*surface_.getCloud());
+  seen.cloud = &cloud;
+  if (const auto prepared = surface_.getPrepared();
+      prepared && prop_->renderer().settings().footprints)
+    seen.find_discs = [&cell, prepared](const pcl_uvol::Camera& camera) {
+      return prepared->findFittedDiscs(camera, cell.width, cell.height);
+    };
+  call(seen, cell);
+}
+
+void
+ViewerWindow::lookFirst()
+{
+  withSeenSurface([this](const auto& seen, const auto& cell) {
+    setCamera(look_.makeCamera(seen, surface_.getOrigin(), cell));
+  });
+}
+
+void
+ViewerWindow::lookAtAll(pcl_uvol::Camera camera)
+{
+  withSeenSurface([&](const auto& seen, const auto& cell) {
+    camera.eye += seen.bounds.center - camera.at;
+    camera.at = seen.bounds.center;
+    setCamera(
+        fitToSurface(camera, seen, static_cast<double>(cell.width) / cell.height));
+  });
+}
+
+void
 ViewerWindow::lookFrom(const std::string& side)
 {
   const int* const size = window_->GetSize();
-  setCamera(pcl_uvol::Camera::fit(surface_.getBounds(),
+  lookAtAll(pcl_uvol::Camera::fit(surface_.getBounds(),
                                   side,
                                   renderer_->GetActiveCamera()->GetViewAngle(),
                                   static_cast<double>(size[0]) / size[1]));
@@ -189,7 +229,7 @@ ViewerWindow::openFile(const std::string& path)
   try {
     colors_ = std::make_unique<ColorChoice>(look_, *surface_.getCloud());
     showOtherSurface();
-    renderer_->ResetCamera();
+    lookAtAll(before);
     render();
     if (!error_.empty())
       throw pcl_uvol::Exception(error_);

@@ -49,7 +49,7 @@ constexpr double isovalue_step = 0.01;
 constexpr unsigned long look_interval = 15;
 
 /** Keys that mean the surface that was asked for, and not those on the way to it. */
-constexpr std::string_view keys_of_surface = "7efkpsS";
+constexpr std::string_view keys_of_surface = "7efkprsSxXyYzZ";
 
 /** VTK's way to turn, move and zoom with the mouse, without its keys. */
 class MouseStyle : public vtkInteractorStyleTrackballCamera {
@@ -212,10 +212,7 @@ ViewerWindow::setUpScene(const pcl_uvol::Background& background)
   window_->SetSize(look_.getWidth(), look_.getHeight());
   window_->AddRenderer(renderer_);
 
-  setCamera(
-      look_.makeCamera({surface_.getBounds()},
-                       surface_.getOrigin(),
-                       ViewOptions::wholePicture(look_.getWidth(), look_.getHeight())));
+  lookFirst();
 
   vtkNew<MouseStyle> style;
   style->press = [this](char key) { press(key); };
@@ -557,7 +554,7 @@ ViewerWindow::press(char key)
     else if (key == 'o')
       nextOpacities();
     else if (key == 'r')
-      renderer_->ResetCamera();
+      lookAtAll(getCamera());
     else if (key == 's')
       savePicture();
     else if (key == 'S')

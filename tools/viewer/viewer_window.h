@@ -210,9 +210,22 @@ private:
   pcl_uvol::Camera
   getCamera() const;
 
+  /** Look at the surface as options say. */
+  void
+  lookFirst();
+
   /** Show all of the surface from a side. */
   void
   lookFrom(const std::string& side);
+
+  /** Show all of the surface in the direction of a camera. */
+  void
+  lookAtAll(pcl_uvol::Camera camera);
+
+  /** Call with what cameras are fitted to, and the part of the window that they see. */
+  void
+  withSeenSurface(const std::function<void(const pcl_uvol::SeenSurface& seen,
+                                           const PictureCell& cell)>& call);
 
   /** Print options that give the same view. */
   void

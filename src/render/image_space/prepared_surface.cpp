@@ -44,9 +44,12 @@ void
 PreparedSurface::keepFootprints(std::unique_ptr<Footprints>&& footprints,
                                 Report&& report)
 {
+  std::vector<FittedDisc> discs = surface_->listFittedDiscs(*footprints, count_);
   const std::lock_guard<std::mutex> lock(mutex_);
   footprints_ = std::move(footprints);
   footprints_report_ = std::move(report);
+  if (fitted_discs_.empty()) // others may look at them
+    fitted_discs_ = std::move(discs);
 }
 
 const std::vector<FittedDisc>&
@@ -60,14 +63,12 @@ PreparedSurface::findFittedDiscs(const Camera& camera, int width, int height)
   const View view(camera, surface_->getBounds(), width * factor, height * factor);
   if (!needsFootprints(*surface_, view))
     return none;
-  if (fitted_discs_.empty()) {
-    // A report of its own: another thread may take what waits in the other one.
-    Report report;
-    auto found =
-        std::make_unique<Footprints>(surface_->findFootprints(threads_, report));
-    fitted_discs_ = surface_->listFittedDiscs(*found, count_);
-    keepFootprints(std::move(found), std::move(report));
-  }
+  const auto are_found = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return !fitted_discs_.empty();
+  };
+  if (!are_found())
+    findFootprints();
   return fitted_discs_;
 }
 

@@ -61,7 +61,7 @@ public:
 
   /** \brief What a camera is fitted to: the discs of the points, of radius NaN for
    * points that are lonely, lie in gaps of the sampling or are not drawn, unless these
-   * are most. Finds the discs, once; not in two threads at a time.
+   * are most. Finds the discs unless findFootprints() has.
    * \param camera that sees all points
    * \param width of the picture, pixels
    * \param height of the picture, pixels
@@ -91,7 +91,7 @@ private:
   Report report_; // of the points
   std::mutex mutex_;
   std::unique_ptr<Footprints> footprints_; // that wait to be applied
-  std::vector<FittedDisc> fitted_discs_;   // of findFittedDiscs(), once it found some
+  std::vector<FittedDisc> fitted_discs_;   // once footprints are found, for good
   Report footprints_report_;
 };
 
