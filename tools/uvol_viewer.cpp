@@ -78,7 +78,8 @@ load(const uvol_tools::Options& options,
     uvol_tools::addField(dataset, field, options, report);
     look.addColorOfSamples(options, dataset, report);
   }
-  return {{std::move(dataset), field, options.threads()}, look, report};
+  return {
+      {std::move(dataset), field, options.threads(), look.getFactors()}, look, report};
 }
 
 int
@@ -94,6 +95,7 @@ run(int argc, char** argv)
           uvol_tools::describeKeys());
   declare(options, arguments);
   look.declareScene(options, uvol_tools::ViewOptions::SizeOf::Window);
+  look.declareExaggeration(options);
   look.declareOpacity(options);
   look.declarePasses(options);
   if (!options.parse(argc, argv))

@@ -31,17 +31,6 @@ drawArrow(
              ink);
 }
 
-/** The largest of 1, 2 or 5 times a power of ten that is not larger. */
-double
-roundedDown(double length)
-{
-  const double power = std::pow(10.0, std::floor(std::log10(length)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= length)
-      return digit * power;
-  return power;
-}
-
 /** The tip of an axis of a triad, and its letter, which stands beyond the tip, also of
  * an axis along the line of sight: from the centre. */
 struct TriadAxis {
@@ -62,6 +51,16 @@ struct TriadAxis {
 };
 
 } // namespace
+
+double
+roundedDown(double length)
+{
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= length)
+      return digit * power;
+  return power;
+}
 
 MarkBox
 findTriadBox(const Perspective& perspective, double length, int font)

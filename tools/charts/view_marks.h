@@ -28,6 +28,10 @@ drawTriad(pcl_uvol::Image& image,
           double length,
           const MarkStyle& style);
 
+/** \brief The largest of 1, 2 or 5 times a power of ten that is not larger. */
+double
+roundedDown(double length);
+
 /** \brief Draw a bar of a round length, at most that long, with its length above it.
  * \param right_end of the bar
  * \param pixels_per_unit of the data

@@ -300,7 +300,7 @@ void
 ViewOptions::exaggerate(pcl_uvol::Dataset& surface) const
 {
   if (isExaggerated())
-    pcl_uvol::stretchSurface(surface, toVector(exaggeration_));
+    pcl_uvol::stretchSurface(surface, getFactors());
 }
 
 pcl_uvol::Camera
@@ -313,8 +313,8 @@ ViewOptions::makeCamera(const pcl_uvol::SeenSurface& seen,
   };
   const auto place = [&](const std::vector<double>& numbers) {
     std::optional<Eigen::Vector3d> point = direction(numbers);
-    if (point && isExaggerated())
-      *point = point->cwiseProduct(toVector(exaggeration_));
+    if (point)
+      *point = point->cwiseProduct(getFactors());
     return point;
   };
   return pcl_uvol::chooseCamera({cell.view.empty() ? view_ : cell.view,

@@ -47,7 +47,7 @@ public:
   void
   declareScene(Options& options, SizeOf size = SizeOf::Picture);
 
-  /** \brief -exaggerate, for tools that call exaggerate(). */
+  /** \brief -exaggerate, for tools that call exaggerate() or getFactors(). */
   void
   declareExaggeration(Options& options);
 
@@ -77,6 +77,14 @@ public:
   isExaggerated() const
   {
     return !exaggeration_.empty();
+  }
+
+  /** \brief The factors of -exaggerate. */
+  Eigen::Vector3d
+  getFactors() const
+  {
+    return isExaggerated() ? Eigen::Vector3d(exaggeration_.data())
+                           : Eigen::Vector3d::Ones();
   }
 
   /** \brief Stretch a surface by the factors of -exaggerate: positions, its normals as

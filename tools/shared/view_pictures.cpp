@@ -115,9 +115,8 @@ ViewOptions::drawFrame(const Subject& surface,
                        const Figure::DrawView& draw,
                        std::vector<pcl_uvol::ImageText>& texts) const
 {
-  Ground ground{background_, getWidth(), getHeight(), viewsWidth(surface.cloud)};
-  if (isExaggerated())
-    ground.factors = Eigen::Vector3d(exaggeration_.data());
+  const Ground ground{
+      background_, getWidth(), getHeight(), viewsWidth(surface.cloud), getFactors()};
   const DataBox data{{}, Eigen::Vector3d(surface.origin.data()), ground.factors, ""};
   const auto findCamera = [&](const pcl_uvol::SeenSurface& seen,
                               const PictureCell& cell) {

@@ -3,6 +3,7 @@
 
 #include "common/scalar_field.h"
 #include "pipeline/dataset_info.h"
+#include "render/stretch_surface.h"
 #include <pcl_uvol/common/exceptions.h>
 #include <pcl_uvol/isosurface/isosurface_extraction.h>
 #include <pcl_uvol/pipeline/isosurface_pipeline.h>
@@ -52,17 +53,21 @@ isSameCut(const Cut& a, const Cut& b)
   return a && b ? a->coeffs() == b->coeffs() : !a && !b;
 }
 
-/** The points that are not in front of a plane, and all of them without one. */
+/** The points that are not in front of a plane when they are stretched, and all of them
+ * without one. */
 pcl::PCLPointCloud2::ConstPtr
-cutAway(const pcl::PCLPointCloud2::ConstPtr& whole, const Cut& plane)
+cutAway(const pcl::PCLPointCloud2::ConstPtr& whole,
+        const Cut& plane,
+        const Eigen::Vector3d& factors)
 {
   if (!whole || !plane)
     return whole;
   const pcl_uvol::CloudView cloud = pcl_uvol::viewOf(*whole);
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < cloud.count; ++i)
-    if (plane->signedDistance(
-            Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i)).cast<double>()) <= 0.0)
+    if (const Eigen::Vector3d place =
+            Eigen::Map<const Eigen::Vector3f>(cloud.xyz(i)).cast<double>();
+        plane->signedDistance(place.cwiseProduct(factors)) <= 0.0)
       kept.push_back(static_cast<std::uint32_t>(i));
   if (kept.empty())
     return nullptr;
@@ -73,10 +78,22 @@ cutAway(const pcl::PCLPointCloud2::ConstPtr& whole, const Cut& plane)
   return part;
 }
 
+pcl::PCLPointCloud2::ConstPtr
+stretch(const pcl::PCLPointCloud2::ConstPtr& data, const Eigen::Vector3d& factors)
+{
+  if (!data || factors == Eigen::Vector3d::Ones())
+    return data;
+  pcl_uvol::Dataset surface;
+  surface.cloud = *data;
+  pcl_uvol::stretchSurface(surface, factors);
+  return pcl::make_shared<pcl::PCLPointCloud2>(std::move(surface.cloud));
+}
+
 /** What is drawn of an isosurface. */
 ExtractedSurface
 makeShown(pcl_uvol::IsosurfaceResult result,
           const SurfaceRequest& request,
+          const Eigen::Vector3d& factors,
           unsigned threads,
           const pcl_uvol::ProgressCallback& progress)
 {
@@ -87,8 +104,9 @@ makeShown(pcl_uvol::IsosurfaceResult result,
   if (result.surface.cloud.width > 0)
     shown.whole =
         pcl::make_shared<pcl::PCLPointCloud2>(std::move(result.surface.cloud));
-  shown.cloud =
-      shown.triangles.empty() ? cutAway(shown.whole, request.cut) : shown.whole;
+  shown.data = shown.triangles.empty() ? cutAway(shown.whole, request.cut, factors)
+                                       : shown.whole;
+  shown.cloud = stretch(shown.data, factors);
   if (shown.cloud && shown.triangles.empty())
     shown.prepared =
         std::make_shared<pcl_uvol::PreparedSurface>(*shown.cloud, threads, progress);
@@ -117,8 +135,10 @@ findRange(const pcl::PCLPointCloud2& points, const std::string& name)
 
 ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
                            const std::string& field,
-                           unsigned threads)
+                           unsigned threads,
+                           const Eigen::Vector3d& factors)
     : origin_(dataset.origin)
+    , factors_(factors)
     , field_(field)
     , threads_(threads)
 {
@@ -127,7 +147,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   const auto samples = std::make_shared<const pcl_uvol::Dataset>(std::move(dataset));
   samples_ = Cloud::ConstPtr(samples, &samples->cloud);
   if (field_.empty()) {
-    whole_ = cloud_ = samples_;
+    whole_ = data_ = samples_;
     prepare();
     return;
   }
@@ -139,8 +159,8 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
   pipeline->setInput(samples);
   pipeline->setNumberOfThreads(threads);
   worker_ = std::make_unique<SurfaceWorker>(
-      [pipeline, field, threads](const SurfaceRequest& request,
-                                 const pcl_uvol::ProgressCallback& progress) {
+      [pipeline, field, factors, threads](const SurfaceRequest& request,
+                                          const pcl_uvol::ProgressCallback& progress) {
         pcl_uvol::IsosurfacePipelineParameters parameters;
         if (request.is_meshed)
           parameters.mesh.emplace().open = true; // caps would hide the surface
@@ -150,7 +170,7 @@ ShownSurface::ShownSurface(pcl_uvol::Dataset dataset,
         parameters.isosurface.isovalues = {isovalues.begin(), isovalues.end()};
         pipeline->setParameters(parameters);
         pipeline->setProgressCallback(progress);
-        return makeShown(pipeline->run(), request, threads, progress);
+        return makeShown(pipeline->run(), request, factors, threads, progress);
       });
 }
 
@@ -249,6 +269,7 @@ ShownSurface::takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*giv
   report_ = std::move(result->surface.report);
   triangles_ = std::move(result->surface.triangles);
   whole_ = result->surface.whole;
+  data_ = result->surface.data;
   cloud_ = result->surface.cloud;
   prepared_ = result->surface.prepared;
   if (!isSameCut(shown_.cut, asked_.cut)) // which has changed meanwhile
@@ -260,13 +281,14 @@ void
 ShownSurface::setCut(const std::optional<Eigen::Hyperplane<double, 3>>& plane)
 {
   asked_.cut = shown_.cut = plane;
-  cloud_ = triangles_.empty() ? cutAway(whole_, plane) : whole_;
+  data_ = triangles_.empty() ? cutAway(whole_, plane, factors_) : whole_;
   prepare();
 }
 
 void
 ShownSurface::prepare()
 {
+  cloud_ = stretch(data_, factors_);
   prepared_.reset();
   if (cloud_ && triangles_.empty())
     prepared_ = std::make_shared<pcl_uvol::PreparedSurface>(*cloud_, threads_);
@@ -275,7 +297,16 @@ ShownSurface::prepare()
 pcl_uvol::BoundingSphere
 ShownSurface::getBounds() const
 {
-  return ballAround(cloud_ ? *cloud_ : *samples_);
+  return ballAround(*(cloud_ ? cloud_ : stretch(samples_, factors_)));
+}
+
+std::array<double, 3>
+ShownSurface::getDrawnOrigin() const
+{
+  std::array<double, 3> origin = origin_;
+  for (std::size_t axis = 0; axis < origin.size(); ++axis)
+    origin[axis] *= factors_[static_cast<Eigen::Index>(axis)];
+  return origin;
 }
 
 } // namespace uvol_tools

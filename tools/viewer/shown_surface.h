@@ -25,9 +25,13 @@ public:
   using Cloud = pcl::PCLPointCloud2;
 
   /** \param field "": the points are the surface; else isosurfaces of that field
+   * \param factors along the axes by which the surface is stretched
    * \throws InvalidArgument for a cloud without points, an unknown field or one without
-   * two finite values */
-  ShownSurface(pcl_uvol::Dataset dataset, const std::string& field, unsigned threads);
+   * two finite values, and for splats that are to be stretched */
+  ShownSurface(pcl_uvol::Dataset dataset,
+               const std::string& field,
+               unsigned threads,
+               const Eigen::Vector3d& factors = Eigen::Vector3d::Ones());
 
   /** \brief "" for a surface given as points. */
   const std::string&
@@ -136,22 +140,41 @@ public:
     return asked_.cut.has_value();
   }
 
-  /** \brief Null where an isosurface has no points. */
+  /** \brief What is drawn; null where an isosurface has no points. */
   const Cloud::ConstPtr&
   getCloud() const
   {
     return cloud_;
   }
 
+  /** \brief The same points before they are stretched. */
+  const Cloud::ConstPtr&
+  getData() const
+  {
+    return data_;
+  }
+
   /** \brief A ball around the surface; around the samples where it has no points. */
   pcl_uvol::BoundingSphere
   getBounds() const;
 
-  /** \brief What was subtracted from the coordinates. */
+  /** \brief What was subtracted from the coordinates: from those of getData(), and of
+   * getCloud(). @{ */
   const std::array<double, 3>&
   getOrigin() const
   {
     return origin_;
+  }
+
+  std::array<double, 3>
+  getDrawnOrigin() const;
+  /** @} */
+
+  /** \brief Along the axes, by which the surface is stretched. */
+  const Eigen::Vector3d&
+  getFactors() const
+  {
+    return factors_;
   }
 
   /** \brief The report of the last extraction; empty for a surface given as points. */
@@ -165,7 +188,7 @@ private:
   void
   ask(const SurfaceRequest& request);
 
-  /** Prepare what is shown to be drawn, unless it is a mesh. */
+  /** Stretch what is shown of the data, and prepare it unless it is a mesh. */
   void
   prepare();
 
@@ -173,9 +196,11 @@ private:
   bool takeFrom(std::optional<SurfaceWorker::Result> (SurfaceWorker::*give)());
 
   Cloud::ConstPtr samples_;
-  Cloud::ConstPtr whole_, cloud_; // the surface, and what is shown of it
+  Cloud::ConstPtr whole_, data_; // the surface, and what is shown of it
+  Cloud::ConstPtr cloud_;        // the same, stretched
   std::shared_ptr<pcl_uvol::PreparedSurface> prepared_;
   std::array<double, 3> origin_;
+  Eigen::Vector3d factors_;
   std::string field_;
   unsigned threads_;
   std::array<double, 2> range_{{0.0, 0.0}};

@@ -32,7 +32,9 @@ struct SurfaceRequest {
 /** \brief What was extracted, and what is drawn of it; null where there are no points.
  */
 struct ExtractedSurface {
-  pcl::PCLPointCloud2::ConstPtr whole, cloud; ///< the second is what is not cut away
+  pcl::PCLPointCloud2::ConstPtr whole;
+  pcl::PCLPointCloud2::ConstPtr data;  ///< what is not cut away of it
+  pcl::PCLPointCloud2::ConstPtr cloud; ///< the same, stretched as it is drawn
   std::vector<pcl_uvol::Triangle> triangles;
   pcl_uvol::Report report;
   std::shared_ptr<pcl_uvol::PreparedSurface> prepared; ///< of cloud; null for a mesh

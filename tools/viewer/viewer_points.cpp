@@ -14,7 +14,7 @@ ViewerWindow::tellPoint(int column, int row)
   if (!surface_.getCloud())
     return;
   const auto point = findPointAt(*surface_.getCloud(), *renderer_, column, row);
-  show(point ? describePoint(*surface_.getCloud(), surface_.getOrigin(), *point) : "");
+  show(point ? describePoint(*surface_.getData(), surface_.getOrigin(), *point) : "");
 }
 
 void

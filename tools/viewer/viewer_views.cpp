@@ -80,7 +80,7 @@ void
 ViewerWindow::lookFirst()
 {
   withSeenSurface([this](const auto& seen, const auto& cell) {
-    setCamera(look_.makeCamera(seen, surface_.getOrigin(), cell));
+    setCamera(look_.makeCamera(seen, surface_.getDrawnOrigin(), cell));
   });
 }
 
@@ -110,8 +110,8 @@ ViewerWindow::printCamera()
 {
   std::cout << describeCamera(getCamera(),
                               {{},
-                               Eigen::Vector3d(surface_.getOrigin().data()),
-                               Eigen::Vector3d::Ones(),
+                               Eigen::Vector3d(surface_.getDrawnOrigin().data()),
+                               surface_.getFactors(),
                                ""})
             << std::endl;
   show("printed the camera");
@@ -178,7 +178,7 @@ ViewerWindow::saveSurface()
     throw pcl_uvol::InvalidArgument("There is no surface to save.");
   const std::string name = freeName(".ply");
   pcl_uvol::Dataset surface;
-  surface.cloud = *surface_.getCloud();
+  surface.cloud = *surface_.getData();
   surface.origin = surface_.getOrigin();
   pcl_uvol::saveDataset(name, surface);
   show("saved " + name);

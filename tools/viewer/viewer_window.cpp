@@ -182,6 +182,7 @@ ViewerWindow::ViewerWindow(const std::string& path,
   if (!surface_.getField().empty())
     setUpSlider();
   setUpTriad(greyOn(background));
+  setUpScaleBar(greyOn(background));
   render();
   if (!error_.empty())
     throw pcl_uvol::Exception(error_);
@@ -351,6 +352,19 @@ ViewerWindow::setUpTriad(double grey)
   triad_->SetViewport(0.86, 0.86, 1.0, 1.0);
   triad_->EnabledOn();
   triad_->InteractiveOff(); // the mouse turns the surface there, too
+}
+
+void
+ViewerWindow::setUpScaleBar(double grey)
+{
+  const double factor = surface_.getFactors().x();
+  if (surface_.getFactors() != Eigen::Vector3d::Constant(factor))
+    return;
+  setColor(scale_bar_.getLetters(), grey);
+  scale_bar_.addTo(*renderer_, grey);
+  observe(*renderer_, vtkCommand::StartEvent, [this, factor](const void*) {
+    scale_bar_.fit(*renderer_, factor);
+  });
 }
 
 void

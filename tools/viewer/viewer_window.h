@@ -5,6 +5,7 @@
 #include "shared/render_options.h"
 #include "viewer/color_choice.h"
 #include "viewer/opacity_choice.h"
+#include "viewer/scale_bar.h"
 #include "viewer/shown_surface.h"
 #include "viewer/typed_number.h"
 #include <pcl_uvol/vtk/image_space_prop.h>
@@ -129,6 +130,10 @@ private:
   /** Show how the axes lie, in a corner. */
   void
   setUpTriad(double grey);
+
+  /** Show a bar of a round length, where all directions have one scale. */
+  void
+  setUpScaleBar(double grey);
 
   /** Show the surface as it is now, coloured. */
   void
@@ -278,6 +283,7 @@ private:
   vtkNew<vtkSliderRepresentation2D> slider_shape_;
   vtkNew<vtkSliderWidget> slider_;
   vtkNew<vtkOrientationMarkerWidget> triad_;
+  ScaleBar scale_bar_;
 };
 
 } // namespace uvol_tools
