@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -133,6 +134,54 @@ TEST(ColorBar, WritesDecadesBesideALogarithmicScale)
   const ColorMap map;
   uvol_tools::drawColorBar(image, map, {1e-3, 1.0, true}, "density");
   EXPECT_NE(makePlain(400, 300, 255).color, image.color);
+}
+
+TEST(ColorBar, TellsValuesOfANarrowLogarithmicScaleApart)
+{
+  using Texts = std::vector<std::string>;
+  const auto labelsOf = [](double low, double high) {
+    const auto labels = uvol_tools::labelBar({low, high, true}, 0.05);
+    Texts texts;
+    for (const auto& label : labels.values)
+      texts.push_back(label.text);
+    return std::pair(texts, labels.offset);
+  };
+  EXPECT_EQ(std::pair(Texts({"0.3", "0.4", "0.5", "0.6"}), std::string()),
+            labelsOf(0.3, 0.6));
+  EXPECT_EQ(std::pair(Texts({"-1e-05", "-5e-06", "0", "5e-06", "1e-05"}),
+                      std::string("+ 0.6")),
+            labelsOf(0.59999, 0.60001));
+  EXPECT_EQ(std::pair(Texts({"1", "20", "40", "61"}), std::string("+ 1234567800")),
+            labelsOf(1234567801.0, 1234567861.0));
+  EXPECT_EQ(std::pair(Texts({"0.001235", "0.01", "0.1", "1"}), std::string()),
+            labelsOf(0.0012346, 1.0));
+  const auto places = uvol_tools::labelBar({0.3, 0.6, true}, 0.05).values;
+  EXPECT_NEAR(std::log2(0.4 / 0.3), places[1].place, 1e-9);
+}
+
+TEST(ColorBar, HasOneColorAndOneLabelForOneValue)
+{
+  for (const bool is_logarithmic : {false, true}) {
+    const pcl_uvol::ColorScale scale{0.6, 0.6, is_logarithmic};
+    const auto labels = uvol_tools::labelBar(scale, 0.05).values;
+    ASSERT_EQ(1u, labels.size());
+    EXPECT_EQ("0.6", labels[0].text);
+    EXPECT_EQ(0.5, labels[0].place);
+
+    Image image = makePlain(400, 300, 255);
+    const ColorMap map;
+    uvol_tools::drawColorBar(image, map, scale, "rho");
+    const auto ink = uvol_tools::inkOf(map.at(0.5)); // as the points have it
+    std::size_t rows = 0;
+    for (std::uint32_t row = 0; row < image.height; ++row) {
+      const std::uint8_t* const pixel = pixelAt(image, image.width - 12, row);
+      if (pixel[0] == pixel[1] && pixel[1] == pixel[2])
+        continue; // ground and letters
+      ++rows;
+      EXPECT_TRUE(std::equal(ink.begin(), ink.end(), pixel)) << row;
+    }
+    EXPECT_EQ(180u, rows);
+  }
 }
 
 TEST(ColorBar, ListsCategories)

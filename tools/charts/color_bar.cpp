@@ -71,14 +71,17 @@ struct Legend {
   }
 };
 
-std::vector<std::string>
-shortNumbers(const std::vector<double>& values)
+/** Short numbers beside a logarithmic scale, unless some of them read the same. */
+AxisLabels
+labelDecades(const std::vector<double>& values)
 {
-  std::vector<std::string> texts;
-  texts.reserve(values.size());
+  AxisLabels labels;
   for (const double value : values)
-    texts.push_back(shortNumber(value));
-  return texts;
+    labels.texts.push_back(shortNumber(value));
+  const auto& texts = labels.texts;
+  return std::adjacent_find(texts.begin(), texts.end()) == texts.end()
+             ? labels
+             : labelValues(values);
 }
 
 } // namespace
@@ -98,6 +101,7 @@ colorBarWidth(int image_width, int image_height, int least_letters)
 int
 drawBar(Image& image,
         const ColorMap& map,
+        const ColorScale& scale,
         const PlotArea& area,
         const std::vector<BarLabel>& labels,
         TextAnchor anchor,
@@ -106,7 +110,7 @@ drawBar(Image& image,
 {
   const int length = area.bottom - area.top + 1;
   for (int row = 0; row < length; ++row) {
-    const Ink color = inkOf(map.at((length - 0.5 - row) / length));
+    const Ink color = inkOf(colorOnBar(map, scale, (length - 0.5 - row) / length));
     for (int column = area.left; column <= area.right; ++column)
       blend(image, column, area.top + row, color, 1.0);
   }
@@ -141,7 +145,14 @@ listTicks(const ColorScale& scale)
           place <= high + slack)
         values.push_back(digit * std::pow(10.0, power));
     }
-  return values;
+  // In narrow scales there are round values between these.
+  return values.size() < 2 ? roundValues(scale.low, scale.high) : values;
+}
+
+pcl_uvol::Color
+colorOnBar(const ColorMap& map, const ColorScale& scale, double place)
+{
+  return map.at(scale.high > scale.low ? place : scale.placeOf(scale.low));
 }
 
 BarLabels
@@ -149,7 +160,7 @@ labelBar(const ColorScale& scale, double nearest)
 {
   const std::vector<double> values = barValues(scale, nearest);
   const AxisLabels texts =
-      scale.is_logarithmic ? AxisLabels{shortNumbers(values), ""} : labelValues(values);
+      scale.is_logarithmic ? labelDecades(values) : labelValues(values);
   BarLabels labels{{}, texts.offset};
   for (std::size_t i = 0; i < values.size(); ++i)
     labels.values.push_back({scale.placeOf(values[i]), texts.texts[i]});
@@ -170,6 +181,7 @@ drawColorBar(Image& image,
       labelBar(scale, label_distance * legend.size / legend.length);
   drawBar(image,
           map,
+          scale,
           legend.area(),
           labels.values,
           TextAnchor::Right,

@@ -117,6 +117,12 @@ labelBar(const pcl_uvol::ColorScale& scale, double nearest);
 std::vector<double>
 listTicks(const pcl_uvol::ColorScale& scale);
 
+/** \brief The colour at a place along a bar: everywhere the same for one value. */
+pcl_uvol::Color
+colorOnBar(const pcl_uvol::ColorMap& map,
+           const pcl_uvol::ColorScale& scale,
+           double place);
+
 /** \brief Draw a standing bar of colours with values beside it.
  * \param anchor Left: the values stand to the right of the bar; Right: to the left
  * \param font size, pixels
@@ -124,6 +130,7 @@ listTicks(const pcl_uvol::ColorScale& scale);
 int
 drawBar(pcl_uvol::Image& image,
         const pcl_uvol::ColorMap& map,
+        const pcl_uvol::ColorScale& scale,
         const PlotArea& area,
         const std::vector<BarLabel>& labels,
         TextAnchor anchor,

@@ -231,6 +231,16 @@ shortNumber(double value)
   return text;
 }
 
+int
+countDigits(double low, double high)
+{
+  const double range = high - low;
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!(range > 0.0) || !std::isfinite(largest / range))
+    return 4;
+  return 3 + static_cast<int>(std::floor(std::log10(largest / range) + 1e-9));
+}
+
 namespace {
 
 std::string
@@ -239,18 +249,6 @@ formatNumber(double value, int digits)
   char text[64];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
-}
-
-/** Digits with which neighbours differ, and the ends are shown to a hundredth of the
- * range. */
-int
-countDigits(const std::vector<double>& values)
-{
-  const double range = values.back() - values.front();
-  const double largest = std::max(std::abs(values.front()), std::abs(values.back()));
-  if (!(range > 0.0) || !std::isfinite(largest / range))
-    return 4;
-  return 3 + static_cast<int>(std::floor(std::log10(largest / range) + 1e-9));
 }
 
 /** The roundest number near the lower end of a range: the multiple of the largest power
@@ -277,7 +275,7 @@ labelValues(const std::vector<double>& values)
 {
   constexpr int most_digits = 6, offset_digits = 15;
   AxisLabels labels;
-  const int digits = countDigits(values);
+  const int digits = countDigits(values.front(), values.back());
   double offset = 0.0;
   if (digits > most_digits) {
     offset = findOffset(values.front(), values.back());

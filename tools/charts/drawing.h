@@ -135,6 +135,11 @@ drawLine(pcl_uvol::Image& image,
 std::string
 shortNumber(double value);
 
+/** \brief Digits with which some five values along an axis differ, and its ends are
+ * shown to a hundredth of the range. */
+int
+countDigits(double low, double high);
+
 /** \brief Texts of the values along an axis. */
 struct AxisLabels {
   std::vector<std::string> texts;

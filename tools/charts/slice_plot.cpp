@@ -319,7 +319,7 @@ drawScale(const SlicePlot& plot,
   for (std::size_t i = 0; i < ticks.size(); ++i)
     labels.push_back({colors.placeOf(ticks[i]), texts[i]});
   const int widest =
-      drawBar(image, plot.map, bar, labels, TextAnchor::Left, font, black);
+      drawBar(image, plot.map, plot.scale, bar, labels, TextAnchor::Left, font, black);
   for (const double value : plot.contours) {
     if (value < plot.scale.low || value > plot.scale.high)
       continue;

@@ -9,6 +9,9 @@
 #include <vtkNew.h>
 #include <vtkScalarBarActor.h>
 
+#include <algorithm>
+#include <string>
+
 namespace uvol_tools {
 
 namespace {
@@ -128,6 +131,8 @@ ColorChoice::apply(const pcl::PCLPointCloud2& cloud,
     vtkNew<vtkLookupTable> table;
     fill(*table, mapping, scale, legend_.categories);
     bar.SetLookupTable(table);
+    const int digits = std::max(3, countDigits(scale.low, scale.high));
+    bar.SetLabelFormat(("%." + std::to_string(digits) + "g").c_str());
     bar.SetTitle(look_.getColors().getLabel(field).c_str());
     const bool has_range = scale.low < scale.high || !legend_.categories.empty();
     bar.SetVisibility(look_.hasBar() && has_range);

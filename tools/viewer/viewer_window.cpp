@@ -275,7 +275,6 @@ ViewerWindow::setUpTexts(const pcl_uvol::Background& background)
   bar_->SetWidth(0.1);
   bar_->SetHeight(0.5);
   bar_->UnconstrainedFontSizeOn();
-  bar_->SetLabelFormat("%.3g");
   renderer_->AddViewProp(help_);
   renderer_->AddViewProp(message_);
   renderer_->AddViewProp(bar_);

@@ -86,8 +86,8 @@ describeLegend(const SurfacePage& page)
     return legend;
   constexpr int steps = 32;
   for (int i = 0; i <= steps; ++i)
-    legend["colors"].push_back(
-        describeColor(inkOf(page.map.at(static_cast<double>(i) / steps))));
+    legend["colors"].push_back(describeColor(
+        inkOf(colorOnBar(page.map, page.scale, static_cast<double>(i) / steps))));
   constexpr double nearest = 0.05; // two lines of text on a bar of usual height
   const BarLabels labels = labelBar(page.scale, nearest);
   if (!labels.offset.empty())
